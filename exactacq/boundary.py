@@ -1,0 +1,104 @@
+"""Walks along an obstacle's boundary: positions, the shorter way between two points, path pieces."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+from exactacq.curves import Arc, Curve
+from exactacq.lengths import Length
+from exactacq.points import Point
+from exactacq.scene import Obstacle
+
+
+class Boundary:
+    """The boundary of one obstacle as a closed line that starts and ends at its first vertex.
+
+    Positions grow in the stored direction, which keeps the obstacle on the left: counterclockwise, and
+    clockwise inside an enclosure. Points given must lie on the boundary.
+    """
+
+    def __init__(self, obstacle: Obstacle) -> None:
+        self.edges = obstacle.edges
+        self.perimeter = obstacle.perimeter
+
+    @cached_property
+    def _starts(self) -> list[Length]:
+        """Position of each edge's start."""
+        positions = [Length(0)]
+        for edge in self.edges[:-1]:
+            positions.append(positions[-1] + edge.length)
+        return positions
+
+    def edge_at(self, point: Point) -> int:
+        """Index of the edge that contains the point; at a vertex the edge that starts there.
+
+        ValueError if the point is not on the boundary.
+        """
+        for k, edge in enumerate(self.edges):
+            if edge.start is point:
+                return k
+        candidates = [k for k, edge in enumerate(self.edges) if edge.passes(point)]
+        if not candidates:
+            raise ValueError(f"{point} is not on the boundary")
+        return next((k for k in candidates if self.edges[k].start == point), candidates[0])
+
+    def position(self, point: Point) -> Length:
+        """Length of the walk from the first vertex to the point."""
+        k = self.edge_at(point)
+        edge = self.edges[k]
+        if edge.start == point:
+            return self._starts[k]
+        return self._starts[k] + edge.part(edge.start, point).length
+
+    def way(self, start: Point, end: Point) -> tuple[Length, bool]:
+        """Length and sense of the shorter walk; True is the stored direction, which wins a tie."""
+        forward = self.position(end) - self.position(start)
+        if forward.sign() < 0:
+            forward = forward + self.perimeter
+        backward = self.perimeter - forward
+        return (forward, True) if forward <= backward else (backward, False)
+
+    def walk(self, start: Point, end: Point, forward: bool) -> list[Curve]:
+        """The pieces from start to end, split at corners; equal points give no piece."""
+        if start == end:
+            return []
+        if not forward:
+            return [piece.reversed() for piece in reversed(self.walk(end, start, True))]
+        return self._onward(start, end)
+
+    def loop(self, start: Point) -> list[Curve]:
+        """The pieces of one full turn in the stored direction."""
+        return self._onward(start, start)
+
+    def _onward(self, start: Point, end: Point) -> list[Curve]:
+        first, last = self.edge_at(start), self.edge_at(end)
+        if self.edges[last].start == end:
+            last = (last - 1) % len(self.edges)
+        if first == last and self._is_before(self.edges[first], start, end):
+            return [_part(self.edges[first], start, end)]
+        pieces = [_part(self.edges[first], start, self.edges[first].end)]
+        k = (first + 1) % len(self.edges)
+        while k != last:
+            pieces.append(self.edges[k])
+            k = (k + 1) % len(self.edges)
+        if len(self.edges) > 1 or self.edges[last].start != start:
+            pieces.append(_part(self.edges[last], self.edges[last].start, end))
+        return pieces
+
+    @staticmethod
+    def _is_before(edge: Curve, start: Point, end: Point) -> bool:
+        """Whether a walk along one edge meets *start* strictly before *end*."""
+        if isinstance(edge, Arc) and edge.full:
+            return start == end or edge.start == start or edge.start == end or edge.part(edge.start, start).length < edge.part(edge.start, end).length
+        if start == end:
+            return False
+        if edge.start == start or edge.end == end:
+            return True
+        return edge.part(edge.start, start).length < edge.part(edge.start, end).length
+
+
+def _part(edge: Curve, start: Point, end: Point) -> Curve:
+    """The part of an edge, the edge itself where nothing is cut off."""
+    if edge.start == start and edge.end == end:
+        return edge
+    return edge.part(start, end)

@@ -1,0 +1,95 @@
+"""The paper's bounds on the length of a path, as printed and corrected, evaluated exactly."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from flint import fmpq
+
+from exactacq.contacts import nearest_points
+from exactacq.lengths import Length
+from exactacq.links import START, pair_bounds
+from exactacq.reals import Real
+from exactacq.scene import Scene
+from exactacq.trace import Bound, TreeLink
+from exactacq.vision.table import EdgeTable
+
+HALF = fmpq(1, 2)
+
+
+def sightseer_bounds(
+    scene: Scene, radius: fmpq, length: Length, links: Sequence[TreeLink], visits: Sequence[int]
+) -> tuple[Bound, ...]:
+    """Bounds (1) and (2) as printed, and the forms of Theorem 1 that hold in model (a).
+
+    n counts all obstacles of the scene. The corrected ones add the way S-S1 from a free start to the first
+    obstacle; the first of them also replaces the largest distance by the longest link between obstacles,
+    counts 2n - 3 traversals, and charges no return along the last obstacle. Empty without obstacles.
+    """
+    n = len(scene.obstacles)
+    if n == 0:
+        return ()
+    perimeters = [o.perimeter for o in scene.obstacles]
+    total, largest = Length.sum(perimeters), max(perimeters)
+    around = total * fmpq(3, 2) + largest * (fmpq(n - 2) * HALF)
+    reach = Length(radius)
+    approach = Length.sum(link.length for link in links if link.source == START)
+    steps = [link.length for link in links if link.source != START]
+    if n == 1:
+        corrected = approach + total
+    else:
+        step = min([reach, max(steps, default=Length(0))])
+        last = perimeters[visits[-1]] if visits else Length(0)
+        corrected = approach + step * (2 * n - 3) + around - last * HALF
+    printed = min([reach, _largest_distance(scene, radius)]) * (2 * (n - 1)) + around
+    wide = reach * (2 * (n - 1)) + around
+    return (
+        _bound("(1)", "Theorem 1, as printed", printed, length),
+        _bound("(2)", "Theorem 1 for d_max >= R, as printed", wide, length),
+        _bound("T1 corrected", "(1) with v_max, S-S1 and 2n - 3", corrected, length),
+        _bound("(2) + S-S1", "(2) with the way from a free start", wide + approach, length),
+    )
+
+
+def _bound(name: str, source: str, value: Length, length: Length) -> Bound:
+    ratio = float(length) / float(value) if value.sign() else float("nan")
+    return Bound(name, source, value, length <= value, ratio)
+
+
+def _largest_distance(scene: Scene, radius: fmpq) -> Length:
+    """d_max, the largest closest distance between two obstacles, or the radius if d_max is larger.
+
+    Pairs are taken in the order of float upper bounds, so that few distances are computed exactly.
+    """
+    table = EdgeTable(scene.obstacles)
+    spots = table.start[table.first]
+    n = len(spots)
+    best = Real(0)
+    upper = np.hypot(*np.moveaxis(spots[:, None] - spots[None], 2, 0)) * (1 + 1e-12) + 8 * table.roundoff
+    rows, columns = np.triu_indices(n, 1)
+    order = np.argsort(-upper[rows, columns])
+    for k in order:
+        i, j = int(rows[k]), int(columns[k])
+        if float(best) > upper[i, j]:
+            break
+        if best.compare(radius) >= 0:
+            return Length(radius)
+        best = max(best, _distance(table, i, j))
+    return Length(best)
+
+
+def _distance(table: EdgeTable, i: int, j: int) -> Real:
+    """The closest distance between two obstacles."""
+    a, b = (np.flatnonzero(table.owner == k) for k in (i, j))
+    bounds = pair_bounds(table, a, b)
+    least: Real | None = None
+    for k in np.argsort(bounds, axis=None):
+        r, c = divmod(int(k), bounds.shape[1])
+        if least is not None and float(least) < bounds[r, c] ** 2 * (1 - 1e-12):
+            break
+        for found in nearest_points(table.curves[a[r]], table.curves[b[c]]):
+            if least is None or found.distance_sq < least:
+                least = found.distance_sq
+    assert least is not None, "two boundaries have a closest pair"
+    return least.sqrt()

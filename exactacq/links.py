@@ -1,0 +1,476 @@
+"""Links: the shortest visible segments between boundaries, and the obstacle visibility graph.
+
+v(i, j) is the least length of a free segment between the boundaries of obstacles i and j. Where it is
+attained, the segment meets no feature (a local minimum of the distance), pivots about one feature
+(a stationary chord of a cell), or is held by two or more (it bounds a cell, or is pinched). The first
+kind comes from `contacts.nearest_points`, the others from the pencils of the features of third
+obstacles: an obstacle's own features never hold a shortest segment, which meets both boundaries at its
+ends only. Candidates are visited in the order of proven lower bounds until the next one cannot be shorter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from heapq import heapify, heappop, heappush
+from itertools import count
+from typing import TypeAlias
+
+import networkx as nx
+import numpy as np
+
+from exactacq.contacts import Family, FamilyKind, Nearest, line_contacts, nearest_points
+from exactacq.curves import Arc, Curve, Segment
+from exactacq.lengths import Length
+from exactacq.points import Point, distance
+from exactacq.reals import Real, rational
+from exactacq.scene import Scene
+from exactacq.vision.chords import Chord, chord_at, critical, through_piece
+from exactacq.vision.clearance import is_free, walk_line
+from exactacq.vision.families import free_pieces
+from exactacq.vision.features import Feature, Vector, fan, features, leaving
+from exactacq.vision.pencil import Cell, Pencil, pencil
+from exactacq.vision.table import STRAIGHT, EdgeTable, Floats, Ints
+
+START = "S"
+Node: TypeAlias = "int | str"
+Shortest: TypeAlias = "Chord | Family"
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """v between two nodes: the length, and every segment (or continuum of segments) that attains it."""
+
+    source: Node
+    target: int
+    length: Real
+    shortest: tuple[Shortest, ...]
+
+    def reversed(self) -> Link:
+        """The same link from the other obstacle; the source must be an obstacle."""
+        assert isinstance(self.source, int)
+        return Link(self.target, self.source, self.length, tuple(_flipped(s) for s in self.shortest))
+
+
+class Links:
+    """The links of one scene and radius, computed on demand and kept.
+
+    *radius* is rational and positive. ``between(i, j)`` costs well under a millisecond where the closest
+    points see each other; otherwise the pencils of the features between i and j are swept once and kept.
+    """
+
+    def __init__(self, scene: Scene, radius: object) -> None:
+        self.scene, self.radius = scene, rational(radius)
+        self.limit = Real(self.radius)
+        self.reach = float(self.radius) * (1 + 1e-12)
+        self.table = EdgeTable(scene.obstacles)
+        self._between: dict[tuple[int, int], Link | None] = {}
+        self._pencils: dict[int, dict[tuple[int, int], list[tuple[Pencil, Cell]]]] = {}
+        self._pinch_table: dict[int, list[tuple[Chord, tuple[int, int]]]] = {}
+        self._from_start: tuple[Point, dict[int, Link]] | None = None
+
+    @cached_property
+    def _features(self) -> list[Feature]:
+        return features(self.table)
+
+    @cached_property
+    def _spots(self) -> tuple[Floats, Floats]:
+        """Feature centres and radii in floats."""
+        centers = [(float(f.center[0]), float(f.center[1])) for f in self._features]
+        sizes = [float(Real(f.radius_sq).sqrt()) if f.round else 0.0 for f in self._features]
+        return np.array(centers).reshape(-1, 2), np.array(sizes)
+
+    @cached_property
+    def _hulls(self) -> Floats:
+        """Bounding boxes of the obstacles."""
+        boxes, first = self.table.boxes, self.table.first
+        if not len(boxes):
+            return np.zeros((0, 4))
+        low = np.minimum.reduceat(boxes[:, :2], first, axis=0)
+        high = np.maximum.reduceat(boxes[:, 2:], first, axis=0)
+        return np.hstack((low, high))
+
+    @property
+    def count(self) -> int:
+        """Number of obstacles, the enclosure included."""
+        return len(self.scene.obstacles)
+
+    def edges_of(self, obstacle: int) -> range:
+        """Edge numbers of an obstacle."""
+        first = int(self.table.first[obstacle])
+        return range(first, first + len(self.scene.obstacles[obstacle].edges))
+
+    # -- between two obstacles ---------------------------------------------------------------------
+
+    def between(self, i: int, j: int) -> Link | None:
+        """The link from obstacle i to obstacle j, or None if no free segment of length <= radius exists."""
+        key = (min(i, j), max(i, j))
+        if key not in self._between:
+            self._between[key] = self._shortest_between(*key)
+        link = self._between[key]
+        return link if link is None or link.source == i else link.reversed()
+
+    def lower_bounds(self, i: int) -> Floats:
+        """Lower bounds of v(i, j) for every j: the gaps between bounding boxes."""
+        return self._gaps(self._hulls[i])
+
+    def _gaps(self, box: Floats) -> Floats:
+        hulls = self._hulls
+        apart = np.maximum(np.maximum(hulls[:, :2] - box[2:], box[:2] - hulls[:, 2:]), 0.0)
+        return np.maximum(np.hypot(apart[:, 0], apart[:, 1]) * (1 - 1e-14) - self.table.roundoff, 0.0)
+
+    def neighbours(self, i: int) -> list[int]:
+        """The obstacles other than i whose bounding boxes come within the radius of i's."""
+        near = self._box_neighbours(self._hulls[i])
+        return [j for j in near if j != i]
+
+    def _box_neighbours(self, box: Floats) -> list[int]:
+        edges = self.table.near((box[0], box[1]), (box[2], box[3]), self.reach)
+        return [int(j) for j in np.unique(self.table.owner[edges])]
+
+    def _shortest_between(self, i: int, j: int) -> Link | None:
+        best = _Best(self.limit)
+        unblocked = self._nearest(self.edges_of(i), self.edges_of(j), best)
+        if not unblocked:
+            self._pivoting(i, j, best)
+        return best.link(i, j)
+
+    def _nearest(self, left: Iterable[int], right: Iterable[int], best: _Best) -> bool:
+        """Offer the free local minima of the distance; whether the least distance itself is free."""
+        a, b = np.array(left, dtype=np.intp), np.array(right, dtype=np.intp)
+        bounds = pair_bounds(self.table, a, b)
+        order = count()
+        heap: list[tuple[float, int, tuple[int, int] | Nearest | Family]] = [
+            (float(bounds[r, c]), next(order), (int(a[r]), int(b[c])))
+            for r, c in zip(*np.nonzero(bounds <= self.reach), strict=True)
+        ]
+        heapify(heap)
+        least: Real | None = None
+        while heap and heap[0][0] <= best.guess:
+            _, _, item = heappop(heap)
+            if isinstance(item, tuple):
+                for found in nearest_points(self.table.curves[item[0]], self.table.curves[item[1]]):
+                    heappush(heap, (float(found.distance_sq) ** 0.5 * (1 - 1e-13), next(order), found))
+                continue
+            length = item.distance_sq.sqrt()
+            if least is None or length < least:
+                least = length
+            if best.length.compare(length) < 0:
+                continue
+            for piece in self._free_part(item, length):
+                best.offer(length, piece)
+        return least is not None and best.found and best.length == least
+
+    def _free_part(self, item: Nearest | Family, length: Real) -> Iterator[Shortest]:
+        if isinstance(item, Family):
+            yield from free_pieces(self.table, item)
+        elif is_free(self.table, item.start, item.end):
+            yield Chord(item.start, item.end, length)
+
+    def _pivoting(self, i: int, j: int, best: _Best) -> None:
+        """Offer the chords from i to j that features of third obstacles hold."""
+        centers, sizes = self._spots
+        if not len(centers):
+            return
+        bounds = _box_gaps(centers, self._hulls[i], sizes) + _box_gaps(centers, self._hulls[j], sizes)
+        order = count()
+        heap: list[tuple[float, int, tuple[Pencil, Cell, bool]]] = []
+        for k in np.flatnonzero(bounds <= best.guess):
+            owner = self._features[k].owner
+            if owner in (i, j):
+                continue
+            for flip, key in ((False, (i, j)), (True, (j, i))):
+                for sweep, cell in self._cells(int(k)).get(key, ()):
+                    bound = self._cell_bound(int(k), cell)
+                    if bound <= best.guess:
+                        heappush(heap, (bound, next(order), (sweep, cell, flip)))
+            for chord, ends in self._pinches(int(k)):
+                if ends in ((i, j), (j, i)):
+                    best.offer(chord.length, chord if ends == (i, j) else chord.reversed())
+        while heap and heap[0][0] <= best.guess:
+            _, _, (sweep, cell, flip) = heappop(heap)
+            for chord in self._cell_chords(sweep, cell):
+                best.offer(chord.length, chord.reversed() if flip else chord)
+
+    def _cells(self, k: int) -> dict[tuple[int, int], list[tuple[Pencil, Cell]]]:
+        """Cells of feature k by the obstacles behind and ahead."""
+        if k not in self._pencils:
+            feature, owner = self._features[k], self.table.owner
+            groups: dict[tuple[int, int], list[tuple[Pencil, Cell]]] = {}
+            pinched: list[tuple[Chord, tuple[int, int]]] = []
+            for sector in feature.sectors:
+                sweep = pencil(self.table, sector, feature.edges, self.reach)
+                for cell in sweep.cells:
+                    if cell.behind is not None and cell.ahead is not None:
+                        ends = int(owner[cell.behind]), int(owner[cell.ahead])
+                        if ends[0] != ends[1]:
+                            groups.setdefault(ends, []).append((sweep, cell))
+                for t in sweep.pinches:
+                    pinched += self._pinched_chords(sweep, t)
+            self._pencils[k], self._pinch_table[k] = groups, pinched
+        return self._pencils[k]
+
+    def _pinches(self, k: int) -> list[tuple[Chord, tuple[int, int]]]:
+        self._cells(k)
+        return self._pinch_table[k]
+
+    def _pinched_chords(self, sweep: Pencil, t: Real) -> Iterator[tuple[Chord, tuple[int, int]]]:
+        """Free chords through the contact along a line that grazes several features."""
+        behind, ahead = walk_line(self.table, sweep.sector, t, self.reach)
+        contact, direction = sweep.sector.touch(t)
+        size = direction.norm_sq().sqrt()
+        first_behind = self._first_contacts(behind)
+        for j, high in self._first_contacts(ahead).items():
+            for i, low in first_behind.items():
+                length = (high - low) * size
+                if i != j and length.compare(self.limit) <= 0:
+                    start, end = contact + direction * low, contact + direction * high
+                    yield Chord(start, end, length), (i, j)
+
+    def _first_contacts(self, hits: list[tuple[Real, int]]) -> dict[int, Real]:
+        first: dict[int, Real] = {}
+        for tau, e in hits:
+            first.setdefault(int(self.table.owner[e]), tau)
+        return first
+
+    def _cell_bound(self, k: int, cell: Cell) -> float:
+        """Lower bound of the chords of a cell: the distances from the feature to the two edges."""
+        assert cell.behind is not None
+        assert cell.ahead is not None
+        (x, y), size = self._spots[0][k], self._spots[1][k]
+        edges = np.array((cell.behind, cell.ahead))
+        gaps = self.table.distance_bounds(float(x), float(y), edges)
+        return float((np.maximum(gaps**2 - size**2 * (1 + 1e-12), 0.0) ** 0.5).sum() * (1 - 1e-13))
+
+    def _cell_chords(self, sweep: Pencil, cell: Cell) -> Iterator[Chord]:
+        """The chords of a closed cell among which its shortest are."""
+        behind = None if cell.behind is None else self.table.curves[cell.behind]
+        assert cell.ahead is not None
+        ahead = self.table.curves[cell.ahead]
+        yield chord_at(sweep.sector, cell.low, behind, ahead)
+        yield chord_at(sweep.sector, cell.high, behind, ahead)
+        for t in critical(sweep.sector, behind, ahead) or ():
+            if t.compare(cell.low) > 0 and t.compare(cell.high) < 0:
+                yield chord_at(sweep.sector, t, behind, ahead)
+
+    # -- from a straight piece of the path ---------------------------------------------------------
+
+    def sees(self, piece: Segment, target: int) -> bool:
+        """Whether some point of a free segment sees the boundary of an obstacle.
+
+        The segment's ends must lie on the start or on boundaries whose links are known not to reach the
+        target: only what is seen from inner points is looked for.
+        """
+        best = _Best(self.limit)
+        for e in self.edges_of(target):
+            for item in nearest_points(piece, self.table.curves[e]):
+                for shortest in self._free_part(item, item.distance_sq.sqrt()):
+                    best.offer(item.distance_sq.sqrt(), shortest)
+        if not best.found:
+            self._pivoting_from(piece, target, best)
+        return best.found
+
+    def _pivoting_from(self, piece: Segment, target: int, best: _Best) -> None:
+        """Offer the chords from inner points of a free segment to an obstacle that a feature holds."""
+        centers, sizes = self._spots
+        if not len(centers):
+            return
+        (ax, ay), (bx, by) = piece.start.xy, piece.end.xy
+        box = np.array((min(ax, bx), min(ay, by), max(ax, bx), max(ay, by)))
+        bounds = _box_gaps(centers, box, sizes) + _box_gaps(centers, self._hulls[target], sizes)
+        for k in np.flatnonzero(bounds <= self.reach + self.table.roundoff):
+            if self._features[k].owner != target:
+                for chord in self._feature_chords(int(k), piece, target):
+                    best.offer(chord.length, chord)
+
+    def _feature_chords(self, k: int, piece: Segment, target: int) -> Iterator[Chord]:
+        """Free chords from a segment over one feature to the target: candidates for the shortest."""
+        feature, owner = self._features[k], self.table.owner
+        for sector in feature.sectors:
+            sweep = pencil(self.table, sector, feature.edges, self.reach)
+            for cell in sweep.cells:
+                for far, side in ((cell.behind, -1), (cell.ahead, 1)):
+                    if far is not None and owner[far] == target:
+                        edge = self.table.curves[far]
+                        for chord in through_piece(sector, cell.low, cell.high, piece, edge, side):
+                            if is_free(self.table, chord.start, chord.end):
+                                yield chord
+            for t in sweep.pinches:
+                yield from self._pinched_from(sweep, t, piece, target)
+
+    def _pinched_from(self, sweep: Pencil, t: Real, piece: Segment, target: int) -> Iterator[Chord]:
+        contact, direction = sweep.sector.touch(t)
+        for hits in walk_line(self.table, sweep.sector, t, self.reach):
+            first = self._first_contacts(hits)
+            if target in first:
+                for tau in line_contacts(contact, direction, piece):
+                    p, q = contact + direction * tau, contact + direction * first[target]
+                    if is_free(self.table, p, q):
+                        yield Chord(p, q, distance(p, q))
+
+    # -- from the start ----------------------------------------------------------------------------
+
+    def from_point(self, point: Point) -> dict[int, Link]:
+        """The links from a free point with rational coordinates to all obstacles it sees."""
+        if self._from_start is None or self._from_start[0] is not point:
+            self._from_start = point, self._fan_links(point)
+        return self._from_start[1]
+
+    def _fan_links(self, point: Point) -> dict[int, Link]:
+        center = point.rational
+        if center is None:
+            raise ValueError("a start point needs rational coordinates")
+        own = self._edges_at(point)
+        breaks = tuple(self._directions_at(point, own))
+        best: dict[int, _Best] = {}
+        for e in own:
+            owner = int(self.table.owner[e])
+            best.setdefault(owner, _Best(self.limit)).offer(Real(0), Chord(point, point, Real(0)))
+        for sector in fan(center):
+            sweep = pencil(self.table, sector, own, self.reach, breaks)
+            for cell in sweep.cells:
+                if cell.ahead is None or not self._enters(sweep, cell):
+                    continue
+                target = best.setdefault(int(self.table.owner[cell.ahead]), _Best(self.limit))
+                self._offer_fan(sweep, cell, target)
+            for t in sweep.pinches:
+                self._offer_pinched_rays(sweep, t, best)
+        links = ((j, found.link(START, j)) for j, found in sorted(best.items()))
+        return {j: link for j, link in links if link is not None}
+
+    def _edges_at(self, point: Point) -> tuple[int, ...]:
+        """The edges through a point of a boundary: at a vertex the incoming one first."""
+        x, y = point.xy
+        edges = [int(e) for e in self.table.near((x, y), (x, y), 0.0)]
+        found = [e for e in edges if self.table.curves[e].passes(point)]
+        if len(found) == 2 and int(self.table.next[found[0]]) != found[1]:
+            found.reverse()
+        return tuple(found)
+
+    def _directions_at(self, point: Point, own: tuple[int, ...]) -> Iterator[Vector]:
+        """Tangents of the boundary at a point of it: there a fan passes from free to blocked."""
+        for e in own:
+            curve = self.table.curves[e]
+            tangent = curve.tangent(point) if isinstance(curve, Arc) else curve.direction
+            pair = tangent.rational
+            assert pair is not None, "a rational point has rational tangents"
+            yield pair
+
+    def _enters(self, sweep: Pencil, cell: Cell) -> bool:
+        """Whether the rays of a cell reach their edge from its free side."""
+        assert cell.ahead is not None
+        middle = (cell.low + cell.high) / 2
+        contact, direction = sweep.sector.touch(middle)
+        curve = self.table.curves[cell.ahead]
+        if isinstance(curve, Segment):
+            return curve.direction.cross(direction).sign() > 0
+        chord = chord_at(sweep.sector, middle, None, curve)
+        inward = (chord.end - curve.center).dot(direction).sign() * (-1 if curve.ccw else 1)
+        return inward > 0 and (chord.end - contact).dot(direction).sign() > 0
+
+    def _offer_fan(self, sweep: Pencil, cell: Cell, best: _Best) -> None:
+        assert cell.ahead is not None
+        ahead = self.table.curves[cell.ahead]
+        if critical(sweep.sector, None, ahead) is None and isinstance(ahead, Arc):
+            low = chord_at(sweep.sector, cell.low, None, ahead)
+            high = chord_at(sweep.sector, cell.high, None, ahead)
+            part = (ahead if ahead.ccw else ahead.reversed()).part(low.end, high.end)
+            best.offer(low.length, Family(FamilyKind.CONCENTRIC, low.start, part))
+            return
+        for chord in self._cell_chords(sweep, Cell(cell.low, cell.high, None, cell.ahead)):
+            best.offer(chord.length, chord)
+
+    def _offer_pinched_rays(self, sweep: Pencil, t: Real, best: dict[int, _Best]) -> None:
+        contact, direction = sweep.sector.touch(t)
+        size = direction.norm_sq().sqrt()
+        _, ahead = walk_line(self.table, sweep.sector, t, self.reach)
+        for j, tau in self._first_contacts(ahead).items():
+            chord = Chord(contact, contact + direction * tau, tau * size)
+            best.setdefault(j, _Best(self.limit)).offer(chord.length, chord)
+
+
+class _Best:
+    """The least length offered so far, at most the limit, and all that attain it."""
+
+    def __init__(self, limit: Real) -> None:
+        self.length, self.found = limit, False
+        self.guess = float(limit) * (1 + 1e-12)
+        self.shortest: list[Shortest] = []
+
+    def offer(self, length: Real, item: Shortest) -> None:
+        order = length.compare(self.length)
+        if order > 0:
+            return
+        if order < 0:
+            self.shortest.clear()
+            self.length, self.guess = length, float(length) * (1 + 1e-12)
+        self.found = True
+        if not any(_same(item, known) for known in self.shortest):
+            self.shortest.append(item)
+
+    def link(self, source: Node, target: int) -> Link | None:
+        return Link(source, target, self.length, tuple(self.shortest)) if self.found else None
+
+
+def visibility_graph(scene: Scene, radius: object = None) -> nx.Graph:
+    """The obstacle visibility graph: nodes are obstacle indices, and "S" if the scene has a start.
+
+    An edge joins two nodes that see each other within *radius* (the scene's own if None); ``weight`` is v
+    as a `Length`, ``link`` the `Link`. Near linear in the number of obstacles at constant density.
+    """
+    links = Links(scene, scene.radius if radius is None else radius)
+    graph = nx.Graph()
+    graph.add_nodes_from(range(len(scene.obstacles)))
+    for i in range(len(scene.obstacles)):
+        for j in links.neighbours(i):
+            if j > i and (link := links.between(i, j)) is not None:
+                graph.add_edge(i, j, weight=Length(link.length), link=link)
+    if scene.start is not None:
+        graph.add_node(START)
+        for j, link in links.from_point(scene.start).items():
+            graph.add_edge(START, j, weight=Length(link.length), link=link)
+    return graph
+
+
+def pair_bounds(table: EdgeTable, a: Ints, b: Ints) -> Floats:
+    """Lower bounds of the distances between edges: one row for each of *a*, one column for each of *b*."""
+    low, high = table.boxes[:, :2], table.boxes[:, 2:]
+    apart = np.maximum(low[a][:, None] - high[b][None], low[b][None] - high[a][:, None])
+    bounds = np.hypot(*np.moveaxis(np.maximum(apart, 0.0), 2, 0))
+    straight_a, straight_b = table.kind[a] == STRAIGHT, table.kind[b] == STRAIGHT
+    middles = np.where(straight_a[:, None], table.start[a], table.center[a])
+    ends = np.where(straight_a[:, None], table.end[a], table.center[a])
+    size_a, size_b = table.radius[a], table.radius[b]
+    other = np.where(straight_b[:, None], table.start[b], table.center[b])
+    other_ends = np.where(straight_b[:, None], table.end[b], table.center[b])
+    to_b = np.minimum(_to_segments(middles, other, other_ends), _to_segments(ends, other, other_ends))
+    to_a = np.minimum(_to_segments(other, middles, ends), _to_segments(other_ends, middles, ends)).T
+    capsules = np.minimum(to_b, to_a) - size_a[:, None] - size_b[None]
+    bounds = np.maximum(bounds, capsules)
+    return np.maximum(bounds * (1 - 1e-14) - 64 * table.roundoff, 0.0)
+
+
+def _to_segments(points: Floats, starts: Floats, ends: Floats) -> Floats:
+    """Distances from points (rows) to segments (columns)."""
+    along = ends - starts
+    offset = points[:, None] - starts[None]
+    size = np.maximum((along**2).sum(axis=1), 1e-300)
+    u = np.clip((offset * along).sum(axis=2) / size, 0.0, 1.0)
+    return np.hypot(*np.moveaxis(offset - u[:, :, None] * along, 2, 0))
+
+
+def _box_gaps(points: Floats, box: Floats, sizes: Floats) -> Floats:
+    """Lower bounds of the distances from circles to a box."""
+    apart = np.maximum(np.maximum(box[:2] - points, points - box[2:]), 0.0)
+    return np.maximum(np.hypot(apart[:, 0], apart[:, 1]) * (1 - 1e-13) - sizes * (1 + 1e-13), 0.0)
+
+
+def _flipped(item: Shortest) -> Shortest:
+    return item.reversed() if isinstance(item, Chord) else Family(item.kind, item.second, item.first)
+
+
+def _same(a: Shortest, b: Shortest) -> bool:
+    if isinstance(a, Chord) and isinstance(b, Chord):
+        return a.start == b.start and a.end == b.end
+    return a is b

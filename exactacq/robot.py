@@ -1,0 +1,153 @@
+"""The robot: the only door to the scene.
+
+A strategy sees where the robot is, which obstacles are on its map, and the links from boundaries that it
+has walked all around (or from the start). It cannot ask for anything else.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from exactacq.boundary import Boundary
+from exactacq.curves import Curve, Segment
+from exactacq.lengths import Length
+from exactacq.links import START, Link, Links, Node
+from exactacq.points import Location, Point
+from exactacq.scene import Scene
+from exactacq.trace import Event, Path, Piece
+
+
+class Robot:
+    """A point robot at *start* with a vision sensor of limited *radius*.
+
+    The start must be free and have rational coordinates: ValueError otherwise.
+    """
+
+    def __init__(self, scene: Scene, radius: object, start: Point) -> None:
+        self._links = Links(scene, radius)
+        self._boundaries: dict[int, Boundary] = {}
+        self._pieces: list[Piece] = []
+        self._marks: list[tuple[str, Point, int | None, str, int]] = []
+        for obstacle in scene.obstacles:
+            if obstacle.locate(start) is Location.INSIDE:
+                raise ValueError(f"the start {start} lies inside obstacle {obstacle.index}")
+        self.radius = self._links.radius
+        self.start = self.position = start
+        self.at: Node = START
+        self.visited: list[int] = []
+        self._seen: set[int] = set(self._links.from_point(start))
+        self._straight: list[Segment] = []
+        self.mark("start", None, "")
+
+    # -- the map -----------------------------------------------------------------------------------
+
+    def nearest_unvisited(self, node: Node) -> Link | None:
+        """The shortest link (then the least index) from a visited node to an unvisited obstacle it sees."""
+        return next(self._unvisited_links(node), None)
+
+    def _unvisited_links(self, node: Node) -> Iterator[Link]:
+        """At most one link: the least one, found best first."""
+        visited = set(self.visited)
+        if node == START:
+            found = [k for j, k in self._links.from_point(self.start).items() if j not in visited]
+        else:
+            assert isinstance(node, int)
+            assert node in visited, "a boundary shows its links only once it was walked all around"
+            found = self._best_first(node, visited)
+        best: Link | None = None
+        for link in sorted(found, key=lambda link: link.target):
+            if best is None or link.length < best.length:
+                best = link
+        if best is not None:
+            yield best
+
+    def _best_first(self, node: int, visited: set[int]) -> list[Link]:
+        """The links that can be the least: lower bounds decide which are computed."""
+        bounds = self._links.lower_bounds(node)
+        near = sorted((j for j in self._links.neighbours(node) if j not in visited), key=lambda j: bounds[j])
+        found: list[Link] = []
+        least = float("inf")
+        for j in near:
+            if bounds[j] > least:
+                break
+            link = self._links.between(node, j)
+            if link is not None:
+                found.append(link)
+                least = min(least, float(link.length) * (1 + 1e-12))
+        return found
+
+    def knows_unvisited(self) -> bool:
+        """Whether an obstacle that was not visited is on the map."""
+        visited = set(self.visited)
+        return (
+            not self._seen <= visited
+            or any(self.nearest_unvisited(node) is not None for node in reversed(self.visited))
+            or any(self._glimpsed())
+        )
+
+    def _glimpsed(self) -> Iterator[int]:
+        """Unvisited obstacles seen on the straight pieces only."""
+        for j in range(self._links.count):
+            if j not in self.visited and any(self._links.sees(piece, j) for piece in self._straight):
+                yield j
+
+    def unvisited(self) -> tuple[list[int], list[int]]:
+        """The obstacles on the map that were not visited, and those that never came on the map."""
+        known, unseen = [], []
+        for j in range(self._links.count):
+            if j in self.visited:
+                continue
+            seen = (
+                j in self._seen
+                or any(self._links.between(i, j) is not None for i in self.visited)
+                or any(self._links.sees(piece, j) for piece in self._straight)
+            )
+            (known if seen else unseen).append(j)
+        return known, unseen
+
+    # -- motion ------------------------------------------------------------------------------------
+
+    def way_to(self, point: Point) -> tuple[Length, bool]:
+        """Length and sense of the shorter walk along the present boundary to a point of it."""
+        return self._boundary().way(self.position, point)
+
+    def walk_to(self, point: Point) -> None:
+        """Walk the present boundary to a point of it, the shorter way."""
+        _, forward = self.way_to(point)
+        self._walk(self._boundary().walk(self.position, point, forward))
+        self.position = point
+
+    def linear_navigate(self, node: Node, target: Point) -> None:
+        """Go straight to a point of *node* along a free segment."""
+        if self.position != target:
+            piece = Segment(self.position, target)
+            self._straight.append(piece)
+            self._pieces.append(Piece("straight", None, piece))
+        self.at, self.position = node, target
+
+    def circumnavigate(self) -> None:
+        """Walk the whole present boundary, back to where the robot is, and mark the obstacle visited."""
+        assert isinstance(self.at, int)
+        self._walk(self._boundary().loop(self.position))
+        self.visited.append(self.at)
+
+    def _boundary(self) -> Boundary:
+        assert isinstance(self.at, int), "the robot is not at a boundary"
+        if self.at not in self._boundaries:
+            self._boundaries[self.at] = Boundary(self._links.scene.obstacles[self.at])
+        return self._boundaries[self.at]
+
+    def _walk(self, curves: list[Curve]) -> None:
+        assert isinstance(self.at, int)
+        self._pieces += [Piece("boundary", self.at, curve) for curve in curves]
+
+    # -- the trace ---------------------------------------------------------------------------------
+
+    def mark(self, kind: str, obstacle: int | None, note: str) -> None:
+        """Write an event here and now."""
+        self._marks.append((kind, self.position, obstacle, note, len(self._pieces)))
+
+    def trace(self) -> tuple[Path, tuple[Event, ...]]:
+        """The path and the events so far."""
+        path = Path(self._pieces)
+        return path, tuple(Event(*mark, path) for mark in self._marks)

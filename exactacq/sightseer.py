@@ -1,0 +1,174 @@
+"""The Sightseer Strategy (paper, section 3): visit the nearest visible unvisited obstacle, circle it,
+backtrack by a depth-first stack."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import cmp_to_key
+
+from exactacq.bounds import sightseer_bounds
+from exactacq.contacts import Family
+from exactacq.curves import Arc
+from exactacq.errors import InvalidScene
+from exactacq.lengths import Length
+from exactacq.links import START, Link, Node
+from exactacq.points import Point
+from exactacq.reals import rational
+from exactacq.robot import Robot
+from exactacq.scene import Scene
+from exactacq.trace import Run, TreeLink
+
+Progress = Callable[[int, int], None]
+"""Called with the number of obstacles visited so far and the number in the scene."""
+
+
+def sightseer(
+    scene: Scene,
+    radius: object = None,
+    start: Point | Sequence[object] | None = None,
+    progress: Progress | None = None,
+) -> Run:
+    """Explore a scene by the Sightseer Strategy.
+
+    *radius* and *start* default to the scene's own; both must be rational. Raises `InvalidScene` if there is
+    none, if the radius is not positive, if the start is not free, or if an obstacle meets the terrain's border.
+    Never fails for lack of visibility: what could not be reached is reported in the run. Cost: near
+    linear in the number of obstacles at constant density and radius.
+    """
+    range_ = scene.radius if radius is None else rational(radius)
+    place = scene.start if start is None else Point.of(start)
+    if range_ is None or range_ <= 0:
+        raise InvalidScene(["the radius of vision must be given and positive"])
+    if place is None or place.rational is None:
+        raise InvalidScene(["a start point with rational coordinates must be given"])
+    border = scene.meets_border()
+    if border:
+        raise InvalidScene([f"obstacle {k} meets the terrain's border: the Sightseer needs it inside" for k in border])
+    try:
+        robot = Robot(scene, range_, place)
+    except ValueError as error:
+        raise InvalidScene([str(error)]) from None
+    return _Sightseer(robot, progress, len(scene.obstacles)).run(scene)
+
+
+class _Sightseer:
+    def __init__(self, robot: Robot, progress: Progress | None, total: int) -> None:
+        self.robot, self.progress, self.total = robot, progress, total
+        self.stack: list[tuple[Node, Point, Point]] = []
+        self.tree: dict[int, list[object]] = {}
+        self.depth = 0
+
+    def run(self, scene: Scene) -> Run:
+        """Steps 0 to 4 of the paper; comments give their numbers."""
+        robot = self.robot
+        while True:
+            link = robot.nearest_unvisited(robot.at)  # 1
+            if link is not None:
+                self._advance(link)  # 3 and 4
+            elif robot.at == START or not robot.knows_unvisited():
+                break
+            else:
+                self._backtrack()  # 2
+        robot.mark("stop", robot.at if isinstance(robot.at, int) else None, self._reason())
+        return self._finished(scene)
+
+    def _advance(self, link: Link) -> None:
+        robot = self.robot
+        source = robot.at
+        leave, hit = self._choose(link)
+        if source != START:
+            robot.walk_to(leave)
+            robot.mark("leave", int(source), f"to {link.target}")
+        self.stack.append((source, leave, hit))
+        self.depth = max(self.depth, len(self.stack))
+        robot.linear_navigate(link.target, hit)
+        self.tree[link.target] = [source, leave, hit, Length(link.length), 1]
+        robot.mark("hit", link.target, f"from {source}")
+        robot.circumnavigate()
+        if self.progress is not None:
+            self.progress(len(robot.visited), self.total)
+
+    def _backtrack(self) -> None:
+        robot = self.robot
+        current = robot.at
+        assert isinstance(current, int)
+        previous, leave, hit = self.stack.pop()
+        robot.walk_to(hit)
+        robot.mark("leave", current, f"back to {previous}")
+        robot.linear_navigate(previous, leave)
+        self.tree[current][4] = 2
+        robot.mark("backtrack", previous if isinstance(previous, int) else None, f"from {current}")
+
+    def _choose(self, link: Link) -> tuple[Point, Point]:
+        """The segment that the tie rule picks among the shortest: least walk, counterclockwise, L, H."""
+        pairs = [pair for item in link.shortest for pair in _extremes(item, self.robot.position)]
+        if self.robot.at == START:
+            return min(pairs, key=cmp_to_key(_lexicographic))
+        if len(pairs) == 1:
+            return pairs[0]
+        ways = [(*self.robot.way_to(leave), leave, hit) for leave, hit in pairs]
+
+        def order(a: tuple[Length, bool, Point, Point], b: tuple[Length, bool, Point, Point]) -> int:
+            return a[0].compare(b[0]) or b[1] - a[1] or _lexicographic(a[2:], b[2:])
+
+        return min(ways, key=cmp_to_key(order))[2:]
+
+    def _reason(self) -> str:
+        robot = self.robot
+        if len(robot.visited) == self.total:
+            return "every obstacle is visited"
+        return "back at the start, nothing unvisited in sight" if robot.at == START else "no unvisited obstacle on the map"
+
+    def _finished(self, scene: Scene) -> Run:
+        robot = self.robot
+        path, events = robot.trace()
+        links = tuple(TreeLink(s, t, leave, hit, v, k) for t, (s, leave, hit, v, k) in self.tree.items())  # type: ignore[arg-type]
+        unvisited, unseen = robot.unvisited()
+        length = path.length_after(len(path))
+        radius = robot.radius
+        bounds = sightseer_bounds(scene, radius, length, links, robot.visited)
+        return Run(
+            scene, radius, "sightseer", robot.start, path, tuple(robot.visited), links, events, bounds,
+            tuple(unseen), tuple(unvisited), self.depth,
+        )
+
+
+def _lexicographic(a: tuple[Point, Point], b: tuple[Point, Point]) -> int:
+    return a[0].compare(b[0]) or a[1].compare(b[1])
+
+
+def _extremes(item: object, position: Point) -> Iterator[tuple[Point, Point]]:
+    """The segments of a shortest item among which the tie rule's choice is.
+
+    Of a continuum: its ends, the one that leaves from where the robot is, and the westernmost hit point.
+    """
+    if not isinstance(item, Family):
+        yield item.start, item.end  # type: ignore[attr-defined]
+        return
+    first, second = item.first, item.second
+    ends = [
+        (first if isinstance(first, Point) else p, second if isinstance(second, Point) else q)
+        for p, q in zip(_ends(first), _ends(second), strict=True)
+    ]
+    yield from ends
+    if isinstance(first, Point):
+        if isinstance(second, Arc):
+            west = Point(second.center.x - second.radius, second.center.y)
+            if second.contains(west):
+                yield first, west
+    elif first.passes(position):
+        yield position, second if isinstance(second, Point) else _partner(item, position)
+
+
+def _ends(side: object) -> tuple[Point, Point]:
+    return (side, side) if isinstance(side, Point) else (side.start, side.end)  # type: ignore[attr-defined]
+
+
+def _partner(family: Family, position: Point) -> Point:
+    """The point of the second curve that corresponds to a point of the first."""
+    first, second = family.first, family.second
+    if isinstance(first, Arc) and isinstance(second, Arc):
+        return first.center + (position - first.center) * (second.radius / first.radius)
+    assert not isinstance(first, Point)
+    assert not isinstance(second, Point)
+    return position + (second.start - first.start)

@@ -1,0 +1,97 @@
+"""Whether a segment is free: its open part meets no obstacle's interior (grazing does not block).
+
+Floats settle the clear cases with proven margins. Otherwise the contacts with the doubtful edges cut the
+segment into pieces, and one exact point of each tells whether the piece is inside.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cmp_to_key
+from itertools import pairwise
+
+import numpy as np
+from flint import fmpq
+
+from exactacq.contacts import line_contacts
+from exactacq.points import Location, Point
+from exactacq.reals import Real
+from exactacq.vision.crossings import Crossings
+from exactacq.vision.features import Sector
+from exactacq.vision.table import EdgeTable, Ints
+
+HALF = fmpq(1, 2)
+
+
+def is_free(table: EdgeTable, start: Point, end: Point) -> bool:
+    """Whether the segment between two points, neither of them inside an obstacle, is free."""
+    p, q = np.array(start.xy), np.array(end.xy)
+    size = float(np.hypot(*(q - p)))
+    edges = table.near((min(p[0], q[0]), min(p[1], q[1])), (max(p[0], q[0]), max(p[1], q[1])), 0.0)
+    slack = 64 * table.roundoff
+    if size > 1024 * slack and len(edges):
+        direction = ((q - p) / size)[None, :]
+        found = Crossings(table, edges, (), p, np.zeros((1, 2)), direction, slack * (1 + slack / size))
+        if found.blocks(0, size):
+            return False
+        edges = found.doubtful(0, size)
+    return _is_free_exactly(table, start, end, edges)
+
+
+def _is_free_exactly(table: EdgeTable, start: Point, end: Point, edges: Ints) -> bool:
+    direction = end - start
+    cuts: dict[int, list[Real]] = {}
+    for e in edges:
+        for tau in line_contacts(start, direction, table.curves[e]):
+            if tau.sign() > 0 and tau.compare(1) < 0:
+                cuts.setdefault(int(table.owner[e]), [Real(0), Real(1)]).append(tau)
+    return not any(
+        table.obstacles[k].locate(start + direction * ((low + high) * HALF)) is Location.INSIDE
+        for k, values in cuts.items()
+        for low, high in pairwise(sorted(values))
+        if low.compare(high) != 0
+    )
+
+
+def walk_line(
+    table: EdgeTable, sector: Sector, t: Real, reach: float
+) -> tuple[list[tuple[Real, int]], list[tuple[Real, int]]]:
+    """What a tangent line touches behind and ahead of its contact, up to the first obstacle that blocks it.
+
+    Two lists of (signed parameter, edge), nearest first, of contacts with edges within *reach*; each ends with
+    the contact at which the line is blocked, or where nothing more lies within reach.
+    """
+    contact, direction = sector.touch(t)
+    x, y = contact.xy
+    edges = table.near((x, y), (x, y), reach)
+    size = np.array(direction.xy)
+    slack = 64 * table.roundoff
+    line = (size / np.hypot(*size))[None, :]
+    found = Crossings(table, edges, (), np.array((x, y)), np.zeros((1, 2)), line, slack)
+    met = [
+        (tau, int(e))
+        for e in found.possible(0)
+        for tau in line_contacts(contact, direction, table.curves[e])
+    ]
+    met.sort(key=cmp_to_key(lambda a, b: a[0].compare(b[0])))
+    ahead = [hit for hit in met if hit[0].sign() > 0]
+    behind = [hit for hit in reversed(met) if hit[0].sign() < 0]
+    return (
+        list(_until_blocked(table, contact, direction, behind)),
+        list(_until_blocked(table, contact, direction, ahead)),
+    )
+
+
+def _until_blocked(
+    table: EdgeTable, contact: Point, direction: Point, hits: list[tuple[Real, int]]
+) -> Iterator[tuple[Real, int]]:
+    previous = Real(0)
+    owners = {int(table.owner[e]) for _, e in hits}
+    for tau, e in hits:
+        if tau.compare(previous) != 0:
+            middle = contact + direction * ((previous + tau) * HALF)
+            if any(table.obstacles[k].locate(middle) is Location.INSIDE for k in owners):
+                return
+            previous = tau
+        yield tau, e
+
