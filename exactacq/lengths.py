@@ -34,15 +34,8 @@ from weakref import WeakValueDictionary
 from flint import arb, ctx, fmpq, fmpz, fmpz_mat, fmpz_poly
 
 from exactacq.errors import Undecided
-from exactacq.reals import (
-    FILTER_BITS,
-    Real,
-    decimal_string,
-    enclose,
-    rational,
-    round_to_float,
-    sympy_rational,
-)
+from exactacq.numerals import decimal_string, enclose, rational, round_to_float, sympy_rational
+from exactacq.reals import FILTER_BITS, Real
 
 if TYPE_CHECKING:
     import sympy
@@ -393,7 +386,7 @@ class Length:
         """The nearest float, ties to even."""
         if self._is_algebraic:
             return float(self._algebraic)
-        return round_to_float(self.ball, lambda middle: self.compare(middle) == 0)
+        return round_to_float(self.ball, lambda middle: self.compare(middle) == 0) + 0.0  # never -0.0
 
     def decimal(self, digits: int) -> str:
         """The value with *digits* significant digits, correctly rounded to one unit in the last."""
@@ -593,7 +586,7 @@ def _bundles(angles: Mapping[_Angle, Real]) -> list[list[_Angle]]:
     bundles: list[tuple[Real, list[_Angle]]] = []
     for angle, c in angles.items():
         for first, bundle in bundles:
-            if (c / first).rational is not None:
+            if c.rational_ratio(first) is not None:
                 bundle.append(angle)
                 break
         else:

@@ -12,13 +12,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, cmp_to_key
 from heapq import heapify, heappop, heappush
 from itertools import count
 from typing import TypeAlias
 
 import networkx as nx
 import numpy as np
+from numpy.typing import NDArray
 
 from exactacq.contacts import Family, FamilyKind, Nearest, line_contacts, nearest_points
 from exactacq.curves import Arc, Curve, Segment
@@ -46,6 +47,13 @@ class Link:
     target: int
     length: Real
     shortest: tuple[Shortest, ...]
+
+    def segments(self, position: Point | None = None) -> list[tuple[Point, Point]]:
+        """Leave and hit points of the shortest segments among which every tie rule's choice is.
+
+        A continuum gives its ends, its segment from *position*, and that to its westernmost hit point.
+        """
+        return [pair for item in self.shortest for pair in _extremes(item, position)]
 
     def reversed(self) -> Link:
         """The same link from the other obstacle; the source must be an obstacle."""
@@ -143,14 +151,14 @@ class Links:
         order = count()
         heap: list[tuple[float, int, tuple[int, int] | Nearest | Family]] = [
             (float(bounds[r, c]), next(order), (int(a[r]), int(b[c])))
-            for r, c in zip(*np.nonzero(bounds <= self.reach), strict=True)
+            for r, c in zip(*np.nonzero((bounds <= self.reach) & _facing(self.table, a, b)), strict=True)
         ]
         heapify(heap)
         least: Real | None = None
         while heap and heap[0][0] <= best.guess:
             _, _, item = heappop(heap)
             if isinstance(item, tuple):
-                for found in nearest_points(self.table.curves[item[0]], self.table.curves[item[1]]):
+                for found in self._minima(*item):
                     heappush(heap, (float(found.distance_sq) ** 0.5 * (1 - 1e-13), next(order), found))
                 continue
             length = item.distance_sq.sqrt()
@@ -161,6 +169,37 @@ class Links:
             for piece in self._free_part(item, length):
                 best.offer(length, piece)
         return least is not None and best.found and best.length == least
+
+    def _minima(self, a: int, b: int) -> Iterator[Nearest | Family]:
+        """Local minima of the distance near two edges: of the boundaries, not only of the edges."""
+        for found in nearest_points(self.table.curves[a], self.table.curves[b]):
+            if isinstance(found, Family) or (
+                self._is_foot(a, found.start, found.end) and self._is_foot(b, found.end, found.start)
+            ):
+                yield found
+
+    def _is_foot(self, e: int, foot: Point, other: Point) -> bool:
+        """Whether a vertex of edge e does not come nearer to a point along the neighbouring edge.
+
+        If it does, nothing is lost: a segment that only a third obstacle keeps from sliding is held by a
+        feature of that obstacle.
+        """
+        curves = self.table.curves
+        if foot is curves[e].start:
+            x, y = leaving(curves[self._previous[e]], at_end=True)
+            x, y = -x, -y
+        elif foot is curves[e].end:
+            x, y = leaving(curves[int(self.table.next[e])], at_end=False)
+        else:
+            return True
+        return ((other.x - foot.x) * x + (other.y - foot.y) * y).sign() <= 0
+
+    @cached_property
+    def _previous(self) -> list[int]:
+        """The edge before each edge."""
+        before = np.zeros(len(self.table.curves), dtype=np.intp)
+        before[self.table.next] = np.arange(len(before))
+        return before.tolist()
 
     def _free_part(self, item: Nearest | Family, length: Real) -> Iterator[Shortest]:
         if isinstance(item, Family):
@@ -417,7 +456,8 @@ def visibility_graph(scene: Scene, radius: object = None) -> nx.Graph:
     """The obstacle visibility graph: nodes are obstacle indices, and "S" if the scene has a start.
 
     An edge joins two nodes that see each other within *radius* (the scene's own if None); ``weight`` is v
-    as a `Length`, ``link`` the `Link`. Near linear in the number of obstacles at constant density.
+    as a `Length`, ``link`` the `Link` with all shortest segments, ``leave`` (on the link's source) and ``hit``
+    the lexicographically least of them. Near linear in the number of obstacles at constant density.
     """
     links = Links(scene, scene.radius if radius is None else radius)
     graph = nx.Graph()
@@ -425,12 +465,17 @@ def visibility_graph(scene: Scene, radius: object = None) -> nx.Graph:
     for i in range(len(scene.obstacles)):
         for j in links.neighbours(i):
             if j > i and (link := links.between(i, j)) is not None:
-                graph.add_edge(i, j, weight=Length(link.length), link=link)
+                _add_edge(graph, link)
     if scene.start is not None:
         graph.add_node(START)
-        for j, link in links.from_point(scene.start).items():
-            graph.add_edge(START, j, weight=Length(link.length), link=link)
+        for link in links.from_point(scene.start).values():
+            _add_edge(graph, link)
     return graph
+
+
+def _add_edge(graph: nx.Graph, link: Link) -> None:
+    leave, hit = min(link.segments(), key=cmp_to_key(lexicographic))
+    graph.add_edge(link.source, link.target, weight=Length(link.length), leave=leave, hit=hit, link=link)
 
 
 def pair_bounds(table: EdgeTable, a: Ints, b: Ints) -> Floats:
@@ -449,6 +494,28 @@ def pair_bounds(table: EdgeTable, a: Ints, b: Ints) -> Floats:
     capsules = np.minimum(to_b, to_a) - size_a[:, None] - size_b[None]
     bounds = np.maximum(bounds, capsules)
     return np.maximum(bounds * (1 - 1e-14) - 64 * table.roundoff, 0.0)
+
+
+def _facing(table: EdgeTable, a: Ints, b: Ints) -> NDArray[np.bool_]:
+    """False where no free shortest segment can join two edges: one lies behind the other.
+
+    Such a segment leaves a straight edge, or one of the two edges at a vertex, to its right.
+    """
+    return (_reach_right(table, a, b) > 0) & (_reach_right(table, b, a).T > 0)
+
+
+def _reach_right(table: EdgeTable, a: Ints, b: Ints) -> Floats:
+    """How far at most edges b (columns) lie to the right of the edges a (rows); infinite for arcs a."""
+    along = table.end[a] - table.start[a]
+    size = np.maximum(np.hypot(along[:, 0], along[:, 1]), 1e-300)
+    normal = np.stack((along[:, 1], -along[:, 0]), axis=1) / size[:, None]
+    straight = table.kind[b] == STRAIGHT
+    offset = (normal * table.start[a]).sum(axis=1)[:, None]
+    at_start, at_end = normal @ table.start[b].T - offset, normal @ table.end[b].T - offset
+    at_center = normal @ table.center[b].T - offset + table.radius[b]
+    right = np.where(straight, np.maximum(at_start, at_end), at_center)
+    margin = 64 * table.roundoff * (1 + table.magnitude / size)[:, None]
+    return np.where((table.kind[a] == STRAIGHT)[:, None], right + margin, np.inf)
 
 
 def _to_segments(points: Floats, starts: Floats, ends: Floats) -> Floats:
@@ -474,3 +541,45 @@ def _same(a: Shortest, b: Shortest) -> bool:
     if isinstance(a, Chord) and isinstance(b, Chord):
         return a.start == b.start and a.end == b.end
     return a is b
+
+
+def lexicographic(a: tuple[Point, Point], b: tuple[Point, Point]) -> int:
+    """Order of segments by their starts, then their ends."""
+    return a[0].compare(b[0]) or a[1].compare(b[1])
+
+
+def _extremes(item: Shortest, position: Point | None) -> Iterator[tuple[Point, Point]]:
+    """The segments of a shortest item among which the tie rule's choice is.
+
+    Of a continuum: its ends, the one that leaves from where the robot is, and the westernmost hit point.
+    """
+    if isinstance(item, Chord):
+        yield item.start, item.end
+        return
+    first, second = item.first, item.second
+    ends = [
+        (first if isinstance(first, Point) else p, second if isinstance(second, Point) else q)
+        for p, q in zip(_ends(first), _ends(second), strict=True)
+    ]
+    yield from ends
+    if isinstance(first, Point):
+        if isinstance(second, Arc):
+            west = Point(second.center.x - second.radius, second.center.y)
+            if second.contains(west):
+                yield first, west
+    elif position is not None and first.passes(position):
+        yield position, second if isinstance(second, Point) else _partner(item, position)
+
+
+def _ends(side: Curve | Point) -> tuple[Point, Point]:
+    return (side, side) if isinstance(side, Point) else (side.start, side.end)
+
+
+def _partner(family: Family, position: Point) -> Point:
+    """The point of the second curve that corresponds to a point of the first."""
+    first, second = family.first, family.second
+    if isinstance(first, Arc) and isinstance(second, Arc):
+        return first.center + (position - first.center) * (second.radius / first.radius)
+    assert not isinstance(first, Point)
+    assert not isinstance(second, Point)
+    return position + (second.start - first.start)

@@ -118,5 +118,9 @@ def distance_sq(a: Point, b: Point) -> Real:
 
 
 def distance(a: Point, b: Point) -> Real:
-    """Euclidean distance."""
-    return distance_sq(a, b).sqrt()
+    """Euclidean distance; without a nested root where the direction is seen to be rational."""
+    across, up = b.x - a.x, b.y - a.y
+    slope = across.rational_ratio(up)
+    if slope is not None:
+        return abs(up) * Real(1 + slope * slope).sqrt()
+    return (across * across + up * up).sqrt()

@@ -9,7 +9,8 @@ How a sign is decided, in this order:
 1. rationals at once; a form without terms is 0;
 2. balls of 64, 128 and 256 bits that exclude 0;
 3. zero test.  Square roots of integers whose pairwise products are no squares are linearly
-   independent over Q, so a form over integer radicals is 0 only if it cancels.  Any other form x has
+   independent over Q, and so are the powers of one root below its degree: such forms are 0 only if
+   they cancel.  Any other form x has
    degree at most D (the product of the degrees of its distinct radicals and roots) and logarithmic
    height at most h (bounded along the expression); Liouville's inequality says x = 0 or
    |x| >= 2^(-D h), so a ball of that precision decides (Waldschmidt, Diophantine Approximation on
@@ -22,7 +23,6 @@ Beyond `ZERO_TEST_BITS` the zero test gives up with `Undecided`.  This is the on
 
 from __future__ import annotations
 
-import re
 from collections.abc import Hashable, Iterable, Mapping
 from decimal import Decimal
 from fractions import Fraction
@@ -31,9 +31,10 @@ from math import log2, prod
 from typing import TYPE_CHECKING, Any, TypeAlias
 from weakref import WeakValueDictionary
 
-from flint import arb, ctx, fmpq, fmpz, fmpz_poly
+from flint import arb, ctx, fmpq, fmpq_poly, fmpz, fmpz_poly
 
-from exactacq.errors import FormatError, Undecided
+from exactacq.errors import Undecided
+from exactacq.numerals import decimal_string, enclose, rational, round_to_float, sympy_rational
 
 if TYPE_CHECKING:
     import sympy
@@ -41,60 +42,10 @@ if TYPE_CHECKING:
 FILTER_BITS = (64, 128, 256)
 ZERO_TEST_BITS = 1 << 21
 """Largest precision of the zero test; 2^21 bits take about a second an operation."""
-MAX_DIGITS = 5000
-"""Longest number, in decimal digits, that is accepted as input: keeps hostile files cheap."""
 EXPAND_TERMS = 64
 """A product of two radical sums is multiplied out up to this many terms."""
 
 ZERO, ONE = fmpq(0), fmpq(1)
-_LITERAL = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,6})?(/\d+)?")
-
-
-def rational(value: object) -> fmpq:
-    """The rational that *value* denotes: int, Fraction, Decimal, finite float (exactly), or a literal.
-
-    Literals are integers, decimals and ``"p/q"``.  Raises `FormatError` for anything else, for NaN and
-    infinities, and beyond `MAX_DIGITS` digits.
-    """
-    if isinstance(value, fmpq):
-        return value
-    if isinstance(value, bool):
-        raise FormatError(f"not a number: {value!r}")
-    if isinstance(value, (int, fmpz)):
-        return fmpq(value)
-    if isinstance(value, Real):
-        if value.rational is None:
-            raise FormatError(f"not a rational number: {value}")
-        return value.rational
-    if isinstance(value, Fraction):
-        return fmpq(value.numerator, value.denominator)
-    if isinstance(value, float) or hasattr(value, "as_integer_ratio"):
-        try:
-            return fmpq(*value.as_integer_ratio())
-        except (ValueError, OverflowError):
-            raise FormatError(f"not a finite number: {value!r}") from None
-    if isinstance(value, str):
-        return _literal(value.strip())
-    raise FormatError(f"not a number: {value!r}")
-
-
-def _literal(text: str) -> fmpq:
-    match = _LITERAL.fullmatch(text) if len(text) <= MAX_DIGITS else None
-    if match is None:
-        raise FormatError(f"not a number: {text[:40]!r}")
-    numerator, exponent, denominator = match[1], int((match[2] or "e0")[1:]), match[3]
-    if abs(exponent) > MAX_DIGITS:
-        raise FormatError(f"number out of range: {text[:40]!r}")
-    whole, _, part = numerator.partition(".")
-    shift = exponent - len(part)
-    value = fmpq(fmpz(whole + part or "0")) * (fmpq(10) ** shift)
-    if denominator is not None:
-        divisor = fmpz(denominator[1:])
-        if divisor == 0:
-            raise FormatError(f"division by zero: {text[:40]!r}")
-        value /= divisor
-    return -value if text.startswith("-") else value
-
 
 @lru_cache(maxsize=1 << 16)
 def _square_free(n: int) -> tuple[int, int]:
@@ -129,6 +80,9 @@ class _Node:
             node.args, node._bits, node._height, node._generators = args, 0, None, None
             cls._interned[key] = node
         return node
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self).make, self.args
 
     def ball(self, bits: int) -> arb:
         """Enclosure computed with at least *bits* working bits (the caller has set the precision)."""
@@ -183,6 +137,11 @@ class _Sqrt(_Node):
 class _Product(_Node):
     __slots__ = ()
 
+    @classmethod
+    def make(cls, *args: Any) -> _Node:
+        # Factors in the order of this process's hashes, also when they come from a pickle.
+        return super().make(*sorted(args, key=lambda factor: hash(factor.key)))
+
     def _evaluate(self, bits: int) -> arb:
         return self.args[0]._working_ball(bits) * self.args[1]._working_ball(bits)
 
@@ -201,26 +160,59 @@ class _Inverse(_Node):
 
 
 class _Root(_Node):
-    """Real root number ``index`` (from the left) of an irreducible integer polynomial."""
+    """A power of real root number ``index`` (from the left) of an irreducible integer polynomial.
+
+    Powers below the degree are a basis of the field that the root generates: elements of one such field
+    multiply, divide and cancel as polynomials.
+    """
 
     __slots__ = ()
 
     def _evaluate(self, bits: int) -> arb:
-        coefficients, index = self.args
-        return _real_roots(fmpz_poly(list(coefficients)))[index]
+        coefficients, index, power = self.args
+        if power > 1:
+            return _Root.make(coefficients, index, 1).ball(bits) ** power
+        return _newton(fmpz_poly(list(coefficients)), _isolated(coefficients)[index])
 
     def _bound(self) -> float:
-        coefficients = self.args[0]
+        coefficients, _, power = self.args
         norm = sum(int(c) ** 2 for c in coefficients).bit_length() / 2 + 1
-        return norm / (len(coefficients) - 1)
+        return float(power * norm / (len(coefficients) - 1))
 
     def _collect(self) -> frozenset[tuple[Hashable, int]]:
-        return frozenset({(self, len(self.args[0]) - 1)})
+        coefficients, index, _ = self.args
+        return frozenset({((coefficients, index), len(coefficients) - 1)})
 
     def sympy(self) -> sympy.Expr:
         from sympy import CRootOf, Poly, Symbol
 
-        return CRootOf(Poly([int(c) for c in reversed(self.args[0])], Symbol("x")), self.args[1])
+        coefficients, index, power = self.args
+        return CRootOf(Poly([int(c) for c in reversed(coefficients)], Symbol("x")), index) ** power
+
+
+@lru_cache(maxsize=1 << 10)
+def _isolated(coefficients: tuple[int, ...]) -> list[arb]:
+    """Balls of the real roots of an irreducible polynomial, ascending, so tight that Newton's method starts."""
+    polynomial = fmpz_poly(list(coefficients))
+    slope = polynomial.derivative()
+    bits = 64
+    while True:
+        with ctx.workprec(bits):
+            balls = _real_roots(polynomial)
+            if all(_ball_sign(slope(ball)) for ball in balls):
+                return balls
+        bits *= 2
+
+
+def _newton(polynomial: fmpz_poly, ball: arb) -> arb:
+    """An isolating ball refined by the interval Newton method to the working precision."""
+    slope = polynomial.derivative()
+    while True:
+        middle = ball.mid()
+        finer = middle - polynomial(middle) / slope(ball)
+        if not finer.rad() < ball.rad() / 2:
+            return ball
+        ball = finer
 
 
 def _real_roots(polynomial: fmpz_poly) -> list[arb]:
@@ -277,6 +269,10 @@ class Real:
                 terms[atom] = terms.get(atom, ZERO) + c
         return cls._form({a: c for a, c in terms.items() if c})
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Caches stay behind: balls cannot be pickled, and atoms must be interned where they arrive.
+        return Real._form, (dict(self._terms),)
+
     # -- structure ---------------------------------------------------------------------------
 
     @property
@@ -292,6 +288,24 @@ class Real:
     @property
     def _is_surd(self) -> bool:
         return all(type(atom) is int for atom in self._terms)
+
+    def _field(self) -> tuple[tuple[int, ...], int] | None:
+        """The irreducible polynomial and the root whose field the form lies in, if it needs no other atoms."""
+        field = None
+        for atom in self._terms:
+            if isinstance(atom, _Root):
+                if field is None:
+                    field = atom.args[:2]
+                elif field != atom.args[:2]:
+                    return None
+            elif atom != 1:
+                return None
+        return field
+
+    def _polynomial(self) -> fmpq_poly:
+        """The form as a polynomial in its one root."""
+        powers = {0 if isinstance(atom, int) else atom.args[2]: c for atom, c in self._terms.items()}
+        return fmpq_poly([powers.get(k, 0) for k in range(max(powers) + 1)])
 
     # -- arithmetic --------------------------------------------------------------------------
 
@@ -334,6 +348,10 @@ class Real:
             return self._scaled(right._q)
         if self._q is not None:
             return right._scaled(self._q)
+        field = self._field()
+        if field is not None and field == right._field():
+            modulus = fmpq_poly(list(field[0]))
+            return _field_element(field, self._polynomial() * right._polynomial() % modulus)
         few = len(self._terms) == 1 or len(right._terms) == 1
         surds = self._is_surd and right._is_surd
         if len(self._terms) * len(right._terms) <= EXPAND_TERMS and (few or surds):
@@ -368,7 +386,13 @@ class Real:
         if len(self._terms) <= 2 and self._is_surd:
             (a, p), (b, q) = (*self._terms.items(), (1, ZERO))[:2]
             conjugate = Real._form({a: p, b: -q} if q else {a: p})
-            return conjugate._scaled(1 / (p * p * a - q * q * b))  # type: ignore[operator]
+            norm = p * p * a - q * q * b  # type: ignore[operator]
+            if norm:  # 0 if a and b are one radical, with a square factor that trial division missed
+                return conjugate._scaled(1 / norm)
+        field = self._field()
+        if field is not None:
+            _, inverse, _ = self._polynomial().xgcd(fmpq_poly(list(field[0])))
+            return _field_element(field, inverse)
         if len(self._terms) == 1:
             ((atom, c),) = self._terms.items()
             if isinstance(atom, _Inverse):
@@ -397,6 +421,18 @@ class Real:
             return _sqrt_rational(self._q)
         return _denested(self) or _sqrt_node(self)
 
+    def rational_ratio(self, other: Real) -> fmpq | None:
+        """The rational q with self = q * other if the two forms show it, else None (also where other is 0)."""
+        if len(self._terms) != len(other._terms) and self._terms:
+            return None
+        ratio = ZERO
+        for atom, c in self._terms.items():
+            below = other._terms.get(atom)
+            if below is None or (ratio and c != ratio * below):
+                return None
+            ratio = c / below
+        return ratio if other._terms else None
+
     # -- order -------------------------------------------------------------------------------
 
     def sign(self) -> int:
@@ -415,11 +451,11 @@ class Real:
             merged = _merge_surds(self._terms)
             if len(merged) < len(self._terms):
                 return Real._form(merged).sign()
-        else:
+        elif self._field() is None:
             limit = self._separation_bits()
             if limit > ZERO_TEST_BITS:
                 raise Undecided(
-                    f"sign of {self.decimal(20)}...: excluding zero would take {limit} bits, "
+                    f"sign of {decimal_string(self.ball, 20)}...: excluding zero would take {limit} bits, "
                     f"more than {ZERO_TEST_BITS}"
                 )
             bits = 2 * FILTER_BITS[-1]
@@ -508,11 +544,13 @@ class Real:
     def __float__(self) -> float:
         """The nearest float, ties to even."""
         if self._q is not None:
-            return _nearest(self._q)
-        return round_to_float(self.ball, lambda middle: self == middle)
+            return int(self._q.p) / int(self._q.q)
+        return round_to_float(self.ball, lambda middle: self == middle) + 0.0
 
     def decimal(self, digits: int) -> str:
         """The value with *digits* significant digits, correctly rounded to one unit in the last."""
+        if not _ball_sign(self.ball(FILTER_BITS[-1])) and self.sign() == 0:
+            return "0"
         return decimal_string(self.ball, digits)
 
     def sympy(self) -> sympy.Expr:
@@ -545,6 +583,18 @@ def _coerce(value: object) -> Real | None:
     return None
 
 
+def _field_element(field: tuple[tuple[int, ...], int], polynomial: fmpq_poly) -> Real:
+    """A polynomial of degree below the field's, evaluated at its root."""
+    coefficients, index = field
+    return Real._form(
+        {
+            _Root.make(coefficients, index, k) if k else 1: c
+            for k, c in enumerate(polynomial.coeffs())
+            if c
+        }
+    )
+
+
 def _atom_height(atom: Atom) -> float:
     return log2(atom) / 2 if isinstance(atom, int) else atom.height()
 
@@ -568,8 +618,19 @@ def _atom_product(a: Atom, b: Atom) -> Real:
 
 
 def _node_product(a: Real, b: Real) -> Real:
-    first, second = sorted((a, b), key=lambda r: hash(r.key))
-    return Real._atom(_Product.make(first, second))
+    (p, first), (q, second) = _primitive(a), _primitive(b)
+    return Real._atom(_Product.make(first, second))._scaled(p * q)
+
+
+def _primitive(x: Real) -> tuple[fmpq, Real]:
+    """(c, y) with x = c y, the same y for all rational multiples of x."""
+    numerator, denominator = fmpz(0), fmpz(1)
+    for c in x._terms.values():
+        numerator, denominator = numerator.gcd(c.p), denominator.lcm(c.q)
+    content = fmpq(numerator, denominator)
+    if x._terms[min(x._terms, key=hash)] < 0:
+        content = -content
+    return content, x._scaled(1 / content)
 
 
 def _sqrt_rational(q: fmpq) -> Real:
@@ -656,66 +717,7 @@ def _irreducible_roots(factor: fmpz_poly) -> list[Real]:
             return []
         root = _sqrt_rational(fmpq(square))
         return [(root._scaled(s) - Real(b)) / (2 * a) for s in (ONE, -ONE)]
-    with ctx.workprec(64):
-        count = len(_real_roots(factor))
     key = tuple(int(c) for c in coefficients)
-    return [Real._atom(_Root.make(key, index)) for index in range(count)]
+    return [Real._atom(_Root.make(key, index, 1)) for index in range(len(_isolated(key)))]
 
 
-def _nearest(q: fmpq) -> float:
-    return int(q.p) / int(q.q)
-
-
-def ends(ball: arb) -> tuple[fmpq, fmpq]:
-    """The exact ends of a ball (`arb.lower` would round to the global precision)."""
-    middle, radius = ball.mid().fmpq(), ball.rad().fmpq()
-    return middle - radius, middle + radius
-
-
-def enclose(ball: Any, bits: int) -> tuple[fmpq, fmpq]:
-    """Rational ends at most 2^-bits apart from ``ball(working_bits)``, refined as needed."""
-    working, width = bits + 64, fmpq(1, fmpz(2) ** bits)
-    while True:
-        value = ball(working)
-        low, high = ends(value)
-        if high - low <= width:
-            return low, high
-        working *= 2
-
-
-def round_to_float(ball: Any, equals: Any) -> float:
-    """The float nearest to a value given by balls; ``equals(q)`` settles a midpoint exactly."""
-    for bits in (128, 512):
-        value = ball(bits)
-        low, high = ends(value)
-        if _nearest(low) == _nearest(high):
-            return _nearest(low)
-    below, above = _nearest(low), _nearest(high)
-    middle = (rational(below) + rational(above)) / 2 if below != above else low
-    if equals(middle):
-        return _nearest(middle)
-    while _nearest(low) != _nearest(high):
-        bits *= 2
-        value = ball(bits)
-        low, high = ends(value)
-    return _nearest(low)
-
-
-def decimal_string(ball: Any, digits: int) -> str:
-    """Decimal with *digits* significant digits from ``ball(working_bits)``."""
-    bits = int(digits * 3.33) + 64
-    while True:
-        value = ball(bits)
-        if value.is_exact() and value == 0:
-            return "0"
-        text = str(value.str(digits, radius=False))
-        if value.rel_accuracy_bits() > digits * 3.33 + 4 or bits > 1 << 16:
-            return text
-        bits *= 2
-
-
-def sympy_rational(q: fmpq) -> sympy.Expr:
-    """A rational as sympy's."""
-    from sympy import Rational
-
-    return Rational(int(q.p), int(q.q))

@@ -37,19 +37,18 @@ class Robot:
         self.visited: list[int] = []
         self._seen: set[int] = set(self._links.from_point(start))
         self._straight: list[Segment] = []
+        self._exhausted: set[Node] = set()
         self.mark("start", None, "")
 
     # -- the map -----------------------------------------------------------------------------------
 
     def nearest_unvisited(self, node: Node) -> Link | None:
         """The shortest link (then the least index) from a visited node to an unvisited obstacle it sees."""
-        return next(self._unvisited_links(node), None)
-
-    def _unvisited_links(self, node: Node) -> Iterator[Link]:
-        """At most one link: the least one, found best first."""
+        if node in self._exhausted:
+            return None
         visited = set(self.visited)
         if node == START:
-            found = [k for j, k in self._links.from_point(self.start).items() if j not in visited]
+            found = [link for j, link in self._links.from_point(self.start).items() if j not in visited]
         else:
             assert isinstance(node, int)
             assert node in visited, "a boundary shows its links only once it was walked all around"
@@ -58,8 +57,9 @@ class Robot:
         for link in sorted(found, key=lambda link: link.target):
             if best is None or link.length < best.length:
                 best = link
-        if best is not None:
-            yield best
+        if best is None:
+            self._exhausted.add(node)
+        return best
 
     def _best_first(self, node: int, visited: set[int]) -> list[Link]:
         """The links that can be the least: lower bounds decide which are computed."""

@@ -3,15 +3,13 @@ backtrack by a depth-first stack."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from functools import cmp_to_key
 
 from exactacq.bounds import sightseer_bounds
-from exactacq.contacts import Family
-from exactacq.curves import Arc
 from exactacq.errors import InvalidScene
 from exactacq.lengths import Length
-from exactacq.links import START, Link, Node
+from exactacq.links import START, Link, Node, lexicographic
 from exactacq.points import Point
 from exactacq.reals import rational
 from exactacq.robot import Robot
@@ -101,15 +99,15 @@ class _Sightseer:
 
     def _choose(self, link: Link) -> tuple[Point, Point]:
         """The segment that the tie rule picks among the shortest: least walk, counterclockwise, L, H."""
-        pairs = [pair for item in link.shortest for pair in _extremes(item, self.robot.position)]
+        pairs = link.segments(self.robot.position)
         if self.robot.at == START:
-            return min(pairs, key=cmp_to_key(_lexicographic))
+            return min(pairs, key=cmp_to_key(lexicographic))
         if len(pairs) == 1:
             return pairs[0]
         ways = [(*self.robot.way_to(leave), leave, hit) for leave, hit in pairs]
 
         def order(a: tuple[Length, bool, Point, Point], b: tuple[Length, bool, Point, Point]) -> int:
-            return a[0].compare(b[0]) or b[1] - a[1] or _lexicographic(a[2:], b[2:])
+            return a[0].compare(b[0]) or b[1] - a[1] or lexicographic(a[2:], b[2:])
 
         return min(ways, key=cmp_to_key(order))[2:]
 
@@ -131,44 +129,3 @@ class _Sightseer:
             scene, radius, "sightseer", robot.start, path, tuple(robot.visited), links, events, bounds,
             tuple(unseen), tuple(unvisited), self.depth,
         )
-
-
-def _lexicographic(a: tuple[Point, Point], b: tuple[Point, Point]) -> int:
-    return a[0].compare(b[0]) or a[1].compare(b[1])
-
-
-def _extremes(item: object, position: Point) -> Iterator[tuple[Point, Point]]:
-    """The segments of a shortest item among which the tie rule's choice is.
-
-    Of a continuum: its ends, the one that leaves from where the robot is, and the westernmost hit point.
-    """
-    if not isinstance(item, Family):
-        yield item.start, item.end  # type: ignore[attr-defined]
-        return
-    first, second = item.first, item.second
-    ends = [
-        (first if isinstance(first, Point) else p, second if isinstance(second, Point) else q)
-        for p, q in zip(_ends(first), _ends(second), strict=True)
-    ]
-    yield from ends
-    if isinstance(first, Point):
-        if isinstance(second, Arc):
-            west = Point(second.center.x - second.radius, second.center.y)
-            if second.contains(west):
-                yield first, west
-    elif first.passes(position):
-        yield position, second if isinstance(second, Point) else _partner(item, position)
-
-
-def _ends(side: object) -> tuple[Point, Point]:
-    return (side, side) if isinstance(side, Point) else (side.start, side.end)  # type: ignore[attr-defined]
-
-
-def _partner(family: Family, position: Point) -> Point:
-    """The point of the second curve that corresponds to a point of the first."""
-    first, second = family.first, family.second
-    if isinstance(first, Arc) and isinstance(second, Arc):
-        return first.center + (position - first.center) * (second.radius / first.radius)
-    assert not isinstance(first, Point)
-    assert not isinstance(second, Point)
-    return position + (second.start - first.start)

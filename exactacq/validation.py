@@ -56,10 +56,14 @@ class _Meeting:
     first: set[int] = field(default_factory=set)
     second: set[int] = field(default_factory=set)
 
+    @property
+    def indices(self) -> tuple[int, int]:
+        """The numbers of the two loops."""
+        return self.loops[0].index, self.loops[1].index
+
     def order(self) -> tuple[object, ...]:
         """Loop by loop, edge by edge."""
-        a, b = self.loops
-        return a.index, b.index, sorted(self.first), sorted(self.second), self.contact.kind.value
+        return *self.indices, sorted(self.first), sorted(self.second), self.contact.kind.value
 
     def __str__(self) -> str:
         one, other = self.loops
@@ -158,7 +162,10 @@ class _Arrangement:
         self.met: set[tuple[int, int]] = set()
 
     def meetings(self) -> Iterator[str]:
-        """Contacts between edges, but for the vertex that neighbours share; one violation a place."""
+        """Contacts between edges, but for the vertex that neighbours share; one violation a place.
+
+        What touches at the end of an overlap of the same loops is left out: the overlap tells it.
+        """
         meetings: dict[object, _Meeting] = {}
         for i, j in self._candidates():
             a, b = self.owner[i], self.owner[j]
@@ -175,8 +182,12 @@ class _Arrangement:
                 meetings[site].second.add(self.numbers[j])
             if len(meetings) >= COUNTED:
                 break
+        overlaps = [m for m in meetings.values() if m.contact.kind is ContactKind.OVERLAP]
+        ends = {(*m.indices, p.key) for m in overlaps for p in (m.contact.start, m.contact.end)}
         for meeting in sorted(meetings.values(), key=_Meeting.order):
-            yield str(meeting)
+            overlap = meeting.contact.kind is ContactKind.OVERLAP
+            if overlap or (*meeting.indices, meeting.contact.start.key) not in ends:
+                yield str(meeting)
 
     def _candidates(self) -> Iterator[tuple[int, int]]:
         separator = Separator(self.curves, self.index.boxes)
@@ -199,22 +210,20 @@ class _Arrangement:
             for b, turns in self._windings(point).items():
                 if a == b or (min(a, b), max(a, b)) in self.met:
                     continue
-                if self.loops[b].is_enclosure:
-                    if not turns:
-                        yield f"{_label(loop)} lies outside the enclosure, at {_place(point)}: {WITHIN}"
-                elif turns:
-                    where = f"{_label(self.loops[b])}, at {_place(point)}"
+                other = self.loops[b]
+                where = f"{_label(other)}, at {_place(point)}"
+                if other.is_enclosure and not turns:
+                    yield f"{_label(loop)} lies outside {where}: {WITHIN}"
+                if turns and not other.is_enclosure:
                     yield f"{_label(loop)} lies inside {where}: {DISJOINT}"
 
     def start_flaws(self, start: Point) -> Iterator[str]:
         """The start must lie in closed free space."""
         for a, turns in self._windings(start).items():
-            if self.loops[a].is_enclosure:
-                if turns == 0:
-                    yield f"start {_place(start)} lies outside the enclosure: it must lie in free space"
-            elif turns:
-                where = _label(self.loops[a])
-                yield f"start {_place(start)} lies inside {where}: it must lie in free space"
+            loop = self.loops[a]
+            if turns is not None and bool(turns) != loop.is_enclosure:
+                side = "outside" if loop.is_enclosure else "inside"
+                yield f"start {_place(start)} lies {side} {_label(loop)}: it must lie in free space"
 
     def _windings(self, point: Point) -> dict[int, int | None]:
         """How often loops wind round a point (None: on the loop): the enclosure, and all that may not be 0.

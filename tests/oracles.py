@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 TAU = 2 * math.pi
 GRAZE = 1e-9  # dips up to this deep count as grazing
+OFF_BOUNDARY = 1e-10  # chords that start or end farther away do not count
 ON_LINE = 1e-9  # a vertex this close to a chord cuts it (more cuts do no harm)
 
 
@@ -318,13 +319,13 @@ def shortest_visible(
     w = world(shapes)
     node_i, node_j = _Node(w, i), _Node(w, j)
     reach = float(radius) * (1 + 1e-12)
-    best = _first_free(w, _unobstructed(node_i, node_j) + _samples(node_i, node_j), reach, tol)
+    best = _first_free(node_i, node_j, _unobstructed(node_i, node_j) + _samples(node_i, node_j), reach, tol)
     bound = reach if best is None else best.length
     features = _features(w, node_i, node_j, bound)
     held = _held_by_two(w, node_i, node_j, features, bound)
     if len(features[0]) and node_i.index is not None:
         held += _held_by_one(w, node_i, node_j, features, bound)
-    found = _first_free(w, held, bound, tol)
+    found = _first_free(node_i, node_j, held, bound, tol)
     return best if found is None else found
 
 
@@ -340,6 +341,12 @@ class _Node:
         else:
             self.ids = w.ids[self.index]
             self.vertices = w.a[self.ids]
+
+    def distances(self, points: Floats) -> Floats:
+        """Of points to the boundary."""
+        if self.index is None:
+            return np.hypot(*(points - self.vertices[0]).T)
+        return self.world.distances(points, self.ids).min(axis=1)
 
     def hits(self, p: Floats, d: Floats) -> Floats:
         """Parameters of the lines' hits, one row a line (NaN: none)."""
@@ -365,10 +372,14 @@ class _Node:
 Candidates = list[tuple[Floats, Floats]]  # pairs of (n, 2) arrays: starts on i, ends on j
 
 
-def _first_free(w: World, candidates: Candidates, bound: float, tol: float) -> Chord | None:
-    """The shortest candidate that is free, tested in order of length."""
+def _first_free(i: _Node, j: _Node, candidates: Candidates, bound: float, tol: float) -> Chord | None:
+    """The shortest candidate that is free, tested in order of length.
+
+    Lines that run along an edge meet it anywhere, so candidates may miss the boundaries: those are dropped.
+    """
     if not candidates:
         return None
+    w = i.world
     p, q = (np.concatenate([pair[k] for pair in candidates]) for k in (0, 1))
     length = np.hypot(*(q - p).T)
     order = np.argsort(length, kind="stable")
@@ -377,7 +388,8 @@ def _first_free(w: World, candidates: Candidates, bound: float, tol: float) -> C
     size = 16
     while at < len(order):
         batch = order[at : at + size]
-        fine = np.flatnonzero(w.depth(p[batch], q[batch]) <= tol)
+        batch = batch[(i.distances(p[batch]) < OFF_BOUNDARY) & (j.distances(q[batch]) < OFF_BOUNDARY)]
+        fine = np.flatnonzero(w.depth(p[batch], q[batch]) <= tol) if len(batch) else ()
         if len(fine):
             k = batch[fine[0]]
             return Chord(float(length[k]), tuple(map(float, p[k])), tuple(map(float, q[k])))
@@ -450,11 +462,7 @@ def _features(w: World, i: _Node, j: _Node, bound: float) -> tuple[Floats, Float
     centres, radii = table[:, :2], table[:, 2]
     gap = np.zeros(len(table))
     for node in (i, j):
-        if node.index is None:
-            near = np.hypot(*(centres - node.vertices[0]).T)
-        else:
-            near = w.distances(centres, node.ids).min(axis=1)
-        gap += np.maximum(near - radii, 0)
+        gap += np.maximum(node.distances(centres) - radii, 0)
     keep = gap <= bound
     return centres[keep], radii[keep]
 
@@ -592,7 +600,7 @@ def free_sample_shorter(
     w = world(shapes)
     p, q = (np.array([w.at(k, s) for s in boundary_samples(w, k, count)]) for k in (i, j))
     pairs = [(np.repeat(p, len(q), axis=0), np.tile(q, (len(p), 1)))]
-    return _first_free(w, pairs, length, GRAZE)
+    return _first_free(_Node(w, i), _Node(w, j), pairs, length, GRAZE)
 
 
 def shortest_by_sampling(
@@ -604,12 +612,13 @@ def shortest_by_sampling(
     if best is None:
         return None
     rng = np.random.default_rng(0)
+    nodes = _Node(w, i), _Node(w, j)
     here = np.array([w.position(i, best.start), w.position(j, best.end)])
     step = max(w.perimeter(i), w.perimeter(j)) / count
     while step > 1e-10:
         moves = step * rng.uniform(-1, 1, (24, 2))
         p, q = (np.array([w.at(k, s) for s in here[n] + moves[:, n]]) for n, k in enumerate((i, j)))
-        better = _first_free(w, [(p, q)], best.length * (1 - 1e-15), GRAZE)
+        better = _first_free(*nodes, [(p, q)], best.length * (1 - 1e-15), GRAZE)
         if better is None:
             step /= 2
         else:

@@ -16,7 +16,8 @@ from hypothesis import strategies as st
 
 from exactacq.errors import Undecided
 from exactacq.lengths import Length
-from exactacq.reals import Real, rational
+from exactacq.numerals import rational
+from exactacq.reals import Real
 
 ORACLE_BITS = 4400
 # A random sum of a few terms of small height that is below this is 0: the laws only need a referee.

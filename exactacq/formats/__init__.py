@@ -11,7 +11,6 @@ from exactacq.errors import FormatError
 from exactacq.formats.json_scene import load_json, scene_to_json
 from exactacq.formats.source import one_line
 from exactacq.points import Point
-from exactacq.reals import rational
 from exactacq.scene import Scene
 from exactacq.shapes import rational_pair
 
@@ -31,32 +30,29 @@ def load(
 ) -> Scene:
     """The scene in a file.
 
-    *start*, a pair of numbers, overrides a JSON scene's and is required for a drawing. The other options apply
-    to drawings only: *layers* (a name or several; all by default), *outer* (what becomes of the outermost loop
-    around the start: "wall" or "drop"), *tolerance* (how far apart ends are joined; in the drawing's unit), *union*
-    (merge overlapping polygons). What an importer did is in the scene's ``notes``.
+    *start*, a pair of numbers, overrides a JSON scene's and is required for a drawing. The other options
+    apply to drawings only: *layers* (a name or several; all by default), *outer* (what becomes of the
+    outermost loop around the start: "wall" or "drop"), *tolerance* (how far apart ends are joined, in the
+    drawing's unit), *union* (merge overlapping polygons). What an importer did is in the scene's ``notes``.
 
     Raises `FormatError` for a file that cannot be read or an option that makes no sense, and `InvalidScene`
     for a scene that breaks the rules; each message is one line. Near linear in the file.
     """
     suffix = Path(path).suffix.lower()
-    if suffix not in SUFFIXES:
-        kind = f"unknown file type {one_line(repr(suffix))}" if suffix else "a file name without a type"
-        raise FormatError(f"{one_line(path)}: {kind}; known are {' and '.join(SUFFIXES)}")
-    place = _place(start)
-    if suffix == ".json":
-        given = {"layers": layers is not None, "outer": outer != "wall", "tolerance": tolerance is not None}
-        if unused := [name for name, used in {**given, "union": union}.items() if used]:
-            raise FormatError(f"{path}: {', '.join(unused)} applies to drawings, not to JSON scenes; leave it out")
-        return load_json(path, place)
-    if outer not in ("wall", "drop"):
-        raise FormatError(f'outer is "wall" or "drop", not {one_line(repr(outer))}')
-    width = None if tolerance is None else rational(tolerance)
-    if width is not None and width < 0:
-        raise FormatError(f"the tolerance is a length of at least 0, not {width}")
-    from exactacq.formats.dxf import load_dxf  # ezdxf takes half a second to import
+    options = {"layers": layers, "outer": outer, "tolerance": tolerance, "union": union}
+    try:
+        if suffix == ".json":
+            if unused := [name for name, value in options.items() if value not in (None, False, "wall")]:
+                raise FormatError(f"{', '.join(unused)} is for drawings, not for JSON scenes; leave it out")
+            return load_json(path, _place(start))
+        if suffix == ".dxf":
+            from exactacq.formats.dxf import load_dxf  # ezdxf takes half a second to import
 
-    return load_dxf(path, place, layers, outer, width, union)
+            return load_dxf(path, _place(start), layers, outer=outer, tolerance=tolerance, union=union)
+        kind = f"unknown file type {one_line(repr(suffix))}" if suffix else "a file name without a type"
+        raise FormatError(f"{kind}; known are {' and '.join(SUFFIXES)}")
+    except FormatError as error:
+        raise FormatError(f"{one_line(path)}: {error}") from None
 
 
 def _place(start: Point | Sequence[object] | None) -> tuple[fmpq, fmpq] | None:

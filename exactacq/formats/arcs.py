@@ -1,8 +1,8 @@
 """Arcs given by centre, radius and angles in degrees, as edges with rational ends and a rational bulge.
 
-The ends of such an arc are irrational as a rule, so an edge near it is chosen: ends rounded to decimals as
-fine as a double resolves, the bulge to the simplest fraction within 2^-50 of its size. The shifts recorded in
-the corners are proven bounds. Ends at multiples of 90 degrees and semicircles are exact.
+The ends of such an arc are irrational as a rule, so an edge near it is chosen: ends rounded to
+decimals as fine as a double resolves, the bulge to the simplest fraction within 2^-50 of its size. The shifts
+recorded in the corners are proven bounds. Ends at multiples of 90 degrees and semicircles are exact.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from flint import fmpq
 
 from exactacq.formats.chains import Corner, root_above
 from exactacq.lengths import Length
-from exactacq.reals import rational
+from exactacq.numerals import rational
 
 DECIMALS = 16
 """Significant decimals kept of computed coordinates, counted from the largest coordinate on the circle."""
@@ -87,9 +87,9 @@ def _first_quadrant(degrees: fmpq) -> tuple[fmpq, fmpq]:
 def cosine_sine(degrees: fmpq) -> tuple[tuple[fmpq, fmpq], fmpq]:
     """Rationals near the cosine and the sine of an angle in degrees, and a bound of either error.
 
-    Multiples of 90 are exact. Otherwise Taylor's series in fixed point for the rest x < pi/2: each term is cut
-    off twice, so its error is e_n <= 2 + e_(n-1) x / n < 4 units, 240 for all `TERMS`, and what follows them
-    (x^60 / 60! < 2^-230) and the error of the angle are below a unit each; 2^8 units cover the sum.
+    Multiples of 90 are exact. Otherwise Taylor's series in fixed point for the rest x < pi/2: each term is
+    cut off twice, so its error is e_n <= 2 + e_(n-1) x / n < 4 units, 240 for all `TERMS`; what follows them
+    (x^60 / 60! < 2^-230) and the error of the angle are below two units each; 2^8 units cover the sum.
     """
     turned = degrees - (degrees / 360).floor() * 360
     quadrant = int((turned / 90).floor())
@@ -101,7 +101,10 @@ def cosine_sine(degrees: fmpq) -> tuple[tuple[fmpq, fmpq], fmpq]:
 
 
 def simplest_between(low: fmpq, high: fmpq) -> fmpq:
-    """The fraction of least denominator in [low, high], 0 <= low <= high (Stern-Brocot by continued fractions)."""
+    """The fraction of least denominator in [low, high], 0 <= low <= high.
+
+    A descent of the Stern-Brocot tree by continued fractions; ValueError for another interval.
+    """
     if low > high or low < 0:
         raise ValueError(f"not an interval of numbers >= 0: [{low}, {high}]")
     terms = []

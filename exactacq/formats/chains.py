@@ -1,10 +1,10 @@
 """Chains of edges on their way from a drawing to loops, with a proven bound of how far each point moved.
 
-An edge from p to q with bulge b is the image of w_b under z -> p + (q - p) z, where w_b runs from 0 to 1 on the
-arc of bulge b. Parametrised as w_b(s) = s / (s + (1 - s) k) with k = exp(2 i atan b), it satisfies
+An edge from p to q with bulge b is the image of w_b under z -> p + (q - p) z, where w_b runs from 0 to 1 on
+the arc of bulge b. Parametrised as w_b(s) = s / (s + (1 - s) k) with k = exp(2 i atan b), it satisfies
 
-    |w_b|, |1 - w_b| <= W(b) = max(1, (1 + b^2) / (2 |b|) for |b| > 1)      (the circle's diameter over the chord)
-    |d w_b / d b| <= 1/2                                                    (attained at s = 1/2, the apex)
+    |w_b|, |1 - w_b| <= W(b) = 1 for |b| <= 1, else (1 + b^2) / (2 |b|)    (the diameter over the chord)
+    |d w_b / d b| <= 1/2                                                   (attained at s = 1/2, the apex)
 
 so moving the ends by d_p and d_q and the bulge by d_b moves no point of the edge by more than
 W(b) (d_p + d_q) + |q - p| |d_b| / 2.
@@ -25,7 +25,7 @@ ZERO = fmpq(0)
 
 @dataclass(slots=True)
 class Corner:
-    """A vertex and the edge that follows; ``shift`` and ``bulge_shift`` bound how far both are from the file's."""
+    """A vertex and the bulge of the edge that follows; the shifts bound how far both are from the file's."""
 
     x: fmpq
     y: fmpq
@@ -43,9 +43,10 @@ class Corner:
 
 @dataclass(slots=True)
 class Chain:
-    """Consecutive edges; the last corner's edge closes the chain if ``closed`` and does not exist otherwise.
+    """Consecutive edges; the last corner's edge closes the chain if ``closed``, else there is none.
 
-    ``order`` is the place of its entity in the file. ``stated``: the corners are numbers of the file, not computed (ends of an ARC); joints prefer those.
+    ``order`` is the place of its entity in the file. ``stated``: the corners are numbers of the file, not
+    computed like the ends of an ARC; joints prefer those.
     """
 
     label: str
@@ -95,11 +96,12 @@ def distance_above(a: Corner, b: Corner) -> fmpq:
 
 
 def root_above(square: fmpq) -> fmpq:
-    """A rational at least the square root of *square* >= 0, at most a billionth of it larger; exact at 0."""
+    """A rational at least the square root of *square* >= 0, at most a billionth of it larger; exact if rational."""
     p, q = int(square.p), int(square.q)
-    if p == 0:
-        return fmpq(0)
-    scale = max(0, 64 - (p * q).bit_length() // 2)
+    root = isqrt(p * q)
+    if root * root == p * q:
+        return fmpq(root, q)
+    scale = max(0, 64 - root.bit_length())
     return fmpq(isqrt((p * q) << (2 * scale)) + 1, q << scale)
 
 

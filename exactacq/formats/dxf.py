@@ -1,9 +1,9 @@
 """DXF drawings: closed loops of the model space become a wall and obstacles.
 
-Read are LWPOLYLINE and POLYLINE with bulges, LINE, ARC and CIRCLE, also inside blocks, as seen from above (z is
-ignored, the mirrored extrusion (0, 0, -1) applied). Units stay the drawing's. A DXF coordinate is a double: its
-value is taken to be the shortest decimal that denotes that double, which is what exporters write. Everything
-that is moved, joined or left out is named in the scene's notes, with proven bounds of the moves.
+Read are LWPOLYLINE and POLYLINE with bulges, LINE, ARC and CIRCLE, also inside blocks, as seen from above (z
+is ignored, the mirrored extrusion (0, 0, -1) applied). Units stay the drawing's. A DXF coordinate is a
+double; its value is taken to be the shortest decimal that denotes that double, which is what exporters write.
+Everything that is moved, joined or left out is named in the scene's notes, with proven bounds of the moves.
 """
 
 from __future__ import annotations
@@ -19,17 +19,18 @@ from exactacq.formats.chains import Chain, scientific_above
 from exactacq.formats.dxf_entities import Drawing, read_drawing
 from exactacq.formats.joints import open_cusps
 from exactacq.formats.nesting import Loops, nest
-from exactacq.formats.source import check_edges
+from exactacq.formats.source import check_edges, one_line
 from exactacq.formats.stitching import Stitched, stitch
 from exactacq.formats.union import unite
+from exactacq.numerals import rational
 from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.scene import Scene
 from exactacq.shapes import Shape
 
 TOLERANCE = fmpq(1, 10**6)
-"""Default tolerance over the drawing's size. Real parts differ at joints by 1e-15 to 1e-7 of their size (doubles
-or six decimals), and their shortest edges are 1e-5 to 1e-3 of it: 1e-6 lies between."""
+"""Default tolerance over the drawing's size. Real parts differ at joints by 1e-15 to 1e-7 of their size
+(doubles, or six decimals), and their shortest edges are 1e-5 to 1e-3 of it: 1e-6 lies between."""
 NAMED = 5
 """How many left out loops a note names."""
 
@@ -38,42 +39,46 @@ def load_dxf(
     path: str | Path,
     start: tuple[fmpq, fmpq] | None,
     layers: Iterable[str] | None = None,
+    *,
     outer: str = "wall",
-    tolerance: fmpq | None = None,
+    tolerance: object = None,
     union: bool = False,
 ) -> Scene:
     """The scene in a DXF drawing.
 
     *start* is required (a drawing has none); *layers* selects by name, all by default. Ends and neighbouring
     vertices within *tolerance* (default `TOLERANCE` times the larger side of the drawing) are joined. The
-    outermost loop around the start is the wall, or dropped (``outer="drop"``: all other loops then stay); loops
-    outside the wall or inside an obstacle are left out. Loops that overlap or touch are refused by the scene, or
-    merged if they are polygons and *union* is set. Raises `FormatError` and `InvalidScene`.
+    outermost loop around the start is the wall, or dropped (``outer="drop"``: all other loops then stay);
+    loops outside the wall or inside an obstacle are left out. Loops that overlap or touch are refused by the
+    scene, or merged if they are polygons and *union* is set. Raises `FormatError` and `InvalidScene`.
     """
+    if outer not in ("wall", "drop"):
+        raise FormatError(f'outer is "wall" or "drop", not {one_line(repr(outer))}')
+    reach = None if tolerance is None else rational(tolerance)
+    if reach is not None and reach < 0:
+        raise FormatError(f"the tolerance is a length of at least 0, not {reach}")
     drawing = read_drawing(path, layers)
-    check_edges(path, sum(chain.edges for chain in drawing.chains) + len(drawing.circles))
+    check_edges(sum(chain.edges for chain in drawing.chains) + len(drawing.circles))
     notes = [*drawing.notes, *_left_out(drawing.dropped)]
     other = f"select other layers of {drawing.layer_list()}" if drawing.layers else "export another drawing"
     if not drawing.chains and not drawing.circles:
-        raise FormatError(f"{path}: nothing to read{_because(notes)}; {other}")
+        raise FormatError(f"nothing to read{_because(notes)}; {other}")
     (x0, y0), (x1, y1) = drawing.extent()
     if start is None:
         raise FormatError(
-            f"{path}: a drawing has no start: give one with --start X,Y (start=(x, y) in Python); "
+            f"a drawing has no start: give one with --start X,Y (start=(x, y) in Python); "
             f"this one spans x {short(x0)} to {short(x1)}, y {short(y0)} to {short(y1)}"
         )
-    if tolerance is None:
-        tolerance = default_tolerance(max(x1 - x0, y1 - y0))
-    stitched = stitch(drawing.chains, tolerance)
-    cusps = sum(open_cusps(loop, tolerance) for loop in stitched.loops)
+    if reach is None:
+        reach = default_tolerance(max(x1 - x0, y1 - y0))
+    stitched = stitch(drawing.chains, reach)
+    cusps = sum(open_cusps(loop, reach) for loop in stitched.loops)
     shapes = _shapes(drawing, stitched)
-    notes += _report(stitched, tolerance, cusps)
+    notes += _report(stitched, reach, cusps)
     if not shapes:
-        raise FormatError(f"{path}: no closed loop{_because(notes)}; give a larger --tolerance, or {other}")
-    try:
-        return _scene(shapes, Point(*start), outer, union, notes, Path(path).stem)
-    except FormatError as error:
-        raise FormatError(f"{path}: {error}") from None
+        raise FormatError(f"no closed loop{_because(notes)}; give a larger --tolerance, or {other}")
+    obstacles, wall = _arranged(shapes, Point(*start), outer, union, notes)
+    return Scene(obstacles, start=start, enclosure=wall, name=Path(path).stem, notes=notes)
 
 
 def default_tolerance(size: fmpq) -> fmpq:
@@ -102,9 +107,10 @@ def _shapes(drawing: Drawing, stitched: Stitched) -> list[Shape]:
     return [shape for _, shape in sorted(placed, key=lambda entry: entry[0])]
 
 
-def _scene(
-    shapes: list[Shape], start: Point, outer: str, union: bool, notes: list[str], name: str
-) -> Scene:
+def _arranged(
+    shapes: list[Shape], start: Point, outer: str, union: bool, notes: list[str]
+) -> tuple[list[Shape], Shape | None]:
+    """The obstacles and the wall; what was left out goes to the notes."""
     loops = Loops(shapes)
     nested = nest(loops, start, outer)
     if nested.dropped is not None:
@@ -122,7 +128,7 @@ def _scene(
             notes += merged.notes
             notes += _named("outside the free place left out", kept, nested.outside)
             notes += _named("inside a union left out (the robot cannot see them)", kept, nested.hidden)
-    return Scene(obstacles, start=start, enclosure=wall, name=name, notes=notes)
+    return obstacles, wall
 
 
 # -- what the notes say ----------------------------------------------------------------------------
@@ -134,11 +140,16 @@ def _report(stitched: Stitched, tolerance: fmpq, cusps: int) -> list[str]:
     notes = []
     if stitched.joined:
         far = scientific_above(stitched.largest)
-        notes.append(f"joined {count(stitched.joined, 'end')} within {short(tolerance)}; the largest move is below {far}")
+        ends = count(stitched.joined, "end")
+        also = ", open chains included" if stitched.open_chains else ""
+        notes.append(f"joined {ends} within {short(tolerance)}{also}; the largest move is at most {far}")
     if moved:
-        notes.append(f"no point of any loop moved by more than {scientific_above(moved)} (arcs made rational, ends joined)")
+        far = scientific_above(moved)
+        notes.append(f"no point of any loop moved by more than {far} (arcs made rational, ends joined)")
     if cusps:
-        notes.append(f"changed the bulge at {count(cusps, 'cusp')} that rounding had made cross, within that bound")
+        notes.append(
+            f"changed a bulge at {count(cusps, 'cusp')} that rounding had made cross, within that bound"
+        )
     if stitched.short_edges:
         notes.append(f"took out {count(stitched.short_edges, 'edge')} not longer than {short(tolerance)}")
     if stitched.duplicates:

@@ -18,21 +18,23 @@ from exactacq.errors import FormatError
 from exactacq.formats.arcs import arc_corners
 from exactacq.formats.chains import Chain, Corner
 from exactacq.formats.source import MAX_EDGES, one_line, read_bytes
-from exactacq.reals import rational
+from exactacq.numerals import rational
 from exactacq.shapes import Circle
 
 MAX_ENTITIES = 2 * MAX_EDGES
-"""Most entities and vertices of a file: ezdxf takes about 2 KB for each, and they are counted before it starts."""
+"""Most entities and vertices of a file, counted before ezdxf starts: it takes about 2 KB for each."""
+MAX_LINES = 20 * MAX_EDGES
+"""Most lines of a file, two for each value: ezdxf takes 7 microseconds and 100 bytes for each."""
 MAX_DEPTH = 16
 """Deepest nesting of blocks that is followed; drawings have two or three levels, a loop has no end."""
 BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
 _OPENING = re.compile(rb"(?:\xef\xbb\xbf)?\s*(?:999[ \t]*\r?\n[^\n]*\n\s*)*0[ \t]*\r?\n[ \t]*SECTION\s")
-_ENTITY = re.compile(rb"\n[ \t]*0[ \t]*\r?\n")
+_ENTITY = re.compile(rb"\n[ \t]*0[ \t]*\r?\n[ \t]*[A-Z]")
 
 
 @dataclass(slots=True)
 class Drawing:
-    """What a drawing holds: open and closed chains, circles (with their place in the file), and the rest by name."""
+    """What a drawing holds: chains, circles (each with its place in the file), and the rest by name."""
 
     path: Path
     chains: list[Chain] = field(default_factory=list)
@@ -71,19 +73,19 @@ def read_drawing(path: str | Path, layers: Iterable[str] | None) -> Drawing:
     selected = None if layers is None else _Layers(layers)
     count = 0
     try:
-        for entity, layer, depth in _entities(document.modelspace(), drawing):
+        for entity, layer in _entities(document.modelspace(), drawing):
             count += 1
             if count > MAX_ENTITIES:
                 raise FormatError(f"its blocks expand to more than {MAX_ENTITIES} entities; export one part")
             drawing.layers[layer] += 1
             if selected is None or selected.take(layer):
-                _Reader(drawing, count, depth > 0).read(entity)
-    except FormatError as error:
-        raise FormatError(f"{path}: {error}") from None
+                _Reader(drawing, count).read(entity)
+    except FormatError:
+        raise
     except Exception as error:  # ezdxf reads lazily: a damaged entity shows only here, in many ways
-        raise FormatError(f"{path}: a damaged entity ({one_line(error)}); save or export it again") from None
+        raise FormatError(f"a damaged entity ({one_line(error)}); save or export it again") from None
     if selected is not None and (missing := selected.missing()):
-        raise FormatError(f"{path}: no layer {one_line(repr(missing[0]))}; it has {drawing.layer_list()}")
+        raise FormatError(f"no layer {one_line(repr(missing[0]))}; it has {drawing.layer_list()}")
     return drawing
 
 
@@ -105,28 +107,34 @@ class _Layers:
 def _open(path: str | Path, drawing: Drawing) -> Any:
     data = read_bytes(path)
     if not data.startswith(BINARY) and not _OPENING.match(data):
-        raise FormatError(f"{path}: not a DXF file (no SECTION at its beginning); export the drawing as DXF")
+        raise FormatError("not a DXF file (no SECTION at its beginning); export the drawing as DXF")
     if not data.rstrip(b" \t\r\n\x00\x1a").endswith(b"EOF"):
-        raise FormatError(f"{path}: the DXF file is truncated (no EOF at its end); export the drawing again")
-    entities = data.count(b"\x00\x00LINE\x00") if data.startswith(BINARY) else len(_ENTITY.findall(data))
-    if entities > MAX_ENTITIES:
-        raise FormatError(f"{path}: {entities} entities are more than the {MAX_ENTITIES} that are read; export one part")
+        raise FormatError("the DXF file is truncated (no EOF at its end); export the drawing again")
+    if data.startswith(BINARY):
+        lines, entities = len(data) // 8, 0
+    else:
+        lines, entities = data.count(b"\n"), sum(1 for _ in _ENTITY.finditer(data))
+    for number, most, what in ((entities, MAX_ENTITIES, "entities"), (lines, MAX_LINES, "lines")):
+        if number > most:
+            raise FormatError(f"{number} {what} are more than the {most} that are read; export one part")
     del data
     try:
         try:
             return ezdxf.readfile(path)
         except ezdxf.DXFStructureError:
             document, auditor = recover.readfile(path)
+            mended, left = len(auditor.fixes), len(auditor.errors)
             drawing.notes.append(
-                f"the file is damaged: {len(auditor.fixes)} flaws were mended and {len(auditor.errors)} not on reading"
+                f"the file is damaged: {mended} flaws were mended on reading, {left} were not"
             )
             return document
-    except Exception as error:  # ezdxf raises what its parsers meet: ValueError, IndexError, struct.error, ...
-        raise FormatError(f"{path}: not a readable DXF file ({one_line(error)}); export the drawing again") from None
+    except Exception as error:  # ezdxf raises what its parsers meet: ValueError, IndexError, struct.error
+        reason = one_line(error)
+        raise FormatError(f"not a readable DXF file ({reason}); export the drawing again") from None
 
 
-def _entities(layout: Iterable[Any], drawing: Drawing) -> Iterator[tuple[Any, str, int]]:
-    """(entity, layer, depth), blocks expanded; layer "0" in a block is the layer of its reference."""
+def _entities(layout: Iterable[Any], drawing: Drawing) -> Iterator[tuple[Any, str]]:
+    """(entity, layer), blocks expanded; layer "0" in a block is the layer of its reference."""
     expanded = 0
     stack: list[tuple[Iterator[Any], str | None, int]] = [(iter(layout), None, 0)]
     while stack:
@@ -138,7 +146,7 @@ def _entities(layout: Iterable[Any], drawing: Drawing) -> Iterator[tuple[Any, st
         layer = str(entity.dxf.get("layer", "0"))
         layer = outer if outer is not None and layer == "0" else layer
         if entity.dxftype() != "INSERT":
-            yield entity, layer, depth
+            yield entity, layer
         elif depth >= MAX_DEPTH:
             raise FormatError(f"blocks are nested more than {MAX_DEPTH} deep (one in itself?); explode them")
         else:
@@ -150,14 +158,16 @@ def _entities(layout: Iterable[Any], drawing: Drawing) -> Iterator[tuple[Any, st
             content = chain.from_iterable(c.virtual_entities(skipped_entity_callback=skipped) for c in copies)
             stack.append((content, layer, depth + 1))
     if expanded:
-        drawing.notes.append(f"expanded {expanded} block references, which places their content in double precision")
+        drawing.notes.append(
+            f"expanded {expanded} block references; their content is placed in double precision"
+        )
 
 
 class _Reader:
     """One entity into the drawing."""
 
-    def __init__(self, drawing: Drawing, order: int, in_block: bool) -> None:
-        self.drawing, self.order, self.in_block = drawing, order, in_block
+    def __init__(self, drawing: Drawing, order: int) -> None:
+        self.drawing, self.order = drawing, order
 
     def read(self, entity: Any) -> None:
         kind = entity.dxftype()
@@ -174,7 +184,7 @@ class _Reader:
 
     def _label(self, entity: Any) -> str:
         handle = entity.dxf.get("handle")
-        return f"{entity.dxftype()} {handle}" if handle else f"{entity.dxftype()} no. {self.order} (in a block)"
+        return f"{entity.dxftype()} {handle}" if handle else f"{entity.dxftype()} no. {self.order}"
 
     def _add(self, entity: Any, corners: list[Corner], closed: bool = False, stated: bool = True) -> None:
         self.drawing.chains.append(Chain(self._label(entity), corners, self.order, closed, stated))

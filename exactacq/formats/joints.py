@@ -1,8 +1,8 @@
 """Joints that rounding made cross: where two edges leave a corner in (almost) one direction.
 
 At a smooth joint the edges leave in opposite directions, and a rounding error tilts them without a second
-contact: near the joint each stays on its own side. At a cusp, where both leave in one direction, a tilt of the
-wrong sign makes them meet again close by. There the rounded bulge of an arc is moved to the safe side.
+contact: near the joint each stays on its own side. At a cusp, where both leave in one direction, a tilt of
+the wrong sign makes them meet again close by. There the rounded bulge of an arc is moved to the safe side.
 """
 
 from __future__ import annotations
@@ -17,14 +17,15 @@ from exactacq.points import Point, distance_sq
 CUSP_SINE_SQ = fmpq(1, 10**6)
 """Squared sine of the angle between two edges below which a second contact near the joint is looked for."""
 FIRST_STEP = fmpq(1, 2**50)
-"""First change of a bulge, relative to it: what choosing the bulge may have moved it by. Doubled on failure."""
+"""First change of a bulge, relative to it: as much as rounding may have moved it. Doubled on failure."""
 
 
 def open_cusps(loop: Chain, tolerance: fmpq) -> int:
     """Alter bulges of computed arcs so that no cusp's edges meet again within the tolerance; how many were.
 
-    A joint that cannot be mended by a move within the tolerance stays as it is, for the scene to refuse. The
-    move of each bulge is added to its ``bulge_shift``. Linear in the edges.
+    An arc is computed if its bulge or an end is not the file's. A joint that cannot be mended by a move within
+    the tolerance stays as it is, for the scene to refuse. The move of each bulge is added to its
+    ``bulge_shift``. Linear in the edges.
     """
     return sum(_open_cusp(loop, i, tolerance) for i in range(len(loop.corners)))
 
@@ -37,7 +38,8 @@ def _open_cusp(loop: Chain, i: int, tolerance: fmpq) -> bool:
         corner = loop.corners[k]
         bulge, reach = corner.bulge, distance_above(corner, loop.corners[(k + 1) % n])
         step = abs(bulge) * FIRST_STEP
-        while corner.bulge_shift and reach * step / 2 <= tolerance:
+        computed = bool(bulge and (corner.bulge_shift or corner.shift or loop.corners[(k + 1) % n].shift))
+        while computed and reach * step / 2 <= tolerance:
             for change in (step, -step):
                 corner.bulge = bulge + change
                 if not any(_meet_again(loop, j % n, tolerance) for j in (k, k + 1)):

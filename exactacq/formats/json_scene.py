@@ -15,7 +15,7 @@ from flint import fmpq
 
 from exactacq.errors import FormatError
 from exactacq.formats.source import MAX_EDGES, check_edges, one_line, read_bytes
-from exactacq.reals import rational
+from exactacq.numerals import rational
 from exactacq.scene import Scene
 from exactacq.shapes import Circle, Outline, Polygon, Shape, Terrain
 
@@ -39,7 +39,7 @@ def load_json(path: str | Path, start: tuple[fmpq, fmpq] | None = None) -> Scene
     """
     data = read_bytes(path)
     if data.count(b",") > MAX_COMMAS:
-        raise FormatError(f"{path}: more than {MAX_EDGES} edges; give a smaller scene")
+        raise FormatError(f"more than {MAX_EDGES} edges; give a smaller scene")
     try:
         document = json.loads(
             data.decode("utf-8-sig"),
@@ -49,19 +49,14 @@ def load_json(path: str | Path, start: tuple[fmpq, fmpq] | None = None) -> Scene
             object_pairs_hook=_object,
         )
     except UnicodeDecodeError as error:
-        raise FormatError(f"{path}: byte {error.start} is not UTF-8; save the file as UTF-8 JSON") from None
+        raise FormatError(f"byte {error.start} is not UTF-8; save the file as UTF-8 JSON") from None
     except json.JSONDecodeError as error:
         place = f"line {error.lineno}, column {error.colno}"
-        raise FormatError(f"{path}: {place}: not JSON ({one_line(error.msg)}); correct the file") from None
+        raise FormatError(f"{place}: not JSON ({one_line(error.msg)}); correct the file") from None
     except RecursionError:
-        raise FormatError(f"{path}: nested too deeply; a scene has five levels") from None
-    except FormatError as error:
-        raise FormatError(f"{path}: {error}") from None
-    try:
-        parts = _scene_parts(document)
-    except FormatError as error:
-        raise FormatError(f"{path}: {error}") from None
-    check_edges(path, sum(_edge_count(s) for s in (*parts["obstacles"], parts["enclosure"])))
+        raise FormatError("nested too deeply; a scene has five levels") from None
+    parts = _scene_parts(document)
+    check_edges(sum(_edge_count(s) for s in (*parts["obstacles"], parts["enclosure"])))
     if start is not None:
         parts["start"] = start
     return Scene(**parts)
@@ -178,7 +173,7 @@ def _number(value: Any, place: str) -> fmpq:
     try:
         return rational(str(value))
     except FormatError as error:
-        raise FormatError(f"{place}: {one_line(error)}; write an integer, a decimal or \"p/q\"") from None
+        raise FormatError(f'{place}: {one_line(error)}; write an integer, a decimal or "p/q"') from None
 
 
 def _numbers(value: Any, place: str, counts: tuple[int, ...]) -> tuple[fmpq, ...]:
@@ -211,5 +206,6 @@ def _keys(value: Any, place: str, known: Iterable[str], required: Iterable[str] 
 
 
 def _refuse(place: str, needed: str, value: Any) -> NoReturn:
-    kinds = {dict: "an object", list: "a list", bool: "true or false", type(None): "null", _Literal: "a number"}
-    raise FormatError(f"{place}: {needed} is needed, not {kinds.get(type(value), 'a text')}")
+    kinds: dict[type, str] = {dict: "an object", list: "a list", bool: "true or false", _Literal: "a number"}
+    found = "null" if value is None else kinds.get(type(value), "a text")
+    raise FormatError(f"{place}: {needed} is needed, not {found}")

@@ -59,7 +59,7 @@ class Loops:
             candidates += int(other.sum())
             if candidates > MAX_CANDIDATES:
                 raise FormatError(
-                    f"the loops overlap in more than {MAX_CANDIDATES} places; select layers that hold one part"
+                    f"more than {MAX_CANDIDATES} pairs of edges overlap; select layers that hold one part"
                 )
             for a, b in zip(first[other].tolist(), second[other].tolist(), strict=True):
                 pair = tuple(sorted((int(owner[a]), int(owner[b]))))
@@ -84,7 +84,8 @@ class Loops:
         wider = (h[:, 0] <= x0) & (h[:, 1] <= y0) & (h[:, 2] >= x1) & (h[:, 3] >= y1)
         point = self.edges[i][0].start
         return [
-            j for j in np.flatnonzero(wider).tolist()
+            j
+            for j in np.flatnonzero(wider).tolist()
             if j != i and not self.meet(i, j) and self._winds(j, point)
         ]
 
@@ -117,10 +118,11 @@ class Nested:
 def nest(loops: Loops, start: Point, outer: str = "wall", wall: int | None = None) -> Nested:
     """Sort loops into wall, obstacles, those outside the wall and those hidden inside an obstacle.
 
-    The outermost loop that winds round the start becomes the wall, or is dropped with ``outer="drop"``; it is an
-    obstacle like others with ``outer="keep"``, and if *wall* names the wall. A start on a loop is not inside it. A loop counts as outside or hidden only if it has no point in common with
-    the loop that separates it: what crosses or touches stays, for the scene to refuse. Near linear in the edges,
-    quadratic (one numpy comparison a loop) in the loops.
+    The outermost loop that winds round the start becomes the wall, or is dropped with ``outer="drop"``; it is
+    an obstacle like others with ``outer="keep"``, and if *wall* names the wall. A start on a loop is not
+    inside it. A loop counts as outside or hidden only if it has no point in common with the loop that
+    separates it: what crosses or touches stays, for the scene to refuse. Near linear in the edges, quadratic
+    (one numpy comparison a loop) in the loops.
     """
     remaining = list(range(len(loops.shapes)))
     outcome = Nested([], wall)

@@ -1,4 +1,4 @@
-"""Reading a file's bytes within limits, and the words for what is wrong with it."""
+"""Reading a file's bytes within limits. The messages name no file: `exactacq.formats.load` puts it first."""
 
 from __future__ import annotations
 
@@ -17,28 +17,28 @@ MAX_EDGES = 200_000
 def read_bytes(path: str | os.PathLike[str]) -> bytes:
     """The whole content of a regular, not empty file of at most `MAX_BYTES`; `FormatError` otherwise.
 
-    The size is checked before anything is read, so that neither noise nor a device costs memory.
+    Kind and size are checked before anything is opened, so neither noise nor a device costs time or memory.
     """
     try:
+        status = os.stat(path)
+        if stat.S_ISDIR(status.st_mode):
+            raise FormatError("this is a directory; give a .json or .dxf file in it")
+        if not stat.S_ISREG(status.st_mode):
+            raise FormatError("not a regular file; give a .json or .dxf file")
+        if status.st_size > MAX_BYTES:
+            size = f"{status.st_size >> 20} MB is more than the {MAX_BYTES >> 20} MB that are read"
+            raise FormatError(f"{size}; export only the part that matters")
         with Path(path).open("rb") as file:
-            status = os.fstat(file.fileno())
-            if not stat.S_ISREG(status.st_mode):
-                raise FormatError(f"{path}: not a regular file; give a .json or .dxf file")
-            if status.st_size > MAX_BYTES:
-                raise FormatError(
-                    f"{path}: {status.st_size >> 20} MB is more than the {MAX_BYTES >> 20} MB that are read; "
-                    "export only the part that matters"
-                )
             data = file.read(MAX_BYTES + 1)
+    except FormatError:
+        raise
     except FileNotFoundError:
-        raise FormatError(f"{path}: no such file; check the name") from None
-    except IsADirectoryError:
-        raise FormatError(f"{path}: this is a directory; give a .json or .dxf file in it") from None
+        raise FormatError("no such file; check the name") from None
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or one_line(error)
-        raise FormatError(f"{str(path)!r}: cannot be read ({reason}); check the name and its rights") from None
+        raise FormatError(f"cannot be read ({reason}); check its name and rights") from None
     if not data.strip():
-        raise FormatError(f"{path}: the file is empty; save or export it again")
+        raise FormatError("the file is empty; save or export it again")
     return data
 
 
@@ -48,10 +48,8 @@ def one_line(error: object) -> str:
     return " ".join(text.split())[:160] or type(error).__name__
 
 
-def check_edges(path: object, count: int) -> None:
+def check_edges(count: int) -> None:
     """`FormatError` if a scene would have more than `MAX_EDGES` edges."""
     if count > MAX_EDGES:
-        raise FormatError(
-            f"{path}: {count} edges are more than the {MAX_EDGES} that are taken; "
-            "select layers or export only the part that matters"
-        )
+        most = f"{count} edges are more than the {MAX_EDGES} that are taken"
+        raise FormatError(f"{most}; select layers or export only the part that matters")

@@ -1,8 +1,8 @@
 """Loose pieces become closed loops: ends within the tolerance are joined, what stays open is left out.
 
 Ends are clustered exactly (a grid of cells as wide as the tolerance proposes, squared distances decide). A
-cluster of two ends is a joint; three or more ends make a branch point, where no loop is traced through: a path
-that leaves a branch point and comes back to it is a loop, any other path that ends at one is open.
+cluster of two ends is a joint; three or more ends make a branch point, where no loop is traced through: a
+path that leaves a branch point and comes back to it is a loop, any other path that ends at one is open.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class Stitched:
 
 
 def stitch(chains: Iterable[Chain], tolerance: fmpq) -> Stitched:
-    """Join *chains* (which are altered) into loops; near linear in the edges, for a tolerance below their size."""
+    """Join *chains* (which are altered) into loops; near linear in the edges if they exceed the tolerance."""
     done = Stitched()
     pieces: list[Chain] = []
     loops: dict[int, Chain] = {}
@@ -106,7 +106,7 @@ def _drop_short_edges(chain: Chain, tolerance: fmpq, done: Stitched) -> None:
 
 def _is_short(start: Corner, end: Corner, tolerance: fmpq) -> bool:
     equal = start.x == end.x and start.y == end.y
-    return equal or (abs(start.bulge) <= 1 and distance_above(start, end) <= tolerance)
+    return bool(equal or (abs(start.bulge) <= 1 and distance_above(start, end) <= tolerance))
 
 
 def _merge_corners(kept: Corner, corner: Corner, done: Stitched) -> None:

@@ -44,8 +44,8 @@ def unite(shapes: list[Shape], wall: Shape | None, start: Point) -> Merged:
 
     What the wall and the obstacles that meet it leave free around the start becomes the new wall; so does a
     hole of a union that holds the start; other holes are filled, for the robot cannot see them. Raises
-    `FormatError` if a group of meeting loops holds an arc or has no common grid, or the start is in none of its
-    free places, and `InvalidScene` if one of its polygons crosses itself.
+    `FormatError` if a group of meeting loops holds an arc or has no common grid, or the start is in none of
+    its free places, and `InvalidScene` if one of its polygons crosses itself.
     """
     every = [*([] if wall is None else [wall]), *shapes]
     merged = Merged([], wall)
@@ -84,7 +84,7 @@ def _merge(members: list[Shape], walled: bool, start: Point, merged: Merged) -> 
     names = ", ".join(repr(member.name) if member.name else "an unnamed loop" for member in members)
     polygons = [m for m in members if not isinstance(m, Circle) and not any(b for _, _, b in m.vertices)]
     if len(polygons) < len(members):
-        raise FormatError(f"no union of {names}: arcs are involved and only polygons are merged; edit the drawing")
+        raise FormatError(f"no union of {names}: it has arcs and only polygons are merged; edit the drawing")
     for polygon in polygons:
         Scene([polygon])
     grid = _Grid(polygons, names)
@@ -93,7 +93,7 @@ def _merge(members: list[Shape], walled: bool, start: Point, merged: Merged) -> 
     name = f"union of {names}"
     room = next((node for node in rooms if _inside(grid.polygon(node.Contour), start)), None)
     if walled and room is None:
-        raise FormatError(f"no union of {names}: the start is not in what it leaves free; choose another start")
+        raise FormatError(f"no union of {names}: the start is not in what it leaves free; choose another")
     merged.notes.append(f"merged {names} into their exact union")
     if room is not None:
         wall = grid.polygon(room.Contour, name)
@@ -104,7 +104,7 @@ def _merge(members: list[Shape], walled: bool, start: Point, merged: Merged) -> 
         merged.obstacles += [grid.polygon(node.Contour, name) for node in tree.Childs]
     closed = len(rooms) - (room is not None)
     if closed:
-        merged.notes.append(f"{closed} free places closed in by {name} are left out: the robot cannot see them")
+        merged.notes.append(f"left out {closed} free places closed in by {name} (the robot cannot see them)")
 
 
 def _regions(node: Any, hole: bool) -> Iterator[Any]:
@@ -143,7 +143,7 @@ class _Grid:
 
     def _refuse(self) -> None:
         raise FormatError(
-            f"no union of {self.names}: their vertices and crossings have no common grid of {GRID_BITS} bits; "
+            f"no union of {self.names}: vertices and crossings have no common grid of {GRID_BITS} bits; "
             "round the coordinates or edit the drawing"
         )
 
@@ -162,9 +162,11 @@ class _Grid:
         paths = [self._path(polygon) for polygon in self.polygons]
         fill = pyclipper.PFT_NONZERO
         try:
-            clipper.AddPaths(paths[1:] if walled else paths, pyclipper.PT_CLIP if walled else pyclipper.PT_SUBJECT)
             if walled:
                 clipper.AddPath(paths[0], pyclipper.PT_SUBJECT)
+                clipper.AddPaths(paths[1:], pyclipper.PT_CLIP)
+            else:
+                clipper.AddPaths(paths, pyclipper.PT_SUBJECT)
             kind = pyclipper.CT_DIFFERENCE if walled else pyclipper.CT_UNION
             return clipper.Execute2(kind, fill, fill)
         except pyclipper.ClipperException as error:

@@ -253,7 +253,10 @@ class _Sweep:
 
     def _meets(self, middles: list[fmpq]) -> Iterator[tuple[int | None, int | None]]:
         """First edge behind and ahead at each of the rational parameters."""
-        step = max(1, CHUNK // max(1, len(self.edges)))
+        if not len(self.edges):
+            yield from ((None, None) for _ in middles)
+            return
+        step = max(1, CHUNK // len(self.edges))
         for k in range(0, len(middles), step):
             yield from self._meet_chunk(middles[k : k + step])
 

@@ -1,0 +1,483 @@
+"""Figures of scenes and runs: exact curves drawn as curves, the path coloured by time.
+
+What is drawn lies where it is: pieces walked again are drawn on top of the earlier ones as narrower lines,
+not beside them. Every figure is laid out in inches so that nothing covers the drawing, whatever its shape.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+import os
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import LineCollection, PathCollection
+from matplotlib.colors import ListedColormap, Normalize
+from matplotlib.figure import Figure
+from matplotlib.legend_handler import HandlerTuple
+from matplotlib.lines import Line2D
+from matplotlib.markers import MarkerStyle
+from matplotlib.patches import Circle as Disc
+from matplotlib.patches import Patch, PathPatch, Rectangle
+from matplotlib.path import Path as Outline
+from matplotlib.patheffects import withStroke
+from matplotlib.transforms import Affine2D
+
+from exactacq.errors import FormatError
+from exactacq.lengths import Length
+from exactacq.output import check_output, write_whole
+from exactacq.scene import Obstacle, Scene
+from exactacq.strokes import Region, Stroke, clearance
+from exactacq.trace import Run
+from exactacq.vision.table import Floats
+
+SUFFIXES = (".svg", ".pdf", ".png")
+"""File types that `save` writes."""
+
+CLOSED_FORM = 40
+"""Closed forms of at most this many characters are shown in the title."""
+
+WIDEST, TALLEST, NARROWEST = 7.2, 6.8, 1.2
+"""Inches: the drawing fits a box of WIDEST x TALLEST, and a thin scene is given NARROWEST."""
+COLOURS = 160
+"""Steps of the colour scale along the path."""
+BUSY = 120
+"""Scenes of more obstacles show only the labels that fit into their obstacles."""
+DOTS = 200
+"""Resolution of PNG files in dots per inch."""
+
+INK, SOFT, PAPER = "#22262b", "#70767d", "#ffffff"
+FILL, EDGE = "#dcd7cd", "#8a8377"
+VIEW, TREE, HIT = "#3b7dd8", "#f6b64b", "#d6273d"
+ARROWHEAD = Outline([(-0.75, -0.62), (1, 0), (-0.75, 0.62), (-0.4, 0), (-0.75, -0.62)], closed=True)
+STYLES: dict[str, dict[str, Any]] = {
+    "obstacle": {"facecolor": FILL, "edgecolor": EDGE, "linewidth": 0.8},
+    "seen, never visited": {
+        "facecolor": "#f4e3dc", "edgecolor": "#b3502e", "linewidth": 0.8, "linestyle": "--", "hatch": "////",
+    },
+    "never seen": {"facecolor": PAPER, "edgecolor": "#b3502e", "linewidth": 0.9, "linestyle": ":"},
+}  # fmt: skip
+
+
+def figure(subject: Run | Scene) -> Figure:
+    """A figure of a run, or of a scene alone.
+
+    Shows obstacles with the order of visits (in a scene alone: their names or numbers), the path coloured by
+    its length so far, hit and leave points, tree links, start S, end T, and the radius of vision R once. Raises
+    `FormatError` if the coordinates are beyond floating point.
+    """
+    return _Drawing(subject).figure()
+
+
+def svg(subject: Run | Scene) -> str:
+    """The figure as SVG text; the same subject always gives the same text."""
+    return _rendered(subject, ".svg").decode()
+
+
+def save(subject: Run | Scene, path: str | os.PathLike[str]) -> None:
+    """Write the figure to a .svg, .pdf or .png file, whole or not at all.
+
+    Raises `FormatError` for another suffix or a place that cannot be written, before anything is drawn.
+    """
+    target = check_output(path, SUFFIXES)
+    write_whole(target, _rendered(subject, target.suffix.lower()))
+
+
+def short_form(length: Length, limit: int = CLOSED_FORM) -> str:
+    """The closed form if it has at most *limit* characters, else the decimal value to 12 digits."""
+    closed = str(length)
+    return closed if len(closed) <= limit else f"≈ {length.decimal(12)}"
+
+
+def _rendered(subject: Run | Scene, suffix: str) -> bytes:
+    """The figure as a file's content, without dates or random names: equal subjects give equal bytes."""
+    metadata = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}, ".png": {"Software": None}}
+    out = io.BytesIO()
+    with mpl.rc_context({"svg.hashsalt": "exactacq", "hatch.linewidth": 0.5}):
+        figure(subject).savefig(out, format=suffix[1:], metadata=metadata[suffix], dpi=DOTS)
+    return out.getvalue()
+
+
+def _counted(count: int) -> str:
+    return f"{count} obstacle" + "s" * (count != 1)
+
+
+class _Drawing:
+    """One figure in the making; lengths in points and inches follow from the scene's size."""
+
+    def __init__(self, subject: Run | Scene) -> None:
+        self.run = subject if isinstance(subject, Run) else None
+        self.scene = scene = subject.scene if isinstance(subject, Run) else subject
+        start = self.run.start if self.run is not None else scene.start
+        radius = self.run.radius if self.run is not None else scene.radius
+        try:
+            self.regions = [Region.of(o) for o in scene.obstacles]
+            self.strokes = [Stroke.of(p.curve) for p in self.run.path] if self.run is not None else []
+            self.start = None if start is None else start.xy
+            self.radius = None if radius is None else float(radius)
+            self.low, self.high = self._view()
+        except (OverflowError, ValueError):
+            raise FormatError("the coordinates are too large to be drawn; scale the scene down") from None
+        self.scale = min(WIDEST / self.width, TALLEST / self.height)
+        self.labels: list[tuple[float, float]] = []
+        self.legend: dict[str, Any] = {}
+
+    # -- layout ------------------------------------------------------------------------------------
+
+    def _view(self) -> tuple[Floats, Floats]:
+        """The drawn rectangle: everything there is, a margin, and no side shorter than NARROWEST inches."""
+        corners = [corner for region in self.regions for corner in region.box]
+        corners += [np.array(self.start)] if self.start is not None else []
+        if (terrain := self.scene.terrain) is not None:
+            corners += [np.zeros(2), np.array([float(terrain.width), float(terrain.height)])]
+        corners = corners or [np.zeros(2)]
+        low, high = np.min(corners, axis=0), np.max(corners, axis=0)
+        size = float(np.max(high - low)) or 2 * (self.radius or 1.0)
+        if not np.isfinite(size * 100):
+            raise OverflowError
+        margin = size * (0.07 if self.scene.enclosure is not None else 0.05)
+        low, high = low - margin, high + margin
+        least = (size + 2 * margin) * NARROWEST / WIDEST
+        lack = np.maximum(least - (high - low), 0) / 2
+        return low - lack, high + lack
+
+    @property
+    def width(self) -> float:
+        """Width of the view in the scene's unit."""
+        return float(self.high[0] - self.low[0])
+
+    @property
+    def height(self) -> float:
+        """Height of the view in the scene's unit."""
+        return float(self.high[1] - self.low[1])
+
+    def points(self, length: float) -> float:
+        """A length of the scene in typographic points."""
+        return length * self.scale * 72
+
+    def figure(self) -> Figure:
+        """The finished figure."""
+        wide, high = self.width * self.scale, self.height * self.scale
+        full = max(wide + 1.1, 6.2)
+        columns = max(1, int((full - 0.4) / 1.62))
+        figure = Figure()
+        FigureCanvasAgg(figure)
+        self.axes = axes = figure.add_axes((0, 0, 1, 1))
+        axes.set_xlim(self.low[0], self.high[0])
+        axes.set_ylim(self.low[1], self.high[1])
+        self._ground()
+        self._obstacles()
+        collection = self._path()
+        self._marks()
+        self._numbers()
+        self._ends()
+        self._range()
+        rows = math.ceil(len(self.legend) / columns)
+        below = 0.12 + 0.19 * rows + (0.58 if collection is not None else 0.0)
+        title = self._title()
+        bottom, top = below + 0.3, 0.22 + 0.24 * len(title)
+        total = bottom + high + top
+        figure.set_size_inches(full, total)
+        left = (full - wide) / 2 + (0.12 if wide + 1.1 >= full else 0)
+        axes.set_position((left / full, bottom / total, wide / full, high / total))
+        self._dress(axes)
+        for k, line in enumerate(title):
+            size, colour = ((12, INK), (9.5, SOFT), (9.5, "#b3502e"))[k]
+            place = 1 - (0.24 + 0.24 * k) / total
+            figure.text(0.5, place, line, ha="center", va="center", size=size, color=colour, parse_math=False)
+        if collection is not None:
+            length = min(full - 1.2, 5.0)
+            spot = ((full - length) / 2 / full, (below - 0.12) / total, length / full, 0.09 / total)
+            bar = figure.colorbar(collection, cax=figure.add_axes(spot), orientation="horizontal")
+            bar.set_label("path length", size=8, color=SOFT, labelpad=1)
+            bar.ax.tick_params(labelsize=7.5, colors=SOFT, length=2, width=0.6)
+            bar.outline.set_visible(False)
+            if bar.solids is not None:  # Curves and text apart, the bar should be sharp at any zoom, too.
+                bar.solids.set_rasterized(False)
+        if self.legend:
+            figure.legend(
+                self.legend.values(), self.legend.keys(), loc="lower center", bbox_to_anchor=(0.5, 0.06 / total),
+                ncol=min(columns, len(self.legend)), frameon=False, fontsize=8, labelcolor=INK, borderpad=0,
+                borderaxespad=0, handlelength=1.8, columnspacing=1.5, labelspacing=0.4,
+                handler_map={tuple: HandlerTuple(ndivide=1)},
+            )  # fmt: skip
+        return figure
+
+    @staticmethod
+    def _dress(axes: Any) -> None:
+        for side in axes.spines.values():
+            side.set(color="#c9ccd0", linewidth=0.6)
+        axes.tick_params(labelsize=7.5, colors=SOFT, length=2.5, width=0.6)
+        axes.ticklabel_format(useOffset=False, style="plain")
+        axes.locator_params(nbins=6, min_n_ticks=2)
+
+    def _title(self) -> list[str]:
+        run, name = self.run, self.scene.name
+        if run is None:
+            count = sum(not o.is_enclosure for o in self.scene.obstacles)
+            room = " in an enclosure" if self.scene.enclosure is not None else ""
+            return [name or "Scene", f"{_counted(count)}{room}"]
+        strategy = {"sightseer": "Sightseer Strategy"}.get(run.strategy, run.strategy)
+        length = short_form(run.length)
+        if not (length.startswith("≈") or length.isdecimal()):
+            length += f" ≈ {run.length.decimal(8)}"
+        visited = f"{len(run.visits)} of {_counted(len(self.scene.obstacles))} visited"
+        lines = [f"{strategy}: {name}" if name else strategy, f"length {length},  {visited}"]
+        missed = ((run.unseen, "never seen"), (run.unvisited, "seen but never visited"))
+        if not run.complete:
+            lines.append(", ".join(f"{len(which)} {what}" for which, what in missed if which))
+        return lines
+
+    # -- the scene ---------------------------------------------------------------------------------
+
+    def _ground(self) -> None:
+        axes, terrain = self.axes, self.scene.terrain
+        axes.set_facecolor("#fdfdfc")
+        if terrain is not None:
+            size = float(terrain.width), float(terrain.height)
+            axes.add_patch(Rectangle((0, 0), *size, fill=False, edgecolor=SOFT, linewidth=0.8, zorder=0.6))
+
+    def _obstacles(self) -> None:
+        for obstacle, region in zip(self.scene.obstacles, self.regions, strict=True):
+            style = STYLES[self._kind(obstacle)]
+            outline = region.outline
+            if obstacle.is_enclosure:
+                outline = Outline.make_compound_path(self._frame(), outline)
+            self.axes.add_patch(PathPatch(outline, zorder=1, joinstyle="round", **style))
+            if style is not STYLES["obstacle"]:
+                self.legend.setdefault(self._kind(obstacle), Patch(**style))
+
+    def _kind(self, obstacle: Obstacle) -> str:
+        if self.run is not None and obstacle.index in self.run.unseen:
+            return "never seen"
+        if self.run is not None and obstacle.index in self.run.unvisited:
+            return "seen, never visited"
+        return "obstacle"
+
+    def _frame(self) -> Outline:
+        """A counterclockwise rectangle beyond the view: the clockwise enclosure is a hole in it."""
+        (x0, y0), (x1, y1) = self.low - (self.high - self.low), self.high + (self.high - self.low)
+        return Outline([(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)], closed=True)
+
+    # -- the path ----------------------------------------------------------------------------------
+
+    @cached_property
+    def line(self) -> float:
+        """Width in points of a piece walked for the first time; less where obstacles are small."""
+        sizes = [self.points(float(np.max(high - low))) for low, high in (r.box for r in self.regions)]
+        return float(np.clip(0.09 * np.median(sizes), 1.2, 3.6)) if sizes else 3.0
+
+    def _path(self) -> PathCollection | None:
+        """The path in steps of one colour, later traversals narrower and above; None if there is none."""
+        total = sum(stroke.length for stroke in self.strokes)
+        if total == 0:
+            return None
+        pieces, times, mids, headings, owners = [], [], [], [], []
+        done = 0.0
+        for number, stroke in enumerate(self.strokes):
+            count = max(1, round(stroke.length / total * COLOURS)) if stroke.length else 0
+            for k in range(count):
+                pieces.append(stroke.part(k / count, (k + 1) / count))
+                middle = (k + 0.5) / count
+                times.append(done + middle * stroke.length)
+                mids.append(stroke.at(middle))
+                headings.append(stroke.heading(middle))
+                owners.append(number)
+            done += stroke.length
+        ranks = self._ranks(np.array(mids), np.array(headings), np.array(owners))
+        widths = self.line * np.array([1.0, 0.5, 0.25])[np.minimum(ranks, 2)]
+        colours = ListedColormap(mpl.colormaps["viridis"](np.linspace(0.0, 0.94, 128)))
+        collection = PathCollection(
+            pieces, facecolors="none", linewidths=widths, cmap=colours, norm=Normalize(0, total), zorder=3,
+            capstyle="round", joinstyle="round",
+        )  # fmt: skip
+        collection.set_array(np.array(times))
+        self.axes.add_collection(collection, autolim=False)
+        self._arrows(collection)
+        if ranks.any():
+            lines = tuple(Line2D([], [], color=colours(t), linewidth=w) for t, w in ((0.15, 3.6), (0.8, 1.6)))
+            self.legend["walked again (inner line)"] = lines
+        return collection
+
+    def _ranks(self, mids: Floats, headings: Floats, owners: Any) -> Any:
+        """How often each step's middle was passed before: by earlier pieces along the same curve."""
+        assert self.run is not None
+        groups: dict[int | None, list[int]] = defaultdict(list)
+        for number, piece in enumerate(self.run.path):
+            groups[piece.obstacle].append(number)
+        ranks = np.zeros(len(owners), dtype=int)
+        tolerance = 1e-7 * max(self.width, self.height)
+        for members in groups.values():
+            steps = np.flatnonzero(np.isin(owners, members))
+            for number in members:
+                later = steps[owners[steps] > number]
+                if len(later):
+                    ranks[later] += self.strokes[number].covers(mids[later], headings[later], tolerance)
+        return ranks
+
+    def _arrows(self, collection: PathCollection) -> None:
+        """Arrowheads on the straight pieces that are long enough; two ways of one link keep apart."""
+        assert self.run is not None
+        size, done = self.line + 4.0, 0.0
+        for piece, stroke in zip(self.run.path, self.strokes, strict=True):
+            room = self.points(stroke.length)
+            if piece.kind == "straight" and room > 3.5 * size:
+                colour = collection.cmap(collection.norm(done + stroke.length / 2))
+                shape = MarkerStyle(ARROWHEAD, transform=Affine2D().rotate(stroke.heading(0)))
+                self.axes.plot(
+                    *stroke.at(0.5 if room < 7 * size else 0.58), marker=shape, markersize=size, linestyle="",
+                    color=colour, mec=PAPER, mew=0.5, zorder=4,
+                )  # fmt: skip
+            done += stroke.length
+
+    def _marks(self) -> None:
+        """Tree links, and the points where they leave and hit."""
+        if self.run is None or not self.run.links:
+            return
+        links = [(link.leave.xy, link.hit.xy) for link in self.run.links]
+        style: dict[str, Any] = {"alpha": 0.55, "linewidths": self.line + 4, "capstyle": "round"}
+        self.axes.add_collection(LineCollection(links, colors=TREE, zorder=2, **style), autolim=False)
+        self.legend["tree link"] = Line2D([], [], color=TREE, alpha=0.55, linewidth=6)
+        leaves = [spot for link, (spot, _) in zip(self.run.links, links, strict=True) if link.source != "S"]
+        size = self.line + 1.4
+        self._dots("leave point", leaves, ms=size + 3, mfc=PAPER, mec=INK, mew=0.9, zorder=4.6)
+        self._dots("hit point", [hit for _, hit in links], ms=size, mfc=HIT, mec=PAPER, mew=0.5, zorder=5)
+
+    def _dots(self, name: str, spots: Sequence[tuple[float, float]], marker: str = "o", **style: Any) -> None:
+        """Marks of one kind, and their entry in the legend."""
+        if spots:
+            self.axes.plot(*zip(*spots, strict=True), linestyle="", marker=marker, **style)
+            style["ms"] = min(7, style["ms"])
+            self.legend[name] = Line2D([], [], linestyle="", marker=marker, **style)
+
+    # -- labels ------------------------------------------------------------------------------------
+
+    @cached_property
+    def ink(self) -> tuple[Floats, Floats]:
+        """Starts and ends of all that labels should keep clear of: boundaries and straight pieces."""
+        starts = [region.points for region in self.regions]
+        ends = [np.roll(region.points, -1, axis=0) for region in self.regions]
+        straight = [stroke for stroke in self.strokes if stroke.center is None]
+        starts += [np.array([stroke.start for stroke in straight]).reshape(-1, 2)]
+        ends += [np.array([stroke.end for stroke in straight]).reshape(-1, 2)]
+        return np.concatenate(starts), np.concatenate(ends)
+
+    def _write(self, place: tuple[float, float], text: str, **style: Any) -> None:
+        self.labels.append(place)
+        settings = {"size": 9, "color": INK, "weight": "bold", "zorder": 6, **style}
+        self.axes.text(
+            *place, text, ha="center", va="center_baseline", parse_math=False, clip_on=True,
+            path_effects=[withStroke(linewidth=2.2, foreground=PAPER)], **settings,
+        )  # fmt: skip
+
+    def _beside(
+        self, place: tuple[float, float], away: float, box: tuple[float, float] = (0.0, 0.0)
+    ) -> tuple[float, float]:
+        """The clearest spot *away* points from a place, or from a box of these half sizes about it.
+
+        Clear of lines, other labels and the border; rather in the open than inside an obstacle.
+        """
+        reach = away / 72 / self.scale
+        turns = np.arange(16) * math.pi / 8
+        rays = np.stack((np.cos(turns), np.sin(turns)), 1)
+        corners = rays / np.abs(rays).max(axis=1, keepdims=True) * np.array(box)
+        spots = np.concatenate([np.array(place) + corners + rays * reach * k for k in (1, 1.3)])
+        starts, ends = self.ink
+        nearest = np.clip(place, np.minimum(starts, ends), np.maximum(starts, ends))
+        near = np.hypot(*(nearest - place).T) < max(box) + 4 * reach
+        room = clearance(spots, starts[near], ends[near])
+        if self.labels:
+            apart = spots[:, None] - np.array(self.labels)
+            room = np.minimum(room, 0.6 * np.hypot(apart[..., 0], apart[..., 1]).min(axis=1))
+        border = np.minimum(spots - self.low, self.high - spots).min(axis=1)
+        room = np.minimum(np.minimum(room, 1.2 * border), 1.5 * reach)
+        room -= 0.02 * reach * np.repeat((0, 1), len(turns)) + 0.6 * reach * self._blocked(spots)
+        best = spots[int(np.argmax(room))]
+        return float(best[0]), float(best[1])
+
+    def _blocked(self, spots: Floats) -> Any:
+        """Which spots lie in an obstacle."""
+        blocked = np.zeros(len(spots), dtype=bool)
+        low, high = spots.min(axis=0), spots.max(axis=0)
+        for obstacle, region in zip(self.scene.obstacles, self.regions, strict=True):
+            least, most = region.box
+            if not obstacle.is_enclosure and (most > low).all() and (least < high).all():
+                blocked |= Outline(region.points).contains_points(spots)
+        return blocked
+
+    def _numbers(self) -> None:
+        """The order of visits, or the names in a scene alone: inside where there is room, else beside."""
+        for index, text in self._texts():
+            region = self.regions[index]
+            if self.scene.obstacles[index].is_enclosure:
+                self._write(self._wall_spot(index), text, size=10)
+                continue
+            place, depth = region.heart()
+            room = self.points(depth) - self.line / 2
+            size = min(10.0, 1.4 * room / (0.35 + 0.4 * max(1.6, len(text))))
+            low, high = region.box
+            if size >= 5.5:
+                self._write(place, text, size=size)
+            elif len(self.regions) <= BUSY:
+                half = (high - low) / 2
+                spot = self._beside(tuple(low + half), 5 + self.line / 2, tuple(half))
+                self._write(spot, text, size=8)
+
+    def _texts(self) -> Iterator[tuple[int, str]]:
+        if self.run is not None:
+            yield from ((index, str(order)) for order, index in enumerate(self.run.visits, 1))
+            return
+        for obstacle in self.scene.obstacles:
+            if not obstacle.is_enclosure:
+                name = obstacle.name or ""
+                yield obstacle.index, name if 0 < len(name) <= 4 else str(obstacle.index + 1)
+
+    def _wall_spot(self, index: int) -> tuple[float, float]:
+        """A place for a label in the wall, near the point where it was first hit."""
+        assert self.run is not None
+        hit = next(link.hit.xy for link in self.run.links if link.target == index)
+        return self._beside(hit, 10 + self.line)
+
+    def _ends(self) -> None:
+        """S and T."""
+        if self.start is not None:
+            self._end(self.start, "S", "s")
+        if self.run is not None and self.strokes:
+            self._end(self.strokes[-1].end, "T", "D")
+
+    def _end(self, place: tuple[float, float], text: str, marker: str) -> None:
+        name = "start S" if text == "S" else "end T"
+        self._dots(name, [place], marker, ms=self.line + 2.6, mfc=INK, mec=PAPER, mew=0.6, zorder=4.8)
+        self._write(self._beside(place, 7 + self.line), text, size=10.5)
+
+    def _range(self) -> None:
+        """The circle of radius R about S, labelled where it is in view; else a word in the legend."""
+        if self.radius is None:
+            return
+        label = f"R = {self.scene.radius if self.run is None else self.run.radius}"
+        label = label if len(label) <= 16 else f"R ≈ {self.radius:.6g}"
+        line: dict[str, Any] = {"linestyle": (0, (5, 4)), "color": VIEW, "linewidth": 0.8}
+        if self.start is None:
+            self.legend[label] = Line2D([], [], **line)
+            return
+        turns = np.arange(72) * math.pi / 36
+        ring = np.array(self.start) + self.radius * np.stack((np.cos(turns), np.sin(turns)), 1)
+        border = np.minimum(ring - self.low, self.high - ring).min(axis=1)
+        if self.points(float(border.max())) < 14:
+            self.legend[f"{label} (beyond the view)"] = Line2D([], [], **line)
+            return
+        self.axes.add_patch(Disc(self.start, self.radius, fill=False, alpha=0.75, zorder=0.8, **line))
+        self.axes.add_patch(Disc(self.start, self.radius, color=VIEW, alpha=0.045, linewidth=0, zorder=0.5))
+        starts, ends = self.ink
+        room = np.minimum(clearance(ring, starts, ends), border * 0.8)
+        if self.labels:
+            apart = ring[:, None] - np.array(self.labels)
+            room = np.minimum(room, np.hypot(apart[..., 0], apart[..., 1]).min(axis=1))
+        best = ring[int(np.argmax(np.minimum(room, 30 / 72 / self.scale)))]
+        self._write((float(best[0]), float(best[1])), label, size=8.5, color=VIEW, weight="normal")

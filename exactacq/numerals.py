@@ -1,0 +1,134 @@
+"""Numbers at the edges of the library: exact parsing of input, certified rounding of output."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from fractions import Fraction
+from typing import TYPE_CHECKING, TypeAlias
+
+from flint import arb, fmpq, fmpz
+
+from exactacq.errors import FormatError
+
+if TYPE_CHECKING:
+    import sympy
+
+MAX_DIGITS = 5000
+"""Longest number, in decimal digits, that is accepted as input: keeps hostile files cheap."""
+
+Enclosing: TypeAlias = Callable[[int], arb]
+"""A value as a function from working bits to an enclosing ball."""
+
+_LITERAL = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,6})?(/\d+)?", re.ASCII)
+
+
+def rational(value: object) -> fmpq:
+    """The rational that *value* denotes: int, Fraction, Decimal, finite float (exactly), or a literal.
+
+    Literals are integers, decimals and ``"p/q"``.  Raises `FormatError` for anything else, for NaN and
+    infinities, and beyond `MAX_DIGITS` digits.
+    """
+    if isinstance(value, fmpq):
+        return value
+    if isinstance(value, bool):
+        raise FormatError(f"not a number: {value!r}")
+    if isinstance(value, (int, fmpz)):
+        return fmpq(value)
+    if hasattr(value, "rational"):
+        if value.rational is None:
+            raise FormatError(f"not a rational number: {value}")
+        return value.rational
+    if isinstance(value, Fraction):
+        return fmpq(value.numerator, value.denominator)
+    if isinstance(value, float) or hasattr(value, "as_integer_ratio"):
+        try:
+            return fmpq(*value.as_integer_ratio())
+        except (ValueError, OverflowError):
+            raise FormatError(f"not a finite number: {value!r}") from None
+    if isinstance(value, str):
+        return _literal(value.strip())
+    raise FormatError(f"not a number: {value!r}")
+
+
+def _literal(text: str) -> fmpq:
+    match = _LITERAL.fullmatch(text) if len(text) <= MAX_DIGITS else None
+    if match is None:
+        raise FormatError(f"not a number: {text[:40]!r}")
+    numerator, exponent, denominator = match[1], int((match[2] or "e0")[1:]), match[3]
+    if abs(exponent) > MAX_DIGITS:
+        raise FormatError(f"number out of range: {text[:40]!r}")
+    whole, _, part = numerator.partition(".")
+    shift = exponent - len(part)
+    value = fmpq(fmpz(whole + part or "0")) * (fmpq(10) ** shift)
+    if denominator is not None:
+        divisor = fmpz(denominator[1:])
+        if divisor == 0:
+            raise FormatError(f"division by zero: {text[:40]!r}")
+        value /= divisor
+    return -value if text.startswith("-") else value
+
+
+def _nearest(q: fmpq) -> float:
+    return int(q.p) / int(q.q)
+
+
+def ends(ball: arb) -> tuple[fmpq, fmpq]:
+    """The exact ends of a ball (`arb.lower` would round to the global precision)."""
+    middle, radius = ball.mid().fmpq(), ball.rad().fmpq()
+    return middle - radius, middle + radius
+
+
+def enclose(ball: Enclosing, bits: int) -> tuple[fmpq, fmpq]:
+    """Rational ends at most 2^-bits apart from ``ball(working_bits)``, refined as needed."""
+    working, width = bits + 64, fmpq(1, fmpz(2) ** bits)
+    while True:
+        value = ball(working)
+        if value.is_finite():  # not so while an inverse cannot exclude 0
+            low, high = ends(value)
+            if high - low <= width:
+                return low, high
+        working *= 2
+
+
+def round_to_float(ball: Enclosing, equals: Callable[[fmpq], bool]) -> float:
+    """The float nearest to a value given by balls; ``equals(q)`` settles a midpoint exactly."""
+    bits = 128
+    while True:
+        value = ball(bits)
+        if value.is_finite():  # not so while an inverse cannot exclude 0
+            low, high = ends(value)
+            if _nearest(low) == _nearest(high):
+                return _nearest(low)
+            if bits >= 512:
+                break
+        bits *= 4
+    below, above = _nearest(low), _nearest(high)
+    middle = (rational(below) + rational(above)) / 2 if below != above else low
+    if equals(middle):
+        return _nearest(middle)
+    while _nearest(low) != _nearest(high):
+        bits *= 2
+        value = ball(bits)
+        low, high = ends(value)
+    return _nearest(low)
+
+
+def decimal_string(ball: Enclosing, digits: int) -> str:
+    """Decimal with *digits* significant digits from ``ball(working_bits)``."""
+    bits = int(digits * 3.33) + 64
+    while True:
+        value = ball(bits)
+        if value.is_exact() and value == 0:
+            return "0"
+        text = str(value.str(digits, radius=False))
+        if value.rel_accuracy_bits() > digits * 3.33 + 4 or bits > 1 << 16:
+            return text
+        bits *= 2
+
+
+def sympy_rational(q: fmpq) -> sympy.Expr:
+    """A rational as sympy's."""
+    from sympy import Rational
+
+    return Rational(int(q.p), int(q.q))

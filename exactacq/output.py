@@ -1,0 +1,62 @@
+"""Writing files whole or not at all, and finding out early that a file cannot be written."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Collection
+from pathlib import Path
+
+from exactacq.errors import FormatError
+
+
+def check_output(path: str | os.PathLike[str], suffixes: Collection[str]) -> Path:
+    """The path, if a file of one of the *suffixes* can be written there; `FormatError` otherwise.
+
+    To be called before long work starts, so that a bad name does not cost the result. Writes nothing.
+    """
+    target = Path(path)
+    try:
+        if target.suffix.lower() not in suffixes:
+            known = ", ".join(suffixes)
+            raise FormatError(f"{target}: a file name must end in {known}")
+        if target.is_dir():
+            raise FormatError(f"{target}: this is a directory; give the name of a file")
+        folder = target.parent
+        if not folder.is_dir():
+            raise FormatError(f"{target}: there is no directory {folder}; make it first")
+        if not os.access(folder, os.W_OK | os.X_OK):
+            raise FormatError(f"{target}: the directory {folder} cannot be written to")
+    except ValueError as error:  # A NUL character in the name; FormatError is a ValueError, too.
+        if isinstance(error, FormatError):
+            raise
+        raise FormatError(f"{str(path)!r}: not a file name ({error})") from None
+    return target
+
+
+def write_whole(path: str | os.PathLike[str], data: bytes) -> None:
+    """Write a file through a temporary one beside it and a rename: readers see the old or the new file.
+
+    Raises `OSError`; nothing is left behind then.
+    """
+    target = Path(path)
+    handle, temporary = tempfile.mkstemp(prefix=f".{target.name[:40]}.", suffix=".part", dir=target.parent)
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        Path(temporary).chmod(_mode(target))
+        Path(temporary).replace(target)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise
+
+
+def _mode(target: Path) -> int:
+    """Permissions as if the file had been opened for writing: those it has, or the process's default."""
+    if target.exists():
+        return target.stat().st_mode & 0o777
+    mask = os.umask(0)
+    os.umask(mask)
+    return 0o666 & ~mask

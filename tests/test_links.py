@@ -1,0 +1,367 @@
+"""The obstacle visibility graph: against the float oracle, by hand in degenerate scenes, and its laws."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from itertools import combinations
+from random import Random
+
+import networkx as nx
+import pytest
+from hypothesis import given, settings
+from oracles import Disc, Room, ambiguous, free, free_sample_shorter, shortest_visible, world
+from strategies import (
+    EPS,
+    POLYGONS,
+    ROUND,
+    SIMILARITIES,
+    Similarity,
+    Terrain,
+    box,
+    build,
+    circle_grid,
+    degenerate_terrains,
+    random_terrain,
+    reversed_order,
+    square_grid,
+    terrains,
+)
+
+import exactacq as xa
+from exactacq.errors import InvalidScene
+from exactacq.lengths import Length
+from exactacq.reals import Real
+
+Q = Fraction
+LAW_EXAMPLES = 60 if settings.get_current_profile_name() == "long" else 3
+
+
+def graph_of(terrain: Terrain) -> nx.Graph:
+    return xa.visibility_graph(terrain.scene(), terrain.radius)
+
+
+def weights(graph: nx.Graph) -> dict[frozenset, Length]:
+    return {frozenset(edge[:2]): edge[2] for edge in graph.edges(data="weight")}
+
+
+def weight(shapes: list, radius: object) -> Length | None:
+    """v(0, 1)."""
+    graph = xa.visibility_graph(build(shapes), radius)
+    return graph.edges[0, 1]["weight"] if graph.has_edge(0, 1) else None
+
+
+def root(radicand: int) -> Length:
+    return Length(Real(radicand).sqrt())
+
+
+def ends(graph: nx.Graph, i: int, j: int) -> set[tuple[float, float]]:
+    data = graph.edges[i, j]
+    return {data["leave"].xy, data["hit"].xy}
+
+
+def cube_root(n: int) -> int:
+    """Rounded down."""
+    x = 1 << -(-n.bit_length() // 3)
+    while (y := (2 * x + n // (x * x)) // 3) < x:
+        x = y
+    return x
+
+
+# Against the oracle.
+
+
+def check_against_oracle(terrain: Terrain) -> None:
+    graph = graph_of(terrain)
+    shapes, radius = terrain.shapes, terrain.radius
+    w = world(shapes)
+    n = len(shapes)
+    assert set(graph.nodes) == {*range(n), "S"}
+    pairs = [*combinations(range(n), 2), *(("S", j) for j in range(n))]
+    for i, j in pairs:
+        source = terrain.start if i == "S" else i
+        expected = shortest_visible(shapes, source, j, radius)
+        if graph.has_edge(i, j) != (expected is not None):
+            assert ambiguous(shapes, source, j, radius), (i, j, expected)
+        if not graph.has_edge(i, j):
+            continue
+        data = graph.edges[i, j]
+        length, p, q = float(data["weight"]), data["leave"].xy, data["hit"].xy
+        assert length <= radius
+        assert math.dist(p, q) == pytest.approx(length, abs=1e-9)
+        assert free(shapes, p, q), (i, j, p, q)
+        gaps = [boundary_gap(w, terrain, i, a) + boundary_gap(w, terrain, j, b) for a, b in [(p, q), (q, p)]]
+        assert min(gaps) < 1e-9, (i, j, p, q)
+        if expected is not None and abs(expected.length - length) > 1e-9:
+            assert ambiguous(shapes, source, j, radius), (i, j, length, expected)
+        if i != "S" and length > 1e-6:
+            assert free_sample_shorter(shapes, i, j, length - 1e-6, 24) is None, (i, j)
+
+
+def boundary_gap(w: object, terrain: Terrain, i: object, point: tuple[float, float]) -> float:
+    """Distance of a point to the boundary i, or to the start."""
+    if i == "S":
+        return math.dist(point, [float(c) for c in terrain.start])
+    return math.dist(point, w.at(i, w.position(i, point)))
+
+
+class TestAgainstTheOracle:
+    @given(terrains(kinds=POLYGONS))
+    def test_polygons(self, terrain: Terrain) -> None:
+        check_against_oracle(terrain)
+
+    @given(terrains(kinds=ROUND))
+    def test_arcs(self, terrain: Terrain) -> None:
+        check_against_oracle(terrain)
+
+    @settings(max_examples=max(4, settings().max_examples // 2))
+    @given(terrains(room=True))
+    def test_rooms(self, terrain: Terrain) -> None:
+        check_against_oracle(terrain)
+
+    @given(degenerate_terrains())
+    def test_small_integers(self, terrain: Terrain) -> None:
+        check_against_oracle(terrain)
+
+    @pytest.mark.parametrize("seed", range(6))
+    def test_seeded_scenes(self, seed: int) -> None:
+        """Hypothesis's quick examples stay simple; these are in general position."""
+        check_against_oracle(random_terrain(Random(seed), columns=4 if seed < 2 else 3))
+
+
+# By hand.
+
+
+class TestRange:
+    @pytest.mark.parametrize(
+        "shapes",
+        [
+            [box(0, 1, 0, 1), box(4, 5, 0, 1)],
+            [box(0, 1, 0, 1), box(Q(14, 5), 9, Q(17, 5), 9)],
+            [Disc(0, 0, 1), Disc(3, 4, 1)],
+            [Disc(0, 0, 1), box(4, 5, -1, 1)],
+            [[(2, 3), (-7, 3), (-7, 4)], Disc(2, -1, 1)],
+        ],
+        ids=["edges", "corners", "circles", "circle and edge", "corner and circle"],
+    )
+    def test_sees_at_exactly_the_gap(self, shapes: list) -> None:
+        """All gaps are 3."""
+        assert weight(shapes, 3) == 3
+        assert weight(shapes, 3 + EPS) == 3
+        assert weight(shapes, 3 - EPS) is None
+
+    def test_an_irrational_chord_against_rational_ranges(self) -> None:
+        below = Q(math.isqrt(125 * 10**160), 10**80)
+        assert weight(LADDER, below) is None
+        assert weight(LADDER, below + Q(1, 10**80)) == 5 * root(5)
+
+    def test_a_wider_range_changes_nothing_else(self) -> None:
+        terrain = random_terrain(Random(5))
+        near = weights(xa.visibility_graph(terrain.scene(), 3))
+        far = weights(xa.visibility_graph(terrain.scene(), 6))
+        assert {key for key, value in far.items() if value <= 3} == near.keys()
+        assert all(far[key] == value for key, value in near.items())
+
+
+FLOOR, CEILING = box(-3, 3, 0, 1), box(-3, 3, 6, 7)
+
+
+def gate(left_end: object, right_end: object) -> list:
+    """Two bars between floor and ceiling, at different heights so that they may overlap without touching."""
+    return [FLOOR, CEILING, box(-20, left_end, 2, 3), box(right_end, 20, 4, 5)]
+
+
+class TestGaps:
+    @pytest.mark.parametrize("gap", [EPS, Q(1)], ids=["10^-60", "1"])
+    def test_light_through_a_gap(self, gap: Fraction) -> None:
+        shapes = [FLOOR, CEILING, box(-20, 0, 2, 3), box(gap, 20, 2, 3)]
+        assert weight(shapes, 5) == 5
+
+    def test_a_closed_gap_is_refused(self) -> None:
+        with pytest.raises(InvalidScene):
+            build([FLOOR, CEILING, box(-20, 0, 2, 3), box(0, 20, 2, 3)])
+
+    def test_grazing_is_free_and_an_overlap_of_1e_60_is_not(self) -> None:
+        assert weight(gate(0, EPS), 5) == 5
+        assert weight(gate(0, 0), 5) == 5
+        assert weight(gate(EPS, 0), 5) is None
+        assert weight(gate(0, -EPS), 5) is None
+        around = weight(gate(EPS, 0), 10)
+        assert 5 < around < 5 + Q(1, 10**100)  # it leans by about 10^-60
+
+    def test_the_leaning_chord_is_held_by_both_bars(self) -> None:
+        """From (EPS, 3) to (0, 4): one unit up leans by EPS, five units by 5 EPS."""
+        assert weight(gate(EPS, 0), 10) == 5 * Length(Real(1 + EPS * EPS).sqrt())
+
+    @pytest.mark.parametrize(
+        "middle", [box(-10, 0, 2, 3), Disc(Q(-1, 2), Q(5, 2), Q(1, 2))], ids=["box", "circle"]
+    )
+    def test_a_pinched_line(self, middle: object) -> None:
+        """Three blockers on alternating sides leave the line x = 0 only."""
+        targets = [box(Q(-1, 2), Q(1, 2), -2, -1), box(Q(-1, 2), Q(1, 2), 6, 7)]
+        bars = [box(0, 10, 0, 1), box(0, 10, 4, 5)]
+        graph = xa.visibility_graph(build([*targets, middle, *bars]), 7)
+        assert graph.edges[0, 1]["weight"] == 7
+        assert ends(graph, 0, 1) == {(0, -1), (0, 6)}
+        pushed = Similarity(shift=(EPS, Q(0))).shape(middle)
+        assert weight([*targets, pushed, *bars], 7) is None
+        pulled = Similarity(shift=(-EPS, Q(0))).shape(middle)
+        assert weight([*targets, pulled, *bars], 7) == 7
+
+    def test_unit_squares_pinch_too(self) -> None:
+        """The same with small squares: at R = 7 only upright chords are short enough."""
+        targets = [box(Q(-1, 2), Q(1, 2), -2, -1), box(Q(-1, 2), Q(1, 2), 6, 7)]
+        squares = [box(0, 1, 0, 1), box(-1, 0, 2, 3), box(0, 1, 4, 5)]
+        graph = xa.visibility_graph(build(targets + squares), 7)
+        assert graph.edges[0, 1]["weight"] == 7
+        assert ends(graph, 0, 1) == {(0, -1), (0, 6)}
+        squares[1] = box(-1, EPS, 2, 3)
+        assert weight(targets + squares, 7) is None
+
+
+WALLS = [[(Q(1, 10), 0), (20, -1), (20, 0)], [(0, Q(1, 10)), (0, 20), (-1, 20)]]
+LADDER = [*WALLS, box(Q(1, 100), 1, Q(1, 100), 8)]
+
+
+class TestBlockedPairs:
+    def test_a_ladder_over_a_corner(self) -> None:
+        """The shortest ladder over a box (a, b) is (a^(2/3) + b^(2/3))^(3/2): here (1 + 4)^(3/2)."""
+        graph = xa.visibility_graph(build(LADDER), 40)
+        assert graph.edges[0, 1]["weight"] == 5 * root(5)
+        assert ends(graph, 0, 1) == {(5, 0), (0, 10)}
+
+    def test_a_ladder_of_cube_roots(self) -> None:
+        found = weight([*WALLS, box(Q(1, 100), 1, Q(1, 100), 2)], 40)
+        assert float(found) == pytest.approx((1 + 2 ** (2 / 3)) ** 1.5, rel=1e-15)
+        low = cube_root(4 * 10**120)  # L^2 = (1 + 4^(1/3))^3
+        least, most = (Q(low + k, 10**40) for k in (0, 1))
+        lo, hi = (Q(int(end.p), int(end.q)) for end in found.enclosure(256))
+        assert 0 <= hi - lo < Q(1, 2**250)
+        assert lo**2 <= (1 + most) ** 3
+        assert hi**2 >= (1 + least) ** 3
+
+    def test_tangent_to_one_arc(self) -> None:
+        graph = xa.visibility_graph(build([*WALLS, [(Q(1, 100), Q(1, 100)), (3, 1, 1), (1, 3)]]), 40)
+        assert graph.edges[0, 1]["weight"] == 6 * root(2)
+        assert ends(graph, 0, 1) == {(6, 0), (0, 6)}
+
+    def test_held_by_two_corners(self) -> None:
+        shapes = [box(-15, 15, -1, 0), box(-15, 15, 10, 11), box(-20, 1, 2, 3), box(-2, 20, 7, 8)]
+        graph = xa.visibility_graph(build(shapes), 40)
+        assert graph.edges[0, 1]["weight"] == Q(25, 2)
+        assert ends(graph, 0, 1) == {(13 / 4, 0), (-17 / 4, 10)}
+
+    def test_held_by_two_circles(self) -> None:
+        """An inner common tangent of circles 10 apart with radii 3 and 3 leans by asin(6/10)."""
+        walls = [box(-40, 40, -11, -10), box(-40, 40, 10, 11)]
+        bars = [box(-50, Q(1, 2), Q(-89, 10), Q(-17, 2)), box(Q(-1, 2), 50, Q(17, 2), Q(89, 10))]
+        graph = xa.visibility_graph(build([*walls, Disc(0, -5, 3), Disc(0, 5, 3), *bars]), 40)
+        assert graph.edges[0, 1]["weight"] == 25
+        assert ends(graph, 0, 1) == {(7.5, -10), (-7.5, 10)}
+
+    def test_parallel_edges_with_a_window(self) -> None:
+        """Upright chords of length 5 pass between two posts wherever they like."""
+        posts = [box(-9, -1, 2, 3), box(1, 9, 2, 3)]
+        graph = xa.visibility_graph(build([FLOOR, CEILING, *posts]), 5)
+        assert graph.edges[0, 1]["weight"] == 5
+        (x, _), (other, _) = ends(graph, 0, 1)
+        assert x == other
+        assert -1 <= x <= 1
+
+    def test_concentric_arcs(self) -> None:
+        ring = [(5, 0, 1), (-5, 0, 0), (-3, 0, -1), (3, 0, 0)]
+        assert weight([Disc(0, 0, 1), ring], 2) == 2
+        assert weight([Disc(0, 0, 1), ring], 2 - EPS) is None
+        posts = [Disc(0, 2, Q(1, 2)), Disc(-2, 0, Q(1, 2)), Disc(2, 0, Q(1, 2))]
+        graph = xa.visibility_graph(build([Disc(0, 0, 1), ring, *posts]), 9)
+        assert graph.edges[0, 1]["weight"] == 2
+        p, q = ends(graph, 0, 1)
+        assert sorted([math.hypot(*p), math.hypot(*q)]) == pytest.approx([1, 3])
+        assert abs(p[0] * q[1] - p[1] * q[0]) < 1e-12
+
+    def test_nothing_passes_a_long_wall(self) -> None:
+        assert weight([Disc(-3, 0, 1), Disc(3, 0, 1), box(Q(-1, 2), Q(1, 2), -9, 9)], 9) is None
+
+    def test_a_room_is_one_more_obstacle(self) -> None:
+        graph = xa.visibility_graph(build([Disc(0, 0, 1), Room(box(-3, 4, -6, 7))], (Q(-2), Q(0))), 20)
+        assert weights(graph) == {frozenset({0, 1}): 2, frozenset({"S", 0}): 1, frozenset({"S", 1}): 1}
+
+    def test_a_start_on_a_boundary_touches(self) -> None:
+        graph = xa.visibility_graph(build([box(0, 1, 0, 1), box(3, 4, 0, 1)], (1, Q(1, 2))), 20)
+        assert graph.edges["S", 0]["weight"] == 0
+        assert graph.edges["S", 1]["weight"] == 2
+
+    def test_m4_registers_what_it_cannot_reach(self) -> None:
+        """O3 is seen on the way from O1 to O2 but from neither boundary."""
+        shapes = [
+            [(0, 0), (-1, Q(1, 2)), (-1, Q(-1, 2))],
+            [(10, 0), (11, Q(1, 2)), (11, Q(-1, 2))],
+            [(5, Q(46, 5)), (6, 10), (4, 10)],
+        ]
+        graph = xa.visibility_graph(build(shapes), 10)
+        assert weights(graph) == {frozenset({0, 1}): 10}
+
+
+# Laws.
+
+
+def turn_of_grid(key: frozenset, columns: int, turn: int) -> frozenset:
+    """The pair of cells after one of the eight symmetries of a square grid."""
+    out = []
+    for cell in key:
+        x, y = cell % columns, cell // columns
+        if turn & 1:
+            x = columns - 1 - x
+        if turn & 2:
+            y = columns - 1 - y
+        if turn & 4:
+            x, y = y, x
+        out.append(columns * y + x)
+    return frozenset(out)
+
+
+class TestLaws:
+    @pytest.mark.parametrize("name", SIMILARITIES)
+    @settings(max_examples=LAW_EXAMPLES)
+    @given(terrains(columns=2))
+    def test_similar_scenes_have_the_same_graph(self, name: str, terrain: Terrain) -> None:
+        similarity = SIMILARITIES[name]
+        before, after = weights(graph_of(terrain)), weights(graph_of(similarity.terrain(terrain)))
+        assert after.keys() == before.keys()
+        assert all(after[key] == value * similarity.scale for key, value in before.items())
+
+    @settings(max_examples=LAW_EXAMPLES)
+    @given(terrains())
+    def test_vertex_order_does_not_matter(self, terrain: Terrain) -> None:
+        assert weights(graph_of(reversed_order(terrain))) == weights(graph_of(terrain))
+
+    @settings(max_examples=LAW_EXAMPLES)
+    @given(terrains())
+    def test_numbering_does_not_matter(self, terrain: Terrain) -> None:
+        n = len(terrain.shapes)
+        renamed = Terrain(tuple(reversed(terrain.shapes)), terrain.start, terrain.radius)
+        before, after = weights(graph_of(terrain)), weights(graph_of(renamed))
+        name = {"S": "S"} | {i: n - 1 - i for i in range(n)}
+        assert {frozenset(name[i] for i in key): value for key, value in before.items()} == after
+
+    @pytest.mark.parametrize("turn", ["1", "3/5"])
+    @pytest.mark.parametrize("grid", [square_grid(3, 3), circle_grid(3, 3)], ids=["squares", "circles"])
+    def test_grids_tie_by_symmetry(self, grid: list, turn: str) -> None:
+        """All eight symmetries of the grid keep the weights, blocked pairs included, also when turned."""
+        similarity = Similarity(turn=(Q(1), Q(0)) if turn == "1" else (Q(3, 5), Q(4, 5)))
+        found = weights(xa.visibility_graph(build([similarity.shape(s) for s in grid]), 5))
+        for k in range(1, 8):
+            image = {turn_of_grid(key, 3, k): value for key, value in found.items()}
+            assert image.keys() == found.keys()
+            assert all(found[key] == value for key, value in image.items())
+
+    def test_grid_weights(self) -> None:
+        """Neighbours and diagonal neighbours only: 12 and 8 of them."""
+        for grid, radius, diagonal in (
+            (square_grid(3, 3), 2, root(2)),
+            (circle_grid(3, 3), 3, 3 * root(2) - Length(2)),
+        ):
+            found = list(weights(xa.visibility_graph(build(grid), radius)).values())
+            assert sum(value == 1 for value in found) == 12
+            assert sum(value == diagonal for value in found) == 8
+            assert len(found) == 20
