@@ -3,6 +3,7 @@
 from exactacq.errors import AuditError, ExactacqError, FormatError, InvalidScene, Undecided
 from exactacq.lengths import Length
 from exactacq.links import visibility_graph
+from exactacq.loading import load
 from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.scene import Scene
@@ -25,6 +26,7 @@ __all__ = [
     "Scene",
     "Terrain",
     "Undecided",
+    "load",
     "sightseer",
     "visibility_graph",
 ]

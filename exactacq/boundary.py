@@ -88,8 +88,8 @@ class Boundary:
     @staticmethod
     def _is_before(edge: Curve, start: Point, end: Point) -> bool:
         """Whether a walk along one edge meets *start* strictly before *end*."""
-        if isinstance(edge, Arc) and edge.full:
-            return start == end or edge.start == start or edge.start == end or edge.part(edge.start, start).length < edge.part(edge.start, end).length
+        if isinstance(edge, Arc) and edge.full and start == end:
+            return True
         if start == end:
             return False
         if edge.start == start or edge.end == end:

@@ -437,11 +437,16 @@ def nearest_points(a: Curve, b: Curve) -> list[Nearest | Family]:
         if family is not None:
             return [family]
     found: list[Nearest | Family] = []
-    for p, into in _ends(a):
-        found += [Nearest(p, q) for q, other in _ends(b) if _minimal(p, into, q) and _minimal(q, other, p)]
+    ends, others = _ends(a), _ends(b)
+    for p, into in ends:
+        at_p = raw(p)
+        for q, onto in others:
+            gap = minus(at_p, raw(q))
+            if sign(dot(gap, into)) >= 0 and sign(dot(gap, onto)) <= 0:
+                found.append(Nearest(p, q))
         found += _from_end(p, into, b)
-    for q, into in _ends(b):
-        found += [_swapped(pair) for pair in _from_end(q, into, a)]
+    for q, onto in others:
+        found += [_swapped(pair) for pair in _from_end(q, onto, a)]
     return found + _inner_pairs(a, b)
 
 
@@ -463,11 +468,6 @@ def _ends(curve: Curve) -> list[tuple[Point, Vector]]:
     return [(curve.start, (-y * flip, x * flip)), (curve.end, (v * flip, -u * flip))]
 
 
-def _minimal(p: Point, into: Vector, q: Point) -> bool:
-    """Whether p does not come nearer to q, to first order, when it moves along its curve."""
-    return sign(dot(minus(raw(p), raw(q)), into)) >= 0
-
-
 def _from_end(p: Point, into: Vector, curve: Curve) -> list[Nearest | Family]:
     """The end p of one curve against the inner points of the other."""
     if isinstance(curve, Segment):
@@ -477,8 +477,9 @@ def _from_end(p: Point, into: Vector, curve: Curve) -> list[Nearest | Family]:
         t, square = dot(offset, along), dot(along, along)
         if sign(t) <= 0 or sign(square - t) <= 0:
             return []
-        foot = advance(start, along, t / square)
-        return [Nearest(p, foot)] if _minimal(p, into, foot) else []
+        # p - foot = offset - (t / square) along, scaled by the positive square
+        rise = (offset[0] * square - along[0] * t, offset[1] * square - along[1] * t)
+        return [Nearest(p, advance(start, along, t / square))] if sign(dot(rise, into)) >= 0 else []
     center = raw(curve.center)
     ray = minus(raw(p), center)
     square = dot(ray, ray)

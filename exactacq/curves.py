@@ -12,8 +12,9 @@ from typing import TypeAlias
 from flint import fmpq
 
 from exactacq.lengths import Length
+from exactacq.numerals import rational
 from exactacq.points import Orientation, Point, distance, orientation
-from exactacq.reals import Real, rational
+from exactacq.reals import Real
 
 
 class Segment:
@@ -34,7 +35,8 @@ class Segment:
 
     def point(self, u: object) -> Point:
         """The point at the rational fraction *u* of the way, 0 <= u <= 1."""
-        return self.start + self.direction * _fraction(u)
+        offset: Point = self.direction * _fraction(u)
+        return self.start + offset
 
     def contains(self, point: Point) -> bool:
         """Whether a point *of the supporting line* lies on the closed segment."""
@@ -128,7 +130,8 @@ class Arc:
         square = tangent * tangent
         half_cos, half_sin = (1 - square) / (1 + square), 2 * tangent / (1 + square)
         cosine = half_cos * half_cos - half_sin * half_sin
-        return self.center + radial * cosine + radial.left() * (2 * half_cos * half_sin)
+        sine: Real = 2 * half_cos * half_sin
+        return self.center + radial * cosine + radial.left() * sine
 
     @cached_property
     def _quarter_tangent(self) -> Real:

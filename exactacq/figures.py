@@ -9,7 +9,7 @@ from __future__ import annotations
 import io
 import math
 import os
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 from typing import Any
@@ -30,25 +30,19 @@ from matplotlib.patheffects import withStroke
 from matplotlib.transforms import Affine2D
 
 from exactacq.errors import FormatError
-from exactacq.lengths import Length
-from exactacq.output import check_output, write_whole
+from exactacq.output import FIGURES, check_output, readable, write_whole
 from exactacq.scene import Obstacle, Scene
 from exactacq.strokes import Region, Stroke, clearance
 from exactacq.trace import Run
 from exactacq.vision.table import Floats
 
-SUFFIXES = (".svg", ".pdf", ".png")
-"""File types that `save` writes."""
-
 CLOSED_FORM = 40
-"""Closed forms of at most this many characters are shown in the title."""
+"""Closed forms of at most this many characters are shown in the title, the decimal value of others."""
 
 WIDEST, TALLEST, NARROWEST = 7.2, 6.8, 1.2
 """Inches: the drawing fits a box of WIDEST x TALLEST, and a thin scene is given NARROWEST."""
 COLOURS = 160
 """Steps of the colour scale along the path."""
-BUSY = 120
-"""Scenes of more obstacles show only the labels that fit into their obstacles."""
 DOTS = 200
 """Resolution of PNG files in dots per inch."""
 
@@ -68,9 +62,9 @@ STYLES: dict[str, dict[str, Any]] = {
 def figure(subject: Run | Scene) -> Figure:
     """A figure of a run, or of a scene alone.
 
-    Shows obstacles with the order of visits (in a scene alone: their names or numbers), the path coloured by
-    its length so far, hit and leave points, tree links, start S, end T, and the radius of vision R once. Raises
-    `FormatError` if the coordinates are beyond floating point.
+    Shows obstacles with the order of visits (in a scene alone: their names or numbers), the path coloured
+    by its length so far, hit and leave points, tree links, start S, end T, and the radius of vision R once.
+    Raises `FormatError` if the coordinates are beyond floating point.
     """
     return _Drawing(subject).figure()
 
@@ -85,14 +79,8 @@ def save(subject: Run | Scene, path: str | os.PathLike[str]) -> None:
 
     Raises `FormatError` for another suffix or a place that cannot be written, before anything is drawn.
     """
-    target = check_output(path, SUFFIXES)
+    target = check_output(path, FIGURES)
     write_whole(target, _rendered(subject, target.suffix.lower()))
-
-
-def short_form(length: Length, limit: int = CLOSED_FORM) -> str:
-    """The closed form if it has at most *limit* characters, else the decimal value to 12 digits."""
-    closed = str(length)
-    return closed if len(closed) <= limit else f"≈ {length.decimal(12)}"
 
 
 def _rendered(subject: Run | Scene, suffix: str) -> bytes:
@@ -138,7 +126,9 @@ class _Drawing:
             corners += [np.zeros(2), np.array([float(terrain.width), float(terrain.height)])]
         corners = corners or [np.zeros(2)]
         low, high = np.min(corners, axis=0), np.max(corners, axis=0)
-        size = float(np.max(high - low)) or 2 * (self.radius or 1.0)
+        if not (high - low).any():
+            low, high = low - (self.radius or 1.0), high + (self.radius or 1.0)
+        size = float(np.max(high - low))
         if not np.isfinite(size * 100):
             raise OverflowError
         margin = size * (0.07 if self.scene.enclosure is not None else 0.05)
@@ -202,7 +192,8 @@ class _Drawing:
                 bar.solids.set_rasterized(False)
         if self.legend:
             figure.legend(
-                self.legend.values(), self.legend.keys(), loc="lower center", bbox_to_anchor=(0.5, 0.06 / total),
+                self.legend.values(), self.legend.keys(),
+                loc="lower center", bbox_to_anchor=(0.5, 0.06 / total),
                 ncol=min(columns, len(self.legend)), frameon=False, fontsize=8, labelcolor=INK, borderpad=0,
                 borderaxespad=0, handlelength=1.8, columnspacing=1.5, labelspacing=0.4,
                 handler_map={tuple: HandlerTuple(ndivide=1)},
@@ -224,9 +215,7 @@ class _Drawing:
             room = " in an enclosure" if self.scene.enclosure is not None else ""
             return [name or "Scene", f"{_counted(count)}{room}"]
         strategy = {"sightseer": "Sightseer Strategy"}.get(run.strategy, run.strategy)
-        length = short_form(run.length)
-        if not (length.startswith("≈") or length.isdecimal()):
-            length += f" ≈ {run.length.decimal(8)}"
+        length = " ".join(readable(run.length, CLOSED_FORM, digits=8))
         visited = f"{len(run.visits)} of {_counted(len(self.scene.obstacles))} visited"
         lines = [f"{strategy}: {name}" if name else strategy, f"length {length},  {visited}"]
         missed = ((run.unseen, "never seen"), (run.unvisited, "seen but never visited"))
@@ -324,14 +313,15 @@ class _Drawing:
     def _arrows(self, collection: PathCollection) -> None:
         """Arrowheads on the straight pieces that are long enough; two ways of one link keep apart."""
         assert self.run is not None
-        size, done = self.line + 4.0, 0.0
+        size, done = self.line + 4.6, 0.0
+        ways = Counter(frozenset((stroke.start, stroke.end)) for stroke in self.strokes)
         for piece, stroke in zip(self.run.path, self.strokes, strict=True):
-            room = self.points(stroke.length)
-            if piece.kind == "straight" and room > 3.5 * size:
-                colour = collection.cmap(collection.norm(done + stroke.length / 2))
+            twice = ways[frozenset((stroke.start, stroke.end))] > 1
+            if piece.kind == "straight" and self.points(stroke.length) > (5 if twice else 3) * size:
+                colour = collection.to_rgba(np.array(done + stroke.length / 2))
                 shape = MarkerStyle(ARROWHEAD, transform=Affine2D().rotate(stroke.heading(0)))
                 self.axes.plot(
-                    *stroke.at(0.5 if room < 7 * size else 0.58), marker=shape, markersize=size, linestyle="",
+                    *stroke.at(0.62 if twice else 0.5), marker=shape, markersize=size, linestyle="",
                     color=colour, mec=PAPER, mew=0.5, zorder=4,
                 )  # fmt: skip
             done += stroke.length
@@ -345,7 +335,7 @@ class _Drawing:
         self.axes.add_collection(LineCollection(links, colors=TREE, zorder=2, **style), autolim=False)
         self.legend["tree link"] = Line2D([], [], color=TREE, alpha=0.55, linewidth=6)
         leaves = [spot for link, (spot, _) in zip(self.run.links, links, strict=True) if link.source != "S"]
-        size = self.line + 1.4
+        size = max(self.line + 1.2, 3.6)
         self._dots("leave point", leaves, ms=size + 3, mfc=PAPER, mec=INK, mew=0.9, zorder=4.6)
         self._dots("hit point", [hit for _, hit in links], ms=size, mfc=HIT, mec=PAPER, mew=0.5, zorder=5)
 
@@ -376,30 +366,32 @@ class _Drawing:
             path_effects=[withStroke(linewidth=2.2, foreground=PAPER)], **settings,
         )  # fmt: skip
 
-    def _beside(
-        self, place: tuple[float, float], away: float, box: tuple[float, float] = (0.0, 0.0)
-    ) -> tuple[float, float]:
-        """The clearest spot *away* points from a place, or from a box of these half sizes about it.
+    def _beside(self, place: tuple[float, float], away: float) -> tuple[float, float]:
+        """The clearest spot about *away* points from a place.
 
         Clear of lines, other labels and the border; rather in the open than inside an obstacle.
         """
         reach = away / 72 / self.scale
         turns = np.arange(16) * math.pi / 8
         rays = np.stack((np.cos(turns), np.sin(turns)), 1)
-        corners = rays / np.abs(rays).max(axis=1, keepdims=True) * np.array(box)
-        spots = np.concatenate([np.array(place) + corners + rays * reach * k for k in (1, 1.3)])
+        spots = np.concatenate([np.array(place) + rays * reach * k for k in (1, 1.3)])
         starts, ends = self.ink
         nearest = np.clip(place, np.minimum(starts, ends), np.maximum(starts, ends))
-        near = np.hypot(*(nearest - place).T) < max(box) + 4 * reach
+        near = np.hypot(*(nearest - place).T) < 4 * reach
         room = clearance(spots, starts[near], ends[near])
-        if self.labels:
-            apart = spots[:, None] - np.array(self.labels)
-            room = np.minimum(room, 0.6 * np.hypot(apart[..., 0], apart[..., 1]).min(axis=1))
+        room = np.minimum(room, 0.6 * self._apart(spots))
         border = np.minimum(spots - self.low, self.high - spots).min(axis=1)
         room = np.minimum(np.minimum(room, 1.2 * border), 1.5 * reach)
         room -= 0.02 * reach * np.repeat((0, 1), len(turns)) + 0.6 * reach * self._blocked(spots)
         best = spots[int(np.argmax(room))]
         return float(best[0]), float(best[1])
+
+    def _apart(self, spots: Floats) -> Any:
+        """Distance of each spot to the nearest label so far."""
+        if not self.labels:
+            return np.full(len(spots), np.inf)
+        gaps = spots[:, None] - np.array(self.labels)
+        return np.hypot(gaps[..., 0], gaps[..., 1]).min(axis=1)
 
     def _blocked(self, spots: Floats) -> Any:
         """Which spots lie in an obstacle."""
@@ -412,22 +404,21 @@ class _Drawing:
         return blocked
 
     def _numbers(self) -> None:
-        """The order of visits, or the names in a scene alone: inside where there is room, else beside."""
+        """The order of visits, or the names in a scene alone: inside where there is room, else beside.
+
+        A label that would cover another one is left out.
+        """
         for index, text in self._texts():
-            region = self.regions[index]
             if self.scene.obstacles[index].is_enclosure:
                 self._write(self._wall_spot(index), text, size=10)
                 continue
-            place, depth = region.heart()
+            place, depth = self.regions[index].heart()
             room = self.points(depth) - self.line / 2
             size = min(10.0, 1.4 * room / (0.35 + 0.4 * max(1.6, len(text))))
-            low, high = region.box
-            if size >= 5.5:
+            if size < 5.5:
+                place, size = self._beside(place, self.points(depth) + self.line / 2 + 6), 8.0
+            if self.points(float(self._apart(np.array([place]))[0])) > size:
                 self._write(place, text, size=size)
-            elif len(self.regions) <= BUSY:
-                half = (high - low) / 2
-                spot = self._beside(tuple(low + half), 5 + self.line / 2, tuple(half))
-                self._write(spot, text, size=8)
 
     def _texts(self) -> Iterator[tuple[int, str]]:
         if self.run is not None:
@@ -453,7 +444,9 @@ class _Drawing:
 
     def _end(self, place: tuple[float, float], text: str, marker: str) -> None:
         name = "start S" if text == "S" else "end T"
-        self._dots(name, [place], marker, ms=self.line + 2.6, mfc=INK, mec=PAPER, mew=0.6, zorder=4.8)
+        self._dots(
+            name, [place], marker, ms=max(self.line + 3.4, 5.6), mfc=INK, mec=PAPER, mew=0.6, zorder=4.8
+        )
         self._write(self._beside(place, 7 + self.line), text, size=10.5)
 
     def _range(self) -> None:
@@ -476,8 +469,6 @@ class _Drawing:
         self.axes.add_patch(Disc(self.start, self.radius, color=VIEW, alpha=0.045, linewidth=0, zorder=0.5))
         starts, ends = self.ink
         room = np.minimum(clearance(ring, starts, ends), border * 0.8)
-        if self.labels:
-            apart = ring[:, None] - np.array(self.labels)
-            room = np.minimum(room, np.hypot(apart[..., 0], apart[..., 1]).min(axis=1))
+        room = np.minimum(room, self._apart(ring))
         best = ring[int(np.argmax(np.minimum(room, 30 / 72 / self.scale)))]
         self._write((float(best[0]), float(best[1])), label, size=8.5, color=VIEW, weight="normal")

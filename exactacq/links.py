@@ -24,8 +24,9 @@ from numpy.typing import NDArray
 from exactacq.contacts import Family, FamilyKind, Nearest, line_contacts, nearest_points
 from exactacq.curves import Arc, Curve, Segment
 from exactacq.lengths import Length
+from exactacq.numerals import rational
 from exactacq.points import Point, distance
-from exactacq.reals import Real, rational
+from exactacq.reals import Real
 from exactacq.scene import Scene
 from exactacq.vision.chords import Chord, chord_at, critical, through_piece
 from exactacq.vision.clearance import is_free, walk_line
@@ -126,7 +127,8 @@ class Links:
     def _gaps(self, box: Floats) -> Floats:
         hulls = self._hulls
         apart = np.maximum(np.maximum(hulls[:, :2] - box[2:], box[:2] - hulls[:, 2:]), 0.0)
-        return np.maximum(np.hypot(apart[:, 0], apart[:, 1]) * (1 - 1e-14) - self.table.roundoff, 0.0)
+        gaps: Floats = np.hypot(apart[:, 0], apart[:, 1]) * (1 - 1e-14) - self.table.roundoff
+        return np.maximum(gaps, 0.0)
 
     def neighbours(self, i: int) -> list[int]:
         """The obstacles other than i whose bounding boxes come within the radius of i's."""
@@ -192,7 +194,8 @@ class Links:
             x, y = leaving(curves[int(self.table.next[e])], at_end=False)
         else:
             return True
-        return ((other.x - foot.x) * x + (other.y - foot.y) * y).sign() <= 0
+        nearer: Real = (other.x - foot.x) * x + (other.y - foot.y) * y
+        return nearer.sign() <= 0
 
     @cached_property
     def _previous(self) -> list[int]:
@@ -456,8 +459,8 @@ def visibility_graph(scene: Scene, radius: object = None) -> nx.Graph:
     """The obstacle visibility graph: nodes are obstacle indices, and "S" if the scene has a start.
 
     An edge joins two nodes that see each other within *radius* (the scene's own if None); ``weight`` is v
-    as a `Length`, ``link`` the `Link` with all shortest segments, ``leave`` (on the link's source) and ``hit``
-    the lexicographically least of them. Near linear in the number of obstacles at constant density.
+    as a `Length`, ``link`` the `Link` with all shortest segments, ``leave`` (on the link's source) and
+    ``hit`` the lexicographically least of them. Near linear in the number of obstacles at constant density.
     """
     links = Links(scene, scene.radius if radius is None else radius)
     graph = nx.Graph()
@@ -524,7 +527,8 @@ def _to_segments(points: Floats, starts: Floats, ends: Floats) -> Floats:
     offset = points[:, None] - starts[None]
     size = np.maximum((along**2).sum(axis=1), 1e-300)
     u = np.clip((offset * along).sum(axis=2) / size, 0.0, 1.0)
-    return np.hypot(*np.moveaxis(offset - u[:, :, None] * along, 2, 0))
+    distances: Floats = np.hypot(*np.moveaxis(offset - u[:, :, None] * along, 2, 0))
+    return distances
 
 
 def _box_gaps(points: Floats, box: Floats, sizes: Floats) -> Floats:

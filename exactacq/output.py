@@ -1,4 +1,4 @@
-"""Writing files whole or not at all, and finding out early that a file cannot be written."""
+"""What leaves the library: lengths in words of bounded size, and files written whole or not at all."""
 
 from __future__ import annotations
 
@@ -8,6 +8,26 @@ from collections.abc import Collection
 from pathlib import Path
 
 from exactacq.errors import FormatError
+from exactacq.lengths import Length
+
+FIGURES = (".svg", ".pdf", ".png")
+"""File types of figures."""
+TRACES = (".json",)
+"""File types of traces."""
+
+
+def readable(length: Length, limit: int, digits: int) -> tuple[str, ...]:
+    """The closed form, if it has at most *limit* characters, and ``≈`` the decimal value.
+
+    A whole number is its own decimal value and comes alone.
+    """
+    decimal = length.decimal(digits)
+    if "e" not in decimal and "." in decimal:
+        decimal = decimal.rstrip("0").rstrip(".")
+    closed = str(length)
+    if closed == decimal:
+        return (closed,)
+    return (closed, f"≈ {decimal}") if len(closed) <= limit else (f"≈ {decimal}",)
 
 
 def check_output(path: str | os.PathLike[str], suffixes: Collection[str]) -> Path:

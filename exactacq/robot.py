@@ -93,7 +93,8 @@ class Robot:
 
     def unvisited(self) -> tuple[list[int], list[int]]:
         """The obstacles on the map that were not visited, and those that never came on the map."""
-        known, unseen = [], []
+        known: list[int] = []
+        unseen: list[int] = []
         for j in range(self._links.count):
             if j in self.visited:
                 continue

@@ -11,8 +11,9 @@ from exactacq.boxes import DIRECTIONS
 from exactacq.contacts import locate, signed_area, spans
 from exactacq.curves import Arc, Curve, Segment
 from exactacq.lengths import Length
+from exactacq.numerals import rational
 from exactacq.points import Location, Point
-from exactacq.reals import Real, rational
+from exactacq.reals import Real
 from exactacq.shapes import Circle, Shape, Terrain
 from exactacq.validation import validate
 

@@ -9,7 +9,7 @@ from typing import TypeAlias
 from flint import fmpq
 
 from exactacq.errors import FormatError
-from exactacq.reals import rational
+from exactacq.numerals import rational
 
 Vertex: TypeAlias = "tuple[fmpq, fmpq, fmpq]"
 """(x, y, bulge): the bulge is a quarter-angle tangent and belongs to the edge that follows."""

@@ -4,14 +4,15 @@ backtrack by a depth-first stack."""
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import cmp_to_key
 
 from exactacq.bounds import sightseer_bounds
 from exactacq.errors import InvalidScene
 from exactacq.lengths import Length
 from exactacq.links import START, Link, Node, lexicographic
+from exactacq.numerals import rational
 from exactacq.points import Point
-from exactacq.reals import rational
 from exactacq.robot import Robot
 from exactacq.scene import Scene
 from exactacq.trace import Run, TreeLink
@@ -29,7 +30,8 @@ def sightseer(
     """Explore a scene by the Sightseer Strategy.
 
     *radius* and *start* default to the scene's own; both must be rational. Raises `InvalidScene` if there is
-    none, if the radius is not positive, if the start is not free, or if an obstacle meets the terrain's border.
+    none, if the radius is not positive, if the start is not free, or if an obstacle meets the terrain's
+    border.
     Never fails for lack of visibility: what could not be reached is reported in the run. Cost: near
     linear in the number of obstacles at constant density and radius.
     """
@@ -41,7 +43,8 @@ def sightseer(
         raise InvalidScene(["a start point with rational coordinates must be given"])
     border = scene.meets_border()
     if border:
-        raise InvalidScene([f"obstacle {k} meets the terrain's border: the Sightseer needs it inside" for k in border])
+        rule = "meets the terrain's border: the Sightseer needs its obstacles inside"
+        raise InvalidScene([f"obstacle {k} {rule}" for k in border])
     try:
         robot = Robot(scene, range_, place)
     except ValueError as error:
@@ -53,7 +56,7 @@ class _Sightseer:
     def __init__(self, robot: Robot, progress: Progress | None, total: int) -> None:
         self.robot, self.progress, self.total = robot, progress, total
         self.stack: list[tuple[Node, Point, Point]] = []
-        self.tree: dict[int, list[object]] = {}
+        self.tree: dict[int, TreeLink] = {}
         self.depth = 0
 
     def run(self, scene: Scene) -> Run:
@@ -80,7 +83,7 @@ class _Sightseer:
         self.stack.append((source, leave, hit))
         self.depth = max(self.depth, len(self.stack))
         robot.linear_navigate(link.target, hit)
-        self.tree[link.target] = [source, leave, hit, Length(link.length), 1]
+        self.tree[link.target] = TreeLink(source, link.target, leave, hit, Length(link.length), 1)
         robot.mark("hit", link.target, f"from {source}")
         robot.circumnavigate()
         if self.progress is not None:
@@ -94,7 +97,7 @@ class _Sightseer:
         robot.walk_to(hit)
         robot.mark("leave", current, f"back to {previous}")
         robot.linear_navigate(previous, leave)
-        self.tree[current][4] = 2
+        self.tree[current] = replace(self.tree[current], traversals=2)
         robot.mark("backtrack", previous if isinstance(previous, int) else None, f"from {current}")
 
     def _choose(self, link: Link) -> tuple[Point, Point]:
@@ -115,12 +118,14 @@ class _Sightseer:
         robot = self.robot
         if len(robot.visited) == self.total:
             return "every obstacle is visited"
-        return "back at the start, nothing unvisited in sight" if robot.at == START else "no unvisited obstacle on the map"
+        if robot.at == START:
+            return "back at the start, nothing unvisited in sight"
+        return "no unvisited obstacle on the map"
 
     def _finished(self, scene: Scene) -> Run:
         robot = self.robot
         path, events = robot.trace()
-        links = tuple(TreeLink(s, t, leave, hit, v, k) for t, (s, leave, hit, v, k) in self.tree.items())  # type: ignore[arg-type]
+        links = tuple(self.tree.values())
         unvisited, unseen = robot.unvisited()
         length = path.length_after(len(path))
         radius = robot.radius

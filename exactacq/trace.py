@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 from flint import fmpq
 
@@ -129,6 +130,25 @@ class Run:
     def complete(self) -> bool:
         """Whether every obstacle was visited."""
         return not self.unseen and not self.unvisited
+
+    @property
+    def incomplete(self) -> tuple[int, ...]:
+        """The obstacles on the map that were not circumnavigated.
+
+        Visited ones are acquired; whether an unvisited one was seen all around from afar is not tracked.
+        """
+        return self.unvisited
+
+    def _repr_svg_(self) -> str:
+        from exactacq.figures import svg
+
+        return svg(self)
+
+    def to_json(self) -> dict[str, Any]:
+        """The run as JSON data with exact numbers; `exactacq.load_run` reads it back."""
+        from exactacq.run_json import run_to_json
+
+        return run_to_json(self)
 
     def names(self) -> Iterator[str]:
         """The obstacles' names, "O" and the number from 1 where none is given."""

@@ -15,7 +15,7 @@ settings.register_profile(
     "quick",
     derandomize=True,
     deadline=None,
-    max_examples=8,
+    max_examples=20,
     database=None,
     print_blob=True,
     suppress_health_check=SLOW_SCENES,

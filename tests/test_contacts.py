@@ -353,8 +353,10 @@ def test_parallel_segments_give_the_facing_pieces():
     assert family.kind is FamilyKind.PARALLEL and family.distance_sq == 9
     assert (family.first.start, family.first.end) == (Point(1, 0), Point(4, 0))
     assert (family.second.start, family.second.end) == (Point(1, 3), Point(4, 3))
-    (pair,) = nearest_points(a, segment(4, 1, 7, 1))
-    assert (pair.start, pair.end) == (Point(4, 0), Point(4, 1))
+    for x, far in ((4, 7), (0, -3)):
+        for other in (segment(x, 1, far, 1), segment(far, 1, x, 1)):
+            (pair,) = nearest_points(a, other)
+            assert (pair.start, pair.end) == (Point(x, 0), Point(x, 1))
 
 
 def test_concentric_arcs_give_the_common_angles():

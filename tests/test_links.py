@@ -21,6 +21,7 @@ from strategies import (
     box,
     build,
     circle_grid,
+    degenerate_terrain,
     degenerate_terrains,
     random_terrain,
     reversed_order,
@@ -71,7 +72,8 @@ def cube_root(n: int) -> int:
 # Against the oracle.
 
 
-def check_against_oracle(terrain: Terrain) -> None:
+def check_against_oracle(terrain: Terrain, accuracy: float = 1e-9) -> None:
+    """The same edges and lengths; every link is free, and no sampled pair of points is closer."""
     graph = graph_of(terrain)
     shapes, radius = terrain.shapes, terrain.radius
     w = world(shapes)
@@ -92,7 +94,7 @@ def check_against_oracle(terrain: Terrain) -> None:
         assert free(shapes, p, q), (i, j, p, q)
         gaps = [boundary_gap(w, terrain, i, a) + boundary_gap(w, terrain, j, b) for a, b in [(p, q), (q, p)]]
         assert min(gaps) < 1e-9, (i, j, p, q)
-        if expected is not None and abs(expected.length - length) > 1e-9:
+        if expected is not None and abs(expected.length - length) > accuracy:
             assert ambiguous(shapes, source, j, radius), (i, j, length, expected)
         if i != "S" and length > 1e-6:
             assert free_sample_shorter(shapes, i, j, length - 1e-6, 24) is None, (i, j)
@@ -121,7 +123,12 @@ class TestAgainstTheOracle:
 
     @given(degenerate_terrains())
     def test_small_integers(self, terrain: Terrain) -> None:
-        check_against_oracle(terrain)
+        """Chords that end tangent to a circle are common here, and there the floats are good to 1e-7 only."""
+        check_against_oracle(terrain, accuracy=1e-6)
+
+    @pytest.mark.parametrize("seed", range(4))
+    def test_seeded_small_integers(self, seed: int) -> None:
+        check_against_oracle(degenerate_terrain(Random(seed)), accuracy=1e-6)
 
     @pytest.mark.parametrize("seed", range(6))
     def test_seeded_scenes(self, seed: int) -> None:

@@ -96,7 +96,7 @@ def distance_above(a: Corner, b: Corner) -> fmpq:
 
 
 def root_above(square: fmpq) -> fmpq:
-    """A rational at least the square root of *square* >= 0, at most a billionth of it larger; exact if rational."""
+    """A rational at least the square root of *square* >= 0, at most a billionth larger; exact if rational."""
     p, q = int(square.p), int(square.q)
     root = isqrt(p * q)
     if root * root == p * q:

@@ -23,8 +23,8 @@ FIRST_STEP = fmpq(1, 2**50)
 def open_cusps(loop: Chain, tolerance: fmpq) -> int:
     """Alter bulges of computed arcs so that no cusp's edges meet again within the tolerance; how many were.
 
-    An arc is computed if its bulge or an end is not the file's. A joint that cannot be mended by a move within
-    the tolerance stays as it is, for the scene to refuse. The move of each bulge is added to its
+    An arc is computed if its bulge or an end is not the file's. A joint that cannot be mended by a move
+    within the tolerance stays as it is, for the scene to refuse. The move of each bulge is added to its
     ``bulge_shift``. Linear in the edges.
     """
     return sum(_open_cusp(loop, i, tolerance) for i in range(len(loop.corners)))

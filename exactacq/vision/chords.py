@@ -18,8 +18,9 @@ from flint import fmpq, fmpq_poly
 
 from exactacq.contacts import line_contacts
 from exactacq.curves import Curve, Segment
+from exactacq.numerals import rational
 from exactacq.points import Point
-from exactacq.reals import Real, rational, roots
+from exactacq.reals import Real, roots
 from exactacq.vision.features import Sector, Vector, cross, dot
 
 X = fmpq_poly([0, 1])
@@ -109,13 +110,15 @@ def _meet(contact: Point, direction: Point, edge: Curve, side: int) -> Real:
     """Parameter at which the line enters the obstacle through *edge*, going ahead (1) or back (-1)."""
     if isinstance(edge, Segment):
         along = edge.direction
-        return (edge.start - contact).cross(along) / direction.cross(along)
+        straight: Real = (edge.start - contact).cross(along) / direction.cross(along)
+        return straight
     to_center = edge.center - contact
     middle, size = to_center.dot(direction), direction.norm_sq()
     square = middle * middle - size * (to_center.norm_sq() - edge.radius_sq)
     # An arc's far crossing is met from inside its circle: there the obstacle lies outside.
     far = -side if edge.ccw else side
-    return (middle + far * square.sqrt()) / size
+    curved: Real = (middle + far * square.sqrt()) / size
+    return curved
 
 
 def _derivative(
@@ -153,7 +156,6 @@ def _half(
     sector: Sector, edge: Curve, side: int
 ) -> tuple[_Fraction, tuple[_Fraction, fmpq_poly] | None]:
     """Signed length from the contact to *edge*, scaled as the module's docstring says."""
-    ex, ey = sector.base
     size = dot(sector.base, sector.base)
     if isinstance(edge, Segment):
         normal = _vector(edge.direction.left())
@@ -164,7 +166,7 @@ def _half(
         ahead = fmpq_poly([dot(sector.base, normal), cross(sector.base, normal)])
         return _Fraction(size * offset * UNIT, ahead), None
     middle = _shifted(edge.center, sector.center)
-    far = fmpq((-side if edge.ccw else side))
+    far = fmpq(-side if edge.ccw else side)
     if sector.round:
         spoke, tangent = _spoke(sector, middle)
         height = spoke - size * GROWTH

@@ -58,8 +58,8 @@ def walk_line(
 ) -> tuple[list[tuple[Real, int]], list[tuple[Real, int]]]:
     """What a tangent line touches behind and ahead of its contact, up to the first obstacle that blocks it.
 
-    Two lists of (signed parameter, edge), nearest first, of contacts with edges within *reach*; each ends with
-    the contact at which the line is blocked, or where nothing more lies within reach.
+    Two lists of (signed parameter, edge), nearest first, of contacts with edges within *reach*; each ends
+    with the contact at which the line is blocked, or where nothing more lies within reach.
     """
     contact, direction = sector.touch(t)
     x, y = contact.xy
@@ -73,13 +73,17 @@ def walk_line(
         for e in found.possible(0)
         for tau in line_contacts(contact, direction, table.curves[e])
     ]
-    met.sort(key=cmp_to_key(lambda a, b: a[0].compare(b[0])))
+    met.sort(key=cmp_to_key(_by_parameter))
     ahead = [hit for hit in met if hit[0].sign() > 0]
     behind = [hit for hit in reversed(met) if hit[0].sign() < 0]
     return (
         list(_until_blocked(table, contact, direction, behind)),
         list(_until_blocked(table, contact, direction, ahead)),
     )
+
+
+def _by_parameter(a: tuple[Real, int], b: tuple[Real, int]) -> int:
+    return a[0].compare(b[0])
 
 
 def _until_blocked(

@@ -6,7 +6,10 @@ UNSURE, and the callers then ask the exact predicates.
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
+from numpy.typing import NDArray
 
 from exactacq.vision.table import STRAIGHT, EdgeTable, Floats, Ints
 
@@ -68,9 +71,9 @@ class Crossings:
         self.low = np.concatenate([p[4] for p in parts], axis=1)
         self.high = np.concatenate([p[5] for p in parts], axis=1)
         self.slack = slack
-        self.rows = self._decide()
 
-    def _decide(self) -> list[tuple[int | None, int | None] | None]:
+    @cached_property
+    def _rows(self) -> list[tuple[int | None, int | None] | None]:
         """Per row the edges behind and ahead, or None where the margins leave a doubt."""
         hit, unsure = self.state == HIT, self.state == UNSURE
         doubt = (hit & (np.abs(self.tau) <= self.error)).any(axis=1)
@@ -96,11 +99,12 @@ class Crossings:
         return int(self.edges[column]) if column >= 0 else None
 
     def nearest(self, row: int) -> tuple[int | None, int | None] | None:
-        return self.rows[row]
+        """First edge behind and ahead on the line of a row, or None where the margins leave a doubt."""
+        return self._rows[row]
 
     def possible(self, row: int) -> Ints:
         """The edges that the line of a row may meet."""
-        return self.edges[np.unique(self.column[row][self.state[row] != MISSED])]
+        return self._at(row, self.state[row] != MISSED)
 
     def blocks(self, row: int, size: float) -> bool:
         """Whether some edge certainly crosses the line of a row between 0 and *size*."""
@@ -112,7 +116,11 @@ class Crossings:
         state, tau, error = self.state[row], self.tau[row], self.error[row]
         away = (state == HIT) & ((tau < -error) | (tau > size + error))
         away |= (state == UNSURE) & ((self.high[row] < -self.slack) | (self.low[row] > size + self.slack))
-        return self.edges[np.unique(self.column[row][~away & (state != MISSED)])]
+        return self._at(row, ~away & (state != MISSED))
+
+    def _at(self, row: int, chosen: NDArray[np.bool_]) -> Ints:
+        edges: Ints = self.edges[np.unique(self.column[row][chosen])]
+        return edges
 
 
 

@@ -84,8 +84,9 @@ def _is_clear(table: EdgeTable, family: Family) -> bool:
         return False
     for unit, extent in ((along / length, length), (across / width, width)):
         corners = table.boxes[edges].reshape(-1, 2, 2) - a
-        low = (corners.min(axis=1) * np.maximum(unit, 0) + corners.max(axis=1) * np.minimum(unit, 0)).sum(axis=1)
-        high = (corners.max(axis=1) * np.maximum(unit, 0) + corners.min(axis=1) * np.minimum(unit, 0)).sum(axis=1)
+        near, far = corners.min(axis=1), corners.max(axis=1)
+        plus, minus = np.maximum(unit, 0), np.minimum(unit, 0)
+        low, high = near @ plus + far @ minus, far @ plus + near @ minus
         straight = table.kind[edges] == 0
         ends = np.stack(((table.start[edges] - a) @ unit, (table.end[edges] - a) @ unit))
         low = np.where(straight, ends.min(axis=0), low)
@@ -128,7 +129,8 @@ class _Fractions:
     def between(self, low: Place, high: Place) -> Place:
         assert isinstance(low, Real)
         assert isinstance(high, Real)
-        return (low + high) * fmpq(1, 2)
+        middle: Real = (low + high) * fmpq(1, 2)
+        return middle
 
     def chord(self, place: Place) -> Segment:
         start = self.first.start + self.along * place
@@ -140,7 +142,7 @@ class _Fractions:
 
 
 class _Directions:
-    """Places of a concentric family: directions from the common centre, counterclockwise from the first end."""
+    """Places of a concentric family: directions from the common centre, counterclockwise from one end."""
 
     def __init__(self, family: Family) -> None:
         arc = family.first if isinstance(family.first, Arc) else family.second
@@ -206,7 +208,7 @@ class _Directions:
         assert isinstance(place, Point)
         unit = place / place.norm_sq().sqrt()
         start, end = (
-            c if isinstance(c, Point) else self.center + unit * c.radius
+            self.center + unit * c.radius if isinstance(c, Arc) else self.center
             for c in (self.family.first, self.family.second)
         )
         return Segment(start, end)
@@ -214,7 +216,7 @@ class _Directions:
     def part(self, low: Place, high: Place) -> Family:
         a, b = self.chord(low), self.chord(high)
         first, second = (
-            c if isinstance(c, Point) else (c if c.ccw else c.reversed()).part(p, q)
+            (c if c.ccw else c.reversed()).part(p, q) if isinstance(c, Arc) else p
             for c, p, q in (
                 (self.family.first, a.start, b.start),
                 (self.family.second, a.end, b.end),

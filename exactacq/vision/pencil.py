@@ -16,12 +16,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cmp_to_key
+from itertools import pairwise
+from math import hypot
 
 import numpy as np
 from flint import fmpq, fmpz
 
 from exactacq.contacts import line_contacts
-from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.vision.crossings import Crossings
 from exactacq.vision.features import Sector, Vector, dot, left
@@ -71,11 +72,12 @@ def pencil(
 ) -> Pencil:
     """Sweep one sector; only edges within *reach* of the contact are considered.
 
-    *own* are the edges through the contact, *breaks* further directions (at a corner) that end cells. What lies beyond *reach* may be reported wrongly or as
-    None, so a chord is to be trusted only if both its halves are no longer than *reach*.
+    *own* are the edges through the contact, *breaks* further directions (at a corner) that end cells. What
+    lies beyond *reach* may be reported wrongly or as None, so a chord is to be trusted only if both its
+    halves are no longer than *reach*.
     """
     center = (float(sector.center[0]), float(sector.center[1]))
-    size = float(dot(sector.base, sector.base)) ** 0.5 * (1 + 1e-9) if sector.round else 0.0
+    size = hypot(float(sector.base[0]), float(sector.base[1])) * (1 + 1e-9) if sector.round else 0.0
     edges = table.near(center, center, reach + size)
     return _Sweep(table, sector, own, edges, breaks).run()
 
@@ -95,9 +97,9 @@ class _Sweep:
 
     def run(self) -> Pencil:
         values, pinches = self._events()
-        middles = [_between(a, b) for a, b in zip(values, values[1:], strict=False)]
+        middles = [_between(a, b) for a, b in pairwise(values)]
         cells: list[Cell] = []
-        for low, high, (behind, ahead) in zip(values, values[1:], self._meets(middles), strict=False):
+        for (low, high), (behind, ahead) in zip(pairwise(values), self._meets(middles), strict=True):
             if cells and (cells[-1].behind, cells[-1].ahead) == (behind, ahead):
                 cells[-1] = Cell(cells[-1].low, high, behind, ahead)
             else:
@@ -126,7 +128,7 @@ class _Sweep:
         """The distinct exact values of a cluster, ascending, with the number of true events at each."""
         known = [(value, event) for event in cluster if (value := self._exact(event)) is not None]
         if len(known) > 1:
-            known.sort(key=cmp_to_key(lambda a, b: a[0].compare(b[0])))
+            known.sort(key=cmp_to_key(_by_value))
         current: Real | None = None
         sources = 0
         for value, event in known:
@@ -189,7 +191,7 @@ class _Sweep:
         x = offsets @ self.base
         y = offsets @ np.array((-self.base[1], self.base[0]))
         size = np.hypot(x, y)
-        error = self.slack / np.maximum(size, 1e-300) + 1e-14
+        error = np.minimum(self.slack / np.maximum(size, 1e-300), 1.0) + 1e-14
         return size, np.arctan2(y, x), error
 
     def _line_through(self, offsets: Floats) -> tuple[Floats, Floats]:
@@ -247,7 +249,8 @@ class _Sweep:
             return None
         root = square.sqrt() * event.sign
         below = k + along
-        return (across + root) / below if below.sign() else (k - along) / (across - root)
+        value: Real = (across + root) / below if below.sign() else (k - along) / (across - root)
+        return value
 
     # -- edges met -----------------------------------------------------------------------------
 
@@ -324,6 +327,10 @@ def _between(low: Real, high: Real) -> fmpq:
         bits *= 2
 
 
+def _by_value(a: tuple[Real, _Event], b: tuple[Real, _Event]) -> int:
+    return a[0].compare(b[0])
+
+
 def _slope(angle: Floats) -> Floats:
     """Parameter at a corner for a direction, taken modulo a half turn; NaN far from the base."""
     folded = np.remainder(angle + np.pi / 2, np.pi) - np.pi / 2
@@ -332,8 +339,9 @@ def _slope(angle: Floats) -> Floats:
 
 def _arc_error(ratio: Floats, error: Floats) -> Floats:
     """Error of asin or acos of a ratio that is off by about *error*."""
-    flat = np.sqrt(np.maximum(1 - ratio * ratio, 0.0))
-    return np.minimum(4 * error / np.maximum(flat, 1e-300), 4 * np.sqrt(error))
+    flat = np.sqrt(np.maximum(1 - np.minimum(ratio * ratio, 1.0), 1e-30))
+    bound: Floats = np.minimum(4 * error / flat, 4 * np.sqrt(error))
+    return bound
 
 
 def _rotated(vector: Floats, angle: Floats) -> Floats:

@@ -79,7 +79,8 @@ class EdgeTable:
         spoke = np.hypot(x - self.center[edges, 0], y - self.center[edges, 1])
         curved = np.maximum(to_box, np.abs(spoke - self.radius[edges]))
         bound = np.where(self.kind[edges] == STRAIGHT, straight, curved)
-        return np.maximum(bound * (1 - 1e-14) - 8 * self.roundoff, 0.0)
+        bounds: Floats = np.maximum(bound * (1 - 1e-14) - 8 * self.roundoff, 0.0)
+        return bounds
 
 
 def _kind(curve: Curve) -> int:

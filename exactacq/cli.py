@@ -1,0 +1,283 @@
+"""The command line. Errors are one line on standard error and exit status 2; files are written whole."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from collections.abc import Sequence
+from enum import StrEnum
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+from exactacq import gallery as scenes
+from exactacq.errors import ExactacqError, FormatError, InvalidScene
+from exactacq.formats import load
+from exactacq.numerals import rational
+from exactacq.output import FIGURES, TRACES, check_output, write_whole
+from exactacq.report import console, run_report, scene_list, scene_report
+from exactacq.scene import Scene
+from exactacq.sightseer import sightseer
+from exactacq.trace import Run
+
+if TYPE_CHECKING:
+    from flint import fmpq
+
+REFUSED, INTERNAL, INTERRUPTED = 2, 1, 130
+"""Exit statuses: bad input or a file that cannot be written; a fault of exactacq itself; control-C."""
+VIOLATIONS = 20
+"""Most violations of a scene that the one line of an error names."""
+UsageError: type[Exception] = typer.BadParameter.__bases__[0]
+"""What typer raises for a wrong command line; where it lives depends on typer's release."""
+
+
+class Strategy(StrEnum):
+    """The paper's strategies."""
+
+    SIGHTSEER = "sightseer"
+    SEED_SPREADER = "seed-spreader"
+
+
+class Outer(StrEnum):
+    """What becomes of the outermost loop around the start."""
+
+    WALL = "wall"
+    DROP = "drop"
+
+
+SceneName = Annotated[str, typer.Argument(metavar="SCENE", help="A .json or .dxf file, or a gallery name.")]
+Start = Annotated[str | None, typer.Option(metavar="X,Y", help="Start point; required for drawings.")]
+Layers = Annotated[str | None, typer.Option(metavar="A,B", help="Layers of a drawing to read; default: all.")]
+Outermost = Annotated[Outer, typer.Option(help="The outermost loop of a drawing around the start.")]
+Tolerance = Annotated[
+    str | None, typer.Option(metavar="T", help="Join the ends of a drawing this far apart.")
+]
+Union = Annotated[bool, typer.Option("--union", help="Merge overlapping polygons of a drawing.")]
+Radius = Annotated[str | None, typer.Option(metavar="R", help="Radius of vision; default: the scene's own.")]
+FigureFile = Annotated[str | None, typer.Option(metavar="F", help="Write a figure: .svg, .pdf or .png.")]
+
+app = typer.Typer(
+    name="exactacq",
+    help="Exact sensor-based terrain acquisition. Numbers are exact: 10, 0.1 or 21/2.",
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+
+
+def _print_version(asked: bool) -> None:
+    if asked:
+        print(f"exactacq {version('exactacq')}")
+        raise typer.Exit
+
+
+@app.callback(invoke_without_command=True)
+def _top(
+    context: typer.Context,
+    _: Annotated[
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Show the version.")
+    ] = False,
+) -> None:
+    if context.invoked_subcommand is None:
+        print(context.get_help())
+
+
+@app.command()
+def explore(
+    scene: SceneName,
+    strategy: Annotated[Strategy, typer.Option(help="How to explore.")] = Strategy.SIGHTSEER,
+    radius: Radius = None,
+    start: Start = None,
+    figure: FigureFile = None,
+    trace: Annotated[str | None, typer.Option(metavar="F", help="Write the exact run as .json.")] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the exact run as JSON, and no table.")
+    ] = False,
+    layers: Layers = None,
+    outer: Outermost = Outer.WALL,
+    tolerance: Tolerance = None,
+    union: Union = False,
+) -> None:
+    """Explore a scene; print a summary, or write the figure and the exact trace."""
+    if strategy is Strategy.SEED_SPREADER:
+        raise FormatError("--strategy seed-spreader: not available in this version; use sightseer")
+    range_ = None if radius is None else _number("--radius", radius)
+    if range_ is not None and range_ <= 0:
+        raise FormatError(f"--radius: must be positive, not {radius}")
+    outputs = [check_output(f, s) for f, s in ((figure, FIGURES), (trace, TRACES)) if f is not None]
+    if any(_same_file(path, scene) for path in outputs):
+        raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
+    world = _scene(scene, start, layers, outer, tolerance, union)
+    if range_ is None and world.radius is None:
+        raise FormatError(f"{scene}: the scene has no radius of vision: give one with --radius R")
+    run = _explored(world, range_)
+    if figure is not None:
+        from exactacq.figures import save  # matplotlib takes long to import
+
+        save(run, figure)
+    if as_json or trace is not None:
+        text = json.dumps(run.to_json(), indent=1, ensure_ascii=False) + "\n"
+        if trace is not None:
+            write_whole(trace, text.encode())
+        if as_json:
+            sys.stdout.write(text)
+            return
+    out = console()
+    out.print(run_report(run))
+    for name, path in (("figure", figure), ("trace", trace)):
+        if path is not None:
+            out.print(f"{name} written to {path}", soft_wrap=True)
+
+
+@app.command()
+def check(
+    scene: SceneName,
+    start: Start = None,
+    layers: Layers = None,
+    outer: Outermost = Outer.WALL,
+    tolerance: Tolerance = None,
+    union: Union = False,
+) -> None:
+    """Validate a scene, and say what it holds and what the import did."""
+    console().print(scene_report(_scene(scene, start, layers, outer, tolerance, union)))
+
+
+@app.command()
+def gallery(
+    name: Annotated[str | None, typer.Argument(metavar="[NAME]", help="A scene to describe or draw.")] = None,
+    figure: FigureFile = None,
+    out: Annotated[
+        str | None, typer.Option(metavar="DIR", help="Explore every scene, and write DIR/NAME.svg.")
+    ] = None,
+) -> None:
+    """List the gallery; draw one scene of it (--figure), or the runs on all of them (--out)."""
+    if name is None and figure is not None:
+        raise FormatError(
+            "--figure: name the scene to be drawn, as in: exactacq gallery figure2 --figure F.svg"
+        )
+    if out is not None:
+        if name is not None:
+            raise FormatError("--out: draws every scene; leave the name out")
+        _draw_gallery(Path(out))
+    elif name is None:
+        console().print(scene_list(scenes.names()))
+    elif figure is None:
+        console().print(scene_report(scenes.scene(name)))
+    else:
+        from exactacq.figures import save
+
+        save(scenes.scene(name), figure)
+        print(f"figure written to {figure}")
+
+
+def _draw_gallery(folder: Path) -> None:
+    from exactacq.figures import save
+
+    folder.mkdir(exist_ok=True)
+    for name in scenes.names():
+        path = folder / f"{name}.svg"
+        save(_explored(scenes.scene(name), None), check_output(path, FIGURES))
+        print(f"figure written to {path}")
+
+
+def _scene(
+    name: str, start: str | None, layers: str | None, outer: Outer, tolerance: str | None, union: bool
+) -> Scene:
+    """The scene in the file, or else of the gallery, that *name* names."""
+    place = None if start is None else _pair("--start", start)
+    slack = None if tolerance is None else _number("--tolerance", tolerance)
+    chosen = None if layers is None else [layer.strip() for layer in layers.split(",")]
+    is_file = os.path.lexists(name) if "\0" not in name else True  # An impossible name is load's to refuse.
+    if not is_file and not Path(name).suffix:
+        if name not in scenes.names():
+            raise FormatError(f"{name}: no such file or gallery scene; `exactacq gallery` lists the scenes")
+        if chosen is not None or outer is not Outer.WALL or slack is not None or union:
+            raise FormatError(f"{name}: a gallery scene takes no options for drawings; leave them out")
+        scene = scenes.scene(name)
+        if place is None:
+            return scene
+        return Scene(
+            scene.shapes, place, terrain=scene.terrain, enclosure=scene.enclosure, radius=scene.radius,
+            name=scene.name, notes=scene.notes,
+        )  # fmt: skip
+    return load(name, start=place, layers=chosen, outer=outer.value, tolerance=slack, union=union)
+
+
+def _explored(scene: Scene, radius: fmpq | None) -> Run:
+    """The run; with a progress bar if it is long and a terminal watches."""
+    if not sys.stderr.isatty():
+        return sightseer(scene, radius)
+    columns = (TextColumn("exploring"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("", total=len(scene.obstacles))
+        return sightseer(
+            scene, radius, progress=lambda done, total: bar.update(task, completed=done, total=total)
+        )
+
+
+def _number(option: str, text: str) -> fmpq:
+    try:
+        return rational(text)
+    except FormatError as error:
+        raise FormatError(f"{option}: {error}; give a number like 10, 0.1 or 21/2") from None
+
+
+def _pair(option: str, text: str) -> tuple[fmpq, fmpq]:
+    parts = text.split(",")
+    if len(parts) != 2:
+        raise FormatError(f"{option}: not two numbers: {text!r}; give X,Y without spaces, like 0,21/2")
+    return _number(option, parts[0]), _number(option, parts[1])
+
+
+def _same_file(path: Path, scene: str) -> bool:
+    try:
+        return path.samefile(scene)
+    except (OSError, ValueError):
+        return False
+
+
+def _one_line(error: BaseException) -> str:
+    """What is wrong, on one line."""
+    if isinstance(error, UsageError) and hasattr(error, "format_message"):
+        text = error.format_message()
+    elif isinstance(error, InvalidScene) and len(error.violations) > VIOLATIONS:
+        shown = "; ".join(error.violations[:VIOLATIONS])
+        text = f"{len(error.violations)} violations: {shown}; and {len(error.violations) - VIOLATIONS} more"
+    elif isinstance(error, OSError) and error.strerror is not None:
+        place = "" if error.filename is None else f"{error.filename}: "
+        text = f"{place}{error.strerror}"
+    else:
+        text = str(error) or type(error).__name__
+    return " ".join(text.split())
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command line (default: the process's own) and return its exit status; never raises."""
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):  # Names of files and obstacles may be beyond the encoding.
+            stream.reconfigure(errors="backslashreplace")
+    try:
+        status = app(args=arguments, prog_name="exactacq", standalone_mode=False)
+        sys.stdout.flush()
+    except (KeyboardInterrupt, typer.Abort):
+        return _refuse("interrupted", INTERRUPTED)
+    except BrokenPipeError:  # The reader has seen enough; spare the interpreter its own flush.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return REFUSED
+    except (ExactacqError, UsageError, OSError) as error:
+        return _refuse(_one_line(error), REFUSED)
+    except Exception as error:
+        if sys.flags.dev_mode:
+            raise
+        fault = f"internal error, please report it ({type(error).__name__}: {_one_line(error)})"
+        return _refuse(f"{fault}; python -X dev -m exactacq shows where", INTERNAL)
+    return status if isinstance(status, int) else 0
+
+
+def _refuse(line: str, status: int) -> int:
+    print(f"exactacq: {line}", file=sys.stderr)
+    return status

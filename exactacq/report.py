@@ -1,0 +1,146 @@
+"""Runs and scenes in words and tables, for a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from rich.console import Console, Group, RenderableType
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
+
+from exactacq.curves import Arc
+from exactacq.lengths import Length
+from exactacq.output import readable
+from exactacq.points import Point
+from exactacq.reals import Real
+from exactacq.scene import Scene
+from exactacq.trace import Run
+
+CLOSED_FORM = 60
+"""Closed forms of at most this many characters are shown; longer ones are in the trace."""
+ROWS = 60
+"""Most rows of a table, and most names of a list; a trace has them all."""
+
+
+def console() -> Console:
+    """Standard output as given: no markup, no guesses; 110 columns where it is not a terminal."""
+    out = Console(highlight=False, markup=False, emoji=False)
+    return out if out.is_terminal else Console(highlight=False, markup=False, emoji=False, width=110)
+
+
+def run_report(run: Run) -> RenderableType:
+    """What a run did, in the order: visits and links, length, bounds, what was missed, import notes."""
+    names = list(run.names())
+    count = len(run.scene.obstacles)
+    parts: list[RenderableType] = [
+        Text(f"Sightseer Strategy on {run.scene.name or 'a scene'}", style="bold"),
+        f"S = {_place(run.start)}, R = {run.radius}, {_counted(count, 'obstacle')}",
+        "",
+    ]
+    if run.visits:
+        parts += [_links(run, names), ""]
+        parts.append(_listed("order of visits", (names[k] for k in run.visits), " → "))
+    parts.append(Text.assemble("length  ", ("  ".join(readable(run.length, CLOSED_FORM, 20)), "bold")))
+    if run.bounds:
+        parts += ["", _bounds(run)]
+    return Group(*parts, *_missed(run, names), *_notes(run.scene))
+
+
+def scene_report(scene: Scene) -> RenderableType:
+    """What a valid scene holds."""
+    edges = [edge for obstacle in scene.obstacles for edge in obstacle.edges]
+    arcs = sum(isinstance(edge, Arc) for edge in edges)
+    total = Length.sum(obstacle.perimeter for obstacle in scene.obstacles)
+    solid = sum(not obstacle.is_enclosure for obstacle in scene.obstacles)
+    table = Table.grid(padding=(0, 2))
+    rows = {
+        "obstacles": f"{solid}" + (", and the enclosure" if scene.enclosure is not None else ""),
+        "edges": f"{_counted(len(edges) - arcs, 'segment')}, {_counted(arcs, 'arc')}",
+        "perimeters": "  ".join(readable(total, CLOSED_FORM, 20)),
+        "start": _place(scene.start) if scene.start is not None else "none: give one with --start X,Y",
+        "radius": f"{scene.radius}" if scene.radius is not None else "none: give one with --radius R",
+    }
+    if scene.terrain is not None:
+        rows["terrain"] = f"{scene.terrain.width} x {scene.terrain.height}"
+    for row in rows.items():
+        table.add_row(*row)
+    return Group(Text(f"{scene.name or 'scene'}: OK", style="bold"), table, *_notes(scene))
+
+
+def scene_list(scenes: dict[str, str]) -> RenderableType:
+    """The gallery's names and what they show."""
+    table = Table.grid(padding=(0, 2))
+    for name, line in scenes.items():
+        table.add_row(Text(name, style="bold"), line)
+    return table
+
+
+def _links(run: Run, names: list[str]) -> Table:
+    table = _table("visit", "obstacle", "from", "leave", "hit", "link", "walked")
+    for order, link in enumerate(run.links[:ROWS], 1):
+        source = link.source if isinstance(link.source, str) else names[link.source]
+        length = "\n".join(readable(link.length, CLOSED_FORM // 2, 12))
+        ends = _place(link.leave), _place(link.hit)
+        times = "once" if link.traversals == 1 else "twice"
+        table.add_row(str(order), names[link.target], source, *ends, length, times)
+    if len(run.links) > ROWS:
+        table.add_row("...", f"{len(run.links) - ROWS} more: see --trace")
+    return table
+
+
+def _bounds(run: Run) -> Table:
+    table = _table("bound", "value", "holds", "length / bound", "")
+    for bound in run.bounds:
+        value = "\n".join(readable(bound.value, CLOSED_FORM // 2, 12))
+        holds = "yes" if bound.holds else "NO"
+        table.add_row(bound.name, value, holds, f"{bound.ratio:.6f}", bound.source)
+    return table
+
+
+def _missed(run: Run, names: list[str]) -> Iterator[RenderableType]:
+    if run.complete:
+        return
+    yield ""
+    for which, what in ((run.unseen, "never seen"), (run.unvisited, "seen, but never visited")):
+        if which:
+            yield Text(_listed(what, (names[k] for k in which), ", "), style="bold red")
+    yield (
+        f"So this scene does not satisfy the paper's model (a) for R = {run.radius}: "
+        "no chain of links of at most R leads from S to every obstacle."
+    )
+
+
+def _notes(scene: Scene) -> Iterator[RenderableType]:
+    if scene.notes:
+        yield ""
+        yield "import notes"
+        for note in scene.notes:
+            yield Padding(f"- {note}", (0, 0, 0, 2), expand=False)
+
+
+def _table(*columns: str) -> Table:
+    table = Table(box=None, padding=(0, 3, 0, 0), header_style="bold", pad_edge=False)
+    for column in columns:
+        table.add_column(column, overflow="fold")
+    return table
+
+
+def _listed(what: str, names: Iterable[str], separator: str) -> str:
+    every = list(names)
+    more = f"{separator}... {len(every) - ROWS} more" if len(every) > ROWS else ""
+    return f"{what}  {separator.join(every[:ROWS])}{more}"
+
+
+def _place(point: Point) -> str:
+    return f"({_number(point.x)}, {_number(point.y)})"
+
+
+def _number(value: Real) -> str:
+    """A coordinate: rational if that is short, else six digits."""
+    exact = str(value.rational) if value.rational is not None else ""
+    return exact if 0 < len(exact) <= 8 else f"{float(value):.6g}"
+
+
+def _counted(count: int, what: str) -> str:
+    return f"{count} {what}" + "s" * (count != 1)
