@@ -17,7 +17,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from exactacq import gallery as scenes
 from exactacq.errors import ExactacqError, FormatError, InvalidScene
-from exactacq.formats import load
+from exactacq.loading import load
 from exactacq.numerals import rational
 from exactacq.output import FIGURES, TRACES, check_output, write_whole
 from exactacq.report import console, run_report, scene_list, scene_report
@@ -189,22 +189,22 @@ def _scene(
 ) -> Scene:
     """The scene in the file, or else of the gallery, that *name* names."""
     place = None if start is None else _pair("--start", start)
-    slack = None if tolerance is None else _number("--tolerance", tolerance)
-    chosen = None if layers is None else [layer.strip() for layer in layers.split(",")]
-    is_file = os.path.lexists(name) if "\0" not in name else True  # An impossible name is load's to refuse.
-    if not is_file and not Path(name).suffix:
-        if name not in scenes.names():
-            raise FormatError(f"{name}: no such file or gallery scene; `exactacq gallery` lists the scenes")
-        if chosen is not None or outer is not Outer.WALL or slack is not None or union:
-            raise FormatError(f"{name}: a gallery scene takes no options for drawings; leave them out")
-        scene = scenes.scene(name)
-        if place is None:
-            return scene
-        return Scene(
-            scene.shapes, place, terrain=scene.terrain, enclosure=scene.enclosure, radius=scene.radius,
-            name=scene.name, notes=scene.notes,
-        )  # fmt: skip
-    return load(name, start=place, layers=chosen, outer=outer.value, tolerance=slack, union=union)
+    options: dict[str, object] = {"outer": outer.value} if outer is not Outer.WALL else {}
+    if layers is not None:
+        options["layers"] = [layer.strip() for layer in layers.split(",")]
+    if tolerance is not None:
+        options["tolerance"] = _number("--tolerance", tolerance)
+    if union:
+        options["union"] = True
+    if place is None:
+        return load(name, **options)
+    if name not in scenes.names() or os.path.lexists(name):
+        return load(name, start=place, **options)
+    scene = load(name, **options)
+    return Scene(
+        scene.shapes, place, terrain=scene.terrain, enclosure=scene.enclosure, radius=scene.radius,
+        name=scene.name, notes=scene.notes,
+    )  # fmt: skip
 
 
 def _explored(scene: Scene, radius: fmpq | None) -> Run:

@@ -12,8 +12,7 @@ class InvalidScene(ExactacqError, ValueError):
 
     def __init__(self, violations: list[str]) -> None:
         self.violations = tuple(violations)
-        head = f"{len(violations)} violations: " if len(violations) > 1 else ""
-        super().__init__(head + "; ".join(violations))
+        super().__init__("; ".join(violations))
 
 
 class FormatError(ExactacqError, ValueError):

@@ -16,6 +16,7 @@ from typing import Any
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib import style
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection, PathCollection
 from matplotlib.colors import ListedColormap, Normalize
@@ -41,6 +42,8 @@ CLOSED_FORM = 40
 
 WIDEST, TALLEST, NARROWEST = 7.2, 6.8, 1.2
 """Inches: the drawing fits a box of WIDEST x TALLEST, and a thin scene is given NARROWEST."""
+FINEST = 1e-9
+"""Size over distance from the origin of a scene that is about to be lost in floating point."""
 COLOURS = 160
 """Steps of the colour scale along the path."""
 DOTS = 200
@@ -64,7 +67,7 @@ def figure(subject: Run | Scene) -> Figure:
 
     Shows obstacles with the order of visits (in a scene alone: their names or numbers), the path coloured
     by its length so far, hit and leave points, tree links, start S, end T, and the radius of vision R once.
-    Raises `FormatError` if the coordinates are beyond floating point.
+    Raises `FormatError` for a scene that is `FINEST` times its distance from the origin or less.
     """
     return _Drawing(subject).figure()
 
@@ -84,10 +87,16 @@ def save(subject: Run | Scene, path: str | os.PathLike[str]) -> None:
 
 
 def _rendered(subject: Run | Scene, suffix: str) -> bytes:
-    """The figure as a file's content, without dates or random names: equal subjects give equal bytes."""
-    metadata = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}, ".png": {"Software": None}}
+    """The figure as a file's content, without dates, random names or the user's own settings of matplotlib:
+    equal subjects give equal bytes."""
+    maker: dict[str, str | None] = {"Creator": "exactacq"}
+    metadata = {
+        ".svg": {**maker, "Date": None},
+        ".pdf": {**maker, "Producer": None, "CreationDate": None},
+        ".png": {"Software": "exactacq"},
+    }
     out = io.BytesIO()
-    with mpl.rc_context({"svg.hashsalt": "exactacq", "hatch.linewidth": 0.5}):
+    with style.context(["default", {"svg.hashsalt": "exactacq", "hatch.linewidth": 0.5}]):
         figure(subject).savefig(out, format=suffix[1:], metadata=metadata[suffix], dpi=DOTS)
     return out.getvalue()
 
@@ -104,14 +113,11 @@ class _Drawing:
         self.scene = scene = subject.scene if isinstance(subject, Run) else subject
         start = self.run.start if self.run is not None else scene.start
         radius = self.run.radius if self.run is not None else scene.radius
-        try:
-            self.regions = [Region.of(o) for o in scene.obstacles]
-            self.strokes = [Stroke.of(p.curve) for p in self.run.path] if self.run is not None else []
-            self.start = None if start is None else start.xy
-            self.radius = None if radius is None else float(radius)
-            self.low, self.high = self._view()
-        except (OverflowError, ValueError):
-            raise FormatError("the coordinates are too large to be drawn; scale the scene down") from None
+        self.regions = [Region.of(o) for o in scene.obstacles]
+        self.strokes = [Stroke.of(p.curve) for p in self.run.path] if self.run is not None else []
+        self.start = None if start is None else start.xy
+        self.radius = None if radius is None else float(radius)
+        self.low, self.high = self._view()
         self.scale = min(WIDEST / self.width, TALLEST / self.height)
         self.labels: list[tuple[float, float]] = []
         self.legend: dict[str, Any] = {}
@@ -129,8 +135,8 @@ class _Drawing:
         if not (high - low).any():
             low, high = low - (self.radius or 1.0), high + (self.radius or 1.0)
         size = float(np.max(high - low))
-        if not np.isfinite(size * 100):
-            raise OverflowError
+        if not size > np.max(np.abs((low, high))) * FINEST:
+            raise FormatError("too small to be drawn so far from the origin; move the scene closer")
         margin = size * (0.07 if self.scene.enclosure is not None else 0.05)
         low, high = low - margin, high + margin
         least = (size + 2 * margin) * NARROWEST / WIDEST
@@ -234,13 +240,13 @@ class _Drawing:
 
     def _obstacles(self) -> None:
         for obstacle, region in zip(self.scene.obstacles, self.regions, strict=True):
-            style = STYLES[self._kind(obstacle)]
+            look = STYLES[self._kind(obstacle)]
             outline = region.outline
             if obstacle.is_enclosure:
                 outline = Outline.make_compound_path(self._frame(), outline)
-            self.axes.add_patch(PathPatch(outline, zorder=1, joinstyle="round", **style))
-            if style is not STYLES["obstacle"]:
-                self.legend.setdefault(self._kind(obstacle), Patch(**style))
+            self.axes.add_patch(PathPatch(outline, zorder=1, joinstyle="round", **look))
+            if look is not STYLES["obstacle"]:
+                self.legend.setdefault(self._kind(obstacle), Patch(**look))
 
     def _kind(self, obstacle: Obstacle) -> str:
         if self.run is not None and obstacle.index in self.run.unseen:

@@ -304,22 +304,24 @@ class Links:
         The segment's ends must lie on the start or on boundaries whose links are known not to reach the
         target: only what is seen from inner points is looked for.
         """
+        (ax, ay), (bx, by) = piece.start.xy, piece.end.xy
+        box = np.array((min(ax, bx), min(ay, by), max(ax, bx), max(ay, by)))
+        if self._gaps(box)[target] > self.reach:
+            return False
         best = _Best(self.limit)
         for e in self.edges_of(target):
             for item in nearest_points(piece, self.table.curves[e]):
                 for shortest in self._free_part(item, item.distance_sq.sqrt()):
                     best.offer(item.distance_sq.sqrt(), shortest)
         if not best.found:
-            self._pivoting_from(piece, target, best)
+            self._pivoting_from(piece, box, target, best)
         return best.found
 
-    def _pivoting_from(self, piece: Segment, target: int, best: _Best) -> None:
+    def _pivoting_from(self, piece: Segment, box: Floats, target: int, best: _Best) -> None:
         """Offer the chords from inner points of a free segment to an obstacle that a feature holds."""
         centers, sizes = self._spots
         if not len(centers):
             return
-        (ax, ay), (bx, by) = piece.start.xy, piece.end.xy
-        box = np.array((min(ax, bx), min(ay, by), max(ax, bx), max(ay, by)))
         bounds = _box_gaps(centers, box, sizes) + _box_gaps(centers, self._hulls[target], sizes)
         for k in np.flatnonzero(bounds <= self.reach + self.table.roundoff):
             if self._features[k].owner != target:

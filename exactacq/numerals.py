@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from decimal import Decimal
 from fractions import Fraction
+from math import isfinite
 from typing import TYPE_CHECKING, TypeAlias
 
 from flint import arb, fmpq, fmpz
@@ -69,14 +71,32 @@ def _literal(text: str) -> fmpq:
     return -value if text.startswith("-") else value
 
 
-def _nearest(q: fmpq) -> float:
-    return int(q.p) / int(q.q)
+def nonfinite(value: object) -> float | None:
+    """A float or Decimal that is infinite or NaN, as a float; else None."""
+    if isinstance(value, float):
+        return None if isfinite(value) else value
+    if isinstance(value, Decimal) and not value.is_finite():
+        return float("nan") if value.is_nan() else float(value)
+    return None
+
+
+def nearest_float(q: fmpq) -> float:
+    """The nearest float, ties to even; OverflowError with a clear message beyond the largest float."""
+    try:
+        return int(q.p) / int(q.q)
+    except OverflowError:
+        raise OverflowError("an exact number beyond the range of floats: use decimal or enclosure") from None
 
 
 def ends(ball: arb) -> tuple[fmpq, fmpq]:
     """The exact ends of a ball (`arb.lower` would round to the global precision)."""
     middle, radius = ball.mid().fmpq(), ball.rad().fmpq()
     return middle - radius, middle + radius
+
+
+def ball_sign(ball: arb) -> int:
+    """Sign of a ball that excludes 0, else 0; an exact zero ball also gives 0."""
+    return 1 if ball > 0 else -1 if ball < 0 else 0
 
 
 def enclose(ball: Enclosing, bits: int) -> tuple[fmpq, fmpq]:
@@ -92,26 +112,30 @@ def enclose(ball: Enclosing, bits: int) -> tuple[fmpq, fmpq]:
 
 
 def round_to_float(ball: Enclosing, equals: Callable[[fmpq], bool]) -> float:
-    """The float nearest to a value given by balls; ``equals(q)`` settles a midpoint exactly."""
+    """The float nearest to a value given by balls, ties to even; OverflowError beyond the largest float.
+
+    Balls of up to 512 bits decide unless they contain the midpoint of two floats; then ``equals(q)``, an
+    exact comparison of the value with that midpoint, tells a tie from a value that refinement settles.
+    """
     bits = 128
     while True:
         value = ball(bits)
         if value.is_finite():  # not so while an inverse cannot exclude 0
             low, high = ends(value)
-            if _nearest(low) == _nearest(high):
-                return _nearest(low)
+            if nearest_float(low) == nearest_float(high):
+                return nearest_float(low)
             if bits >= 512:
                 break
         bits *= 4
-    below, above = _nearest(low), _nearest(high)
+    below, above = nearest_float(low), nearest_float(high)
     middle = (rational(below) + rational(above)) / 2 if below != above else low
     if equals(middle):
-        return _nearest(middle)
-    while _nearest(low) != _nearest(high):
+        return nearest_float(middle)
+    while nearest_float(low) != nearest_float(high):
         bits *= 2
         value = ball(bits)
         low, high = ends(value)
-    return _nearest(low)
+    return nearest_float(low)
 
 
 def decimal_string(ball: Enclosing, digits: int) -> str:

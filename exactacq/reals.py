@@ -17,8 +17,7 @@ How a sign is decided, in this order:
    Linear Algebraic Groups, section 3.5);
 4. only after zero is excluded, refinement until the ball has a sign.
 
-Beyond `ZERO_TEST_BITS` the zero test gives up with `Undecided`.  This is the one file, with
-`lengths`, that imports flint.
+Beyond `ZERO_TEST_BITS` the zero test gives up with `Undecided`.
 """
 
 from __future__ import annotations
@@ -26,20 +25,45 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable, Mapping
 from decimal import Decimal
 from fractions import Fraction
-from functools import lru_cache, total_ordering
-from math import log2, prod
-from typing import TYPE_CHECKING, Any, TypeAlias
-from weakref import WeakValueDictionary
+from math import isnan, log2, prod
+from typing import TYPE_CHECKING, Any
 
 from flint import arb, ctx, fmpq, fmpq_poly, fmpz, fmpz_poly
 
+from exactacq.atoms import (
+    Atom,
+    Generators,
+    Inverse,
+    Product,
+    Root,
+    Sqrt,
+    atom_ball,
+    atom_generators,
+    atom_height,
+    atom_sympy,
+    rational_sqrt,
+    square_free,
+)
 from exactacq.errors import Undecided
-from exactacq.numerals import decimal_string, enclose, rational, round_to_float, sympy_rational
+from exactacq.isolation import isolated_roots
+from exactacq.numerals import (
+    ball_sign,
+    decimal_string,
+    enclose,
+    nearest_float,
+    nonfinite,
+    rational,
+    round_to_float,
+    sympy_rational,
+)
 
 if TYPE_CHECKING:
     import sympy
 
+__all__ = ["FILTER_BITS", "ZERO_TEST_BITS", "Real", "fmpq", "rational", "roots"]
+
 FILTER_BITS = (64, 128, 256)
+"""Precisions of the balls that are tried before the zero test: most signs show at the first."""
 ZERO_TEST_BITS = 1 << 21
 """Largest precision of the zero test; 2^21 bits take about a second an operation."""
 EXPAND_TERMS = 64
@@ -47,196 +71,23 @@ EXPAND_TERMS = 64
 
 ZERO, ONE = fmpq(0), fmpq(1)
 
-@lru_cache(maxsize=1 << 16)
-def _square_free(n: int) -> tuple[int, int]:
-    """(s, d) with n = s^2 d, s as large as trial division and one perfect-square test find it."""
-    number, side = fmpz(n), fmpz(1)
-    factors = number.factor() if number.bit_length() <= 62 else number.factor_smooth(12)
-    rest = fmpz(1)
-    for factor, exponent in factors:
-        base, odd = fmpz(factor), exponent % 2
-        if not odd or not base.is_square():
-            side *= base ** (exponent // 2)
-            rest *= base if odd else fmpz(1)
-        else:
-            side *= base.isqrt() ** exponent
-    return int(side), int(rest)
 
-
-class _Node:
-    """An interned atom that is not the root of an integer; subclasses say how it is evaluated."""
-
-    __slots__ = ("__weakref__", "_ball", "_bits", "_generators", "_height", "args")
-    _interned: WeakValueDictionary[Hashable, _Node] = WeakValueDictionary()
-
-    args: tuple[Any, ...]
-
-    @classmethod
-    def make(cls, *args: Any) -> _Node:
-        key = (cls, *(a.key if isinstance(a, Real) else a for a in args))
-        node = cls._interned.get(key)
-        if node is None:
-            node = object.__new__(cls)
-            node.args, node._bits, node._height, node._generators = args, 0, None, None
-            cls._interned[key] = node
-        return node
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return type(self).make, self.args
-
-    def ball(self, bits: int) -> arb:
-        """Enclosure computed with at least *bits* working bits (the caller has set the precision)."""
-        if self._bits < bits:
-            self._ball, self._bits = self._evaluate(bits), bits
-        return self._ball
-
-    def height(self) -> float:
-        """Upper bound of the absolute logarithmic height, base 2."""
-        if self._height is None:
-            self._height = self._bound()
-        return self._height
-
-    def generators(self) -> frozenset[tuple[Hashable, int]]:
-        """The distinct radicals and roots below, with their degrees."""
-        if self._generators is None:
-            self._generators = self._collect()
-        return self._generators
-
-    def _evaluate(self, bits: int) -> arb:
-        raise NotImplementedError
-
-    def _bound(self) -> float:
-        return sum(a._height_bound() for a in self.args)
-
-    def _collect(self) -> frozenset[tuple[Hashable, int]]:
-        return frozenset().union(*(a._generator_set() for a in self.args))
-
-    def sympy(self) -> sympy.Expr:
-        raise NotImplementedError
-
-
-class _Sqrt(_Node):
-    __slots__ = ()
-
-    def _evaluate(self, bits: int) -> arb:
-        # The argument was proved to be non-negative when the node was made.
-        return self.args[0]._working_ball(bits).nonnegative_part().sqrt()
-
-    def _bound(self) -> float:
-        return self.args[0]._height_bound() / 2
-
-    def _collect(self) -> frozenset[tuple[Hashable, int]]:
-        return self.args[0]._generator_set() | {(self, 2)}
-
-    def sympy(self) -> sympy.Expr:
-        from sympy import sqrt
-
-        return sqrt(self.args[0].sympy())
-
-
-class _Product(_Node):
-    __slots__ = ()
-
-    @classmethod
-    def make(cls, *args: Any) -> _Node:
-        # Factors in the order of this process's hashes, also when they come from a pickle.
-        return super().make(*sorted(args, key=lambda factor: hash(factor.key)))
-
-    def _evaluate(self, bits: int) -> arb:
-        return self.args[0]._working_ball(bits) * self.args[1]._working_ball(bits)
-
-    def sympy(self) -> sympy.Expr:
-        return self.args[0].sympy() * self.args[1].sympy()
-
-
-class _Inverse(_Node):
-    __slots__ = ()
-
-    def _evaluate(self, bits: int) -> arb:
-        return 1 / self.args[0]._working_ball(bits)
-
-    def sympy(self) -> sympy.Expr:
-        return 1 / self.args[0].sympy()
-
-
-class _Root(_Node):
-    """A power of real root number ``index`` (from the left) of an irreducible integer polynomial.
-
-    Powers below the degree are a basis of the field that the root generates: elements of one such field
-    multiply, divide and cancel as polynomials.
-    """
-
-    __slots__ = ()
-
-    def _evaluate(self, bits: int) -> arb:
-        coefficients, index, power = self.args
-        if power > 1:
-            return _Root.make(coefficients, index, 1).ball(bits) ** power
-        return _newton(fmpz_poly(list(coefficients)), _isolated(coefficients)[index])
-
-    def _bound(self) -> float:
-        coefficients, _, power = self.args
-        norm = sum(int(c) ** 2 for c in coefficients).bit_length() / 2 + 1
-        return float(power * norm / (len(coefficients) - 1))
-
-    def _collect(self) -> frozenset[tuple[Hashable, int]]:
-        coefficients, index, _ = self.args
-        return frozenset({((coefficients, index), len(coefficients) - 1)})
-
-    def sympy(self) -> sympy.Expr:
-        from sympy import CRootOf, Poly, Symbol
-
-        coefficients, index, power = self.args
-        return CRootOf(Poly([int(c) for c in reversed(coefficients)], Symbol("x")), index) ** power
-
-
-@lru_cache(maxsize=1 << 10)
-def _isolated(coefficients: tuple[int, ...]) -> list[arb]:
-    """Balls of the real roots of an irreducible polynomial, ascending, so tight that Newton's method starts."""
-    polynomial = fmpz_poly(list(coefficients))
-    slope = polynomial.derivative()
-    bits = 64
-    while True:
-        with ctx.workprec(bits):
-            balls = _real_roots(polynomial)
-            if all(_ball_sign(slope(ball)) for ball in balls):
-                return balls
-        bits *= 2
-
-
-def _newton(polynomial: fmpz_poly, ball: arb) -> arb:
-    """An isolating ball refined by the interval Newton method to the working precision."""
-    slope = polynomial.derivative()
-    while True:
-        middle = ball.mid()
-        finer = middle - polynomial(middle) / slope(ball)
-        if not finer.rad() < ball.rad() / 2:
-            return ball
-        ball = finer
-
-
-def _real_roots(polynomial: fmpz_poly) -> list[arb]:
-    """Disjoint balls of the real roots of a squarefree polynomial, from left to right."""
-    roots = [r.real for r, _ in polynomial.complex_roots() if r.imag == 0]
-    return sorted(roots, key=lambda ball: ball.mid().fmpq())
-
-
-Atom: TypeAlias = "int | _Node"
-
-
-@total_ordering
 class Real:
     """An exact real algebraic number.
 
     ``Real(value)`` takes what `rational` takes.  Arithmetic with numbers is exact, `sqrt` of a
     negative number raises ValueError, division by zero ZeroDivisionError.  Comparisons form a
-    total order and raise `Undecided` beyond the documented limits.  An irrational Real is not
-    hashable: equal values may have different expressions.
+    total order, in which infinities are the ends and a NaN has no place (all comparisons but ``!=`` are
+    False, as for floats), and raise `Undecided` beyond the documented limits.  Bools are not numbers
+    here.  An irrational Real is not hashable: equal values may have different expressions.
     """
 
     __slots__ = ("_ball", "_bits", "_q", "_sign", "_terms")
 
+    _ball: arb
+    _bits: int
     _q: fmpq | None
+    _sign: int | None
     _terms: Mapping[Atom, fmpq]
 
     def __new__(cls, value: object = 0) -> Real:
@@ -290,10 +141,10 @@ class Real:
         return all(type(atom) is int for atom in self._terms)
 
     def _field(self) -> tuple[tuple[int, ...], int] | None:
-        """The irreducible polynomial and the root whose field the form lies in, if it needs no other atoms."""
+        """Polynomial and index of the one root in whose field the form lies, if it needs no other atoms."""
         field = None
         for atom in self._terms:
-            if isinstance(atom, _Root):
+            if isinstance(atom, Root):
                 if field is None:
                     field = atom.args[:2]
                 elif field != atom.args[:2]:
@@ -386,7 +237,7 @@ class Real:
         if len(self._terms) <= 2 and self._is_surd:
             (a, p), (b, q) = (*self._terms.items(), (1, ZERO))[:2]
             conjugate = Real._form({a: p, b: -q} if q else {a: p})
-            norm = p * p * a - q * q * b  # type: ignore[operator]
+            norm = p * p * a - q * q * b
             if norm:  # 0 if a and b are one radical, with a square factor that trial division missed
                 return conjugate._scaled(1 / norm)
         field = self._field()
@@ -395,10 +246,12 @@ class Real:
             return _field_element(field, inverse)
         if len(self._terms) == 1:
             ((atom, c),) = self._terms.items()
-            if isinstance(atom, _Inverse):
-                return atom.args[0]._scaled(1 / c)
-            return Real._atom(_Inverse.make(Real._atom(atom)))._scaled(1 / c)
-        return Real._atom(_Inverse.make(self))
+            if isinstance(atom, Inverse):
+                inner = atom.args[0]
+                assert isinstance(inner, Real)
+                return inner._scaled(1 / c)
+            return Real._atom(Inverse.make(Real._atom(atom)))._scaled(1 / c)
+        return Real._atom(Inverse.make(self))
 
     def __pow__(self, exponent: int) -> Real:
         if exponent < 0:
@@ -422,7 +275,7 @@ class Real:
         return _denested(self) or _sqrt_node(self)
 
     def rational_ratio(self, other: Real) -> fmpq | None:
-        """The rational q with self = q * other if the two forms show it, else None (also where other is 0)."""
+        """The rational q with self = q * other if the forms show it, else None (also where other is 0)."""
         if len(self._terms) != len(other._terms) and self._terms:
             return None
         ratio = ZERO
@@ -438,14 +291,14 @@ class Real:
     def sign(self) -> int:
         """-1, 0 or 1, decided exactly; raises `Undecided` beyond `ZERO_TEST_BITS`."""
         if self._q is not None:
-            return (self._q > 0) - (self._q < 0)
+            return int(self._q > 0) - int(self._q < 0)
         if self._sign is None:
             self._sign = self._decide_sign()
         return self._sign
 
     def _decide_sign(self) -> int:
         for bits in FILTER_BITS:
-            if sign := _ball_sign(self.ball(bits)):
+            if sign := ball_sign(self.ball(bits)):
                 return sign
         if self._is_surd:
             merged = _merge_surds(self._terms)
@@ -461,38 +314,56 @@ class Real:
             bits = 2 * FILTER_BITS[-1]
             while True:
                 ball = self.ball(bits)
-                if sign := _ball_sign(ball):
+                if sign := ball_sign(ball):
                     return sign
                 if ball.abs_upper() < arb(2) ** -limit:
                     return 0
                 bits = min(2 * bits, limit + limit // 4 + 4096) if bits < limit else 2 * bits
         bits = 2 * FILTER_BITS[-1]
-        while not (sign := _ball_sign(self.ball(bits))):
+        while not (sign := ball_sign(self.ball(bits))):
             bits *= 2
         return sign
 
-    def _height_bound(self) -> float:
+    def height_bound(self) -> float:
+        """Upper bound of the absolute logarithmic height, base 2 (Waldschmidt, section 3.2)."""
         if self._q is not None:
             return float(self._q.height_bits())
-        parts = (c.height_bits() + _atom_height(a) for a, c in self._terms.items())
-        return sum(parts) + log2(len(self._terms))
+        parts = (c.height_bits() + atom_height(a) for a, c in self._terms.items())
+        return float(sum(parts)) + log2(len(self._terms))
 
-    def _generator_set(self) -> frozenset[tuple[Hashable, int]]:
+    def generators(self) -> Generators:
+        """The distinct radicals and roots of the expression, with their degrees."""
         if self._q is not None:
             return frozenset()
-        return frozenset().union(*(_atom_generators(a) for a in self._terms))
+        return frozenset().union(*(atom_generators(a) for a in self._terms))
 
     def _separation_bits(self) -> int:
-        degree = prod(d for _, d in self._generator_set())
-        return int(min(degree, 1 << 60) * (self._height_bound() + 1)) + 8
+        """If the value is not 0, its absolute value is at least 2 to the minus this (stage 3)."""
+        degree = prod(d for _, d in self.generators())
+        return int(min(degree, 1 << 60) * (self.height_bound() + 1)) + 8
 
     def compare(self, other: object) -> int:
-        """-1, 0 or 1 as self is less than, equal to or greater than *other*."""
+        """-1, 0 or 1 as self is less than, equal to or greater than *other*, which may be infinite.
+
+        TypeError for what is no number, ValueError for a NaN, `Undecided` beyond `ZERO_TEST_BITS`.
+        """
+        order: int | None = self._order(other)
+        if order is NotImplemented:
+            raise TypeError(f"cannot compare an exact real with {type(other).__name__}")
+        if order is None:
+            raise ValueError("cannot compare an exact real with NaN")
+        return order
+
+    def _order(self, other: object) -> Any:
+        """The sign of self - other; None for a NaN, NotImplemented for what is no number."""
+        special = nonfinite(other)
+        if special is not None:
+            return None if isnan(special) else -1 if special > 0 else 1
         right = _coerce(other)
         if right is None:
-            raise TypeError(f"cannot compare an exact real with {type(other).__name__}")
+            return NotImplemented
         if self._q is not None and right._q is not None:
-            return (self._q > right._q) - (self._q < right._q)
+            return int(self._q > right._q) - int(self._q < right._q)
         left_ball, right_ball = self.ball(64), right.ball(64)
         if left_ball < right_ball:
             return -1
@@ -501,10 +372,24 @@ class Real:
         return (self - right).sign()
 
     def __eq__(self, other: object) -> bool:
-        return NotImplemented if _coerce(other) is None else self.compare(other) == 0
+        order = self._order(other)
+        return NotImplemented if order is NotImplemented else order == 0
 
     def __lt__(self, other: object) -> bool:
-        return NotImplemented if _coerce(other) is None else self.compare(other) < 0
+        order = self._order(other)
+        return NotImplemented if order is NotImplemented else order is not None and order < 0
+
+    def __le__(self, other: object) -> bool:
+        order = self._order(other)
+        return NotImplemented if order is NotImplemented else order is not None and order <= 0
+
+    def __gt__(self, other: object) -> bool:
+        order = self._order(other)
+        return NotImplemented if order is NotImplemented else order is not None and order > 0
+
+    def __ge__(self, other: object) -> bool:
+        order = self._order(other)
+        return NotImplemented if order is NotImplemented else order is not None and order >= 0
 
     def __hash__(self) -> int:
         if self._q is None:
@@ -521,17 +406,17 @@ class Real:
         if self._bits >= bits:
             return self._ball
         with ctx.workprec(bits):
-            return self._working_ball(bits)
+            return self.working_ball(bits)
 
-    def _working_ball(self, bits: int) -> arb:
+    def working_ball(self, bits: int) -> arb:
+        """As `ball`, where the caller has set the working precision to *bits*."""
         if self._bits < bits:
             if self._q is not None:
                 ball = arb(self._q)
             else:
                 ball = arb(0)
                 for atom, c in self._terms.items():
-                    root = arb(atom).sqrt() if type(atom) is int else atom.ball(bits)
-                    ball += arb(c) * root if atom != 1 else arb(c)
+                    ball += arb(c) * atom_ball(atom, bits) if atom != 1 else arb(c)
             self._ball, self._bits = ball, bits
         return self._ball
 
@@ -542,25 +427,22 @@ class Real:
         return enclose(self.ball, bits)
 
     def __float__(self) -> float:
-        """The nearest float, ties to even."""
+        """The nearest float, ties to even; OverflowError beyond the largest float, as for Fraction."""
         if self._q is not None:
-            return int(self._q.p) / int(self._q.q)
+            return nearest_float(self._q)
         return round_to_float(self.ball, lambda middle: self == middle) + 0.0
 
     def decimal(self, digits: int) -> str:
         """The value with *digits* significant digits, correctly rounded to one unit in the last."""
-        if not _ball_sign(self.ball(FILTER_BITS[-1])) and self.sign() == 0:
+        if not ball_sign(self.ball(FILTER_BITS[-1])) and self.sign() == 0:
             return "0"
         return decimal_string(self.ball, digits)
 
     def sympy(self) -> sympy.Expr:
         """The closed form as a sympy expression."""
-        from sympy import Add, Integer, sqrt
+        from sympy import Add
 
-        def atom(a: Atom) -> sympy.Expr:
-            return sqrt(Integer(a)) if isinstance(a, int) else a.sympy()
-
-        return Add(*(sympy_rational(c) * atom(a) for a, c in self._terms.items()))
+        return Add(*(sympy_rational(c) * atom_sympy(a) for a, c in self._terms.items()))
 
     def latex(self) -> str:
         """The closed form in LaTeX."""
@@ -576,9 +458,10 @@ class Real:
 
 
 def _coerce(value: object) -> Real | None:
+    """A number as a Real, None for what is no number (bools included); FormatError if it is not finite."""
     if isinstance(value, Real):
         return value
-    if isinstance(value, (int, fmpz, fmpq, Fraction, float, Decimal)):
+    if isinstance(value, (int, fmpz, fmpq, Fraction, float, Decimal)) and not isinstance(value, bool):
         return Real._rational(rational(value))
     return None
 
@@ -588,21 +471,11 @@ def _field_element(field: tuple[tuple[int, ...], int], polynomial: fmpq_poly) ->
     coefficients, index = field
     return Real._form(
         {
-            _Root.make(coefficients, index, k) if k else 1: c
+            Root.make(coefficients, index, k) if k else 1: c
             for k, c in enumerate(polynomial.coeffs())
             if c
         }
     )
-
-
-def _atom_height(atom: Atom) -> float:
-    return log2(atom) / 2 if isinstance(atom, int) else atom.height()
-
-
-def _atom_generators(atom: Atom) -> frozenset[tuple[Hashable, int]]:
-    if isinstance(atom, int):
-        return frozenset() if atom == 1 else frozenset({(atom, 2)})
-    return atom.generators()
 
 
 def _atom_product(a: Atom, b: Atom) -> Real:
@@ -612,14 +485,16 @@ def _atom_product(a: Atom, b: Atom) -> Real:
         return _sqrt_rational(fmpq(fmpz(a) * b))
     if a == 1 or b == 1:
         return Real._atom(b if a == 1 else a)
-    if a is b and isinstance(a, _Sqrt):
-        return a.args[0]  # type: ignore[no-any-return]
+    if a is b and isinstance(a, Sqrt):
+        square = a.args[0]
+        assert isinstance(square, Real)
+        return square
     return _node_product(Real._atom(a), Real._atom(b))
 
 
 def _node_product(a: Real, b: Real) -> Real:
     (p, first), (q, second) = _primitive(a), _primitive(b)
-    return Real._atom(_Product.make(first, second))._scaled(p * q)
+    return Real._atom(Product.make(first, second))._scaled(p * q)
 
 
 def _primitive(x: Real) -> tuple[fmpq, Real]:
@@ -634,7 +509,7 @@ def _primitive(x: Real) -> tuple[fmpq, Real]:
 
 
 def _sqrt_rational(q: fmpq) -> Real:
-    side, radicand = _square_free(int(q.p * q.q))
+    side, radicand = square_free(int(q.p * q.q))
     coefficient = fmpq(side) / q.q
     return Real._rational(coefficient) if radicand == 1 else Real._form({radicand: coefficient})
 
@@ -645,17 +520,11 @@ def _denested(x: Real) -> Real | None:
         return None
     p = x._terms[1]
     ((d, q),) = ((a, c) for a, c in x._terms.items() if a != 1)
-    norm = _rational_sqrt(p * p - q * q * d)  # type: ignore[operator]
+    norm = rational_sqrt(p * p - q * q * d)
     if norm is None or p < 0:
         return None
     large, small = _sqrt_rational((p + norm) / 2), _sqrt_rational((p - norm) / 2)
     return large + small if q > 0 else large - small
-
-
-def _rational_sqrt(q: fmpq) -> fmpq | None:
-    if q < 0 or not q.p.is_square() or not q.q.is_square():
-        return None
-    return fmpq(q.p.isqrt(), q.q.isqrt())
 
 
 def _sqrt_node(x: Real) -> Real:
@@ -663,10 +532,10 @@ def _sqrt_node(x: Real) -> Real:
     numerator, denominator = fmpz(0), fmpz(1)
     for c in x._terms.values():
         numerator, denominator = numerator.gcd(c.p), denominator.lcm(c.q)
-    side, rest = _square_free(int(numerator * denominator))
+    side, rest = square_free(int(numerator * denominator))
     content = fmpq(numerator, denominator)
     inner = x._scaled(fmpq(rest) / content)
-    return Real._atom(_Sqrt.make(inner))._scaled(fmpq(side, denominator))
+    return Real._atom(Sqrt.make(inner))._scaled(fmpq(side, denominator))
 
 
 def _merge_surds(terms: Mapping[Atom, fmpq]) -> dict[Atom, fmpq]:
@@ -674,18 +543,13 @@ def _merge_surds(terms: Mapping[Atom, fmpq]) -> dict[Atom, fmpq]:
     merged: dict[Atom, fmpq] = {}
     for d, c in terms.items():
         for e in merged:
-            ratio = _rational_sqrt(fmpq(d, e))  # type: ignore[arg-type]
+            ratio = rational_sqrt(fmpq(d, e))
             if ratio is not None:
                 merged[e] += c * ratio
                 break
         else:
             merged[d] = c
     return {a: c for a, c in merged.items() if c}
-
-
-def _ball_sign(ball: arb) -> int:
-    """Sign of a ball that excludes 0, else 0; an exact zero ball also gives 0."""
-    return 1 if ball > 0 else -1 if ball < 0 else 0
 
 
 def roots(coefficients: Iterable[object]) -> list[Real]:
@@ -718,6 +582,6 @@ def _irreducible_roots(factor: fmpz_poly) -> list[Real]:
         root = _sqrt_rational(fmpq(square))
         return [(root._scaled(s) - Real(b)) / (2 * a) for s in (ONE, -ONE)]
     key = tuple(int(c) for c in coefficients)
-    return [Real._atom(_Root.make(key, index, 1)) for index in range(len(_isolated(key)))]
+    return [Real._atom(Root.make(key, index, 1)) for index in range(len(isolated_roots(key)))]
 
 

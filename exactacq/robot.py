@@ -6,8 +6,6 @@ has walked all around (or from the start). It cannot ask for anything else.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from exactacq.boundary import Boundary
 from exactacq.curves import Curve, Segment
 from exactacq.lengths import Length
@@ -38,6 +36,7 @@ class Robot:
         self._seen: set[int] = set(self._links.from_point(start))
         self._straight: list[Segment] = []
         self._exhausted: set[Node] = set()
+        self._checked: dict[int, int] = {}
         self.mark("start", None, "")
 
     # -- the map -----------------------------------------------------------------------------------
@@ -78,32 +77,33 @@ class Robot:
 
     def knows_unvisited(self) -> bool:
         """Whether an obstacle that was not visited is on the map."""
-        visited = set(self.visited)
         return (
-            not self._seen <= visited
+            not self._seen <= set(self.visited)
             or any(self.nearest_unvisited(node) is not None for node in reversed(self.visited))
-            or any(self._glimpsed())
+            or any(self._is_glimpsed(j) for j in range(self._links.count) if j not in self.visited)
         )
 
-    def _glimpsed(self) -> Iterator[int]:
-        """Unvisited obstacles seen on the straight pieces only."""
-        for j in range(self._links.count):
-            if j not in self.visited and any(self._links.sees(piece, j) for piece in self._straight):
-                yield j
+    def _is_glimpsed(self, j: int) -> bool:
+        """Whether an obstacle that no visited boundary sees is seen from inside a straight piece."""
+        checked = self._checked.get(j, 0)
+        self._checked[j] = len(self._straight)
+        if any(self._links.sees(piece, j) for piece in self._straight[checked:]):
+            self._seen.add(j)
+        return j in self._seen
 
     def unvisited(self) -> tuple[list[int], list[int]]:
         """The obstacles on the map that were not visited, and those that never came on the map."""
         known: list[int] = []
         unseen: list[int] = []
         for j in range(self._links.count):
-            if j in self.visited:
-                continue
-            seen = (
-                j in self._seen
-                or any(self._links.between(i, j) is not None for i in self.visited)
-                or any(self._links.sees(piece, j) for piece in self._straight)
-            )
-            (known if seen else unseen).append(j)
+            if j not in self.visited:
+                near = set(self._links.neighbours(j)).intersection(self.visited)
+                seen = (
+                    j in self._seen
+                    or any(self._links.between(i, j) is not None for i in near)
+                    or self._is_glimpsed(j)
+                )
+                (known if seen else unseen).append(j)
         return known, unseen
 
     # -- motion ------------------------------------------------------------------------------------

@@ -16,12 +16,14 @@ from flint import fmpq
 
 from exactacq.boxes import Boxes, BoxIndex, Separator, bounds
 from exactacq.contacts import Contact, ContactKind, contacts, winding
-from exactacq.curves import Curve, Segment
+from exactacq.curves import Arc, Curve, Segment
 from exactacq.errors import InvalidScene
 from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.shapes import Circle, Shape, Terrain
 
+LIMIT, LIMIT_TEXT = fmpq(10) ** 100, "10^100"
+"""Largest coordinate and radius, inverse of the shortest edge: squares of floats must not overflow."""
 LISTED = 50
 """Violations listed one by one; the rest are counted."""
 COUNTED = 5000
@@ -111,6 +113,9 @@ def _violations(
             yield f"terrain {side} {_number(size)}: must be positive"
     sound = []
     for loop in loops:
+        if sizes := list(_size_flaws(loop)):
+            yield from sizes
+            continue
         yield from _shape_flaws(loop)
         edges = [(i, edge) for i, edge in enumerate(loop.edges) if not _is_point(edge)]
         straight = all(isinstance(edge, Segment) for _, edge in edges)
@@ -138,6 +143,26 @@ def _shape_flaws(loop: Loop) -> Iterator[str]:
     for i, edge in enumerate(loop.edges):
         if _is_point(edge):
             yield f"{_label(loop)}: edge {i} has zero length at {_place(edge.start)}: leave out the vertex"
+
+
+def _size_flaws(loop: Loop) -> Iterator[str]:
+    """What is too large or too small for the float images that prune; exact decisions have no such limit."""
+    rule = f"sizes must lie between 1/{LIMIT_TEXT} and {LIMIT_TEXT}"
+    for i, edge in enumerate(loop.edges):
+        if abs(edge.start.x) > LIMIT or abs(edge.start.y) > LIMIT:
+            yield f"{_label(loop)}: vertex {i} lies too far from the origin: {rule}"
+        elif isinstance(edge, Arc) and edge.radius_sq > LIMIT * LIMIT:
+            yield f"{_label(loop)}: edge {i} bends too little, its radius is too large: {rule}"
+        elif not _is_point(edge) and not _is_full(edge) and _is_tiny(edge):
+            yield f"{_label(loop)}: edge {i} is too short: {rule}"
+
+
+def _is_tiny(edge: Curve) -> bool:
+    return (edge.end - edge.start).norm_sq().compare(1 / (LIMIT * LIMIT)) < 0
+
+
+def _is_full(edge: Curve) -> bool:
+    return isinstance(edge, Arc) and edge.full
 
 
 def _is_point(edge: Curve) -> bool:

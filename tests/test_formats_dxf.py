@@ -477,7 +477,7 @@ def cusp(space: ezdxf.layouts.Modelspace, kind: str, rng: Random) -> None:
 
 @pytest.mark.parametrize("kind", ["line and arc", "two arcs", "arbelos"])
 def test_cusps_are_not_made_to_cross_by_rounding(tmp_path: Path, kind: str) -> None:
-    """Tangent curves that leave a corner in one direction: true ones meet only there, rounded ones may not."""
+    """Tangent curves that leave a corner in one direction meet only there; rounded ones may meet again."""
     rng = Random(kind)
     mended = 0
     for _ in range(25):
@@ -582,6 +582,26 @@ def test_a_common_edge_disappears(tmp_path: Path) -> None:
 
     (shape,) = load(drawing(tmp_path, draw), start=FAR, union=True).shapes
     assert canonical(shape) == canonical(Polygon(box(0, 0, 4, 2)))
+
+
+def test_neighbours_that_clipper_leaves_apart_are_joined(tmp_path: Path) -> None:
+    """One pass of pyclipper 1.4 gives two polygons with a common edge here, which the scene would refuse."""
+
+    def draw(space: ezdxf.layouts.Modelspace) -> None:
+        for part in (box(2, 1, 1, 5), box(2, 1, 2, 5), box(3, 6, 1, 1)):
+            space.add_lwpolyline(part, close=True)
+
+    (shape,) = load(drawing(tmp_path, draw), start=FAR, union=True).shapes
+    assert canonical(shape) == canonical(Polygon([(2, 1), (4, 1), (4, 7), (3, 7), (3, 6), (2, 6)]))
+
+
+def test_an_obstacle_over_the_whole_room_leaves_no_place_for_the_start(tmp_path: Path) -> None:
+    def draw(space: ezdxf.layouts.Modelspace) -> None:
+        space.add_lwpolyline(box(0, 0, 4, 4), close=True)
+        space.add_lwpolyline([(0, 0), (4, 0), (4, 4), (2, 5), (0, 4)], close=True)
+
+    with pytest.raises(FormatError, match="start is not in what it leaves free"):
+        load(drawing(tmp_path, draw), start=(1, 1), union=True)
 
 
 def test_four_walls_make_a_room_for_the_start_inside(tmp_path: Path) -> None:

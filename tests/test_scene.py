@@ -310,7 +310,19 @@ def test_boxes_contain_their_curves_closely(seed):
 def test_boxes_of_huge_and_tiny_numbers():
     huge = shape_edges(Polygon([("1e400", 0), (0, "-1e400"), ("1e-400", 1)]))
     assert bounds(huge)[0].tolist()[2] == inf and bounds(huge)[1].tolist()[1] == -inf
-    assert len(violations(Polygon([("1e400", 0), (0, "1e400"), (0, 0)]), square(-5, -5))) == 0
+
+
+@pytest.mark.parametrize(
+    ("shape", "rule"),
+    [
+        (Polygon([("1e400", 0), (0, 1), (0, 0)]), "too far from the origin"),
+        (Polygon([("1e-400", 0), (0, 1), (0, 0)]), "too short"),
+        (Outline([(0, 0, "1e-150"), (1, 0), (1, 1)]), "bends too little"),
+    ],
+)
+def test_sizes_beyond_floats_are_refused(shape, rule):
+    """The float images that prune must not overflow; anything up to 10^100 is fine."""
+    assert [rule in text for text in violations(shape, square(-5, -5))] == [True]
 
 
 @given(st.integers(0, 10**6))

@@ -121,6 +121,14 @@ def _inside(shape: Shape, point: Point) -> bool:
     return bool(winding(shape_edges(shape), point))
 
 
+def _execute(kind: int, subject: list[Any], clip: Iterable[Any] = ()) -> Any:
+    clipper = pyclipper.Pyclipper()
+    clipper.AddPaths(subject, pyclipper.PT_SUBJECT)
+    for path in clip:
+        clipper.AddPath(path, pyclipper.PT_CLIP)
+    return clipper.Execute2(kind, pyclipper.PFT_NONZERO, pyclipper.PFT_NONZERO)
+
+
 class _Grid:
     """Polygons on integers: shifted to their least corner, scaled by the common denominator."""
 
@@ -157,18 +165,22 @@ class _Grid:
         return found
 
     def clip(self, walled: bool) -> Any:
-        """The polytree of the union of all, or of the first without the others if *walled*."""
-        clipper = pyclipper.Pyclipper()
+        """The polytree of the union of all, or of the first without the others if *walled*.
+
+        Clipper leaves some neighbours apart that share an edge; feeding its answer to it again joins them.
+        """
         paths = [self._path(polygon) for polygon in self.polygons]
-        fill = pyclipper.PFT_NONZERO
         try:
             if walled:
-                clipper.AddPath(paths[0], pyclipper.PT_SUBJECT)
-                clipper.AddPaths(paths[1:], pyclipper.PT_CLIP)
+                tree = _execute(pyclipper.CT_DIFFERENCE, paths[:1], paths[1:])
             else:
-                clipper.AddPaths(paths, pyclipper.PT_SUBJECT)
-            kind = pyclipper.CT_DIFFERENCE if walled else pyclipper.CT_UNION
-            return clipper.Execute2(kind, fill, fill)
+                tree = _execute(pyclipper.CT_UNION, paths)
+            count, contours = -1, pyclipper.PolyTreeToPaths(tree)
+            while contours and len(contours) != count:
+                count = len(contours)
+                tree = _execute(pyclipper.CT_UNION, contours)
+                contours = pyclipper.PolyTreeToPaths(tree)
+            return tree
         except pyclipper.ClipperException as error:
             raise FormatError(f"no union of {self.names}: {error}; edit the drawing") from None
 

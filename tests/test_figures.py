@@ -1,0 +1,256 @@
+"""Figures: curves that are curves, everything named in the legend, the same bytes every time."""
+
+from __future__ import annotations
+
+import math
+import os
+import subprocess
+import sys
+import xml.etree.ElementTree as ET
+from itertools import pairwise
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+from matplotlib.collections import PathCollection
+from matplotlib.path import Path as Outline
+
+from exactacq import FormatError, InvalidScene, gallery
+from exactacq.curves import Arc, Segment
+from exactacq.figures import figure, save, svg
+from exactacq.points import Point
+from exactacq.reals import fmpq
+from exactacq.scene import Scene
+from exactacq.shapes import Circle, Polygon
+from exactacq.sightseer import sightseer
+from exactacq.strokes import Region, Stroke
+from exactacq.trace import Run
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def square(x: int, y: int, side: int = 2) -> Polygon:
+    return Polygon([(x, y), (x + side, y), (x + side, y + side), (x, y + side)])
+
+
+@pytest.fixture(scope="module")
+def circles() -> Run:
+    return sightseer(gallery.scene("circles"))
+
+
+@pytest.fixture(scope="module")
+def eleven() -> Run:
+    return sightseer(gallery.scene("figure2"))
+
+
+def texts(run: Run | Scene) -> list[str]:
+    drawn = figure(run)
+    return [t.get_text() for t in drawn.axes[0].texts]
+
+
+def legend(run: Run | Scene) -> list[str]:
+    return [t.get_text() for t in figure(run).legends[0].get_texts()]
+
+
+def bezier_points(path: Outline) -> np.ndarray:
+    """Points on the cubic pieces of a path, by de Casteljau's rule."""
+    points, at = [], path.vertices[0]
+    pieces = path.vertices[1:].reshape(-1, 3, 2)
+    for a, b, c in pieces:
+        for t in np.linspace(0, 1, 9):
+            s = 1 - t
+            points.append(s**3 * at + 3 * s * s * t * a + 3 * s * t * t * b + t**3 * c)
+        at = c
+    return np.array(points)
+
+
+@pytest.mark.parametrize("bulge", ["1/1000000", "1/7", "-1/3", "1", "-1", "5", "-1000"])
+def test_arcs_are_drawn_within_a_millionth_of_their_radius(bulge: str) -> None:
+    from exactacq.numerals import rational
+
+    arc = Arc.from_bulge(Point(1, 2), Point(4, -3), rational(bulge))
+    path = Stroke.of(arc).part(0, 1)
+    assert set(path.codes[1:]) == {Outline.CURVE4}
+    assert tuple(path.vertices[0]) == (1, 2)
+    assert tuple(path.vertices[-1]) == (4, -3)
+    offset = bezier_points(path) - arc.center.xy
+    radius = float(arc.radius)
+    assert np.abs(np.hypot(*offset.T) - radius).max() < 1e-6 * radius
+    exact = np.array([arc.point(fmpq(k, 5)).xy for k in range(6)])
+    assert Stroke.of(arc).covers(exact, np.zeros(6), 1e-12 * max(radius, 1.0)).all()
+    outside = np.array([arc.center.xy]) * 2 - exact[2]
+    assert Stroke.of(arc).covers(outside, np.zeros(1), 1e-12).any() == (abs(Stroke.of(arc).sweep) > math.pi)
+
+
+def test_nearly_straight_arcs_keep_their_digits() -> None:
+    arc = Arc.from_bulge(Point(0, 0), Point(1, 0), fmpq(1, 10**9))
+    for vertex in Stroke.of(arc).part(0, 1).vertices:
+        assert abs(vertex[1]) < 1e-8
+        assert -1e-12 <= vertex[0] <= 1 + 1e-12
+
+
+def test_parts_of_a_stroke_join() -> None:
+    arc = Arc.from_bulge(Point(0, 0), Point(3, 1), fmpq(-7, 3))
+    stroke = Stroke.of(arc)
+    parts = [stroke.part(k / 7, (k + 1) / 7) for k in range(7)]
+    for before, after in pairwise(parts):
+        assert np.allclose(before.vertices[-1], after.vertices[0], rtol=0, atol=1e-12)
+
+
+def test_heart_lies_inside_a_concave_obstacle() -> None:
+    horseshoe = Polygon([(0, 0), (10, 0), (10, 9), (9, 9), (9, 1), (1, 1), (1, 9), (0, 9)])
+    obstacle = Scene([horseshoe]).obstacles[0]
+    (x, y), depth = Region.of(obstacle).heart()
+    assert obstacle.locate(Point(x, y)) == 1
+    assert 0.4 < depth <= 0.75
+
+
+def test_a_stroke_covers_what_runs_along_it() -> None:
+    along, across = Segment(Point(1, 1), Point(3, 3)), Segment(Point(1, 3), Point(3, 1))
+    stroke = Stroke.of(Segment(Point(4, 4), Point(0, 0)))
+    for segment, expected in ((along, True), (across, False)):
+        other = Stroke.of(segment)
+        covered = stroke.covers(np.array([other.at(0.5)]), np.array([other.heading(0.5)]), 1e-9)
+        assert covered.tolist() == [expected]
+
+
+def test_pieces_walked_again_are_narrower(circles: Run) -> None:
+    """Of the first circle a half is walked again on the way to the second one; of the links, none."""
+    (path,) = (c for c in figure(circles).axes[0].collections if isinstance(c, PathCollection))
+    widths, counts = np.unique(path.get_linewidths(), return_counts=True)
+    assert len(widths) == 2
+    share = counts[0] / counts.sum()
+    assert share == pytest.approx(2 * math.pi / float(circles.length), abs=0.02)
+
+
+def test_colours_follow_the_path_length(circles: Run) -> None:
+    (path,) = (c for c in figure(circles).axes[0].collections if isinstance(c, PathCollection))
+    times = path.get_array()
+    assert (np.diff(times) > 0).all()
+    assert path.norm.vmin == 0
+    assert path.norm.vmax == pytest.approx(float(circles.length))
+
+
+def test_labels_show_order_ends_and_range_once(eleven: Run) -> None:
+    shown = texts(eleven)
+    assert sorted(shown) == sorted([*map(str, range(1, 12)), "S", "T", "R = 10"])
+    assert set(legend(eleven)) >= {"tree link", "hit point", "leave point", "start S", "end T"}
+
+
+def test_title_has_the_closed_form_if_short(circles: Run, eleven: Run) -> None:
+    assert any("5 + 12*pi ≈ 42.699112" in t.get_text() for t in figure(circles).texts)
+    assert any("length ≈ 439.73956" in t.get_text() for t in figure(eleven).texts)
+
+
+def test_what_was_missed_is_drawn_and_named() -> None:
+    scene = Scene([Circle((5, 0), 2), square(40, 0)], start=(0, 0))
+    run = sightseer(scene, 5)
+    assert "never seen" in legend(run)
+    assert any("1 never seen" in t.get_text() for t in figure(run).texts)
+    assert "seen, never visited" in legend(sightseer(gallery.scene("m4")))
+
+
+def test_radius_beyond_the_view_is_said_in_the_legend(circles: Run) -> None:
+    assert "R = 20 (beyond the view)" in legend(circles)
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        gallery.scene("figure2"),
+        Scene([Circle((5 * k, 0), 1) for k in range(1, 21)], start=(0, 0), radius=10, name="a row"),
+        Scene([square(0, 10 * k) for k in range(1, 12)], start=(0, 0), radius=10, name="a column"),
+        Scene([square(3, 3)], start=(1, 1), radius=3, enclosure=square(0, 0, 9)),
+        Scene(start=(0, 0), radius=3),
+    ],
+    ids=["figure2", "row", "column", "room", "empty"],
+)
+def test_layout_keeps_everything_apart_and_true(scene: Scene) -> None:
+    """Drawing, colour bar, legend and titles do not overlap nor leave the page; both axes have one scale."""
+    drawn = figure(sightseer(scene))
+    drawn.canvas.draw()
+    axes = drawn.axes[0]
+    boxes = [a.get_tightbbox() for a in drawn.axes] + [x.get_window_extent() for x in drawn.legends]
+    boxes += [t.get_window_extent() for t in drawn.texts]
+    for k, box in enumerate(boxes):
+        assert box.x0 >= 0
+        assert box.y0 >= 0
+        assert box.x1 <= drawn.bbox.x1
+        assert box.y1 <= drawn.bbox.y1
+        assert not any(box.overlaps(other) for other in boxes[:k])
+    (x0, x1), (y0, y1) = axes.get_xlim(), axes.get_ylim()
+    assert axes.bbox.width / (x1 - x0) == pytest.approx(axes.bbox.height / (y1 - y0))
+
+
+def test_svg_is_wellformed_and_made_of_curves(circles: Run) -> None:
+    root = ET.fromstring(svg(circles))
+    assert root.tag == f"{SVG}svg"
+    assert not list(root.iter(f"{SVG}image"))
+    obstacles = [p for p in root.iter(f"{SVG}path") if "fill: #dcd7cd" in p.get("style", "")]
+    assert len(obstacles) == 2
+    for path in obstacles:
+        assert path.get("d", "").count("C ") == 16
+        assert "L " not in path.get("d", "")
+
+
+def test_svg_is_the_same_in_every_process_and_under_every_setting(circles: Run) -> None:
+    here = svg(circles)
+    with mpl.rc_context({"lines.linewidth": 9, "font.size": 30, "axes.grid": True, "svg.fonttype": "none"}):
+        assert svg(circles) == here
+    code = "import exactacq as xa; print(xa.figures.svg(xa.sightseer(xa.load('circles'))), end='')"
+    code = f"import sys, exactacq.figures; sys.stdout.reconfigure(encoding='utf-8'); {code}"
+    environment = {**os.environ, "PYTHONHASHSEED": "12345"}
+    there = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, env=environment, timeout=60, check=True
+    )
+    assert there.stdout.decode() == here
+
+
+@pytest.mark.parametrize(("suffix", "magic"), [(".svg", b"<?xml"), (".pdf", b"%PDF"), (".PNG", b"\x89PNG")])
+def test_save_writes_every_type_twice_the_same(
+    circles: Run, tmp_path: Path, suffix: str, magic: bytes
+) -> None:
+    paths = [tmp_path / f"{name}{suffix}" for name in "ab"]
+    for path in paths:
+        save(circles, path)
+    first, second = (path.read_bytes() for path in paths)
+    assert first.startswith(magic)
+    assert first == second
+    assert sorted(tmp_path.iterdir()) == paths
+
+
+def test_unknown_type_is_refused_before_drawing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("exactacq.figures.figure", lambda _: pytest.fail("was drawn"))
+    with pytest.raises(FormatError, match=r"must end in \.svg, \.pdf, \.png"):
+        save(Scene(), tmp_path / "run.jpeg")
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_failed_write_keeps_the_old_file(
+    tmp_path: Path, circles: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    target = tmp_path / "run.svg"
+    target.write_text("old")
+
+    def fail(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "replace", fail)
+    with pytest.raises(OSError, match="No space"):
+        save(circles, target)
+    assert target.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [target]
+
+
+def test_scenes_alone_are_drawn_with_names() -> None:
+    scene = Scene([Polygon([(0, 0), (9, 0), (9, 9), (0, 9)], name="A1"), Circle((20, 0), 5)])
+    assert sorted(texts(scene)) == ["2", "A1"]
+    ET.fromstring(svg(scene))
+
+
+def test_far_and_tiny_scenes_are_refused_in_words() -> None:
+    with pytest.raises(FormatError, match="too small to be drawn"):
+        figure(Scene([Circle((10**30, 0), 1)]))
+    with pytest.raises((FormatError, InvalidScene)):
+        figure(Scene([Circle((10**400, 0), 1)]))
