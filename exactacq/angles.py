@@ -165,9 +165,13 @@ class AngleSum:
     @classmethod
     def of(cls, cosine: Real, sine: Real, coefficient: Real) -> AngleSum:
         """*coefficient* times the angle in [0, 2 pi) of cosine + i sine, as in `folded`."""
-        share, sign, angle = folded(cosine, sine)
-        visible = angle is not None and coefficient.rational != 0
-        return cls(coefficient * share, {angle: coefficient * sign} if angle is not None and visible else {})
+        return cls.scaled(*folded(cosine, sine), coefficient)
+
+    @classmethod
+    def scaled(cls, share: fmpq, sign: fmpq, angle: Angle | None, coefficient: Real) -> AngleSum:
+        """*coefficient* times a folded angle, ``share * pi + sign * angle``."""
+        angles = {} if angle is None or coefficient.rational == 0 else {angle: coefficient * sign}
+        return cls(coefficient * share, angles)
 
     @classmethod
     def sum(cls, parts: Iterable[AngleSum]) -> AngleSum:

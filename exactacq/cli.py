@@ -264,8 +264,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         status = app(args=arguments, prog_name="exactacq", standalone_mode=False)
         sys.stdout.flush()
     except (KeyboardInterrupt, typer.Abort):
-        return _refuse("interrupted", INTERRUPTED)
-    except BrokenPipeError:  # The reader has seen enough; spare the interpreter its own flush.
+        status = INTERRUPTED
+    except (BrokenPipeError, SystemExit):  # The reader has seen enough; spare the interpreter its own flush.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return REFUSED
     except (ExactacqError, UsageError, OSError) as error:
@@ -275,6 +275,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             raise
         fault = f"internal error, please report it ({type(error).__name__}: {_one_line(error)})"
         return _refuse(f"{fault}; python -X dev -m exactacq shows where", INTERNAL)
+    if status == INTERRUPTED:  # Raised, or returned: typer's releases differ.
+        return _refuse("interrupted", INTERRUPTED)
     return status if isinstance(status, int) else 0
 
 

@@ -96,7 +96,11 @@ class Arc:
     @cached_property
     def length(self) -> Length:
         """Radius times angle."""
-        return Length.turns(self.radius) if self.full else Length.arc(self.radius, *self.turn)
+        if self.full:
+            return Length.turns(self.radius)
+        a, b = (self.start, self.end) if self.ccw else (self.end, self.start)
+        a, b = a - self.center, b - self.center
+        return Length.between(self.radius, (a.x, a.y), (b.x, b.y), self.radius_sq)
 
     def contains(self, point: Point) -> bool:
         """Whether a point *of the supporting circle* lies on the closed arc.

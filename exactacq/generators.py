@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from math import isqrt
 from random import Random
 
-from exactacq.reals import fmpq, rational
+from flint import fmpq
+
+from exactacq.numerals import rational
 from exactacq.scene import Scene
 from exactacq.shapes import Polygon
 
@@ -19,13 +20,17 @@ GAP = 10
 MAX_DENSITY = fmpq(3, 10)
 """Up to here most random places are free; circles thrown like this jam at a density of about 0.547."""
 
+THROWS = 1000
+"""Throws of one circle before the square grows: enough for squares that are not nearly full."""
+
 
 def random_octagons(n: int, seed: int, density: object = "0.14") -> Scene:
     """A square with n disjoint convex octagons at random, their total area *density* times the square's.
 
-    The octagons are about 2 across (circumradius 0.8 to 1.2) and at least 0.1 apart; coordinates are multiples
-    of 1/100. The start is the square's south-west corner, the origin, which is free; the radius is 10.
-    ValueError for n < 1 or a density outside (0, 0.3]. Near linear in n.
+    The octagons are about 2 across (circumradius 0.8 to 1.2) and at least 0.1 apart; coordinates are
+    multiples of 1/100. The start is the square's south-west corner, the origin, which is free; the radius is
+    10. Where a few octagons do not fit, the square is larger. ValueError for n < 1 or a density outside
+    (0, 0.3]. Near linear in n.
     """
     share = rational(density)
     if n < 1 or not 0 < share <= MAX_DENSITY:
@@ -34,10 +39,12 @@ def random_octagons(n: int, seed: int, density: object = "0.14") -> Scene:
     sizes = [rng.choice(SIZES) for _ in range(n)]
     rings = [_octagon(rng, size) for size in sizes]
     area = fmpq(sum(_doubled_area(ring) for ring in rings), 2) / share
-    # A single octagon needs room for its circumcircle, whatever the density.
-    side = max(isqrt(int(area.p // area.q)), 2 * (SIZES[-1] + GAP) + 1)
+    # Whatever the density, one octagon needs room for its circumcircle.
+    side = max(isqrt(int(area.p // area.q)), 2 * (SIZES[-1] + GAP))
+    while (places := _places(rng, sizes, side)) is None:
+        side += side // 20
     shapes = []
-    for ring, (x, y) in zip(rings, _places(rng, sizes, side), strict=True):
+    for ring, (x, y) in zip(rings, places, strict=True):
         shapes.append(Polygon([(fmpq(x + dx, UNIT), fmpq(y + dy, UNIT)) for dx, dy in ring]))
     return Scene(shapes, start=(0, 0), radius=10, name=f"octagons-{n}-{seed}")
 
@@ -64,13 +71,14 @@ def _doubled_area(ring: list[tuple[int, int]]) -> int:
     return sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(ring, ring[1:] + ring[:1], strict=True))
 
 
-def _places(rng: Random, sizes: list[int], side: int) -> Iterator[tuple[int, int]]:
-    """Centres of disjoint circles in the square, each thrown until it is free; neighbours by a cell grid."""
+def _places(rng: Random, sizes: list[int], side: int) -> list[tuple[int, int]] | None:
+    """Centres of disjoint circles thrown into the square, neighbours by a cell grid; None if one finds no place."""
     cell = 2 * SIZES[-1] + GAP
     taken: dict[tuple[int, int], list[tuple[int, int, int]]] = {}
+    places = []
     for size in sizes:
         low, high = size + GAP, side - size - GAP
-        while True:
+        for _ in range(THROWS):
             x, y = rng.randint(low, high), rng.randint(low, high)
             column, row = x // cell, y // cell
             near = (
@@ -81,5 +89,8 @@ def _places(rng: Random, sizes: list[int], side: int) -> Iterator[tuple[int, int
             )
             if all((x - a) ** 2 + (y - b) ** 2 >= (size + r + GAP) ** 2 for a, b, r in near):
                 break
+        else:
+            return None
         taken.setdefault((column, row), []).append((x, y, size))
-        yield x, y
+        places.append((x, y))
+    return places

@@ -292,6 +292,7 @@ class Links:
         ahead = self.table.curves[cell.ahead]
         yield chord_at(sweep.sector, cell.low, behind, ahead)
         yield chord_at(sweep.sector, cell.high, behind, ahead)
+        # A constant length (arcs about the contact's own centre) is never the least: off the feature it shrinks.
         for t in critical(sweep.sector, behind, ahead) or ():
             if t.compare(cell.low) > 0 and t.compare(cell.high) < 0:
                 yield chord_at(sweep.sector, t, behind, ahead)

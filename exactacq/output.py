@@ -36,21 +36,17 @@ def check_output(path: str | os.PathLike[str], suffixes: Collection[str]) -> Pat
     To be called before long work starts, so that a bad name does not cost the result. Writes nothing.
     """
     target = Path(path)
-    try:
-        if target.suffix.lower() not in suffixes:
-            known = ", ".join(suffixes)
-            raise FormatError(f"{target}: a file name must end in {known}")
-        if target.is_dir():
-            raise FormatError(f"{target}: this is a directory; give the name of a file")
-        folder = target.parent
-        if not folder.is_dir():
-            raise FormatError(f"{target}: there is no directory {folder}; make it first")
-        if not os.access(folder, os.W_OK | os.X_OK):
-            raise FormatError(f"{target}: the directory {folder} cannot be written to")
-    except ValueError as error:  # A NUL character in the name; FormatError is a ValueError, too.
-        if isinstance(error, FormatError):
-            raise
-        raise FormatError(f"{str(path)!r}: not a file name ({error})") from None
+    if "\0" in str(target):
+        raise FormatError(f"{str(target)!r}: not a file name")
+    if target.suffix.lower() not in suffixes:
+        raise FormatError(f"{target}: a file name must end in {', '.join(suffixes)}")
+    if target.is_dir():
+        raise FormatError(f"{target}: this is a directory; give the name of a file")
+    folder = target.parent
+    if not folder.is_dir():
+        raise FormatError(f"{target}: there is no directory {folder}; make it first")
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise FormatError(f"{target}: the directory {folder} cannot be written to")
     return target
 
 

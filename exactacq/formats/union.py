@@ -26,6 +26,8 @@ from exactacq.shapes import Circle, Loop, Polygon, Shape
 
 GRID_BITS = 61
 """Clipper takes integers below 2^62; one bit is left for its differences."""
+NAMED = 6
+"""How many loops of a group a message names."""
 
 Pair = tuple[fmpq, fmpq]
 
@@ -81,7 +83,8 @@ def _groups(count: int, meeting: Iterable[tuple[int, int]]) -> list[list[int]]:
 
 def _merge(members: list[Shape], walled: bool, start: Point, merged: Merged) -> None:
     """One group of meeting loops; the first is the wall if *walled*."""
-    names = ", ".join(repr(member.name) if member.name else "an unnamed loop" for member in members)
+    names = ", ".join(repr(member.name) for member in members[:NAMED])
+    names += f" and {len(members) - NAMED} more" if len(members) > NAMED else ""
     polygons = [m for m in members if not isinstance(m, Circle) and not any(b for _, _, b in m.vertices)]
     if len(polygons) < len(members):
         raise FormatError(f"no union of {names}: it has arcs and only polygons are merged; edit the drawing")

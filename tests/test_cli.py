@@ -1,0 +1,434 @@
+"""The command line: what it prints, and that every mistake costs one clear line and leaves no file."""
+
+from __future__ import annotations
+
+import json
+import os
+import pty
+import re
+import select
+import subprocess
+import sys
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from exactacq import cli, gallery
+from exactacq.output import write_whole
+
+EMPTY_DXF = "0\nSECTION\n2\nENTITIES\n0\nENDSEC\n0\nEOF\n"
+
+
+def scene(tmp_path: Path, *obstacles: object, **parts: object) -> str:
+    path = tmp_path / "scene.json"
+    path.write_text(json.dumps({"start": [0, 0], "radius": 9, "obstacles": obstacles, **parts}))
+    return str(path)
+
+
+def polygon(*vertices: object) -> dict[str, object]:
+    return {"boundary": vertices}
+
+
+def circle(x: object, y: object, radius: object) -> dict[str, object]:
+    return {"circle": {"center": [x, y], "radius": radius}}
+
+
+def refused(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
+    """The one line that a wrong command line gets; checks status and streams."""
+    status = cli.main(arguments)
+    out, err = capsys.readouterr()
+    assert status == 2, err
+    assert out == ""
+    assert err.startswith("exactacq: ")
+    assert err.endswith("\n")
+    assert err.count("\n") == 1
+    return err
+
+
+def answered(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
+    """What a right command line prints."""
+    status = cli.main(arguments)
+    out, err = capsys.readouterr()
+    assert (status, err) == (0, "")
+    return out
+
+
+def process(*arguments: str, **options: object) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "exactacq", *arguments]
+    return subprocess.run(  # type: ignore[call-overload,no-any-return]
+        command, capture_output=True, text=True, timeout=60, check=False, **options
+    )
+
+
+# -- what it prints ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("name", "length"), [("circles", "5 + 12*pi  ≈ 42.69911184307751"), ("squares", "24\n")]
+)
+def test_explore_prints_order_links_length_and_bounds(
+    capsys: pytest.CaptureFixture[str], name: str, length: str
+) -> None:
+    out = answered(capsys, "explore", name)
+    assert "O1 → O2" in out
+    assert f"length  {length}" in out
+    assert re.search(r"^2 +O2 +O1 +\(\S+, \S+\) +\(\S+, \S+\) +\S+ +once", out, re.M)
+    assert re.search(r"^T1 corrected .* yes ", out, re.M)
+    assert "never" not in out
+
+
+def test_bound_that_fails_is_said(capsys: pytest.CaptureFixture[str]) -> None:
+    assert re.search(r"^\(1\) .* NO +1\.\d+ ", answered(capsys, "explore", "m9"), re.M)
+
+
+def test_what_was_missed_is_said(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    path = scene(tmp_path, circle(5, 0, 2), circle(50, 0, 1), circle("60", 0, 1))
+    out = answered(capsys, "explore", path)
+    assert "never seen  O2, O3" in out
+    assert "does not satisfy the paper's model (a) for R = 9" in out
+    assert "seen, but never visited  O3" in answered(capsys, "explore", "m4")
+
+
+def test_numbers_are_exact(capsys: pytest.CaptureFixture[str]) -> None:
+    out = answered(capsys, "explore", "circles", "--radius", "61/3", "--start", "0.1,-1/3")
+    assert "S = (1/10, -1/3), R = 61/3" in out
+
+
+def test_a_radius_equal_to_the_gap_sees_and_a_smaller_one_does_not(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert "never" not in answered(capsys, "explore", "circles", "--radius", "3")
+    out = answered(capsys, "explore", "circles", "--radius", "2." + 60 * "9")
+    assert "never seen  O1, O2" in out
+
+
+def test_long_closed_forms_are_decimals_in_the_table(capsys: pytest.CaptureFixture[str]) -> None:
+    out = answered(capsys, "explore", "figure2")
+    assert "length  ≈ 439.739" in out
+    assert max(map(len, out.splitlines())) <= 110
+
+
+def test_json_and_trace_are_the_same_exact_run(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    target = tmp_path / "run.json"
+    out = answered(capsys, "explore", "circles", "--json", "--trace", str(target))
+    assert target.read_text(encoding="utf-8") == out
+    assert "5 + 12*pi" in out
+    assert json.loads(out)
+
+
+def test_figures_of_every_type(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    for suffix in ("svg", "pdf", "png"):
+        target = tmp_path / f"run.{suffix}"
+        assert f"figure written to {target}" in answered(
+            capsys, "explore", "circles", "--figure", str(target)
+        )
+        assert target.stat().st_size > 1000
+    assert len(list(tmp_path.iterdir())) == 3
+
+
+def test_written_files_have_ordinary_permissions(tmp_path: Path) -> None:
+    (tmp_path / "plain").write_bytes(b"")
+    write_whole(tmp_path / "whole", b"")
+    assert (tmp_path / "whole").stat().st_mode == (tmp_path / "plain").stat().st_mode
+    (tmp_path / "whole").chmod(0o640)
+    write_whole(tmp_path / "whole", b"new")
+    assert (tmp_path / "whole").stat().st_mode & 0o777 == 0o640
+
+
+def test_check_counts_and_passes_on_notes(capsys: pytest.CaptureFixture[str]) -> None:
+    out = answered(capsys, "check", "plate")
+    assert "plate: OK" in out
+    assert "14, and the enclosure" in out
+    assert "14 segments, 19 arcs" in out
+    assert "import notes" in out
+    out = answered(capsys, "check", "circles", "--start", "1,1")
+    assert "10*pi" in out
+    assert "(1, 1)" in out
+
+
+def test_gallery_lists_and_draws(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    out = answered(capsys, "gallery")
+    assert all(name in out for name in gallery.names())
+    assert "circles: OK" in answered(capsys, "gallery", "circles")
+    answered(capsys, "gallery", "circles", "--figure", str(tmp_path / "c.svg"))
+    answered(capsys, "gallery", "--out", str(tmp_path / "all"))
+    assert sorted(p.stem for p in (tmp_path / "all").iterdir()) == sorted(gallery.names())
+    for path in [tmp_path / "c.svg", *(tmp_path / "all").iterdir()]:
+        ET.parse(path)
+
+
+def test_version_and_help(capsys: pytest.CaptureFixture[str]) -> None:
+    assert re.fullmatch(r"exactacq \d+\.\d+\.\d+\S*\n", answered(capsys, "--version"))
+    assert "explore" in answered(capsys)
+    result = CliRunner().invoke(cli.app, ["explore", "--help"])
+    assert result.exit_code == 0
+    assert "--strategy" in result.output
+
+
+# -- mistakes ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--radius", "0"], "--radius: must be positive"),
+        (["--radius", "-1"], "--radius: must be positive"),
+        (["--radius", "nan"], "--radius: not a number"),
+        (["--radius", "inf"], "--radius: not a number"),
+        (["--radius", "1/0"], "--radius: division by zero"),
+        (["--radius", "two"], "--radius: not a number"),
+        (["--radius", ""], "--radius: not a number"),
+        (["--radius", "٣"], "--radius: not a number"),
+        (["--radius", "1\n2"], "--radius: not a number"),
+        (["--radius", "1e400000"], ""),
+        (["--start", "1"], "--start: not two numbers"),
+        (["--start", "1,2,3"], "--start: not two numbers"),
+        (["--start", "x,0"], "--start: not a number"),
+        (["--start", "nan,0"], "--start: not a number"),
+        (["--start", "5,0"], "start"),
+        (["--strategy", "seed-spreader"], "not available in this version"),
+        (["--strategy", "random"], "--strategy"),
+        (["--outer", "roof"], "--outer"),
+        (["--tolerance", "wide"], "--tolerance: not a number"),
+        (["--layers", "A"], "drawings"),
+        (["--union"], "drawings"),
+        (["--figure", "run.jpeg"], "must end in .svg, .pdf, .png"),
+        (["--figure", "run"], "must end in"),
+        (["--figure", "no/run.svg"], "no directory no"),
+        (["--figure", "folder.svg"], "this is a directory"),
+        (["--figure", "a\0b.svg"], "not a file name"),
+        (["--trace", "run.svg"], "must end in .json"),
+        (["--trace", "no/run.json"], "no directory no"),
+        (["--nonsense"], "--nonsense"),
+        (["more"], "more"),
+    ],
+)
+def test_bad_options(
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    arguments: list[str],
+    words: str,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("folder.svg").mkdir()
+    before = sorted(tmp_path.rglob("*"))
+    assert words in refused(capsys, "explore", "circles", *arguments)
+    assert sorted(tmp_path.rglob("*")) == before
+
+
+@pytest.mark.parametrize(
+    "arguments", [["explore"], ["walk"], ["check"], ["gallery", "nowhere"], ["gallery", "--figure", "f.svg"]]
+)
+def test_bad_commands(capsys: pytest.CaptureFixture[str], arguments: list[str]) -> None:
+    refused(capsys, *arguments)
+
+
+FILES: dict[str, bytes] = {
+    "empty.json": b"",
+    "blank.json": b" \n",
+    "empty.dxf": b"",
+    "truncated.json": b'{"start": [0, 0], "obstacles": [{"circle": {"cen',
+    "noise.json": bytes(range(256)) * 40,
+    "noise.dxf": bytes(range(256)) * 40,
+    "truncated.dxf": b"0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\n0\n10\n1.0\n20",
+    "nothing.dxf": EMPTY_DXF.encode(),
+    "drawing.dwg": b"AC1032",
+    "plain": b"hello",
+    "list.json": b"[1, 2]",
+    "nan.json": b'{"start": [NaN, 0], "radius": 9, "obstacles": []}',
+    "words.json": b'{"start": ["one", 0], "radius": 9, "obstacles": []}',
+    "deep.json": b"[" * 100_000,
+}
+
+
+@pytest.mark.parametrize("command", ["explore", "check"])
+@pytest.mark.parametrize("name", FILES)
+def test_bad_files(capsys: pytest.CaptureFixture[str], tmp_path: Path, command: str, name: str) -> None:
+    path = tmp_path / name
+    path.write_bytes(FILES[name])
+    outputs = ["--figure", str(tmp_path / "f.svg")] if command == "explore" else []
+    assert name in refused(capsys, command, str(path), "--start", "0,0", *outputs)[:400]
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize("name", ["huge.json", "huge.dxf"])
+def test_200_megabytes_of_noise(capsys: pytest.CaptureFixture[str], tmp_path: Path, name: str) -> None:
+    path = tmp_path / name
+    with path.open("wb") as file:
+        file.write(b"\x07noise")
+        file.truncate(200 << 20)
+    assert "200 MB" in refused(capsys, "check", str(path), "--start", "0,0")
+
+
+def test_missing_files_and_directories(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    assert "no such file" in refused(capsys, "check", str(tmp_path / "none.json"))
+    assert "no such file or gallery scene" in refused(capsys, "check", "nowhere")
+    refused(capsys, "check", str(tmp_path))
+    refused(capsys, "check", "a\0b.json")
+    refused(capsys, "check", "")
+
+
+UNIT = [[3, 0], [5, 0], [5, 2], [3, 2]]
+
+
+@pytest.mark.parametrize(
+    "obstacles",
+    [
+        [polygon([2, 0], [6, 4], [6, 0], [2, 4])],
+        [polygon(*UNIT), polygon([5, 1], [7, 1], [7, 3])],
+        [polygon(*UNIT), polygon([4, 1], [7, 1], [7, 3])],
+        [polygon([3, 0], [3, 0], [5, 2])],
+        [polygon([2, 0, "-1"], [6, 0], [4, 3])],
+        [polygon([3, 0], [5, 0])],
+        [circle(5, 0, 0)],
+        [circle(5, 0, -1)],
+        [circle(0, 0, 1)],
+        [circle(5, 0, 1), circle(7, 0, 1)],
+    ],
+    ids=[
+        "self-crossing", "touching", "overlapping", "zero-length edge", "bulge across a neighbour",
+        "two vertices", "radius zero", "radius negative", "start inside", "tangent circles",
+    ],
+)  # fmt: skip
+def test_bad_scenes(capsys: pytest.CaptureFixture[str], tmp_path: Path, obstacles: list[object]) -> None:
+    for command in ("check", "explore"):
+        refused(capsys, command, scene(tmp_path, *obstacles))
+
+
+def test_many_violations_stay_one_line_of_bounded_length(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    line = refused(capsys, "check", scene(tmp_path, *(circle(5 * k, 0, 3) for k in range(1, 60))))
+    assert re.search(r"; and \d+ more\n", line)
+    assert len(line) < 5000
+
+
+def test_drawing_needs_a_start_and_scene_a_radius(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    drawing = tmp_path / "d.dxf"
+    drawing.write_text(
+        "0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\n0\n10\n5.0\n20\n0.0\n40\n1.0\n0\nENDSEC\n0\nEOF\n"
+    )
+    assert "--start" in refused(capsys, "explore", str(drawing), "--radius", "3")
+    assert "--radius" in refused(capsys, "explore", str(drawing), "--start", "0,0")
+    assert "2*pi" in answered(capsys, "explore", str(drawing), "--start", "0,0", "--radius", "9")
+
+
+def test_input_is_not_overwritten(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    path = scene(tmp_path, circle(5, 0, 1))
+    before = Path(path).read_bytes()
+    assert "overwritten" in refused(capsys, "explore", path, "--trace", path)
+    assert Path(path).read_bytes() == before
+
+
+def test_a_disk_that_fails_leaves_no_file(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(_: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    line = refused(capsys, "explore", "circles", "--figure", str(tmp_path / "f.svg"))
+    assert "No space left" in line
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="the superuser may write anywhere")
+def test_read_only_directories_are_refused(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    tmp_path.chmod(0o500)
+    assert "cannot be written" in refused(capsys, "explore", "circles", "--figure", str(tmp_path / "f.svg"))
+
+
+# -- interruptions and faults --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("error", "status", "words"),
+    [
+        (KeyboardInterrupt(), 130, "exactacq: interrupted"),
+        (RuntimeError("a\nb"), 1, "internal error, please report it (RuntimeError: a b)"),
+        (AssertionError(), 1, "internal error, please report it (AssertionError: "),
+        (MemoryError(), 1, "internal error, please report it (MemoryError: "),
+    ],
+)
+def test_interruptions_and_faults_cost_one_line(
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    error: BaseException,
+    status: int,
+    words: str,
+) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise error
+
+    monkeypatch.setattr(cli, "sightseer", fail)
+    assert cli.main(["explore", "circles", "--figure", str(tmp_path / "f.svg")]) == status
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert words in err
+    assert err.count("\n") == 1
+    assert not list(tmp_path.iterdir())
+
+
+# -- as a process --------------------------------------------------------------------------------------
+
+
+def test_process_leaves_nothing_on_standard_error(tmp_path: Path) -> None:
+    done = process("explore", "plate", "--figure", str(tmp_path / "f.svg"))
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "15 obstacles" in done.stdout
+
+
+def test_process_refuses_with_one_line_and_status_2(tmp_path: Path) -> None:
+    for arguments in (["explore", "none.json"], ["explore", "circles", "--radius", "0"], ["--nonsense"]):
+        done = process(*arguments, cwd=tmp_path)
+        assert (done.returncode, done.stdout) == (2, "")
+        assert re.fullmatch(r"exactacq: [^\n]+\n", done.stderr)
+
+
+def test_process_prints_in_any_encoding() -> None:
+    done = process("explore", "circles", env={**os.environ, "PYTHONIOENCODING": "ascii"})
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "5 + 12*pi" in done.stdout
+
+
+def test_reader_that_stops_early_is_no_fault() -> None:
+    command = [sys.executable, "-m", "exactacq", "gallery"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as running:
+        assert running.stdout is not None
+        assert running.stderr is not None
+        running.stdout.close()
+        assert running.stderr.read() == b""
+        assert running.wait(60) in (1, 2)
+
+
+def test_progress_is_shown_on_a_terminal_only() -> None:
+    """A terminal gets a bar on standard error, and standard output is the same as without."""
+    command = [sys.executable, "-m", "exactacq", "explore", "m9"]
+    outer, inner = pty.openpty()
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=inner, env={**os.environ, "TERM": "xterm"}
+    ) as running:
+        os.close(inner)
+        seen = b""
+        assert running.stdout is not None
+        out = running.stdout.read()
+        while select.select([outer], [], [], 0.2)[0]:
+            try:
+                seen += os.read(outer, 65536)
+            except OSError:  # How Linux says that the other end is closed.
+                break
+    os.close(outer)
+    assert b"exploring" in seen
+    assert out.decode() == process("explore", "m9").stdout
+
+
+def test_readme_names_the_commands_that_are_run_in_ci() -> None:
+    root = Path(__file__).parents[1]
+    readme, ci = (root / "README.md").read_text(encoding="utf-8"), (root / ".ci" / "run").read_text()
+    commands = [line.strip() for line in readme.splitlines() if line.startswith("    python3 -m venv")]
+    assert len(commands) == 2
+    assert commands[1] in ci

@@ -1,0 +1,188 @@
+"""What lies between a drawing and its loops: rational arcs with proven bounds, and stitching."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from random import Random
+
+import mpmath
+from flint import fmpq
+from hypothesis import given
+from hypothesis import strategies as st
+
+from exactacq.formats.arcs import arc_corners, cosine_sine, simplest_between
+from exactacq.formats.chains import Chain, Corner, root_above, scientific_above
+from exactacq.formats.dxf import default_tolerance
+from exactacq.formats.joints import open_cusps
+from exactacq.formats.stitching import stitch
+from exactacq.numerals import rational
+
+decimals = st.integers(-(10**9), 10**9).map(lambda n: fmpq(n, 10**6))
+degrees = st.integers(-720 * 10**6, 720 * 10**6).map(lambda n: fmpq(n, 10**6))
+
+
+def high(value: fmpq) -> mpmath.mpf:
+    return mpmath.mpf(int(value.p)) / int(value.q)
+
+
+def on_edge(a: Corner, b: Corner, s: object) -> mpmath.mpc:
+    """The point of an edge at s of the parametrisation w = s / (s + (1 - s) exp(2 i atan b))."""
+    p, q = mpmath.mpc(high(a.x), high(a.y)), mpmath.mpc(high(b.x), high(b.y))
+    w = s / (s + (1 - s) * mpmath.expj(2 * mpmath.atan(high(a.bulge)))) if s else 0
+    return p + (q - p) * w
+
+
+@given(decimals, decimals, st.integers(1, 10**9).map(lambda n: fmpq(n, 10**6)), degrees, degrees)
+def test_a_rational_arc_stays_within_its_proven_bound(
+    x: fmpq, y: fmpq, r: fmpq, start: fmpq, end: fmpq
+) -> None:
+    corners = arc_corners((x, y), r, start, end)
+    if corners is None:
+        assert ((end - start) / 360).q == 1
+        return
+    with mpmath.workdps(60):
+        included = high(end - start) % 360
+        center, n = mpmath.mpc(high(x), high(y)), len(corners) - 1
+        for k, (a, b) in enumerate(pairwise(corners)):
+            bound = high(Chain("", [a, b], closed=True).moved())
+            assert bound < 1e-13 * (abs(center) + high(r))
+            turn = mpmath.radians(included) / n
+            begin = mpmath.radians(high(start)) + k * turn
+            p, q = (center + high(r) * mpmath.expj(t) for t in (begin, begin + turn))
+            for i in range(9):
+                s = mpmath.mpf(i) / 8
+                w = s / (s + (1 - s) * mpmath.expj(turn / 2)) if s else 0
+                exact = p + (q - p) * w
+                assert abs(abs(exact - center) - high(r)) < 1e-40 * (abs(center) + high(r))
+                assert abs(on_edge(a, b, s) - exact) <= bound
+
+
+@given(
+    st.lists(decimals, min_size=4, max_size=4),
+    st.integers(-5000, 5000).map(lambda n: fmpq(n, 1000)),
+    st.lists(st.integers(-1000, 1000).map(lambda n: fmpq(n, 10**4)), min_size=5, max_size=5),
+)
+def test_moving_ends_and_bulge_moves_no_point_beyond_the_bound(
+    places: list[fmpq], bulge: fmpq, moves: list[fmpq]
+) -> None:
+    x, y, u, v = places
+    shifts = [root_above(moves[i] ** 2 + moves[i + 1] ** 2) for i in (0, 2)]
+    old = Corner(x, y, bulge), Corner(u, v, fmpq(0))
+    new = (
+        Corner(x + moves[0], y + moves[1], bulge + moves[4], shifts[0], abs(moves[4])),
+        Corner(u + moves[2], v + moves[3], fmpq(0), shifts[1]),
+    )
+    bound = Chain("", list(new), closed=True).moved()
+    with mpmath.workdps(40):
+        for i in range(17):
+            s = mpmath.mpf(i) / 16
+            assert abs(on_edge(*new, s) - on_edge(*old, s)) <= high(bound) * (1 + mpmath.mpf(10) ** -20)
+
+
+@given(degrees)
+def test_cosine_and_sine_lie_within_their_error(angle: fmpq) -> None:
+    (cosine, sine), error = cosine_sine(angle)
+    with mpmath.workdps(60):
+        assert (
+            abs(high(cosine) - mpmath.cos(mpmath.radians(high(angle)))) <= high(error) + mpmath.mpf(10) ** -55
+        )
+        assert (
+            abs(high(sine) - mpmath.sin(mpmath.radians(high(angle)))) <= high(error) + mpmath.mpf(10) ** -55
+        )
+
+
+def test_quarter_turns_and_semicircles_are_exact() -> None:
+    assert [cosine_sine(fmpq(90 * k)) for k in range(-1, 5)] == [
+        ((fmpq(c), fmpq(s)), fmpq(0)) for c, s in [(0, -1), (1, 0), (0, 1), (-1, 0), (0, -1), (1, 0)]
+    ]
+    corners = arc_corners((fmpq(3), fmpq(1)), fmpq(2), fmpq(90), fmpq(270))
+    assert corners == [Corner(fmpq(3), fmpq(3), fmpq(1)), Corner(fmpq(3), fmpq(-1), fmpq(0))]
+    assert arc_corners((fmpq(3), fmpq(1)), fmpq(2), fmpq(-30), fmpq(330)) is None
+
+
+@given(st.fractions(0, 3, max_denominator=60), st.fractions(0, 1, max_denominator=60))
+def test_the_simplest_fraction_has_the_least_denominator(low: object, width: object) -> None:
+    left, right = rational(low), rational(low) + rational(width)
+    found = simplest_between(left, right)
+    assert left <= found <= right
+    for q in range(1, int(found.q)):
+        assert (left * q).ceil() > (right * q).floor()
+
+
+@given(st.integers(1, 10**40), st.integers(1, 10**40))
+def test_roots_from_above(p: int, q: int) -> None:
+    value = fmpq(p, q)
+    root = root_above(value)
+    assert value <= root * root <= value * (1 + fmpq(1, 10**9)) ** 2
+    assert float(scientific_above(root)) >= float(high(root)) * (1 - 1e-15)
+
+
+# -- stitching ----------------------------------------------------------------------------------------
+
+
+def star(rng: Random, n: int) -> list[tuple[fmpq, fmpq]]:
+    """A star-shaped polygon of radius 1 to 2 with rational vertices."""
+    angles = sorted(rng.sample(range(360), n))
+    return [
+        (
+            fmpq(round(r * math.cos(math.radians(a)) * 1000), 1000),
+            fmpq(round(r * math.sin(math.radians(a)) * 1000), 1000),
+        )
+        for a, r in ((a, rng.uniform(1, 2)) for a in angles)
+    ]
+
+
+@given(st.randoms(use_true_random=False), st.integers(3, 12))
+def test_pieces_in_any_order_and_sense_give_the_loop(rng: Random, n: int) -> None:
+    tolerance = fmpq(1, 1000)
+    ring = star(rng, n)
+    ring += [(x + 9, y) for x, y in star(rng, 5)]
+    pieces = []
+    for first, last in ((0, n), (n, n + 5)):
+        bulges = [fmpq(rng.randint(-9, 9), 40) for _ in range(last - first)]
+        k = first
+        while k < last:
+            step = min(rng.randint(1, 3), last - k)
+            corners = [
+                Corner(*ring[first + (i - first) % (last - first)], bulges[(i - first) % (last - first)])
+                for i in range(k, k + step + 1)
+            ]
+            for end in (corners[0], corners[-1]):
+                end.x += tolerance * rng.randint(-1, 1) / 4
+            chain = Chain("piece", corners, order=k)
+            chain.corners = chain.backwards() if rng.random() < 0.5 else corners
+            pieces.append(chain)
+            k += step
+    rng.shuffle(pieces)
+    whole = sum(p.edges for p in pieces)
+    done = stitch(pieces, tolerance)
+    assert sorted(len(loop.corners) for loop in done.loops) == sorted((n, 5))
+    assert sum(loop.edges for loop in done.loops) == whole
+    assert done.largest <= tolerance / 2
+    assert not done.open_chains and not done.branches
+    for loop in done.loops:
+        for corner in loop.corners:
+            least = min((corner.x - x) ** 2 + (corner.y - y) ** 2 for x, y in ring)
+            assert least <= (tolerance / 4) ** 2
+            assert corner.shift <= tolerance / 2
+
+
+def test_the_default_tolerance_is_a_round_millionth() -> None:
+    for size, value in [("284", "0.0001"), ("1", "1e-6"), ("0.99", "1e-7"), ("1e-9", "1e-15"), ("0", "0")]:
+        assert default_tolerance(rational(size)) == rational(value)
+
+
+def test_a_crossing_that_is_no_rounding_stays() -> None:
+    loop = Chain(
+        "loop",
+        [
+            Corner(fmpq(0), fmpq(0), fmpq(1, 4), bulge_shift=fmpq(1, 2**60)),
+            Corner(fmpq(4), fmpq(1), fmpq(0)),
+            Corner(fmpq(4), fmpq(0), fmpq(0)),
+        ],
+        closed=True,
+    )
+    before = [(c.x, c.y, c.bulge) for c in loop.corners]
+    assert open_cusps(loop, fmpq(1, 10**6)) == 0
+    assert [(c.x, c.y, c.bulge) for c in loop.corners] == before

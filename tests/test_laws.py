@@ -1,0 +1,546 @@
+"""Laws that hold exactly, on scenes chosen to be degenerate: shared lines, tangencies, cusps, concentric arcs.
+
+Every law is a plain function of a `Terrain`, so that a seed or a hand-made scene can be put to it as well. Two
+checks share no code with the library: whether a reported segment is free, and the least length between
+polygons, by all candidates in 60 digits.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from itertools import combinations, pairwise
+from random import Random
+
+import mpmath
+import networkx as nx
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from oracles import Disc, Room
+from strategies import EPS, Pair, Similarity, Terrain, box, reversed_order
+
+import exactacq as xa
+from exactacq.errors import InvalidScene
+from exactacq.lengths import Length
+from exactacq.points import Point
+
+Q = Fraction
+LONG = settings.get_current_profile_name() == "long"
+EXAMPLES = settings(max_examples=150 if LONG else 5)
+
+
+# -- degenerate scenes -----------------------------------------------------------------------------
+# Shapes in the square [-2, 2]^2; angles are of Pythagorean triangles, so that all data are rational.
+
+POLYGONS: tuple[Sequence[tuple], ...] = (
+    box(-1, 1, -1, 1),
+    box(-2, 2, -2, 2),
+    box(0, 1, -2, 2),
+    box(-2, -1, 0, 1),
+    [(-2, -2), (2, -2), (-2, 2)],
+    [(0, -2), (2, 0), (0, 2), (-2, 0)],
+    [(-2, -2), (2, -2), (2, -1), (-1, -1), (-1, 2), (-2, 2)],
+    [(-2, -2), (2, -2), (2, 2), (1, 2), (1, -1), (-1, -1), (-1, 2), (-2, 2)],
+    [(-2, 2), (0, 0), (2, 2), (0, -2)],
+    [(-2, 0), (0, -1), (2, 0)],
+    [(0, 0), (1, 2), (2, 0), (2, 2), (0, 2)],
+)
+RING = [(Q(6, 5), Q(8, 5), 2), (Q(6, 5), Q(-8, 5)), (Q(9, 10), Q(-6, 5), -2), (Q(9, 10), Q(6, 5))]
+HALF_RING = [(2, 0, 1), (-2, 0), (Q(-3, 2), 0, -1), (Q(3, 2), 0)]
+KEYHOLE = [(2, 2), (-2, 2), (-2, -2), (2, -2), (2, -1), (Q(3, 4), -1, -2), (Q(3, 4), 1), (2, 1)]
+HOLLOW: tuple[Sequence[tuple], ...] = (RING, HALF_RING, KEYHOLE)
+ROUND: tuple[object, ...] = (
+    Disc(0, 0, 1),
+    Disc(0, 0, 2),
+    Disc(1, 1, 1),
+    Disc(-1, 1, 1),
+    Disc(0, -1, 1),
+    *HOLLOW,
+    [(0, 0), (Q(3, 5), Q(4, 5), 2), (Q(3, 5), Q(-4, 5))],  # three quarters, corner at the centre
+    [(0, 0), (Q(6, 5), Q(-8, 5), Q(1, 2)), (Q(6, 5), Q(8, 5))],
+    [(-1, -1), (1, -1, 1), (1, 1), (-1, 1, 1)],  # stadium: smooth joints
+    [(-1, -1, -Q(1, 2)), (1, -1, 1), (1, 1), (-1, 1, 1)],
+    [(2, 0, 1), (-2, 0, -1), (0, 0, -1)],  # three spikes
+    [(2, 0, 1), (0, 0, 1), (-2, 0, 1)],  # a heart: its cusp is free
+    [(2, 0, 1), (-2, 0, -1), (0, 0, 1)],  # both kinds of cusp: yin
+    [(-2, 0, 1), (2, 0, Q(-1, 2))],  # crescent with two edges
+    [(0, -2, 1), (0, 2, Q(1, 3))],
+    [(-1, 0, 3), (1, 0)],  # more than half a circle on a chord
+    [(-2, -2), (2, -2), (2, 2, -1), (-2, 2)],  # a bay
+    [(-1, -1, Q(1, 2)), (1, -1, Q(1, 2)), (1, 1, Q(1, 2)), (-1, 1, Q(1, 2))],
+    [(-2, -2, Q(-1, 3)), (2, -2, Q(-1, 3)), (2, 2, Q(-1, 3)), (-2, 2, Q(-1, 3))],
+)
+INMATES: tuple[object, ...] = (
+    Disc(0, 0, Q(1, 2)),
+    box(0, Q(1, 2), 0, Q(1, 2)),
+    box(Q(-1, 2), Q(1, 2), Q(-1, 2), Q(1, 2)),
+    [(Q(3, 10), Q(2, 5), 2), (Q(3, 10), Q(-2, 5))],
+    [(0, 0), (Q(3, 10), Q(-2, 5), Q(1, 2)), (Q(3, 10), Q(2, 5))],
+)
+TURNS: tuple[Pair, ...] = ((Q(1), Q(0)), (Q(0), Q(1)), (Q(-1), Q(0)), (Q(0), Q(-1)))
+RADII = (1, 2, 3, 4, 5, 6, 8, 10, 13, 20)
+
+
+def scene_of_cells(
+    rng: Random,
+    kinds: Sequence[object],
+    *,
+    columns: int = 3,
+    rows: int = 1,
+    rooms: bool = True,
+    shift: bool = True,
+) -> Terrain:
+    """Shapes in cells of pitch 5 (or two side by side in general rows), perhaps in a room.
+
+    The start is on a boundary, at a corner, or somewhere on the grid.
+    """
+    shapes: list[object] = []
+    tilt = rng.choice([0, 0, 1, 2])
+    for cell in range(columns * rows):
+        y, x = divmod(cell, columns)
+        if rng.random() < 0.15:
+            continue
+        dx, dy = (rng.choice([0, 0, 0, EPS, -EPS, Q(1, 2)]) for _ in range(2)) if shift else (0, 0)
+        place = Similarity(rng.choice(TURNS), Q(1), (5 * x + dx, 5 * y + tilt * x + dy), rng.random() < 0.5)
+        kind = rng.choice(list(kinds))
+        shapes.append(place.shape(kind))
+        if any(kind is h for h in HOLLOW) and rng.random() < 0.6:
+            shapes.append(place.shape(rng.choice(INMATES)))
+    start = _some_start(rng, shapes, columns, rows)
+    if rooms and rng.random() < 0.3:
+        shapes.append(_room(rng, columns, rows))
+    return Terrain(tuple(shapes), start, Q(rng.choice(RADII)))
+
+
+def _some_start(rng: Random, shapes: list[object], columns: int, rows: int) -> Pair:
+    loops = [s for s in shapes if not isinstance(s, Disc)]
+    if loops and rng.random() < 0.5:
+        loop = rng.choice(loops)
+        k = rng.randrange(len(loop))
+        (x, y, *b), (u, v, *_) = loop[k], loop[(k + 1) % len(loop)]
+        if rng.random() < 0.4:
+            return Q(x), Q(y)
+        return split_point((x, y), (u, v), Q(b[0]) if b else Q(0), Q(1, 2))[0]
+    return Q(rng.randint(-3, 5 * columns - 2)), Q(rng.randint(-3, 5 * rows - 2))
+
+
+def _room(rng: Random, columns: int, rows: int) -> Room:
+    low, right, top = -7, 5 * columns + 2, 5 * rows + 7
+    kind = rng.randrange(3)
+    if kind == 0:
+        return Room(box(low, right, low, top))
+    if kind == 1:
+        r = Q(max(right, top) + 8)
+        return Room([(r, 0, 1), (-r, 0, 1)])
+    return Room([(low, low), (right, low, 1), (right, top), (low, top, 1)])
+
+
+def scenes(kinds: Sequence[object], **options: object) -> st.SearchStrategy[Terrain]:
+    """Valid scenes under hypothesis."""
+    rngs = st.randoms(use_true_random=False)
+    return rngs.map(lambda rng: scene_of_cells(rng, kinds, **options)).filter(is_valid)
+
+
+def is_valid(terrain: Terrain) -> bool:
+    """Whether the scene is accepted and its start free."""
+    try:
+        scene = terrain.scene()
+        xa.sightseer(xa.Scene([], start=(0, 0)), 1)
+    except InvalidScene:
+        return False
+    return bool(scene.obstacles)
+
+
+def split_point(p: Sequence, q: Sequence, bulge: Fraction, part: Fraction) -> tuple[Pair, Fraction, Fraction]:
+    """A point of an edge and the bulges before and after: tan(a + b) by the addition theorem."""
+    x, y, u, v = (Q(c) for c in (*p[:2], *q[:2]))
+    first = bulge * part
+    last = (bulge - first) / (1 + bulge * first)
+    if not bulge:
+        return (x + (u - x) * part, y + (v - y) * part), Q(0), Q(0)
+    away = (1 - bulge**2) / (4 * bulge)
+    cx, cy = (x + u) / 2 - (v - y) * away, (y + v) / 2 + (u - x) * away
+    c, s = (1 - first**2) / (1 + first**2), 2 * first / (1 + first**2)
+    c, s = c * c - s * s, 2 * c * s
+    return (cx + (x - cx) * c - (y - cy) * s, cy + (x - cx) * s + (y - cy) * c), first, last
+
+
+def refined(terrain: Terrain, rng: Random) -> Terrain:
+    """Some edges cut in two, circles cut into arcs, loops started elsewhere."""
+
+    def refine(shape: object) -> object:
+        if isinstance(shape, Room):
+            return Room(refine(shape.vertices))
+        if isinstance(shape, Disc):
+            if rng.random() < 0.4:
+                return shape
+            x, y, r = (Q(c) for c in shape)
+            shape = rng.choice([[(x + r, y, 1), (x - r, y, 1)], [(x, y - r, 1), (x, y + r, 1)]])
+        loop: list[tuple] = []
+        for k, (x, y, *b) in enumerate(shape):
+            after = shape[(k + 1) % len(shape)]
+            bulge = Q(b[0]) if b else Q(0)
+            if rng.random() < 0.5:
+                middle, first, last = split_point((x, y), after, bulge, rng.choice([Q(1, 2), Q(1, 3)]))
+                loop += [(x, y, first), (*middle, last)]
+            else:
+                loop.append((x, y, bulge))
+        k = rng.randrange(len(loop))
+        return loop[k:] + loop[:k]
+
+    return replace(terrain, shapes=tuple(refine(shape) for shape in terrain.shapes))
+
+
+# -- the laws --------------------------------------------------------------------------------------
+
+
+def graph_of(terrain: Terrain) -> nx.Graph:
+    return xa.visibility_graph(terrain.scene(), terrain.radius)
+
+
+def weights(terrain: Terrain) -> dict[frozenset, Length]:
+    return {frozenset(edge[:2]): edge[2] for edge in graph_of(terrain).edges(data="weight")}
+
+
+def differences(before: dict[frozenset, Length], after: dict[frozenset, Length]) -> list[str]:
+    """What differs between two graphs, in words."""
+    return [
+        f"{set(key)}: {before.get(key)} became {after.get(key)}"
+        for key in before.keys() | after.keys()
+        if key not in before or key not in after or before[key] != after[key]
+    ]
+
+
+def tour(terrain: Terrain) -> tuple[tuple[int, ...], Length] | None:
+    if terrain.start is None:
+        return None
+    try:
+        run = xa.sightseer(terrain.scene(), terrain.radius)
+    except InvalidScene:
+        return None
+    return run.visits, run.length
+
+
+def law_of_description(terrain: Terrain, rng: Random, runs: bool = True) -> None:
+    """Cut edges, another first vertex, the other sense: the same graph and the same run."""
+    before = weights(terrain)
+    known = tour(terrain) if runs else None
+    for other in (refined(terrain, rng), reversed_order(terrain), reversed_order(refined(terrain, rng))):
+        assert not differences(before, weights(other)), other
+        if runs:
+            assert tour(other) == known, other
+
+
+MOVES = (
+    Similarity(shift=(Q(22, 7), Q(-355, 113))),
+    Similarity(turn=(Q(3, 5), Q(4, 5))),
+    Similarity(mirror=True),
+    Similarity(scale=Q(7, 3)),
+    Similarity(turn=(Q(-5, 13), Q(12, 13)), scale=Q(1, 10**12), shift=(Q(10**9), Q(1, 3)), mirror=True),
+)
+
+
+def law_of_similarity(terrain: Terrain) -> None:
+    before = weights(terrain)
+    for move in MOVES:
+        after = weights(move.terrain(terrain))
+        assert not differences({key: value * move.scale for key, value in before.items()}, after), move
+
+
+def law_of_numbering(terrain: Terrain, rng: Random) -> None:
+    inner = [k for k, shape in enumerate(terrain.shapes) if not isinstance(shape, Room)]
+    order = rng.sample(inner, len(inner)) + list(range(len(inner), len(terrain.shapes)))
+    after = weights(replace(terrain, shapes=tuple(terrain.shapes[k] for k in order)))
+    name = dict(enumerate(order)) | {"S": "S"}
+    named = {frozenset(name[k] for k in key): value for key, value in after.items()}
+    assert not differences(weights(terrain), named), order
+
+
+def law_of_removal(terrain: Terrain) -> None:
+    """An obstacle only blocks: without it every other v is the same or less."""
+    before = weights(terrain)
+    count = len(terrain.shapes)
+    for gone in range(count):
+        kept = [k for k in range(count) if k != gone]
+        after = weights(replace(terrain, shapes=tuple(terrain.shapes[k] for k in kept)))
+        name = dict(enumerate(kept)) | {"S": "S"}
+        named = {frozenset(name[k] for k in key): value for key, value in after.items()}
+        for key, value in before.items():
+            if gone not in key:
+                assert key in named, (gone, set(key))
+                assert named[key] <= value, (gone, set(key))
+
+
+def law_of_distance(terrain: Terrain) -> None:
+    """What lies out of reach changes nothing."""
+    if any(isinstance(shape, Room) for shape in terrain.shapes):
+        return
+    count = len(terrain.shapes)
+    far = (box(1000, 1001, 0, 2), Disc(-1000, 0, 3), box(-10**9, 10**9, -2000, -1000))
+    after = weights(replace(terrain, shapes=(*terrain.shapes, *far)))
+    inner = {key: v for key, v in after.items() if all(k == "S" or k < count for k in key)}
+    assert not differences(weights(terrain), inner)
+
+
+def law_of_growth(terrain: Terrain) -> None:
+    """v does not depend on R; an edge is there if and only if v <= R."""
+    whole = weights(replace(terrain, radius=Q(40)))
+    for radius in (terrain.radius, *sorted({_rational(v) for v in whole.values()} - {None, 0})[:3]):
+        within = {key: v for key, v in whole.items() if v <= Length(radius)}
+        assert not differences(within, weights(replace(terrain, radius=radius))), radius
+    values = {r for v in whole.values() if (r := _rational(v))}
+    for value in sorted(values)[:2]:
+        within = {key: v for key, v in whole.items() if v < Length(value)}
+        assert not differences(within, weights(replace(terrain, radius=value - EPS))), value
+
+
+def _rational(value: Length) -> Fraction | None:
+    exact = value.algebraic.rational
+    return None if exact is None else Q(int(exact.p), int(exact.q))
+
+
+# -- an independent clearance test -----------------------------------------------------------------
+
+mp = mpmath.mp.clone()
+mp.dps = 70
+FINE = mp.mpf(10) ** -30
+
+
+class Loops:
+    """The shapes as chords and arcs in 70 digits: (ax, ay, bx, by, bulge, centre x, centre y, radius)."""
+
+    def __init__(self, shapes: Sequence[object]) -> None:
+        self.loops = [self._loop(shape) for shape in shapes]
+        self.rooms = [isinstance(shape, Room) for shape in shapes]
+
+    @staticmethod
+    def _loop(shape: object) -> list[tuple]:
+        if isinstance(shape, Disc):
+            x, y, r = (Q(c) for c in shape)
+            shape = [(x + r, y, 1), (x - r, y, 1)]
+        vertices = shape.vertices if isinstance(shape, Room) else shape
+        edges = []
+        for k, (x, y, *b) in enumerate(vertices):
+            u, v = (Q(c) for c in vertices[(k + 1) % len(vertices)][:2])
+            x, y, bulge = Q(x), Q(y), Q(b[0]) if b else Q(0)
+            data = [x, y, u, v, bulge]
+            if bulge:
+                away = (1 - bulge**2) / (4 * bulge)
+                cx, cy = (x + u) / 2 - (v - y) * away, (y + v) / 2 + (u - x) * away
+                data += [cx, cy, (x - cx) ** 2 + (y - cy) ** 2]
+            edges.append(tuple(mp.mpf(c.numerator) / c.denominator for c in data))
+        return edges
+
+    def gap(self, k: int, x: object, y: object) -> object:
+        """Distance of a point from boundary k."""
+        return min(_distance(edge, x, y) for edge in self.loops[k])
+
+    def is_inside(self, k: int, x: object, y: object) -> bool:
+        """Whether a point lies on the blocked side of boundary k, deeper than `FINE`."""
+        if self.gap(k, x, y) < FINE:
+            return False
+        turns = 0
+        for ax, ay, bx, by, bulge, *circle in self.loops[k]:
+            side = (bx - ax) * (y - ay) - (by - ay) * (x - ax)
+            if (ay > y) != (by > y):
+                turns += (1 if by > ay else -1) * ((side > 0) == (by > ay))
+            if bulge:
+                cx, cy, square = circle
+                within = (x - cx) ** 2 + (y - cy) ** 2 < square
+                turns += (1 if bulge > 0 else -1) * (within and (side < 0) == (bulge > 0) and side != 0)
+        return (turns == 0) == self.rooms[k]
+
+    def is_free(self, p: Sequence, q: Sequence) -> bool:
+        """Whether the open segment dips nowhere deeper than `FINE`."""
+        for k, loop in enumerate(self.loops):
+            cuts = sorted({mp.mpf(0), mp.mpf(1), *(t for edge in loop for t in _cuts(edge, p, q))})
+            for a, b in pairwise(cuts):
+                t = (a + b) / 2
+                if b - a > FINE and self.is_inside(k, p[0] + (q[0] - p[0]) * t, p[1] + (q[1] - p[1]) * t):
+                    return False
+        return True
+
+
+def _distance(edge: tuple, x: object, y: object) -> object:
+    ax, ay, bx, by, bulge, *circle = edge
+    ends = min(mp.hypot(x - ax, y - ay), mp.hypot(x - bx, y - by))
+    side = (bx - ax) * (y - ay) - (by - ay) * (x - ax)
+    if bulge:
+        cx, cy, square = circle
+        size, radius = mp.hypot(x - cx, y - cy), mp.sqrt(square)
+        if size == 0:
+            return radius
+        fx, fy = cx + (x - cx) * radius / size, cy + (y - cy) * radius / size
+        on = (bx - ax) * (fy - ay) - (by - ay) * (fx - ax)
+        return min(ends, abs(size - radius)) if (on < 0) == (bulge > 0) else ends
+    square = (bx - ax) ** 2 + (by - ay) ** 2
+    along = (x - ax) * (bx - ax) + (y - ay) * (by - ay)
+    return abs(side) / mp.sqrt(square) if 0 <= along <= square else ends
+
+
+def _cuts(edge: tuple, p: Sequence, q: Sequence) -> Iterator[object]:
+    """Where the segment crosses an edge's line or circle, and the feet of the edge's ends."""
+    ax, ay, bx, by, bulge, *circle = edge
+    (px, py), (qx, qy) = p, q
+    dx, dy = qx - px, qy - py
+    square = dx * dx + dy * dy
+    if square == 0:
+        return
+    found = [((ax - px) * dx + (ay - py) * dy) / square]
+    if bulge:
+        cx, cy, radius_sq = circle
+        middle = ((cx - px) * dx + (cy - py) * dy) / square
+        height = (cx - px) * dy - (cy - py) * dx
+        half = mp.sqrt(max(radius_sq / square - (height / square) ** 2, 0))
+        found += [middle - half, middle + half]
+    else:
+        below = dx * (by - ay) - dy * (bx - ax)
+        if abs(below) > FINE:
+            found.append(((ax - px) * (by - ay) - (ay - py) * (bx - ax)) / below)
+    yield from (t for t in found if 0 < t < 1)
+
+
+def precise(point: Point) -> tuple[object, object]:
+    """A point in 70 digits."""
+    return tuple(mp.mpf(c.decimal(60)) for c in point)  # type: ignore[return-value]
+
+
+def law_of_clearance(terrain: Terrain) -> None:
+    """Every reported segment joins its boundaries, is free and as long as it says."""
+    loops = Loops(terrain.shapes)
+    for i, j, data in graph_of(terrain).edges(data=True):
+        link = data["link"]
+        assert {link.source, link.target} == {i, j}
+        for leave, hit in link.segments():
+            p, q = precise(leave), precise(hit)
+            assert abs(mp.hypot(p[0] - q[0], p[1] - q[1]) - mp.mpf(data["weight"].decimal(60))) < FINE
+            assert loops.gap(link.target, *q) < FINE
+            if link.source != "S":
+                assert loops.gap(link.source, *p) < FINE
+            assert loops.is_free(p, q), (i, j, str(leave), str(hit))
+
+
+# -- an independent v between polygons -------------------------------------------------------------
+
+
+def brute_force(shapes: Sequence[Sequence[tuple]], i: int, j: int, radius: object) -> object | None:
+    """v(i, j) of polygons with integer corners: the shortest free candidate, or None."""
+    loops = Loops(shapes)
+    corners = [(Q(x), Q(y)) for shape in shapes for x, y, *_ in shape]
+    left, right = ([tuple(map(Q, edge[:4])) for edge in _exact_edges(shapes[k])] for k in (i, j))
+    chords = [(p, q) for p in _starts(left) for q in _starts(right)]
+    chords += [(p, f) for p in _starts(left) for e in right if (f := _foot(p, e))]
+    chords += [(f, q) for q in _starts(right) for e in left if (f := _foot(q, e))]
+    for c, d in combinations(corners, 2):
+        if c != d:
+            chords += [(p, q) for e in left for f in right for p in _on(c, d, e) for q in _on(c, d, f)]
+    exact = {pair for pair in chords if _square(*pair) <= Q(radius) ** 2}
+    found = [tuple((mp.mpf(c.numerator) / c.denominator for c in p) for p in pair) for pair in exact]
+    found = [tuple(tuple(p) for p in pair) for pair in found]
+    third = [(Q(x), Q(y)) for k, s in enumerate(shapes) if k not in (i, j) for x, y, *_ in s]
+    found += [pair for c in set(third) for e in left for f in right for pair in _stationary(c, e, f)]
+    lengths = [(mp.hypot(p[0] - q[0], p[1] - q[1]), p, q) for p, q in found]
+    for length, p, q in sorted(lengths):
+        if length > radius + FINE:
+            return None
+        if loops.is_free(p, q):
+            return length
+    return None
+
+
+def _exact_edges(shape: Sequence[tuple]) -> list[tuple]:
+    return [(*shape[k][:2], *shape[(k + 1) % len(shape)][:2]) for k in range(len(shape))]
+
+
+def _starts(edges: Sequence[tuple]) -> list[Pair]:
+    return [edge[:2] for edge in edges]
+
+
+def _square(p: Pair, q: Pair) -> Fraction:
+    return (p[0] - q[0]) ** 2 + (p[1] - q[1]) ** 2
+
+
+def _foot(p: Pair, edge: tuple) -> Pair | None:
+    ax, ay, bx, by = edge
+    t = ((p[0] - ax) * (bx - ax) + (p[1] - ay) * (by - ay)) / ((bx - ax) ** 2 + (by - ay) ** 2)
+    return (ax + t * (bx - ax), ay + t * (by - ay)) if 0 <= t <= 1 else None
+
+
+def _on(c: Pair, d: Pair, edge: tuple) -> list[Pair]:
+    """Where the line through two points meets an edge; both ends if it contains the edge."""
+    ax, ay, bx, by = edge
+    a = (d[0] - c[0]) * (ay - c[1]) - (d[1] - c[1]) * (ax - c[0])
+    b = (d[0] - c[0]) * (by - c[1]) - (d[1] - c[1]) * (bx - c[0])
+    if a == b == 0:
+        return [(ax, ay), (bx, by)]
+    if a * b > 0:
+        return []
+    t = a / (a - b)
+    return [(ax + t * (bx - ax), ay + t * (by - ay))]
+
+
+def _stationary(c: Pair, e: tuple, f: tuple) -> Iterator[tuple]:
+    """Chords from line e through a corner to line f, of stationary length: directions (1, t) and (t, 1)."""
+    for swap in (False, True):
+        lines = []
+        for ax, ay, bx, by in (e, f):
+            n = (by - ay, ax - bx)
+            o = n[0] * (ax - c[0]) + n[1] * (ay - c[1])
+            lines.append((o, *(reversed(n) if swap else n)))
+        (o1, a1, b1), (o2, a2, b2) = lines
+        # length / sqrt(1 + t^2) = o2 / (a2 + b2 t) - o1 / (a1 + b1 t)
+        one, two = [a1, b1], [a2, b2]
+        terms = [
+            _times([o2], [0, 1], two, one, one),
+            _times([-o1], [0, 1], one, two, two),
+            _times([-o2 * b2], [1, 0, 1], one, one),
+            _times([o1 * b1], [1, 0, 1], two, two),
+        ]
+        size = max(map(len, terms))
+        polynomial = [sum((t[k] for t in terms if k < len(t)), Q(0)) for k in range(size)]
+        while polynomial and polynomial[-1] == 0:
+            polynomial.pop()
+        if len(polynomial) < 2:
+            continue
+        top = [mp.mpf(k.numerator) / k.denominator for k in reversed(polynomial)]
+        for t in mp.polyroots(top, maxsteps=500, extraprec=1000, error=False):
+            if abs(mp.im(t)) < mp.mpf(10) ** -40:
+                t = mp.re(t)
+                ends = []
+                for (o, a, b), edge in zip(lines, (e, f), strict=True):
+                    below = mp.mpf(a.numerator) / a.denominator + t * mp.mpf(b.numerator) / b.denominator
+                    if abs(below) < FINE:
+                        break
+                    tau = mp.mpf(o.numerator) / o.denominator / below
+                    x, y = (t, mp.mpf(1)) if swap else (mp.mpf(1), t)
+                    point = (mp.mpf(c[0].numerator) / c[0].denominator + tau * x, mp.mpf(c[1].numerator) / c[1].denominator + tau * y)
+                    exact = tuple(mp.mpf(q.numerator) / q.denominator for q in edge)
+                    if _distance((*exact, 0), *point) > FINE:
+                        break
+                    ends.append((tau, point))
+                if len(ends) == 2 and ends[0][0] * ends[1][0] < 0:
+                    yield ends[0][1], ends[1][1]
+
+
+def _times(*factors: list) -> list:
+    product = [Q(1)]
+    for factor in factors:
+        out = [Q(0)] * (len(product) + len(factor) - 1)
+        for i, a in enumerate(product):
+            for j, b in enumerate(factor):
+                out[i + j] += a * b
+        product = out
+    return product
+
+
+def law_of_brute_force(terrain: Terrain) -> None:
+    found = weights(terrain)
+    shapes = terrain.shapes
+    for i, j in combinations(range(len(shapes)), 2):
+        expected = brute_force(shapes, i, j, terrain.radius)
+        value = found.get(frozenset((i, j)))
+        assert (value is None) == (expected is None), (i, j, value, expected)
+        if value is not None:
+            assert abs(mp.mpf(value.decimal(50)) - expected) < mp.mpf(10) ** -25, (i, j, str(value), expected)
