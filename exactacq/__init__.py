@@ -1,5 +1,7 @@
 """exactacq: exact sensor-based terrain acquisition among segments and circular arcs."""
 
+from typing import TYPE_CHECKING, Any
+
 from exactacq.errors import AuditError, ExactacqError, FormatError, InvalidScene, Undecided
 from exactacq.lengths import Length
 from exactacq.links import visibility_graph
@@ -10,6 +12,10 @@ from exactacq.scene import Scene
 from exactacq.shapes import Circle, Outline, Polygon, Terrain
 from exactacq.sightseer import sightseer
 from exactacq.trace import Run
+
+if TYPE_CHECKING:
+    from exactacq.figures import figure
+    from exactacq.run_json import load_run
 
 __all__ = [
     "AuditError",
@@ -26,7 +32,22 @@ __all__ = [
     "Scene",
     "Terrain",
     "Undecided",
+    "figure",
     "load",
+    "load_run",
     "sightseer",
     "visibility_graph",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Load what draws or reads runs when it is first asked for: matplotlib takes most of a second."""
+    if name == "figure":
+        from exactacq.figures import figure
+
+        return figure
+    if name == "load_run":
+        from exactacq.run_json import load_run
+
+        return load_run
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -19,7 +19,7 @@ from exactacq.reals import Real
 MAX_DENOMINATOR = 30
 """Angles p pi/q up to this q are recognised when they are made; others stay angles and compare exactly."""
 MAX_ENDS = 64
-"""Pairs of directions that an angle remembers: bounds its memory where a scene repeats one arc in many poses."""
+"""Most pairs of directions that an angle remembers: a bound where one arc is repeated in many poses."""
 
 QUARTER, HALF, TWO = fmpq(1, 4), fmpq(1, 2), fmpq(2)
 
@@ -72,11 +72,14 @@ class Angle:
 
     @property
     def ends(self) -> tuple[Ends, ...]:
-        """Pairs of directions with arg(end) - arg(start) = angle modulo pi/2, as arcs were made between them."""
+        """Directions of the arcs made with this angle: arg(end) - arg(start) is the angle modulo pi/2."""
         return tuple(self._ends.values())
 
     def remember(self, ends: Ends) -> None:
-        """Keep a pair of directions, so that contiguous arcs can be proved to cancel."""
+        """Keep a pair of directions, so that contiguous arcs can be proved to cancel.
+
+        What is forgotten beyond `MAX_ENDS` can cost a proof (`Undecided`), never a wrong one.
+        """
         if len(self._ends) < MAX_ENDS:
             (a, b), (c, d), _ = ends
             self._ends[a.key, b.key, c.key, d.key] = ends

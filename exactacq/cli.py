@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 REFUSED, INTERNAL, INTERRUPTED = 2, 1, 130
 """Exit statuses: bad input or a file that cannot be written; a fault of exactacq itself; control-C."""
-VIOLATIONS = 20
+VIOLATIONS = 8
 """Most violations of a scene that the one line of an error names."""
 UsageError: type[Exception] = typer.BadParameter.__bases__[0]
 """What typer raises for a wrong command line; where it lives depends on typer's release."""

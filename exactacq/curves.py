@@ -48,6 +48,14 @@ class Segment:
         """Whether the closed segment contains the point."""
         return self.direction.cross(point - self.start).sign() == 0 and self.contains(point)
 
+    def may_pass(self, point: Point, bits: int) -> bool:
+        """False only if balls of that precision prove that the closed segment does not contain the point."""
+        offset, along = point - self.start, self.direction
+        across, forward = along.cross(offset), offset.dot(along)
+        beyond = forward - along.norm_sq()
+        off_line = abs(across.ball(bits)) > 0
+        return not (off_line or forward.ball(bits) < 0 or beyond.ball(bits) > 0)
+
     def part(self, start: Point, end: Point) -> Segment:
         """The piece between two of its points."""
         return Segment(start, end)
@@ -115,6 +123,14 @@ class Arc:
     def passes(self, point: Point) -> bool:
         """Whether the closed arc contains the point."""
         return (point - self.center).norm_sq().compare(self.radius_sq) == 0 and self.contains(point)
+
+    def may_pass(self, point: Point, bits: int) -> bool:
+        """False only if balls of that precision prove that the closed arc does not contain the point."""
+        if abs(((point - self.center).norm_sq() - self.radius_sq).ball(bits)) > 0:
+            return False
+        side = (self.end - self.start).cross(point - self.start)
+        wrong = (side if self.ccw else -side).ball(bits) > 0
+        return self.full or not wrong
 
     def point(self, u: object) -> Point:
         """A point that moves from start (u = 0) to end (u = 1), for rational *u*.

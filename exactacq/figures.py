@@ -46,6 +46,8 @@ FINEST = 1e-9
 """Size over distance from the origin of a scene that is about to be lost in floating point."""
 COLOURS = 160
 """Steps of the colour scale along the path."""
+CROWDED = 300
+"""Among more obstacles than this, labels that do not fit into their obstacle are left out."""
 DOTS = 200
 """Resolution of PNG files in dots per inch."""
 
@@ -421,6 +423,8 @@ class _Drawing:
             place, depth = self.regions[index].heart()
             room = self.points(depth) - self.line / 2
             size = min(10.0, 1.4 * room / (0.35 + 0.4 * max(1.6, len(text))))
+            if size < 5.5 and len(self.regions) > CROWDED:
+                continue
             if size < 5.5:
                 place, size = self._beside(place, self.points(depth) + self.line / 2 + 6), 8.0
             if self.points(float(self._apart(np.array([place]))[0])) > size:

@@ -19,7 +19,6 @@ GAP = 10
 """Least distance, in hundredths, between circumcircles and from them to the square's sides."""
 MAX_DENSITY = fmpq(3, 10)
 """Up to here most random places are free; circles thrown like this jam at a density of about 0.547."""
-
 THROWS = 1000
 """Throws of one circle before the square grows: enough for squares that are not nearly full."""
 
@@ -72,7 +71,7 @@ def _doubled_area(ring: list[tuple[int, int]]) -> int:
 
 
 def _places(rng: Random, sizes: list[int], side: int) -> list[tuple[int, int]] | None:
-    """Centres of disjoint circles thrown into the square, neighbours by a cell grid; None if one finds no place."""
+    """Centres of disjoint circles thrown into the square, or None if one finds no place in `THROWS`."""
     cell = 2 * SIZES[-1] + GAP
     taken: dict[tuple[int, int], list[tuple[int, int, int]]] = {}
     places = []

@@ -101,7 +101,7 @@ class Length:
 
         As `arc`, and the angle remembers its two directions: sums of contiguous arcs are decided however
         finely their circle is cut, if pieces that meet are given the same vector (the same
-        expression) there. *norm_sq* is the squared length of both vectors; ValueError if it is not.
+        expression) there. *norm_sq*, the squared length of both vectors, is promised and checked likewise.
         """
         (a, b), (c, d) = start, end
         share, sign, angle = folded((a * c + b * d) / norm_sq, (a * d - b * c) / norm_sq)
@@ -230,12 +230,14 @@ class Length:
         """The sign of self - other; None for a NaN, NotImplemented for what is no number."""
         if self is other:
             return 0
-        special = nonfinite(other)
-        if special is not None:
-            return None if isnan(special) else -1 if special > 0 else 1
-        right = _coerce(other)
+        right = other if isinstance(other, Length) else None
         if right is None:
-            return NotImplemented
+            special = nonfinite(other)
+            if special is not None:
+                return None if isnan(special) else -1 if special > 0 else 1
+            right = _coerce(other)
+            if right is None:
+                return NotImplemented
         if self._is_algebraic and right._is_algebraic:
             return self._algebraic.compare(right._algebraic)
         left_ball, right_ball = self.ball(64), right.ball(64)

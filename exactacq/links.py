@@ -23,11 +23,13 @@ from numpy.typing import NDArray
 
 from exactacq.contacts import Family, FamilyKind, Nearest, line_contacts, nearest_points
 from exactacq.curves import Arc, Curve, Segment
+from exactacq.errors import InvalidScene
 from exactacq.lengths import Length
 from exactacq.numerals import rational
 from exactacq.points import Point, distance
 from exactacq.reals import Real
 from exactacq.scene import Scene
+from exactacq.validation import sensor_flaws
 from exactacq.vision.chords import Chord, chord_at, critical, through_piece
 from exactacq.vision.clearance import is_free, walk_line
 from exactacq.vision.families import free_pieces
@@ -65,12 +67,16 @@ class Link:
 class Links:
     """The links of one scene and radius, computed on demand and kept.
 
-    *radius* is rational and positive. ``between(i, j)`` costs well under a millisecond where the closest
-    points see each other; otherwise the pencils of the features between i and j are swept once and kept.
+    *radius* is rational and positive: `InvalidScene` otherwise. ``between(i, j)`` costs about a millisecond
+    where the closest points see each other; otherwise the pencils of the features between i and j are swept once and kept.
     """
 
     def __init__(self, scene: Scene, radius: object) -> None:
+        if radius is None:
+            raise InvalidScene(["a radius of vision must be given"])
         self.scene, self.radius = scene, rational(radius)
+        if flaws := list(sensor_flaws(scene.start, self.radius)):
+            raise InvalidScene(flaws)
         self.limit = Real(self.radius)
         self.reach = float(self.radius) * (1 + 1e-12)
         self.table = EdgeTable(scene.obstacles)
@@ -292,7 +298,7 @@ class Links:
         ahead = self.table.curves[cell.ahead]
         yield chord_at(sweep.sector, cell.low, behind, ahead)
         yield chord_at(sweep.sector, cell.high, behind, ahead)
-        # A constant length (arcs about the contact's own centre) is never the least: off the feature it shrinks.
+        # A constant length (arcs about the contact's centre) is never the least: it shrinks off the feature.
         for t in critical(sweep.sector, behind, ahead) or ():
             if t.compare(cell.low) > 0 and t.compare(cell.high) < 0:
                 yield chord_at(sweep.sector, t, behind, ahead)
@@ -375,7 +381,7 @@ class Links:
         for sector in fan(center):
             sweep = pencil(self.table, sector, own, self.reach, breaks)
             for cell in sweep.cells:
-                if cell.ahead is None or not self._enters(sweep, cell):
+                if cell.ahead is None:
                     continue
                 target = best.setdefault(int(self.table.owner[cell.ahead]), _Best(self.limit))
                 self._offer_fan(sweep, cell, target)
@@ -401,18 +407,6 @@ class Links:
             pair = tangent.rational
             assert pair is not None, "a rational point has rational tangents"
             yield pair
-
-    def _enters(self, sweep: Pencil, cell: Cell) -> bool:
-        """Whether the rays of a cell reach their edge from its free side."""
-        assert cell.ahead is not None
-        middle = (cell.low + cell.high) / 2
-        contact, direction = sweep.sector.touch(middle)
-        curve = self.table.curves[cell.ahead]
-        if isinstance(curve, Segment):
-            return curve.direction.cross(direction).sign() > 0
-        chord = chord_at(sweep.sector, middle, None, curve)
-        inward = (chord.end - curve.center).dot(direction).sign() * (-1 if curve.ccw else 1)
-        return inward > 0 and (chord.end - contact).dot(direction).sign() > 0
 
     def _offer_fan(self, sweep: Pencil, cell: Cell, best: _Best) -> None:
         assert cell.ahead is not None

@@ -19,15 +19,16 @@ TRACES = (".json",)
 def readable(length: Length, limit: int, digits: int) -> tuple[str, ...]:
     """The closed form, if it has at most *limit* characters, and ``≈`` the decimal value.
 
-    A whole number is its own decimal value and comes alone.
+    A whole number is its own decimal value and comes alone. Forms of more radicals than *limit* are not even
+    written out, which would take seconds: k distinct radicals take more than k characters.
     """
     decimal = length.decimal(digits)
     if "e" not in decimal and "." in decimal:
         decimal = decimal.rstrip("0").rstrip(".")
-    closed = str(length)
+    closed = str(length) if len(length.algebraic.generators()) <= limit else ""
     if closed == decimal:
         return (closed,)
-    return (closed, f"≈ {decimal}") if len(closed) <= limit else (f"≈ {decimal}",)
+    return (closed, f"≈ {decimal}") if 0 < len(closed) <= limit else (f"≈ {decimal}",)
 
 
 def check_output(path: str | os.PathLike[str], suffixes: Collection[str]) -> Path:

@@ -356,14 +356,16 @@ class Real:
 
     def _order(self, other: object) -> Any:
         """The sign of self - other; None for a NaN, NotImplemented for what is no number."""
-        special = nonfinite(other)
-        if special is not None:
-            return None if isnan(special) else -1 if special > 0 else 1
-        right = _coerce(other)
+        right = other if isinstance(other, Real) else None
         if right is None:
-            return NotImplemented
+            special = nonfinite(other)
+            if special is not None:
+                return None if isnan(special) else -1 if special > 0 else 1
+            right = _coerce(other)
+            if right is None:
+                return NotImplemented
         if self._q is not None and right._q is not None:
-            return int(self._q > right._q) - int(self._q < right._q)
+            return -1 if self._q < right._q else int(self._q != right._q)
         left_ball, right_ball = self.ball(64), right.ball(64)
         if left_ball < right_ball:
             return -1
@@ -470,11 +472,7 @@ def _field_element(field: tuple[tuple[int, ...], int], polynomial: fmpq_poly) ->
     """A polynomial of degree below the field's, evaluated at its root."""
     coefficients, index = field
     return Real._form(
-        {
-            Root.make(coefficients, index, k) if k else 1: c
-            for k, c in enumerate(polynomial.coeffs())
-            if c
-        }
+        {Root.make(coefficients, index, k) if k else 1: c for k, c in enumerate(polynomial.coeffs()) if c}
     )
 
 
@@ -583,5 +581,3 @@ def _irreducible_roots(factor: fmpz_poly) -> list[Real]:
         return [(root._scaled(s) - Real(b)) / (2 * a) for s in (ONE, -ONE)]
     key = tuple(int(c) for c in coefficients)
     return [Real._atom(Root.make(key, index, 1)) for index in range(len(isolated_roots(key)))]
-
-

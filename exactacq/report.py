@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from flint import fmpq
 from rich.console import Console, Group, RenderableType
 from rich.padding import Padding
 from rich.table import Table
@@ -35,7 +36,7 @@ def run_report(run: Run) -> RenderableType:
     count = len(run.scene.obstacles)
     parts: list[RenderableType] = [
         Text(f"Sightseer Strategy on {run.scene.name or 'a scene'}", style="bold"),
-        f"S = {_place(run.start)}, R = {run.radius}, {_counted(count, 'obstacle')}",
+        f"S = {_place(run.start)}, R = {_rational(run.radius)}, {_counted(count, 'obstacle')}",
         "",
     ]
     if run.visits:
@@ -59,10 +60,10 @@ def scene_report(scene: Scene) -> RenderableType:
         "edges": f"{_counted(len(edges) - arcs, 'segment')}, {_counted(arcs, 'arc')}",
         "perimeters": "  ".join(readable(total, CLOSED_FORM, 20)),
         "start": _place(scene.start) if scene.start is not None else "none: give one with --start X,Y",
-        "radius": f"{scene.radius}" if scene.radius is not None else "none: give one with --radius R",
+        "radius": _rational(scene.radius) if scene.radius is not None else "none: give one with --radius R",
     }
     if scene.terrain is not None:
-        rows["terrain"] = f"{scene.terrain.width} x {scene.terrain.height}"
+        rows["terrain"] = f"{_rational(scene.terrain.width)} x {_rational(scene.terrain.height)}"
     for row in rows.items():
         table.add_row(*row)
     return Group(Text(f"{scene.name or 'scene'}: OK", style="bold"), table, *_notes(scene))
@@ -106,7 +107,7 @@ def _missed(run: Run, names: list[str]) -> Iterator[RenderableType]:
         if which:
             yield Text(_listed(what, (names[k] for k in which), ", "), style="bold red")
     yield (
-        f"So this scene does not satisfy the paper's model (a) for R = {run.radius}: "
+        f"So this scene does not satisfy the paper's model (a) for R = {_rational(run.radius)}: "
         "no chain of links of at most R leads from S to every obstacle."
     )
 
@@ -140,6 +141,12 @@ def _number(value: Real) -> str:
     """A coordinate: rational if that is short, else six digits."""
     exact = str(value.rational) if value.rational is not None else ""
     return exact if 0 < len(exact) <= 8 else f"{float(value):.6g}"
+
+
+def _rational(value: fmpq) -> str:
+    """A number as given, unless that takes too much room."""
+    exact = str(value)
+    return exact if len(exact) <= CLOSED_FORM // 2 else f"≈ {Real(value).decimal(12)}"
 
 
 def _counted(count: int, what: str) -> str:

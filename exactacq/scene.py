@@ -104,6 +104,11 @@ class Scene:
         inner = (o for o in self.obstacles if not o.is_enclosure)
         return [o.index for o in inner if not all(_strictly_inside(edge, terrain) for edge in o.edges)]
 
+    def _repr_svg_(self) -> str:
+        from exactacq.figures import svg
+
+        return svg(self)
+
     def __repr__(self) -> str:
         name = f" {self.name!r}" if self.name else ""
         return f"<Scene{name}: {len(self.obstacles)} obstacles>"

@@ -11,11 +11,11 @@ from exactacq.bounds import sightseer_bounds
 from exactacq.errors import InvalidScene
 from exactacq.lengths import Length
 from exactacq.links import START, Link, Node, lexicographic
-from exactacq.numerals import rational
 from exactacq.points import Point
 from exactacq.robot import Robot
 from exactacq.scene import Scene
 from exactacq.trace import Run, TreeLink
+from exactacq.validation import sensor_flaws
 
 Progress = Callable[[int, int], None]
 """Called with the number of obstacles visited so far and the number in the scene."""
@@ -35,18 +35,17 @@ def sightseer(
     Never fails for lack of visibility: what could not be reached is reported in the run. Cost: near
     linear in the number of obstacles at constant density and radius.
     """
-    range_ = scene.radius if radius is None else rational(radius)
     place = scene.start if start is None else Point.of(start)
-    if range_ is None or range_ <= 0:
-        raise InvalidScene(["the radius of vision must be given and positive"])
     if place is None or place.rational is None:
         raise InvalidScene(["a start point with rational coordinates must be given"])
+    if flaws := list(sensor_flaws(place, None)):
+        raise InvalidScene(flaws)
     border = scene.meets_border()
     if border:
         rule = "meets the terrain's border: the Sightseer needs its obstacles inside"
         raise InvalidScene([f"obstacle {k} {rule}" for k in border])
     try:
-        robot = Robot(scene, range_, place)
+        robot = Robot(scene, scene.radius if radius is None else radius, place)
     except ValueError as error:
         raise InvalidScene([str(error)]) from None
     return _Sightseer(robot, progress, len(scene.obstacles)).run(scene)
@@ -131,6 +130,16 @@ class _Sightseer:
         radius = robot.radius
         bounds = sightseer_bounds(scene, radius, length, links, robot.visited)
         return Run(
-            scene, radius, "sightseer", robot.start, path, tuple(robot.visited), links, events, bounds,
-            tuple(unseen), tuple(unvisited), self.depth,
+            scene,
+            radius,
+            "sightseer",
+            robot.start,
+            path,
+            tuple(robot.visited),
+            links,
+            events,
+            bounds,
+            tuple(unseen),
+            tuple(unvisited),
+            self.depth,
         )

@@ -105,8 +105,7 @@ def validate(
 def _violations(
     loops: Sequence[Loop], start: Point | None, radius: fmpq | None, terrain: Terrain | None
 ) -> Iterator[str]:
-    if radius is not None and radius <= 0:
-        yield f"radius {_number(radius)}: a sensing radius must be positive"
+    yield from sensor_flaws(start, radius)
     sides = [] if terrain is None else [("width", terrain.width), ("height", terrain.height)]
     for side, size in sides:
         if size <= 0:
@@ -125,8 +124,18 @@ def _violations(
     arrangement = _Arrangement(sound)
     yield from arrangement.meetings()
     yield from arrangement.nestings()
-    if start is not None:
+    if start is not None and not any(sensor_flaws(start, None)):
         yield from arrangement.start_flaws(start)
+
+
+def sensor_flaws(start: Point | None, radius: fmpq | None) -> Iterator[str]:
+    """What is wrong with a start and a radius of vision, whatever the obstacles."""
+    if radius is not None and radius <= 0:
+        yield f"radius {_number(radius)}: a sensing radius must be positive"
+    if radius is not None and radius > LIMIT:
+        yield f"radius: a sensing radius of more than {LIMIT_TEXT} is not supported"
+    if start is not None and max(abs(start.x), abs(start.y)) > LIMIT:
+        yield f"start: it must not lie farther than {LIMIT_TEXT} from the axes"
 
 
 def _shape_flaws(loop: Loop) -> Iterator[str]:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 
-from hypothesis import HealthCheck, settings
+from hypothesis import HealthCheck, Phase, settings
 
 SLOW_SCENES = [HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filter_too_much]
 
@@ -17,6 +17,7 @@ settings.register_profile(
     deadline=None,
     max_examples=20,
     database=None,
+    phases=[Phase.explicit, Phase.generate],  # shrinking exact scenes takes minutes: left to `long`
     print_blob=True,
     suppress_health_check=SLOW_SCENES,
 )

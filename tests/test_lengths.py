@@ -7,6 +7,7 @@ import pickle
 import random
 import time
 from collections.abc import Callable
+from decimal import Decimal
 
 import mpmath
 import pytest
@@ -14,9 +15,11 @@ from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from exactacq.errors import Undecided
+from exactacq.curves import Arc
+from exactacq.errors import FormatError, Undecided
 from exactacq.lengths import Length
 from exactacq.numerals import rational
+from exactacq.points import Point
 from exactacq.reals import Real
 
 ORACLE_BITS = 4400
@@ -357,6 +360,116 @@ def test_permuted_sums_of_radicals_are_equal_at_once() -> None:
     assert min(spent) < 1e-3
 
 
+# -- a circle walked in pieces -----------------------------------------------------------------
+
+CENTER = Point(fmpq(1, 3), -2)
+
+
+def touching(radius_sq: fmpq, x: int, y: int, side: int) -> Point:
+    """Where a tangent from the point CENTER + (x, y) touches the circle: nested unless radius is rational."""
+    away = Point(x, y)
+    reach = side * (Real(radius_sq) * (away.norm_sq() - radius_sq)).sqrt()
+    return CENTER + (away * radius_sq + away.left() * reach) / away.norm_sq()
+
+
+def facing(radius_sq: fmpq, x: int, y: int, side: int) -> Point:
+    """The circle's point towards CENTER + (x, y), or the rational one that a unit vector gives."""
+    away = Point(*unit(fmpq(x, y or 1))) if side < 0 else Point(x, y)
+    return CENTER + away * sqrt(radius_sq) / away.norm_sq().sqrt()
+
+
+def pieces(points: list[Point], radius_sq: fmpq) -> list[Arc]:
+    """The circle once around, cut at the points, in the order of their angles."""
+
+    def angle(point: Point) -> mpmath.mpf:
+        offset = point - CENTER
+        return mpmath.atan2(float(offset.y), float(offset.x))
+
+    ring = sorted(points, key=angle)
+    return [
+        Arc(a, b, CENTER, radius_sq, True) for a, b in zip(ring, ring[1:] + ring[:1], strict=True) if a != b
+    ]
+
+
+distant = st.tuples(
+    st.sampled_from([touching, facing]),
+    st.integers(-30, 30).filter(lambda x: abs(x) > 5),
+    st.integers(-30, 30),
+    st.sampled_from([1, -1]),
+)
+squares = st.sampled_from([fmpq(9), fmpq(7), fmpq(5, 2), fmpq(25, 4)])
+
+
+@settings(max_examples=60, deadline=None)
+@given(squares, st.lists(distant, min_size=2, max_size=24, unique=True), st.randoms(use_true_random=False))
+def test_pieces_of_a_circle_add_to_a_full_turn(square: fmpq, where: list, rng: random.Random) -> None:
+    arcs = pieces([make(square, x, y, side) for make, x, y, side in where], square)
+    rng.shuffle(arcs)
+    walked = [arc if rng.random() < 0.5 else arc.reversed() for arc in arcs]
+    total, whole = Length.sum(arc.length for arc in walked), Length.turns(sqrt(square))
+    assert total == whole
+    assert total < Length.turns(sqrt(square) + fmpq(1, 10**60)) and total + fmpq(1, 10**60) > whole
+    assert str(3 + total) == str(3 + whole)
+    assert pickle.loads(pickle.dumps(total)) == whole
+    # Without its largest piece the sum is what that piece lacks to the full turn.
+    last = max(arcs, key=lambda arc: float(arc.length))
+    rest = Length.sum(arc.length for arc in arcs if arc is not last)
+    assert rest == whole - last.length
+    assert rest == Arc(last.end, last.start, CENTER, square, True).length
+
+
+def test_two_cuttings_of_a_circle_have_equal_sums() -> None:
+    rng = random.Random(5)
+    for square in (fmpq(7), fmpq(9)):
+
+        def points(count: int, common: list[Point], square: fmpq = square) -> list[Point]:
+            return common + [
+                touching(square, rng.randint(6, 40), rng.randint(-40, 40), 1) for _ in range(count)
+            ]
+
+        a, b = points(2, [])
+        walks = [pieces(points(20, [a, b]), square) for _ in range(2)]
+        sums = []
+        for walk in walks:
+            first = next(k for k, arc in enumerate(walk) if arc.start is a)
+            onward = walk[first:] + walk[:first]
+            last = next(k for k, arc in enumerate(onward) if arc.end is b)
+            sums.append(Length.sum(arc.length for arc in onward[: last + 1]))
+        direct = Arc(a, b, CENTER, square, True).length
+        assert sums[0] == sums[1] == direct
+        assert sums[0] + Length.turns(fmpq(1, 10**50)) > sums[1]
+        assert sums[0] * sqrt(2) + 1 == sqrt(2) * direct + 1
+
+
+def test_pieces_meet_in_points_that_are_written_differently() -> None:
+    square = fmpq(4, 9)
+    nested = ((sqrt(2) + sqrt(7)) ** 2 * (sqrt(3) + 1)).sqrt() / 18
+    plain = (sqrt(2) + sqrt(7)) * (sqrt(3) + 1).sqrt() / 18
+    assert nested.key != plain.key
+
+    def at(cosine: Real) -> Point:
+        return CENTER + Point(cosine, (square - cosine * cosine).sqrt())
+
+    # More than are left to LLL: each meeting point is one that ends a piece and one that starts the next.
+    ring = pieces([at(nested * fmpq(k, 17)) for k in range(3, 17)], square)
+    starts = [at(plain * fmpq(k, 17)) for k in range(16, 2, -1)]
+    met = [arc.part(start, arc.end) for arc, start in zip(ring, starts, strict=True)]
+    assert all(arc.start.key != twin.start.key for arc, twin in zip(ring, met, strict=True))
+    assert Length.sum(arc.length for arc in met) == Length.turns(fmpq(2, 3))
+
+
+def test_a_turned_circle_has_pieces_of_the_same_lengths() -> None:
+    def turned(p: Point) -> Point:
+        x, y = p - CENTER
+        return CENTER + Point(fmpq(3, 5) * x - fmpq(4, 5) * y, fmpq(4, 5) * x + fmpq(3, 5) * y)
+
+    square = fmpq(9)
+    arcs = pieces([touching(square, x, 7, 1) for x in range(-30, 30, 3)], square)[:-1]
+    twins = [Arc(turned(arc.start), turned(arc.end), CENTER, square, True) for arc in arcs]
+    assert all(arc.length == twin.length for arc, twin in zip(arcs, twins, strict=True))
+    assert Length.sum(arc.length for arc in arcs) == Length.sum(twin.length for twin in twins)
+
+
 def test_nested_radicals_tie() -> None:
     assert Length((5 + 2 * sqrt(6)).sqrt()) + Length.turns(1) == sqrt(2) + sqrt(3) + Length.turns(1)
     left = ((sqrt(2) + 1) * (sqrt(3) + sqrt(5))).sqrt() ** 2
@@ -435,3 +548,26 @@ def test_refusals() -> None:
     with pytest.raises(TypeError, match="cannot compare"):
         Length(1).compare("1")
     assert Length(1) != "1"
+
+
+def equality(left: object, right: object) -> tuple[bool, bool]:
+    return left == right, left != right
+
+
+def test_numbers_that_are_not_finite() -> None:
+    infinity, nan = float("inf"), float("nan")
+    for length in (Length(1), Length.turns(-1)):
+        assert -infinity < length < infinity and length <= infinity and length > Decimal("-Infinity")
+        assert equality(length, infinity) == (False, True) and length.compare(infinity) == -1
+        for odd in (nan, Decimal("NaN"), Decimal("sNaN")):
+            assert equality(length, odd) == (False, True)
+            assert not (length < odd or length <= odd or length > odd or length >= odd)
+        with pytest.raises(ValueError, match="NaN"):
+            length.compare(nan)
+        with pytest.raises(FormatError):
+            length + infinity
+        assert equality(length, True) == (False, True)
+        with pytest.raises(TypeError):
+            length < True  # noqa: B015
+    with pytest.raises(OverflowError, match="range of floats"):
+        float(Length.turns(10**400))

@@ -226,6 +226,7 @@ class TestGaps:
         assert weight(targets + squares, 7) is None
 
 
+HALF_RING = [(4, 0, 1), (-4, 0, 0), (-3, 0, -1), (3, 0, 0)]
 WALLS = [[(Q(1, 10), 0), (20, -1), (20, 0)], [(0, Q(1, 10)), (0, 20), (-1, 20)]]
 LADDER = [*WALLS, box(Q(1, 100), 1, Q(1, 100), 8)]
 
@@ -297,6 +298,19 @@ class TestBlockedPairs:
         graph = xa.visibility_graph(build([box(0, 1, 0, 1), box(3, 4, 0, 1)], (1, Q(1, 2))), 20)
         assert graph.edges["S", 0]["weight"] == 0
         assert graph.edges["S", 1]["weight"] == 2
+
+    @pytest.mark.parametrize("start", [(4, 0), (-4, 0), (3, 0), (0, 4), (0, 3), (Q(7, 2), 0)])
+    def test_a_start_on_the_boundary_of_a_half_ring(self, start: tuple) -> None:
+        """Corners, arcs and a straight edge: the link has no length."""
+        graph = xa.visibility_graph(build([HALF_RING], start), 20)
+        assert graph.edges["S", 0]["weight"] == 0
+
+    @pytest.mark.parametrize("radius", [10 - EPS, Q(99, 10), 9, 5])
+    def test_the_missing_half_of_an_arc_is_not_there(self, radius: Fraction) -> None:
+        """From (-12, -6) the corner (-4, 0) is nearest; rays to the corners meet the arc's circle earlier."""
+        scene = build([HALF_RING], (-12, -6))
+        assert xa.visibility_graph(scene, 10).edges["S", 0]["weight"] == 10
+        assert not xa.visibility_graph(scene, radius).has_edge("S", 0)
 
     def test_m4_registers_what_it_cannot_reach(self) -> None:
         """O3 is seen on the way from O1 to O2 but from neither boundary."""

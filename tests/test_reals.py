@@ -193,6 +193,44 @@ def test_refusals() -> None:
     assert sqrt(2) != "1" and hash(Real(3)) == hash(3)
 
 
+def equality(left: object, right: object) -> tuple[bool, bool]:
+    return left == right, left != right
+
+
+def test_comparisons_with_numbers_that_are_not_finite() -> None:
+    infinity, nan = float("inf"), float("nan")
+    for value in (Real(1), sqrt(2), -Real(10**400)):
+        for top in (infinity, Decimal("Infinity")):
+            assert value < top and value <= top and not value > top and not value >= top
+            assert equality(value, top) == (False, True) and value.compare(top) == -1
+            assert value > -top and -top < value and value.compare(-top) == 1
+        for odd in (nan, Decimal("NaN"), Decimal("sNaN")):
+            assert equality(value, odd) == (False, True)
+            assert not (value < odd or value <= odd or value > odd or value >= odd)
+        with pytest.raises(ValueError, match="NaN"):
+            value.compare(nan)
+        with pytest.raises(FormatError):
+            value + nan
+    assert Real(10**400) > Decimal("1e399") and sqrt(2) < Decimal("1e400")
+
+
+def test_bools_are_not_numbers() -> None:
+    one = Real(1)
+    assert equality(one, True) == (False, True)
+    for operation in (lambda: one < True, lambda: one + True, lambda: True * one, lambda: one.compare(True)):
+        with pytest.raises(TypeError):
+            operation()
+
+
+def test_floats_end_at_the_largest() -> None:
+    assert float(Real(2) ** 1023 * sqrt(3)) == 3**0.5 * 2.0**1023
+    for huge in (Real(10**400), -(10**400) * sqrt(2)):
+        with pytest.raises(OverflowError, match="beyond the range of floats"):
+            float(huge)
+        assert huge.decimal(3) in ("1.00e+400", "-1.41e+400")
+    assert float(Real("1e-400")) == 0.0 == float(sqrt(2) / 10**400)
+
+
 # -- near misses -----------------------------------------------------------------------------------
 
 

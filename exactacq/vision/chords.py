@@ -152,9 +152,7 @@ def _grow(sector: Sector, value: _Fraction, derivative: _Fraction) -> _Fraction:
     return _Fraction(X) * value + _Fraction(GROWTH) * derivative
 
 
-def _half(
-    sector: Sector, edge: Curve, side: int
-) -> tuple[_Fraction, tuple[_Fraction, fmpq_poly] | None]:
+def _half(sector: Sector, edge: Curve, side: int) -> tuple[_Fraction, tuple[_Fraction, fmpq_poly] | None]:
     """Signed length from the contact to *edge*, scaled as the module's docstring says."""
     size = dot(sector.base, sector.base)
     if isinstance(edge, Segment):

@@ -69,9 +69,7 @@ def walk_line(
     line = (size / np.hypot(*size))[None, :]
     found = Crossings(table, edges, (), np.array((x, y)), np.zeros((1, 2)), line, slack)
     met = [
-        (tau, int(e))
-        for e in found.possible(0)
-        for tau in line_contacts(contact, direction, table.curves[e])
+        (tau, int(e)) for e in found.possible(0) for tau in line_contacts(contact, direction, table.curves[e])
     ]
     met.sort(key=cmp_to_key(_by_parameter))
     ahead = [hit for hit in met if hit[0].sign() > 0]
@@ -98,4 +96,3 @@ def _until_blocked(
                 return
             previous = tau
         yield tau, e
-

@@ -40,7 +40,8 @@ class Crossings:
         state = np.where(sure, np.where(s0 * s1 < 0, HIT, MISSED), UNSURE)
         tau = (a0 * s1 - a1 * s0) / difference
         error = 4 * slack * (1 + (np.abs(a0) + np.abs(a1)) / np.maximum(np.abs(difference), 1e-300))
-        parts = [(straight, state, tau, error, np.minimum(a0, a1), np.maximum(a0, a1))]
+        inward = np.where(s0 > s1, 1, -1)
+        parts = [(straight, state, tau, error, np.minimum(a0, a1), np.maximum(a0, a1), inward)]
         if len(curved):
             arcs = edges[curved]
             through = np.isin(arcs, list(own))
@@ -62,7 +63,8 @@ class Crossings:
                 # An arc through the contact meets every line there: that root is no crossing.
                 zero = through & (np.abs(tau) <= np.abs(h))
                 state = np.where(zero, np.where(np.abs(h) > thick, MISSED, UNSURE), state)
-                parts.append((curved, state, tau, 4 * thick, h - radius - slack, h + radius + slack))
+                inward = np.broadcast_to(-sign * kind[curved], state.shape)
+                parts.append((curved, state, tau, 4 * thick, h - radius - slack, h + radius + slack, inward))
         columns = [np.broadcast_to(p[0], p[1].shape) for p in parts]
         self.column = np.concatenate(columns, axis=1)
         self.state = np.concatenate([p[1] for p in parts], axis=1)
@@ -70,15 +72,21 @@ class Crossings:
         self.error = np.concatenate([np.broadcast_to(p[3], p[1].shape) for p in parts], axis=1)
         self.low = np.concatenate([p[4] for p in parts], axis=1)
         self.high = np.concatenate([p[5] for p in parts], axis=1)
+        # 1 where the line, followed ahead, passes from free to blocked.
+        self.inward = np.concatenate([p[6] for p in parts], axis=1)
         self.slack = slack
 
     @cached_property
     def _rows(self) -> list[tuple[int | None, int | None] | None]:
-        """Per row the edges behind and ahead, or None where the margins leave a doubt."""
+        """Per row the edges behind and ahead, or None where the margins leave a doubt.
+
+        An edge that is met from its blocked side stands for one that was left out: no edge then.
+        """
         hit, unsure = self.state == HIT, self.state == UNSURE
         doubt = (hit & (np.abs(self.tau) <= self.error)).any(axis=1)
         chosen = []
-        for tau, low, high in ((-self.tau, -self.high, -self.low), (self.tau, self.low, self.high)):
+        sides = ((-self.tau, -self.high, -self.low, -1), (self.tau, self.low, self.high, 1))
+        for tau, low, high, inward in sides:
             forward = hit & (tau > self.error)
             nearest = np.where(forward, tau, np.inf)
             best = nearest.argmin(axis=1)
@@ -88,8 +96,8 @@ class Crossings:
             doubt |= close.sum(axis=1) > 1
             vague = unsure & (high >= -self.slack) & (low - self.slack <= limit[:, None])
             doubt |= vague.any(axis=1)
-            found = np.where(forward.any(axis=1), self.column[rows, best], -1)
-            chosen.append(found)
+            proper = forward.any(axis=1) & (self.inward[rows, best] == inward)
+            chosen.append(np.where(proper, self.column[rows, best], -1))
         return [
             None if doubt[k] else (self._edge(chosen[0][k]), self._edge(chosen[1][k]))
             for k in range(len(doubt))
@@ -121,7 +129,6 @@ class Crossings:
     def _at(self, row: int, chosen: NDArray[np.bool_]) -> Ints:
         edges: Ints = self.edges[np.unique(self.column[row][chosen])]
         return edges
-
 
 
 def _frame(points: Floats, contact: Floats, direction: Floats) -> tuple[Floats, Floats]:

@@ -49,7 +49,6 @@ class Sector:
         vx, vy = cosine * ex - sine * ey, cosine * ey + sine * ex
         return Point(vx + cx, vy + cy), Point(-vy, vx)
 
-
     def through(self, point: Point) -> list[Real]:
         """The parameters, in the sector or not, of the tangent lines through a point.
 

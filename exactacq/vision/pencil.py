@@ -23,6 +23,8 @@ import numpy as np
 from flint import fmpq, fmpz
 
 from exactacq.contacts import line_contacts
+from exactacq.curves import Segment
+from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.vision.crossings import Crossings
 from exactacq.vision.features import Sector, Vector, dot, left
@@ -176,9 +178,7 @@ class _Sweep:
             else:
                 yield from self._collect(ids, 1, sign, *self._tangent_from(offsets, radii, sign))
 
-    def _collect(
-        self, ids: Ints, side: int, sign: int, guess: Floats, margin: Floats
-    ) -> Iterator[_Event]:
+    def _collect(self, ids: Ints, side: int, sign: int, guess: Floats, margin: Floats) -> Iterator[_Event]:
         low, high = float(self.sector.low), float(self.sector.high)
         vague = margin > 0.05
         guess, margin = np.where(vague, 0.0, guess), np.where(vague, 3.0, margin)
@@ -207,9 +207,7 @@ class _Sweep:
         guess, margin = _slope(angle + sign * wing), 4 * (error + _arc_error(ratio, error))
         return np.where(ratio > 1 + error, np.nan, guess), margin
 
-    def _tangent_through(
-        self, offsets: Floats, radii: Floats | float, sign: int
-    ) -> tuple[Floats, Floats]:
+    def _tangent_through(self, offsets: Floats, radii: Floats | float, sign: int) -> tuple[Floats, Floats]:
         """Parameter at a circle of the line tangent to another one (radius 0: through a point)."""
         size, angle, error = self._polar(offsets)
         ratio = (self.size + radii) / np.maximum(size, 1e-300)
@@ -279,16 +277,22 @@ class _Sweep:
 
     def _exact_meet(self, middle: fmpq, edges: Ints) -> tuple[int | None, int | None]:
         contact, direction = self.sector.touch(Real(middle))
-        behind: tuple[Real, int] | None = None
-        ahead: tuple[Real, int] | None = None
+        nearest: dict[int, tuple[Real, int]] = {}
         for e in edges:
             for tau in line_contacts(contact, direction, self.table.curves[e]):
                 side = tau.sign()
-                if side > 0 and (ahead is None or tau < ahead[0]):
-                    ahead = tau, int(e)
-                elif side < 0 and (behind is None or tau > behind[0]):
-                    behind = tau, int(e)
-        return behind and behind[1], ahead and ahead[1]
+                if side and (side not in nearest or (tau - nearest[side][0]).sign() == -side):
+                    nearest[side] = tau, int(e)
+        proper = {s: e for s, (tau, e) in nearest.items() if self._enters(contact, direction, tau, e, s)}
+        return proper.get(-1), proper.get(1)
+
+    def _enters(self, contact: Point, direction: Point, tau: Real, e: int, side: int) -> bool:
+        """Whether the line, followed ahead (side 1) or back (-1), passes from free to blocked at an edge."""
+        edge = self.table.curves[e]
+        if isinstance(edge, Segment):
+            return edge.direction.cross(direction).sign() == side
+        outward = (contact + direction * tau - edge.center).dot(direction).sign() * side
+        return outward == (-1 if edge.ccw else 1)
 
 
 def _exact_corner(sign: int, offset: Vector, along: fmpq, across: fmpq, radius_sq: fmpq) -> Real | None:
@@ -339,7 +343,8 @@ def _slope(angle: Floats) -> Floats:
 
 def _arc_error(ratio: Floats, error: Floats) -> Floats:
     """Error of asin or acos of a ratio that is off by about *error*."""
-    flat = np.sqrt(np.maximum(1 - np.minimum(ratio * ratio, 1.0), 1e-30))
+    capped = np.minimum(np.abs(ratio), 1.0)
+    flat = np.sqrt(np.maximum(1 - capped * capped, 1e-30))
     bound: Floats = np.minimum(4 * error / flat, 4 * np.sqrt(error))
     return bound
 

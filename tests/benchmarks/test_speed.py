@@ -1,0 +1,70 @@
+"""Timings, reported and not asserted: ``pytest tests/benchmarks --benchmark-enable``.
+
+Without that option each workload of the everyday suite runs once, to see that it still runs.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+import exactacq as xa
+from exactacq.generators import random_octagons
+from exactacq.links import Links
+
+SEED = 1
+
+
+def skip_unless_timed(benchmark: object, n: int) -> None:
+    """Large workloads are for timing only."""
+    if n > 100 and benchmark.disabled:
+        pytest.skip(f"n = {n} takes too long for the everyday suite: run with --benchmark-enable")
+
+
+@pytest.mark.parametrize("n", [100, 1000])
+def test_visibility_graph(benchmark: object, n: int) -> None:
+    skip_unless_timed(benchmark, n)
+    scene = random_octagons(n, SEED)
+    graph = benchmark.pedantic(xa.visibility_graph, (scene,), rounds=3 if n == 100 else 1)
+    assert graph.number_of_nodes() == n + 1
+
+
+@pytest.mark.parametrize("n", [100, 1000])
+def test_sightseer(benchmark: object, n: int) -> None:
+    skip_unless_timed(benchmark, n)
+    scene = random_octagons(n, SEED)
+    run = benchmark.pedantic(xa.sightseer, (scene,), rounds=3 if n == 100 else 1)
+    assert run.complete
+
+
+@pytest.mark.parametrize("n", [100, 1000])
+def test_length_of_a_run(benchmark: object, n: int) -> None:
+    """The sum of all pieces, and its first 50 digits."""
+    skip_unless_timed(benchmark, n)
+    path = xa.sightseer(random_octagons(n, SEED)).path
+    digits = benchmark.pedantic(lambda: path.length_after(len(path)).decimal(50), rounds=3 if n == 100 else 1)
+    assert len(digits) > 50
+
+
+def test_one_link_with_a_free_closest_pair(benchmark: object) -> None:
+    """v of two obstacles that nothing stands between, in a scene of 100, nothing computed before."""
+    scene = random_octagons(100, SEED)
+    link = nearest_to_first(Links(scene, scene.radius))
+
+    def fresh() -> tuple[tuple[Links, int, int], dict[str, object]]:
+        links = Links(scene, scene.radius)
+        links.neighbours(0)  # the spatial index is built once a scene
+        return (links, 0, link), {}
+
+    found = benchmark.pedantic(Links.between, setup=fresh, rounds=50)
+    assert found is not None
+
+
+def nearest_to_first(links: Links) -> int:
+    """The obstacle nearest to obstacle 0: the closest pair of all is free."""
+    near = {j: links.between(0, j) for j in links.neighbours(0)}
+    return min((j for j, link in near.items() if link is not None), key=lambda j: near[j].length)
+
+
+def test_random_octagons(benchmark: object) -> None:
+    """Making and validating a scene of 1000 obstacles."""
+    assert len(benchmark.pedantic(random_octagons, (1000, SEED), rounds=1).shapes) == 1000
