@@ -55,14 +55,16 @@ class Angle:
     @classmethod
     def make(cls, cosine: Real, sine: Real, ends: Iterable[Ends] = ()) -> Angle:
         """The one angle of this cosine: in (0, pi/4] the cosine determines it."""
-        angle = cls._interned.get(cosine.key)
+        c, s = cosine.rational, sine.rational
+        # Not by the rational itself, which cannot be hashed while the interpreter shuts down.
+        key = cosine.key if c is None else (int(c.p), int(c.q))
+        angle = cls._interned.get(key)
         if angle is None:
             angle = object.__new__(cls)
             angle.cosine, angle.sine, angle._bits, angle._ends = cosine, sine, 0, {}
-            c, s = cosine.rational, sine.rational
             angle.half_tangent = None if c is None or s is None else s / (1 + c)
             angle.share = _share_of_pi(angle)
-            cls._interned[cosine.key] = angle
+            cls._interned[key] = angle
         for pair in ends:
             angle.remember(pair)
         return angle

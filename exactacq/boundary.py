@@ -38,7 +38,7 @@ class Boundary:
         for k, edge in enumerate(self.edges):
             if edge.start is point:
                 return k
-        candidates = range(len(self.edges))
+        candidates = list(range(len(self.edges)))
         for bits in (64, 256):
             candidates = [k for k in candidates if self.edges[k].may_pass(point, bits)]
         if not candidates:

@@ -120,9 +120,13 @@ class Arc:
         side = orientation(self.start, self.end, point)
         return side != (Orientation.COUNTERCLOCKWISE if self.ccw else Orientation.CLOCKWISE)
 
+    def on_circle(self, point: Point) -> bool:
+        """Whether the supporting circle contains the point."""
+        return (point - self.center).norm_sq().compare(self.radius_sq) == 0
+
     def passes(self, point: Point) -> bool:
         """Whether the closed arc contains the point."""
-        return (point - self.center).norm_sq().compare(self.radius_sq) == 0 and self.contains(point)
+        return self.on_circle(point) and self.contains(point)
 
     def may_pass(self, point: Point, bits: int) -> bool:
         """False only if balls of that precision prove that the closed arc does not contain the point."""

@@ -21,19 +21,20 @@ import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
 
-from exactacq.contacts import Family, FamilyKind, Nearest, line_contacts, nearest_points
-from exactacq.curves import Arc, Curve, Segment
+from exactacq.contacts import Family, FamilyKind, Nearest, nearest_points
+from exactacq.curves import Arc, Curve
 from exactacq.errors import InvalidScene
 from exactacq.lengths import Length
 from exactacq.numerals import rational
-from exactacq.points import Point, distance
+from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.scene import Scene
 from exactacq.validation import sensor_flaws
-from exactacq.vision.chords import Chord, chord_at, critical, through_piece
+from exactacq.vision.chords import Chord, chord_at, critical
 from exactacq.vision.clearance import is_free, walk_line
 from exactacq.vision.families import free_pieces
-from exactacq.vision.features import Feature, Vector, fan, features, leaving
+from exactacq.vision.features import Feature, Vector, fan, leaving
+from exactacq.vision.features import features as scene_features
 from exactacq.vision.pencil import Cell, Pencil, pencil
 from exactacq.vision.table import STRAIGHT, EdgeTable, Floats, Ints
 
@@ -68,7 +69,8 @@ class Links:
     """The links of one scene and radius, computed on demand and kept.
 
     *radius* is rational and positive: `InvalidScene` otherwise. ``between(i, j)`` costs about a millisecond
-    where the closest points see each other; otherwise the pencils of the features between i and j are swept once and kept.
+    where the closest points see each other; otherwise the pencils of the features between i and j are swept
+    once and kept.
     """
 
     def __init__(self, scene: Scene, radius: object) -> None:
@@ -86,18 +88,18 @@ class Links:
         self._from_start: tuple[Point, dict[int, Link]] | None = None
 
     @cached_property
-    def _features(self) -> list[Feature]:
-        return features(self.table)
+    def features(self) -> list[Feature]:
+        return scene_features(self.table)
 
     @cached_property
-    def _spots(self) -> tuple[Floats, Floats]:
+    def spots(self) -> tuple[Floats, Floats]:
         """Feature centres and radii in floats."""
-        centers = [(float(f.center[0]), float(f.center[1])) for f in self._features]
-        sizes = [float(Real(f.radius_sq).sqrt()) if f.round else 0.0 for f in self._features]
+        centers = [(float(f.center[0]), float(f.center[1])) for f in self.features]
+        sizes = [float(Real(f.radius_sq).sqrt()) if f.round else 0.0 for f in self.features]
         return np.array(centers).reshape(-1, 2), np.array(sizes)
 
     @cached_property
-    def _hulls(self) -> Floats:
+    def hulls(self) -> Floats:
         """Bounding boxes of the obstacles."""
         boxes, first = self.table.boxes, self.table.first
         if not len(boxes):
@@ -128,17 +130,17 @@ class Links:
 
     def lower_bounds(self, i: int) -> Floats:
         """Lower bounds of v(i, j) for every j: the gaps between bounding boxes."""
-        return self._gaps(self._hulls[i])
+        return self.gaps(self.hulls[i])
 
-    def _gaps(self, box: Floats) -> Floats:
-        hulls = self._hulls
+    def gaps(self, box: Floats) -> Floats:
+        hulls = self.hulls
         apart = np.maximum(np.maximum(hulls[:, :2] - box[2:], box[:2] - hulls[:, 2:]), 0.0)
         gaps: Floats = np.hypot(apart[:, 0], apart[:, 1]) * (1 - 1e-14) - self.table.roundoff
         return np.maximum(gaps, 0.0)
 
     def neighbours(self, i: int) -> list[int]:
         """The obstacles other than i whose bounding boxes come within the radius of i's."""
-        near = self._box_neighbours(self._hulls[i])
+        near = self._box_neighbours(self.hulls[i])
         return [j for j in near if j != i]
 
     def _box_neighbours(self, box: Floats) -> list[int]:
@@ -174,7 +176,7 @@ class Links:
                 least = length
             if best.length.compare(length) < 0:
                 continue
-            for piece in self._free_part(item, length):
+            for piece in self.free_part(item, length):
                 best.offer(length, piece)
         return least is not None and best.found and best.length == least
 
@@ -210,7 +212,7 @@ class Links:
         before[self.table.next] = np.arange(len(before))
         return before.tolist()
 
-    def _free_part(self, item: Nearest | Family, length: Real) -> Iterator[Shortest]:
+    def free_part(self, item: Nearest | Family, length: Real) -> Iterator[Shortest]:
         if isinstance(item, Family):
             yield from free_pieces(self.table, item)
         elif is_free(self.table, item.start, item.end):
@@ -218,14 +220,14 @@ class Links:
 
     def _pivoting(self, i: int, j: int, best: _Best) -> None:
         """Offer the chords from i to j that features of third obstacles hold."""
-        centers, sizes = self._spots
+        centers, sizes = self.spots
         if not len(centers):
             return
-        bounds = _box_gaps(centers, self._hulls[i], sizes) + _box_gaps(centers, self._hulls[j], sizes)
+        bounds = box_gaps(centers, self.hulls[i], sizes) + box_gaps(centers, self.hulls[j], sizes)
         order = count()
         heap: list[tuple[float, int, tuple[Pencil, Cell, bool]]] = []
         for k in np.flatnonzero(bounds <= best.guess):
-            owner = self._features[k].owner
+            owner = self.features[k].owner
             if owner in (i, j):
                 continue
             for flip, key in ((False, (i, j)), (True, (j, i))):
@@ -244,7 +246,7 @@ class Links:
     def _cells(self, k: int) -> dict[tuple[int, int], list[tuple[Pencil, Cell]]]:
         """Cells of feature k by the obstacles behind and ahead."""
         if k not in self._pencils:
-            feature, owner = self._features[k], self.table.owner
+            feature, owner = self.features[k], self.table.owner
             groups: dict[tuple[int, int], list[tuple[Pencil, Cell]]] = {}
             pinched: list[tuple[Chord, tuple[int, int]]] = []
             for sector in feature.sectors:
@@ -268,15 +270,15 @@ class Links:
         behind, ahead = walk_line(self.table, sweep.sector, t, self.reach)
         contact, direction = sweep.sector.touch(t)
         size = direction.norm_sq().sqrt()
-        first_behind = self._first_contacts(behind)
-        for j, high in self._first_contacts(ahead).items():
+        first_behind = self.first_contacts(behind)
+        for j, high in self.first_contacts(ahead).items():
             for i, low in first_behind.items():
                 length = (high - low) * size
                 if i != j and length.compare(self.limit) <= 0:
                     start, end = contact + direction * low, contact + direction * high
                     yield Chord(start, end, length), (i, j)
 
-    def _first_contacts(self, hits: list[tuple[Real, int]]) -> dict[int, Real]:
+    def first_contacts(self, hits: list[tuple[Real, int]]) -> dict[int, Real]:
         first: dict[int, Real] = {}
         for tau, e in hits:
             first.setdefault(int(self.table.owner[e]), tau)
@@ -286,7 +288,7 @@ class Links:
         """Lower bound of the chords of a cell: the distances from the feature to the two edges."""
         assert cell.behind is not None
         assert cell.ahead is not None
-        (x, y), size = self._spots[0][k], self._spots[1][k]
+        (x, y), size = self.spots[0][k], self.spots[1][k]
         edges = np.array((cell.behind, cell.ahead))
         gaps = self.table.distance_bounds(float(x), float(y), edges)
         return float((np.maximum(gaps**2 - size**2 * (1 + 1e-12), 0.0) ** 0.5).sum() * (1 - 1e-13))
@@ -302,63 +304,6 @@ class Links:
         for t in critical(sweep.sector, behind, ahead) or ():
             if t.compare(cell.low) > 0 and t.compare(cell.high) < 0:
                 yield chord_at(sweep.sector, t, behind, ahead)
-
-    # -- from a straight piece of the path ---------------------------------------------------------
-
-    def sees(self, piece: Segment, target: int) -> bool:
-        """Whether some point of a free segment sees the boundary of an obstacle.
-
-        The segment's ends must lie on the start or on boundaries whose links are known not to reach the
-        target: only what is seen from inner points is looked for.
-        """
-        (ax, ay), (bx, by) = piece.start.xy, piece.end.xy
-        box = np.array((min(ax, bx), min(ay, by), max(ax, bx), max(ay, by)))
-        if self._gaps(box)[target] > self.reach:
-            return False
-        best = _Best(self.limit)
-        for e in self.edges_of(target):
-            for item in nearest_points(piece, self.table.curves[e]):
-                for shortest in self._free_part(item, item.distance_sq.sqrt()):
-                    best.offer(item.distance_sq.sqrt(), shortest)
-        if not best.found:
-            self._pivoting_from(piece, box, target, best)
-        return best.found
-
-    def _pivoting_from(self, piece: Segment, box: Floats, target: int, best: _Best) -> None:
-        """Offer the chords from inner points of a free segment to an obstacle that a feature holds."""
-        centers, sizes = self._spots
-        if not len(centers):
-            return
-        bounds = _box_gaps(centers, box, sizes) + _box_gaps(centers, self._hulls[target], sizes)
-        for k in np.flatnonzero(bounds <= self.reach + self.table.roundoff):
-            if self._features[k].owner != target:
-                for chord in self._feature_chords(int(k), piece, target):
-                    best.offer(chord.length, chord)
-
-    def _feature_chords(self, k: int, piece: Segment, target: int) -> Iterator[Chord]:
-        """Free chords from a segment over one feature to the target: candidates for the shortest."""
-        feature, owner = self._features[k], self.table.owner
-        for sector in feature.sectors:
-            sweep = pencil(self.table, sector, feature.edges, self.reach)
-            for cell in sweep.cells:
-                for far, side in ((cell.behind, -1), (cell.ahead, 1)):
-                    if far is not None and owner[far] == target:
-                        edge = self.table.curves[far]
-                        for chord in through_piece(sector, cell.low, cell.high, piece, edge, side):
-                            if is_free(self.table, chord.start, chord.end):
-                                yield chord
-            for t in sweep.pinches:
-                yield from self._pinched_from(sweep, t, piece, target)
-
-    def _pinched_from(self, sweep: Pencil, t: Real, piece: Segment, target: int) -> Iterator[Chord]:
-        contact, direction = sweep.sector.touch(t)
-        for hits in walk_line(self.table, sweep.sector, t, self.reach):
-            first = self._first_contacts(hits)
-            if target in first:
-                for tau in line_contacts(contact, direction, piece):
-                    p, q = contact + direction * tau, contact + direction * first[target]
-                    if is_free(self.table, p, q):
-                        yield Chord(p, q, distance(p, q))
 
     # -- from the start ----------------------------------------------------------------------------
 
@@ -424,7 +369,7 @@ class Links:
         contact, direction = sweep.sector.touch(t)
         size = direction.norm_sq().sqrt()
         _, ahead = walk_line(self.table, sweep.sector, t, self.reach)
-        for j, tau in self._first_contacts(ahead).items():
+        for j, tau in self.first_contacts(ahead).items():
             chord = Chord(contact, contact + direction * tau, tau * size)
             best.setdefault(j, _Best(self.limit)).offer(chord.length, chord)
 
@@ -514,7 +459,7 @@ def _reach_right(table: EdgeTable, a: Ints, b: Ints) -> Floats:
     at_start, at_end = normal @ table.start[b].T - offset, normal @ table.end[b].T - offset
     at_center = normal @ table.center[b].T - offset + table.radius[b]
     right = np.where(straight, np.maximum(at_start, at_end), at_center)
-    margin = 64 * table.roundoff * (1 + table.magnitude / size)[:, None]
+    margin = 64 * table.roundoff * (1 + np.minimum(table.magnitude, 1e300 * size) / size)[:, None]
     return np.where((table.kind[a] == STRAIGHT)[:, None], right + margin, np.inf)
 
 
@@ -528,7 +473,7 @@ def _to_segments(points: Floats, starts: Floats, ends: Floats) -> Floats:
     return distances
 
 
-def _box_gaps(points: Floats, box: Floats, sizes: Floats) -> Floats:
+def box_gaps(points: Floats, box: Floats, sizes: Floats) -> Floats:
     """Lower bounds of the distances from circles to a box."""
     apart = np.maximum(np.maximum(box[:2] - points, points - box[2:]), 0.0)
     return np.maximum(np.hypot(apart[:, 0], apart[:, 1]) * (1 - 1e-13) - sizes * (1 + 1e-13), 0.0)

@@ -64,8 +64,10 @@ __all__ = ["FILTER_BITS", "ZERO_TEST_BITS", "Real", "fmpq", "rational", "roots"]
 
 FILTER_BITS = (64, 128, 256)
 """Precisions of the balls that are tried before the zero test: most signs show at the first."""
-ZERO_TEST_BITS = 1 << 21
-"""Largest precision of the zero test; 2^21 bits take about a second an operation."""
+ZERO_TEST_BITS = 1 << 23
+"""Largest precision of the zero test: there an operation takes about a tenth of a second."""
+TRIAL_BITS = 1 << 16
+"""Precision that is tried where the zero test would be too long: what is not zero shows long before."""
 EXPAND_TERMS = 64
 """A product of two radical sums is multiplied out up to this many terms."""
 
@@ -306,11 +308,6 @@ class Real:
                 return Real._form(merged).sign()
         elif self._field() is None:
             limit = self._separation_bits()
-            if limit > ZERO_TEST_BITS:
-                raise Undecided(
-                    f"sign of {decimal_string(self.ball, 20)}...: excluding zero would take {limit} bits, "
-                    f"more than {ZERO_TEST_BITS}"
-                )
             bits = 2 * FILTER_BITS[-1]
             while True:
                 ball = self.ball(bits)
@@ -318,6 +315,11 @@ class Real:
                     return sign
                 if ball.abs_upper() < arb(2) ** -limit:
                     return 0
+                if limit > ZERO_TEST_BITS and bits >= TRIAL_BITS:
+                    raise Undecided(
+                        f"sign of {decimal_string(self.ball, 20)}...: excluding 0 would take {limit} bits, "
+                        f"more than {ZERO_TEST_BITS}"
+                    )
                 bits = min(2 * bits, limit + limit // 4 + 4096) if bits < limit else 2 * bits
         bits = 2 * FILTER_BITS[-1]
         while not (sign := ball_sign(self.ball(bits))):
@@ -371,7 +373,18 @@ class Real:
             return -1
         if left_ball > right_ball:
             return 1
+        if self._is_root and right._is_root:
+            # Two positive roots that 64 bits cannot tell apart: their squares have a quarter of the degree.
+            return (self * self - right * right).sign()
         return (self - right).sign()
+
+    @property
+    def _is_root(self) -> bool:
+        """Whether the form is a positive multiple of one square root."""
+        if len(self._terms) != 1:
+            return False
+        ((atom, c),) = self._terms.items()
+        return isinstance(atom, Sqrt) and c > 0
 
     def __eq__(self, other: object) -> bool:
         order = self._order(other)

@@ -27,6 +27,8 @@ RELATION_ANGLES = 12
 """Most angles among which integer relations are sought, to keep LLL and the proofs in milliseconds."""
 RELATION_WEIGHT = 64
 """Largest sum of absolute coefficients of a relation that is proved by multiplication."""
+READABLE_ANGLES = 256
+"""Most angles for which a closed form tries the basis of Z[i], at up to a millisecond an angle."""
 FACTOR_BITS = 96
 """Norms up to this size are factored (milliseconds); larger ones are split by greatest common divisors."""
 
@@ -42,9 +44,11 @@ def reduced(form: AngleSum) -> AngleSum:
 def simplified(form: AngleSum) -> AngleSum:
     """The same value over fewer angles, for reading: independent ones only where they are fewer."""
     with suppress(Undecided):  # The form as it stands is right, too.
-        form = _eliminated(_telescoped(_nonzero(form)))
-    if 1 < len(form.angles) <= RELATION_ANGLES:
-        form = min(form, _in_gaussian_basis(form), key=lambda each: len(each.angles))
+        telescoped = _telescoped(_nonzero(form))
+        form = _eliminated(telescoped)
+        if 1 < len(form.angles) <= READABLE_ANGLES:
+            independent = _eliminated(_in_gaussian_basis(telescoped))
+            form = min(form, independent, key=lambda each: len(each.angles))
     return form
 
 

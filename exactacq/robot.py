@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from exactacq.boundary import Boundary
 from exactacq.curves import Curve, Segment
+from exactacq.glimpses import sees
 from exactacq.lengths import Length
 from exactacq.links import START, Link, Links, Node
 from exactacq.points import Location, Point
@@ -87,7 +88,7 @@ class Robot:
         """Whether an obstacle that no visited boundary sees is seen from inside a straight piece."""
         checked = self._checked.get(j, 0)
         self._checked[j] = len(self._straight)
-        if any(self._links.sees(piece, j) for piece in self._straight[checked:]):
+        if any(sees(self._links, piece, j) for piece in self._straight[checked:]):
             self._seen.add(j)
         return j in self._seen
 

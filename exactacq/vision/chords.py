@@ -10,13 +10,10 @@ closed cell gives a free chord.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 
 from flint import fmpq, fmpq_poly
 
-from exactacq.contacts import line_contacts
 from exactacq.curves import Curve, Segment
 from exactacq.numerals import rational
 from exactacq.points import Point
@@ -70,33 +67,9 @@ class _Fraction:
 def chord_at(sector: Sector, t: Real, behind: Curve | None, ahead: Curve) -> Chord:
     """The chord of the line at *t*; from the contact itself if *behind* is None (a fan)."""
     contact, direction = sector.touch(t)
-    start = contact if behind is None else contact + direction * _meet(contact, direction, behind, -1)
-    end = contact + direction * _meet(contact, direction, ahead, 1)
+    start = contact if behind is None else contact + direction * meet(contact, direction, behind, -1)
+    end = contact + direction * meet(contact, direction, ahead, 1)
     return Chord(start, end, (end - start).norm_sq().sqrt())
-
-
-def through_piece(
-    sector: Sector, low: Real, high: Real, piece: Segment, far: Curve, side: int
-) -> Iterator[Chord]:
-    """Chords from a segment, which need not be a boundary, over the contact to *far*.
-
-    *side* is 1 if *far* lies ahead (then the segment must lie behind), else -1; *far* is met for all t
-    from *low* to *high*. The shortest are among the chords; whether they are free is left to the caller.
-    """
-    cuts = [t for p in (piece.start, piece.end) for t in sector.through(p)]
-    inner = sorted(t for t in cuts if t.compare(low) > 0 and t.compare(high) < 0)
-    for a, b in pairwise([low, *inner, high]):
-        if a.compare(b) == 0:
-            continue
-        contact, direction = sector.touch((a + b) / 2)
-        met = line_contacts(contact, direction, piece)
-        if not met or met[0].sign() * side >= 0:
-            continue
-        ends = (piece, far) if side > 0 else (far, piece)
-        stationary = [t for t in critical(sector, *ends) or () if t.compare(a) > 0 and t.compare(b) < 0]
-        for t in (a, *stationary, b):
-            chord = chord_at(sector, t, *ends)
-            yield chord if side > 0 else chord.reversed()
 
 
 def critical(sector: Sector, behind: Curve | None, ahead: Curve) -> list[Real] | None:
@@ -106,7 +79,7 @@ def critical(sector: Sector, behind: Curve | None, ahead: Curve) -> list[Real] |
     return None if polynomial.is_zero() else roots(polynomial.coeffs())
 
 
-def _meet(contact: Point, direction: Point, edge: Curve, side: int) -> Real:
+def meet(contact: Point, direction: Point, edge: Curve, side: int) -> Real:
     """Parameter at which the line enters the obstacle through *edge*, going ahead (1) or back (-1)."""
     if isinstance(edge, Segment):
         along = edge.direction

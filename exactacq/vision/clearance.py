@@ -14,6 +14,7 @@ import numpy as np
 from flint import fmpq
 
 from exactacq.contacts import line_contacts
+from exactacq.curves import Arc, Curve
 from exactacq.points import Location, Point
 from exactacq.reals import Real
 from exactacq.vision.crossings import Crossings
@@ -42,7 +43,7 @@ def _is_free_exactly(table: EdgeTable, start: Point, end: Point, edges: Ints) ->
     direction = end - start
     cuts: dict[int, list[Real]] = {}
     for e in edges:
-        for tau in line_contacts(start, direction, table.curves[e]):
+        for tau in _contacts(start, end, direction, table.curves[e]):
             if tau.sign() > 0 and tau.compare(1) < 0:
                 cuts.setdefault(int(table.owner[e]), [Real(0), Real(1)]).append(tau)
     return not any(
@@ -51,6 +52,23 @@ def _is_free_exactly(table: EdgeTable, start: Point, end: Point, edges: Ints) ->
         for low, high in pairwise(sorted(values))
         if low.compare(high) != 0
     )
+
+
+def _contacts(start: Point, end: Point, direction: Point, curve: Curve) -> list[Real]:
+    """Parameters of a segment's contacts with a curve, but for an end that lies on the curve's circle.
+
+    The other crossing then follows without a root, and the end need not be compared with 0 or 1.
+    """
+    if not isinstance(curve, Arc):
+        return line_contacts(start, direction, curve)
+    at_start, at_end = (curve.on_circle(p) for p in (start, end))
+    if at_start and at_end:
+        return []
+    if not (at_start or at_end):
+        return line_contacts(start, direction, curve)
+    middle = (curve.center - start).dot(direction) / direction.norm_sq()
+    other = 2 * middle - (1 if at_end else 0)
+    return [other] if curve.contains(start + direction * other) else []
 
 
 def walk_line(

@@ -247,7 +247,10 @@ class _Sweep:
             return None
         root = square.sqrt() * event.sign
         below = k + along
-        value: Real = (across + root) / below if below.sign() else (k - along) / (across - root)
+        if below.sign() == 0:
+            # One root is at infinity: half a turn from the base, in no sector.
+            return (k - along) / (across - root) if (across - root).sign() else None
+        value: Real = (across + root) / below
         return value
 
     # -- edges met -----------------------------------------------------------------------------
