@@ -121,6 +121,18 @@ class Length:
         algebraic = Real.sum(part._algebraic for part in parts)
         return cls._make(algebraic, AngleSum.sum(part._angular for part in parts))
 
+    @staticmethod
+    def running_decimals(values: Iterable[Length], digits: int) -> list[str]:
+        """Decimals of the sums of the first 0, 1, 2, ... values; linear, for exact partial sums are not made."""
+        bits = 4 * digits + 64
+        total, sums = arb(0), ["0"]
+        for value in values:
+            with ctx.workprec(bits):
+                total += value.ball(bits)
+            # An exact 0 so far stays "0"; otherwise the ball has far more digits than are asked for.
+            sums.append("0" if total == 0 else str(total.str(digits, radius=False)))
+        return sums
+
     def __reduce__(self) -> tuple[Callable[..., Length], tuple[Real, AngleSum]]:
         return Length._make, (self._algebraic, self._angular)
 

@@ -134,6 +134,11 @@ class Real:
         return self._q
 
     @property
+    def terms(self) -> Mapping[Atom, fmpq]:
+        """The linear form: coefficients by atom (1, the radicand of a square root, or a node)."""
+        return self._terms
+
+    @property
     def key(self) -> Hashable:
         """Equal keys mean equal values (not conversely): the structural identity."""
         return self._q if self._q is not None else frozenset(self._terms.items())

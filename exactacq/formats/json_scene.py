@@ -29,6 +29,7 @@ class _Literal(str):
     """The text of a JSON number, told apart from a JSON string."""
 
     __slots__ = ()
+    is_json_number = True
 
 
 def load_json(path: str | Path, start: tuple[fmpq, fmpq] | None = None) -> Scene:
@@ -40,8 +41,13 @@ def load_json(path: str | Path, start: tuple[fmpq, fmpq] | None = None) -> Scene
     data = read_bytes(path)
     if data.count(b",") > MAX_COMMAS:
         raise FormatError(f"more than {MAX_EDGES} edges; give a smaller scene")
+    return scene_of(parse_json(data), start)
+
+
+def parse_json(data: bytes) -> Any:
+    """JSON data, numbers as the text that stands in the file; `FormatError` for what is no JSON."""
     try:
-        document = json.loads(
+        return json.loads(
             data.decode("utf-8-sig"),
             parse_float=_Literal,
             parse_int=_Literal,
@@ -55,6 +61,10 @@ def load_json(path: str | Path, start: tuple[fmpq, fmpq] | None = None) -> Scene
         raise FormatError(f"{place}: not JSON ({one_line(error.msg)}); correct the file") from None
     except RecursionError:
         raise FormatError("nested too deeply; a scene has five levels") from None
+
+
+def scene_of(document: Any, start: tuple[fmpq, fmpq] | None = None) -> Scene:
+    """The scene that parsed JSON describes: see `load_json`."""
     parts = _scene_parts(document)
     check_edges(sum(_edge_count(s) for s in (*parts["obstacles"], parts["enclosure"])))
     if start is not None:

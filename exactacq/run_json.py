@@ -1,0 +1,216 @@
+"""Runs as JSON, exact and complete: what `load_run` reads is the run again."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import Any
+
+from exactacq.bounds import sightseer_bounds
+from exactacq.curves import Arc, Curve, Segment
+from exactacq.encoding import Decoder, Encoder, Number, is_place
+from exactacq.errors import ExactacqError, FormatError
+from exactacq.formats.json_scene import parse_json, scene_of, scene_to_json
+from exactacq.formats.source import one_line, read_bytes
+from exactacq.lengths import Length
+from exactacq.numerals import rational
+from exactacq.output import readable
+from exactacq.points import Point
+from exactacq.trace import Bound, Event, Path, Piece, Run, TreeLink
+
+FORMAT, VERSION = "exactacq run", 1
+DIGITS = 20
+"""Decimals beside exact values are for readers: they are not read back."""
+CLOSED = 200
+"""Closed forms up to so many characters are written beside the decimals."""
+
+
+def run_to_json(run: Run) -> dict[str, Any]:
+    """JSON data of a run: exact numbers (see `exactacq.encoding`), decimals beside them for readers.
+
+    Linear in the path. Raises `FormatError` if the scene's start is irrational.
+    """
+    out = Encoder()
+    positions = Length.running_decimals((piece.length for piece in run.path), DIGITS)
+    document: dict[str, Any] = {
+        "format": FORMAT,
+        "version": VERSION,
+        "strategy": run.strategy,
+        "radius": str(run.radius),
+        "start": _point(out, run.start),
+        "length": _length(run.length),
+        "visits": list(run.visits),
+        "unseen": list(run.unseen),
+        "unvisited": list(run.unvisited),
+        "stack_depth": run.stack_depth,
+        "bounds": [_bound(bound) for bound in run.bounds],
+        "links": [_link(out, link) for link in run.links],
+        "path": [_piece(out, piece) for piece in run.path],
+        "events": [_event(out, event, positions) for event in run.events],
+        "scene": scene_to_json(run.scene),
+    }
+    document["numbers"] = out.table
+    return document
+
+
+def load_run(source: str | os.PathLike[str] | dict[str, Any]) -> Run:
+    """The run in a file that ``explore --trace`` wrote, or in the data of `run_to_json`.
+
+    Lengths are summed and bounds evaluated anew. Raises `FormatError` for anything else, `InvalidScene` if
+    the scene breaks the rules. That the run is the one a strategy makes is not checked.
+    """
+    name = "the data" if isinstance(source, dict) else os.fspath(source)
+    try:
+        data = json.dumps(source).encode() if isinstance(source, dict) else read_bytes(source)
+        document = parse_json(data)
+        if not isinstance(document, dict) or document.get("format") != FORMAT:
+            raise FormatError("not a run: write one with exactacq explore SCENE --trace F.json")
+        if int(document["version"]) != VERSION:
+            raise FormatError(f"version {int(document['version'])} of a run is not known here")
+        return _run(document)
+    except ExactacqError as error:
+        raise type(error)(
+            [f"{name}: {error}"] if hasattr(error, "violations") else f"{name}: {error}"
+        ) from None
+    except KeyError as error:
+        raise FormatError(f"{name}: the run has no {error}") from None
+    except (TypeError, ValueError, AttributeError, ArithmeticError, IndexError) as error:
+        raise FormatError(f"{name}: not a run ({one_line(error)})") from None
+
+
+def _run(document: dict[str, Any]) -> Run:
+    numbers = _Points(Decoder(document["numbers"]))
+    scene = scene_of(document["scene"])
+    path = Path(_read_piece(numbers, piece) for piece in document["path"])
+    links = tuple(_read_link(numbers, link) for link in document["links"])
+    events = tuple(_read_event(numbers, event, path) for event in document["events"])
+    visits, unseen, unvisited = (
+        tuple(int(k) for k in document[key]) for key in ("visits", "unseen", "unvisited")
+    )
+    count = len(scene.obstacles)
+    named = [*visits, *unseen, *unvisited, *(p.obstacle for p in path), *(e.obstacle for e in events)]
+    if any(k is not None and not 0 <= k < count for k in named):
+        raise FormatError(f"the run names an obstacle that its scene of {count} does not have")
+    radius, length = rational(document["radius"]), path.length_after(len(path))
+    return Run(
+        scene=scene,
+        radius=radius,
+        strategy=str(document["strategy"]),
+        start=numbers.point(document["start"]),
+        path=path,
+        visits=visits,
+        links=links,
+        events=events,
+        bounds=sightseer_bounds(scene, radius, length, links, visits),
+        unseen=unseen,
+        unvisited=unvisited,
+        stack_depth=int(document["stack_depth"]),
+    )
+
+
+# -- writing ---------------------------------------------------------------------------------------
+
+
+def _point(out: Encoder, point: Point) -> list[Number]:
+    return [out.number(point.x), out.number(point.y)]
+
+
+def _length(length: Length) -> dict[str, str]:
+    closed = readable(length, CLOSED, DIGITS)
+    return {"closed": closed[0], "decimal": length.decimal(DIGITS)}
+
+
+def _bound(bound: Bound) -> dict[str, Any]:
+    value = {"value": _length(bound.value), "holds": bound.holds, "ratio": repr(bound.ratio)}
+    return {"name": bound.name, "source": bound.source, **value}
+
+
+def _link(out: Encoder, link: TreeLink) -> dict[str, Any]:
+    return {
+        "source": link.source,
+        "target": link.target,
+        "leave": _point(out, link.leave),
+        "hit": _point(out, link.hit),
+        "length": out.number(link.length.algebraic),
+        "traversals": link.traversals,
+    }
+
+
+def _piece(out: Encoder, piece: Piece) -> dict[str, Any]:
+    document: dict[str, Any] = {"kind": piece.kind, "obstacle": piece.obstacle}
+    document["start"], document["end"] = _point(out, piece.start), _point(out, piece.end)
+    curve = piece.curve
+    if isinstance(curve, Arc):
+        document["arc"] = {
+            "center": _point(out, curve.center),
+            "radius_sq": str(curve.radius_sq),
+            "ccw": curve.ccw,
+            "full": curve.full,
+        }
+    return document
+
+
+def _event(out: Encoder, event: Event, positions: list[str]) -> dict[str, Any]:
+    return {
+        "kind": event.kind,
+        "obstacle": event.obstacle,
+        "note": event.note,
+        "point": _point(out, event.point),
+        "after": event.after,
+        "at": positions[event.after],
+    }
+
+
+# -- reading ---------------------------------------------------------------------------------------
+
+
+class _Points:
+    """Numbers of a document, and its points: equal pairs of numbers give one shared point."""
+
+    def __init__(self, numbers: Decoder) -> None:
+        self.numbers = numbers
+        self._points: dict[tuple[bool, str, bool, str], Point] = {}
+
+    def point(self, pair: list[Any]) -> Point:
+        """The point of two numbers."""
+        x, y = pair
+        key = is_place(x), str(x), is_place(y), str(y)
+        if key not in self._points:
+            self._points[key] = Point(self.numbers.number(x), self.numbers.number(y))
+        return self._points[key]
+
+
+def _read_piece(numbers: _Points, document: dict[str, Any]) -> Piece:
+    start, end = numbers.point(document["start"]), numbers.point(document["end"])
+    curve: Curve = Segment(start, end)
+    if "arc" in document:
+        arc = document["arc"]
+        center, square = numbers.point(arc["center"]), rational(arc["radius_sq"])
+        curve = Arc(start, end, center, square, arc["ccw"] is True, arc["full"] is True)
+    if document["kind"] not in ("straight", "boundary"):
+        raise FormatError("a piece of the path is straight or boundary")
+    return Piece(document["kind"], _index(document["obstacle"]), curve)
+
+
+def _read_link(numbers: _Points, document: dict[str, Any]) -> TreeLink:
+    source = document["source"]
+    return TreeLink(
+        source="S" if source == "S" else int(source),
+        target=int(document["target"]),
+        leave=numbers.point(document["leave"]),
+        hit=numbers.point(document["hit"]),
+        length=Length(numbers.numbers.number(document["length"])),
+        traversals=int(document["traversals"]),
+    )
+
+
+def _read_event(numbers: _Points, document: dict[str, Any], path: Path) -> Event:
+    after = int(document["after"])
+    if not 0 <= after <= len(path):
+        raise FormatError(f"an event after piece {after} of a path of {len(path)}")
+    point, obstacle = numbers.point(document["point"]), _index(document["obstacle"])
+    return Event(str(document["kind"]), point, obstacle, str(document["note"]), after, path)
+
+
+def _index(value: Any) -> int | None:
+    return None if value is None else int(value)

@@ -1,0 +1,167 @@
+"""A run written as JSON and read back is the same run, exactly; anything else is one clear error."""
+
+from __future__ import annotations
+
+import copy
+import json
+from fractions import Fraction
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+
+from exactacq import (
+    Circle,
+    FormatError,
+    Length,
+    Outline,
+    Point,
+    Polygon,
+    Real,
+    Run,
+    Scene,
+    gallery,
+    load_run,
+    sightseer,
+)
+from exactacq.encoding import Decoder, Encoder
+from exactacq.generators import random_octagons
+from exactacq.reals import roots
+
+
+def curve_data(piece):
+    arc = getattr(piece.curve, "center", None)
+    return (
+        piece.kind,
+        piece.obstacle,
+        arc is None or (piece.curve.radius_sq, piece.curve.ccw, piece.curve.full),
+    )
+
+
+def assert_same(one: Run, other: Run) -> None:
+    assert one.length == other.length
+    assert (one.strategy, one.radius, one.visits) == (other.strategy, other.radius, other.visits)
+    assert (one.unseen, one.unvisited, one.stack_depth) == (other.unseen, other.unvisited, other.stack_depth)
+    assert one.start == other.start
+    assert len(one.path) == len(other.path)
+    for a, b in zip(one.path, other.path, strict=True):
+        assert curve_data(a) == curve_data(b)
+        assert a.start == b.start and a.end == b.end and a.length == b.length
+    for a, b in zip(one.links, other.links, strict=True):
+        assert (a.source, a.target, a.traversals) == (b.source, b.target, b.traversals)
+        assert a.leave == b.leave and a.hit == b.hit and a.length == b.length
+    for a, b in zip(one.events, other.events, strict=True):
+        assert (a.kind, a.obstacle, a.note, a.after) == (b.kind, b.obstacle, b.note, b.after)
+        assert a.point == b.point
+    for a, b in zip(one.bounds, other.bounds, strict=True):
+        assert (a.name, a.source, a.holds) == (b.name, b.source, b.holds) and a.value == b.value
+    assert [o.name for o in one.scene.obstacles] == [o.name for o in other.scene.obstacles]
+
+
+def room() -> Run:
+    wall = Outline([(6, 0, 1), (-6, 0, 1)])
+    inside = [
+        Circle((2, 1), 1),
+        Outline([(-3, 0, "1/2"), (-2, 1), ("-5/2", 2, "-1/3")]),
+        Polygon([(0, -4), (1, -3), (-1, -3)]),
+    ]
+    return sightseer(Scene(inside, start=(0, 0), enclosure=wall), radius=Fraction(9, 2))
+
+
+@pytest.mark.parametrize("name", gallery.names())
+def test_gallery_runs_come_back(name: str, tmp_path: Path) -> None:
+    run = sightseer(gallery.scene(name))
+    path = tmp_path / "run.json"
+    path.write_text(json.dumps(run.to_json()), encoding="utf-8")
+    assert_same(run, load_run(path))
+
+
+def test_data_come_back_without_a_file() -> None:
+    run = room()
+    assert_same(run, load_run(run.to_json()))
+
+
+def test_points_are_shared_and_the_path_is_connected() -> None:
+    again = load_run(room().to_json())
+    assert all(a.end is b.start for a, b in pairwise(again.path))
+
+
+def test_the_file_stays_small() -> None:
+    text = json.dumps(sightseer(random_octagons(100, seed=1)).to_json())
+    assert len(text) < 2_000_000
+
+
+def test_numbers_of_every_kind_come_back() -> None:
+    two, three = Real(2).sqrt(), Real(3).sqrt()
+    cubic = roots([-2, 0, 0, 1])[0]
+    nested = (two + three + 1).sqrt()
+    values = [
+        Real("-7/3"), Real(10) ** 60 + Real("1e-60"), two / 3 - three, cubic**2 - cubic / 5 + 1, nested,
+        (nested + cubic) * (nested - three), 1 / (nested + cubic), (nested * nested + cubic).sqrt(),
+    ]  # fmt: skip
+    out = Encoder()
+    written = [out.number(value) for value in values]
+    table = json.loads(json.dumps(out.table))
+    decoder = Decoder(table)
+    for value, number in zip(values, written, strict=True):
+        assert decoder.number(number) == value
+    assert len(table) == len({json.dumps(entry) for entry in table}), "nothing is stored twice"
+
+
+def test_decimals_stand_beside() -> None:
+    document = sightseer(gallery.scene("circles")).to_json()
+    assert document["length"]["closed"] == "5 + 12*pi"
+    assert document["events"][-1]["at"] == document["length"]["decimal"]
+
+
+def damaged(change):
+    document = copy.deepcopy(sightseer(gallery.scene("m8")).to_json())
+    change(document)
+    return document
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda d: d.pop("format"),
+        lambda d: d.update(version=2),
+        lambda d: d.pop("path"),
+        lambda d: d.update(path=3),
+        lambda d: d.update(numbers=[[["1", ["sqrt", "-1"]]]]),
+        lambda d: d.update(numbers=[[["1", ["inverse", "0"]]]]),
+        lambda d: d.update(numbers=[[["1", ["sqrt", 0]]]]),
+        lambda d: d.update(numbers=[[["1", ["radical", "-2"]]]]),
+        lambda d: d.update(numbers=[[["1", ["root", ["1", "0", "1"], 0, 1]]]]),
+        lambda d: d.update(numbers=[[["1", ["root", ["1"] * 9999, 0, 1]]]]),
+        lambda d: d.update(numbers=[[["1", ["logarithm", "2"]]]]),
+        lambda d: d.update(numbers={}),
+        lambda d: d.update(start=["0"]),
+        lambda d: d.update(start=["nan", "0"]),
+        lambda d: d.update(start=[10**6, "0"]),
+        lambda d: d.update(visits=[99]),
+        lambda d: d.update(radius="x"),
+        lambda d: d["events"][0].update(after=10**9),
+        lambda d: d["path"][0].update(kind="flight"),
+        lambda d: d["scene"].pop("obstacles"),
+    ],
+)
+def test_damage_is_one_clear_error(change) -> None:
+    with pytest.raises(FormatError) as caught:
+        load_run(damaged(change))
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("content", [b"", b"{", b"\x00\xff", b"[" * 10**5, b'{"obstacles": []}', b"3"])
+def test_files_that_are_no_runs(content: bytes, tmp_path: Path) -> None:
+    path = tmp_path / "run.json"
+    path.write_bytes(content)
+    with pytest.raises(FormatError, match=r"run\.json"):
+        load_run(path)
+    with pytest.raises(FormatError, match="missing"):
+        load_run(tmp_path / "missing.json")
+
+
+def test_lengths_of_links_are_algebraic() -> None:
+    for link in load_run(room().to_json()).links:
+        assert link.length == Length((link.hit - link.leave).norm_sq().sqrt())
+        assert isinstance(link.leave, Point)
