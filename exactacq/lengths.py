@@ -123,7 +123,7 @@ class Length:
 
     @staticmethod
     def running_decimals(values: Iterable[Length], digits: int) -> list[str]:
-        """Decimals of the sums of the first 0, 1, 2, ... values; linear, for exact partial sums are not made."""
+        """Decimals of the sums of the first 0, 1, 2, ... values; linear: no exact partial sums are made."""
         bits = 4 * digits + 64
         total, sums = arb(0), ["0"]
         for value in values:
