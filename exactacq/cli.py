@@ -187,7 +187,17 @@ def _draw_gallery(folder: Path) -> None:
 def _scene(
     name: str, start: str | None, layers: str | None, outer: Outer, tolerance: str | None, union: bool
 ) -> Scene:
-    """The scene in the file, or else of the gallery, that *name* names."""
+    """The scene in the file, or else of the gallery, that *name* names; what is wrong with it names it too."""
+    try:
+        return _loaded(name, start, layers, outer, tolerance, union)
+    except InvalidScene as error:
+        first, *others = error.violations
+        raise InvalidScene([f"{name}: {first}", *others]) from None
+
+
+def _loaded(
+    name: str, start: str | None, layers: str | None, outer: Outer, tolerance: str | None, union: bool
+) -> Scene:
     place = None if start is None else _pair("--start", start)
     options: dict[str, object] = {"outer": outer.value} if outer is not Outer.WALL else {}
     if layers is not None:
