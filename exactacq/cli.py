@@ -187,7 +187,7 @@ def _draw_gallery(folder: Path) -> None:
 def _scene(
     name: str, start: str | None, layers: str | None, outer: Outer, tolerance: str | None, union: bool
 ) -> Scene:
-    """The scene in the file, or else of the gallery, that *name* names; what is wrong with it names it too."""
+    """The scene in the file, or else of the gallery, of that name; an error names it too."""
     try:
         return _loaded(name, start, layers, outer, tolerance, union)
     except InvalidScene as error:
