@@ -10,7 +10,7 @@ ends only. Candidates are visited in the order of proven lower bounds until the 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Hashable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property, cmp_to_key
 from heapq import heapify, heappop, heappush
@@ -68,8 +68,8 @@ class Link:
 class Links:
     """The links of one scene and radius, computed on demand and kept.
 
-    *radius* is rational and positive: `InvalidScene` otherwise. ``between(i, j)`` costs about a millisecond
-    where the closest points see each other; otherwise the pencils of the features between i and j are swept
+    *radius* is rational and positive: `InvalidScene` otherwise. ``between(i, j)`` costs less than a
+    millisecond where the closest points see each other; otherwise the pencils of the features between i and j are swept
     once and kept.
     """
 
@@ -165,10 +165,17 @@ class Links:
         ]
         heapify(heap)
         least: Real | None = None
+        seen: set[Hashable] = set()
         while heap and heap[0][0] <= best.guess:
             _, _, item = heappop(heap)
             if isinstance(item, tuple):
                 for found in self._minima(*item):
+                    if isinstance(found, Nearest):
+                        # A vertex is found once for each of its edges.
+                        ends = found.start.key, found.end.key
+                        if ends in seen:
+                            continue
+                        seen.add(ends)
                     heappush(heap, (float(found.distance_sq) ** 0.5 * (1 - 1e-13), next(order), found))
                 continue
             length = item.distance_sq.sqrt()
