@@ -69,8 +69,8 @@ class Links:
     """The links of one scene and radius, computed on demand and kept.
 
     *radius* is rational and positive: `InvalidScene` otherwise. ``between(i, j)`` costs less than a
-    millisecond where the closest points see each other; otherwise the pencils of the features between i and j are swept
-    once and kept.
+    millisecond where the closest points see each other; otherwise the pencils of the features between i
+    and j are swept once and kept.
     """
 
     def __init__(self, scene: Scene, radius: object) -> None:
