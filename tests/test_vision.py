@@ -1,0 +1,105 @@
+"""Sweeps and clearance at their edges: lines that only grazing leaves free, and minima on vertices."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+from exactacq import Circle, Outline, Point, Polygon, Scene, visibility_graph
+from exactacq.contacts import Family, nearest_points
+from exactacq.links import Links
+from exactacq.vision.chords import Chord
+from exactacq.vision.clearance import is_free
+from exactacq.vision.families import free_pieces
+from exactacq.vision.table import EdgeTable
+
+TINY = Fraction(1, 10**60)
+
+
+def box(x0, y0, x1, y1):
+    return Polygon([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
+
+
+def alternating(shift):
+    """Three long bars that leave the line x = 0, or nothing if the middle one is shifted to the right."""
+    return [box(0, 0, 50, 1), box(-50, 2, shift, 3), box(0, 4, 50, 5)]
+
+
+SLANTED = [Polygon([(-9, -3), (-9, -4), (9, -4), (9, -1)]), Polygon([(-9, 7), (9, 9), (9, 10), (-9, 10)])]
+"""Below and above the bars; along x = 0 they are 10 apart, and no line near it is perpendicular to either."""
+
+
+def test_a_pinched_line_is_free_though_no_neighbour_is() -> None:
+    graph = visibility_graph(Scene([*SLANTED, *alternating(0)]), 20)
+    assert graph.edges[0, 1]["weight"] == 10
+    assert (graph.edges[0, 1]["leave"], graph.edges[0, 1]["hit"]) == (Point(0, -2), Point(0, 8))
+
+
+def test_a_line_pinched_too_much_is_blocked() -> None:
+    assert not visibility_graph(Scene([*SLANTED, *alternating(TINY)]), 20).has_edge(0, 1)
+
+
+def test_a_ray_from_the_start_is_pinched() -> None:
+    scene = Scene([SLANTED[1], *alternating(0)], start=(0, -2))
+    assert visibility_graph(scene, 20).edges["S", 0]["weight"] == 10
+    assert not visibility_graph(Scene([SLANTED[1], *alternating(TINY)], start=(0, -2)), 20).has_edge("S", 0)
+
+
+def test_a_pinch_between_arcs() -> None:
+    """Three circles on alternating sides are tangent to x = 0: only that line passes, until one moves in."""
+    far = [box(-30, -103, 30, -102), box(-30, 210, 30, 211)]
+    right = [Circle((40, -50), 40), Circle((40, 150), 40)]
+    graph = visibility_graph(Scene([*far, *right, Circle((-40, 50), 40)]), 400)
+    assert graph.edges[0, 1]["weight"] == 312
+    assert not visibility_graph(Scene([*far, *right, Circle((-40 + TINY, 50), 40)]), 400).has_edge(0, 1)
+
+
+def test_the_isolated_segment_of_a_family_is_found() -> None:
+    """Bars from both sides leave one perpendicular of two parallel edges, and a strip far from it."""
+    low, high = box(-10, -2, 20, 0), box(-10, 6, 20, 8)
+    bars = [box(0, 1, 15, 2), box(-9, 3, 0, 4)]
+    table = EdgeTable(Scene([low, high, *bars]).obstacles)
+    (family,) = [
+        found
+        for a in table.curves[:4]
+        for b in table.curves[4:8]
+        for found in nearest_points(a, b)
+        if isinstance(found, Family) and found.distance_sq == 36
+    ]
+    pieces = list(free_pieces(table, family))
+    isolated = [(p.start.x, p.end.x) for p in pieces if isinstance(p, Chord)]
+    strips = sorted(sorted((p.first.start.x, p.first.end.x)) for p in pieces if isinstance(p, Family))
+    assert isolated == [(0, 0)]
+    assert strips == [[-10, -9], [15, 20]]
+
+
+def test_corners_that_face_each_other_along_a_line() -> None:
+    """Moving along the horizontal edges changes the distance to second order only: it is a minimum."""
+    graph = visibility_graph(Scene([box(0, 0, 1, 1), box(1, 3, 2, 4)]), 5)
+    assert graph.edges[0, 1]["weight"] == 2
+
+
+@pytest.mark.parametrize("shift", [0, 10**9, -(10**15)])
+def test_clearance_of_a_segment_along_edges(shift: int) -> None:
+    """Running along an edge or through a corner is free; entering by 10^-60 is not, wherever the scene lies."""
+    scene = Scene([box(shift, 0, shift + 2, 1), Outline([(shift + 5, 0, 1), (shift + 7, 0)])])
+    table = EdgeTable(scene.obstacles)
+
+    def free(x0: object, y0: object, x1: object, y1: object) -> bool:
+        return is_free(table, Point(shift + Fraction(x0), y0), Point(shift + Fraction(x1), y1))
+
+    assert free(-1, 1, 3, 1) and free(-1, 0, 8, 0)
+    assert not free(-1, 1 - TINY, 3, 1)
+    assert free(-1, 2, 1, 0) is False
+    assert free(-1, 2, 0, 1) and free(1, 1, 2, 1)
+    assert free(6, -1, 6, 0) and not free(6, -1, 6, TINY)
+
+
+def test_links_refuse_what_they_cannot_sense() -> None:
+    scene = Scene([Circle((3, 0), 1)], start=(2, 0))
+    with pytest.raises(ValueError, match="positive"):
+        Links(scene, 0)
+    with pytest.raises(ValueError, match="given"):
+        Links(scene, None)
+    assert Links(scene, 1).from_point(scene.start)[0].length == 0
