@@ -82,7 +82,7 @@ def test_corners_that_face_each_other_along_a_line() -> None:
 
 @pytest.mark.parametrize("shift", [0, 10**9, -(10**15)])
 def test_clearance_of_a_segment_along_edges(shift: int) -> None:
-    """Running along an edge or through a corner is free; entering by 10^-60 is not, wherever the scene lies."""
+    """Running along an edge or through a corner is free; entering by 10^-60 is not, wherever it lies."""
     scene = Scene([box(shift, 0, shift + 2, 1), Outline([(shift + 5, 0, 1), (shift + 7, 0)])])
     table = EdgeTable(scene.obstacles)
 
