@@ -33,7 +33,8 @@ from exactacq.validation import sensor_flaws
 from exactacq.vision.chords import Chord, chord_at, critical
 from exactacq.vision.clearance import is_free, walk_line
 from exactacq.vision.families import free_pieces
-from exactacq.vision.features import Feature, Vector, fan, leaving
+from exactacq.vision.fans import edges_at, fan
+from exactacq.vision.features import Feature, leaving
 from exactacq.vision.features import features as scene_features
 from exactacq.vision.pencil import Cell, Pencil, pencil
 from exactacq.vision.table import STRAIGHT, EdgeTable, Floats, Ints
@@ -321,17 +322,11 @@ class Links:
         return self._from_start[1]
 
     def _fan_links(self, point: Point) -> dict[int, Link]:
-        center = point.rational
-        if center is None:
-            raise ValueError("a start point needs rational coordinates")
-        own = self._edges_at(point)
-        breaks = tuple(self._directions_at(point, own))
         best: dict[int, _Best] = {}
-        for e in own:
+        for e in edges_at(self.table, point):
             owner = int(self.table.owner[e])
             best.setdefault(owner, _Best(self.limit)).offer(Real(0), Chord(point, point, Real(0)))
-        for sector in fan(center):
-            sweep = pencil(self.table, sector, own, self.reach, breaks)
+        for sweep in fan(self.table, point, self.reach):
             for cell in sweep.cells:
                 if cell.ahead is None:
                     continue
@@ -341,24 +336,6 @@ class Links:
                 self._offer_pinched_rays(sweep, t, best)
         links = ((j, found.link(START, j)) for j, found in sorted(best.items()))
         return {j: link for j, link in links if link is not None}
-
-    def _edges_at(self, point: Point) -> tuple[int, ...]:
-        """The edges through a point of a boundary: at a vertex the incoming one first."""
-        x, y = point.xy
-        edges = [int(e) for e in self.table.near((x, y), (x, y), 0.0)]
-        found = [e for e in edges if self.table.curves[e].passes(point)]
-        if len(found) == 2 and int(self.table.next[found[0]]) != found[1]:
-            found.reverse()
-        return tuple(found)
-
-    def _directions_at(self, point: Point, own: tuple[int, ...]) -> Iterator[Vector]:
-        """Tangents of the boundary at a point of it: there a fan passes from free to blocked."""
-        for e in own:
-            curve = self.table.curves[e]
-            tangent = curve.tangent(point) if isinstance(curve, Arc) else curve.direction
-            pair = tangent.rational
-            assert pair is not None, "a rational point has rational tangents"
-            yield pair
 
     def _offer_fan(self, sweep: Pencil, cell: Cell, best: _Best) -> None:
         assert cell.ahead is not None

@@ -103,3 +103,16 @@ def test_links_refuse_what_they_cannot_sense() -> None:
     with pytest.raises(ValueError, match="given"):
         Links(scene, None)
     assert Links(scene, 1).from_point(scene.start)[0].length == 0
+
+
+@pytest.mark.parametrize("crescent", [[(0, 4, 1), (0, 0, "-1/2")], [(0, 0, "-1/2"), (0, 4, 1)]])
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_a_start_at_a_tip_of_a_crescent(crescent: list[tuple[object, ...]], mirrored: bool) -> None:
+    """Two edges join the same two vertices in both orders: which is the start decides what is in sight."""
+    target, start = box(-1, 7, 1, 8), (0, 0)
+    if mirrored:
+        target, start = box(-1, -4, 1, -3), (0, 4)
+    graph = visibility_graph(Scene([Outline(crescent), target], start=start), 10)
+    assert graph.edges["S", 0]["weight"] == 0
+    assert graph.edges["S", 1]["weight"] == 7
+    assert graph.edges["S", 1]["hit"] == (Point(0, -3) if mirrored else Point(0, 7))

@@ -98,11 +98,6 @@ def features(table: EdgeTable) -> list[Feature]:
     return found
 
 
-def fan(center: Vector) -> tuple[Sector, ...]:
-    """All directions about a point, as four sectors."""
-    return tuple(_corner_sectors(center, (ONE, fmpq(0)), None))
-
-
 def _arc_feature(table: EdgeTable, e: int, arc: Arc) -> Feature:
     center = _exact(arc.center)
     first, last = _exact(arc.start - arc.center), _exact(arc.end - arc.center)
@@ -120,7 +115,7 @@ def _corner_feature(table: EdgeTable, e: int, following: int) -> Feature | None:
     if turn == 0 and (dot(first, last) > 0 or not _is_spike(incoming, outgoing)):
         return None
     center = table.vertices[following]
-    sectors = tuple(_corner_sectors(center, first, last))
+    sectors = tuple(corner_sectors(center, first, last))
     return Feature(int(table.owner[e]), False, center, fmpq(0), (e, following), sectors)
 
 
@@ -148,7 +143,7 @@ def leaving(curve: Curve, at_end: bool) -> Vector:
     return _exact(curve.direction)
 
 
-def _corner_sectors(center: Vector, first: Vector, last: Vector | None) -> Iterator[Sector]:
+def corner_sectors(center: Vector, first: Vector, last: Vector | None) -> Iterator[Sector]:
     """Quarter turns from direction *first* to *last* (None: all around)."""
     ray = first
     for _ in range(4):
