@@ -12,6 +12,7 @@ from exactacq.scene import Scene
 from exactacq.shapes import Circle, Outline, Polygon, Terrain
 from exactacq.sightseer import sightseer
 from exactacq.trace import Run
+from exactacq.vision.isovist import isovist
 
 if TYPE_CHECKING:
     from exactacq.figures import figure
@@ -33,6 +34,7 @@ __all__ = [
     "Terrain",
     "Undecided",
     "figure",
+    "isovist",
     "load",
     "load_run",
     "sightseer",

@@ -112,14 +112,14 @@ def _corner_feature(table: EdgeTable, e: int, following: int) -> Feature | None:
     turn = cross(first, last)
     if turn < 0:
         return None
-    if turn == 0 and (dot(first, last) > 0 or not _is_spike(incoming, outgoing)):
+    if turn == 0 and (dot(first, last) > 0 or not is_spike(incoming, outgoing)):
         return None
     center = table.vertices[following]
     sectors = tuple(corner_sectors(center, first, last))
     return Feature(int(table.owner[e]), False, center, fmpq(0), (e, following), sectors)
 
 
-def _is_spike(incoming: Curve, outgoing: Curve) -> bool:
+def is_spike(incoming: Curve, outgoing: Curve) -> bool:
     """Of two edges that leave a cusp side by side: whether the obstacle fills the cusp.
 
     Seen along the cusp, the outgoing edge then bends away to the right of the incoming one; signed
