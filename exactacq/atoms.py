@@ -6,6 +6,7 @@ their nodes, so that identity decides whether two terms of a form are the same.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Hashable
 from functools import lru_cache
 from math import log2
@@ -43,7 +44,7 @@ class Form(Protocol):
         """Closed form."""
 
 
-class Node:
+class Node(ABC):
     """An interned atom that is not the root of an integer; subclasses say how it is evaluated.
 
     Lives as long as a real holds it; ball, height and generators are computed once.
@@ -93,8 +94,9 @@ class Node:
             self._generators = self._collect()
         return self._generators
 
+    @abstractmethod
     def _evaluate(self, bits: int) -> arb:
-        raise NotImplementedError
+        """A ball around the value, from balls of the arguments."""
 
     def _bound(self) -> float:
         return sum((a.height_bound() for a in self.args), 0.0)
@@ -102,9 +104,9 @@ class Node:
     def _collect(self) -> Generators:
         return frozenset[tuple[Hashable, int]]().union(*(a.generators() for a in self.args))
 
+    @abstractmethod
     def sympy(self) -> sympy.Expr:
         """Closed form."""
-        raise NotImplementedError
 
 
 class Sqrt(Node):

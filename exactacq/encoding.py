@@ -13,17 +13,28 @@ and a number is ``"p/q"`` or the place of an earlier entry. Shared subexpression
 
 from __future__ import annotations
 
+import re
 from collections.abc import Hashable
 from typing import Any, TypeAlias
 
+from flint import fmpz
+
 from exactacq.atoms import Inverse, Node, Product, Root, Sqrt
 from exactacq.errors import FormatError
-from exactacq.numerals import rational
 from exactacq.reals import Real, fmpq, roots
 
 Number: TypeAlias = "str | int"
 MAX_DEGREE = 200
 """Largest degree of a polynomial that is read: chords reach 24, and isolating roots must stay cheap."""
+MAX_DEPTH = 64
+"""Most levels of expressions within expressions that are read; runs have two or three."""
+MAX_HEIGHT = 1 << 22
+"""Largest height, in bits, of a number that is read: squares of squares double it at every step."""
+MAX_TOTAL = 1 << 30
+"""Largest sum of all heights of a document, which bounds the memory that its numbers take."""
+MAX_LENGTH = MAX_HEIGHT // 3
+"""Longest text of a rational: a decimal digit takes more than three bits."""
+FRACTION = re.compile(r"(-?\d+)(?:/(\d+))?", re.ASCII)
 KINDS = {Sqrt: "sqrt", Product: "product", Inverse: "inverse"}
 
 
@@ -46,10 +57,10 @@ class Encoder:
 
     def _atom(self, atom: int | Node) -> list[Any]:
         if isinstance(atom, int):
-            return ["radical", str(atom)]
+            return ["radical", _digits(atom)]
         if isinstance(atom, Root):
             coefficients, index, power = atom.args
-            return ["root", [str(c) for c in coefficients], index, power]
+            return ["root", [_digits(c) for c in coefficients], index, power]
         kind = next(name for cls, name in KINDS.items() if isinstance(atom, cls))
         return [kind, *(self.number(argument) for argument in atom.args)]
 
@@ -57,28 +68,45 @@ class Encoder:
 class Decoder:
     """Reads numbers back; every entry of the table is built once, in order.
 
-    Raises `FormatError` for a table that is not of that form, ValueError or ZeroDivisionError where an
-    expression has no value.
+    Raises `FormatError` for a table that is not of that form or beyond the limits above, ValueError or
+    ZeroDivisionError where an expression has no value.
     """
 
     def __init__(self, table: list[Any]) -> None:
         self._values: list[Real] = []
+        self._depths: list[int] = []
+        total = 0.0
         for entry in table:
-            self._values.append(Real.sum(self._atom(atom) * rational(c) for c, atom in entry))
+            value = Real.sum(self._atom(atom) * _fraction(c) for c, atom in entry)
+            height = value.height_bound()
+            total += height
+            if height > MAX_HEIGHT or total > MAX_TOTAL:
+                raise FormatError(f"number {len(self._values)} is too large")
+            depth = 1 + max((self._depth(atom) for _, atom in entry), default=0)
+            if depth > MAX_DEPTH:
+                raise FormatError(f"number {len(self._values)} is nested more than {MAX_DEPTH} deep")
+            self._values.append(value)
+            self._depths.append(depth)
 
     def number(self, value: Any) -> Real:
         """The number that ``"p/q"`` or a place in the table stands for."""
         if not is_place(value):
-            return Real(rational(value))
+            return Real(_fraction(value))
         place = int(value)
         if not 0 <= place < len(self._values):
             raise FormatError(f"number {place} is not defined before it is used")
         return self._values[place]
 
+    def _depth(self, atom: Any) -> int:
+        """Levels of expressions below an atom that was read."""
+        kind, *arguments = atom
+        places = [int(n) for n in arguments if is_place(n)] if kind in KINDS.values() else []
+        return max((self._depths[place] for place in places), default=0)
+
     def _atom(self, atom: Any) -> Real:
         kind, *arguments = atom
         if kind == "radical":
-            return Real(int(arguments[0])).sqrt()
+            return Real(_integer(arguments[0])).sqrt()
         if kind == "root":
             return _root(*arguments)
         values = [self.number(argument) for argument in arguments]
@@ -96,10 +124,29 @@ def is_place(value: Any) -> bool:
     return not isinstance(value, str) or getattr(value, "is_json_number", False)
 
 
+def _digits(integer: int) -> str:
+    """Decimal digits, also of integers that Python refuses to write for their length."""
+    return str(fmpz(integer))
+
+
+def _fraction(text: Any) -> fmpq:
+    match = FRACTION.fullmatch(text) if isinstance(text, str) and len(text) <= MAX_LENGTH else None
+    if match is None:
+        raise FormatError(f"not a number: {str(text)[:40]!r}")
+    return fmpq(fmpz(match[1]), fmpz(match[2] or "1"))
+
+
+def _integer(text: Any) -> fmpz:
+    fraction = _fraction(text)
+    if fraction.q != 1:
+        raise FormatError(f"not a whole number: {str(text)[:40]!r}")
+    return fraction.p
+
+
 def _root(coefficients: list[Any], index: Any, power: Any) -> Real:
     if not 2 <= len(coefficients) <= MAX_DEGREE + 1 or not 0 < int(power) < MAX_DEGREE:
         raise FormatError("a root needs a polynomial of moderate degree")
-    found = roots([fmpq(int(c)) for c in coefficients])
+    found = roots([_integer(c) for c in coefficients])
     if not 0 <= int(index) < len(found):
         raise FormatError(f"the polynomial has {len(found)} real roots, not {int(index) + 1}")
     return found[int(index)] ** int(power)

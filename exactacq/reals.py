@@ -598,4 +598,4 @@ def _irreducible_roots(factor: fmpz_poly) -> list[Real]:
         root = _sqrt_rational(fmpq(square))
         return [(root._scaled(s) - Real(b)) / (2 * a) for s in (ONE, -ONE)]
     key = tuple(int(c) for c in coefficients)
-    return [Real._atom(Root.make(key, index, 1)) for index in range(len(isolated_roots(key)))]
+    return [Real._atom(Root.make(key, k, 1)) for k in range(len(isolated_roots(key)))]

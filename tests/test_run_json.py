@@ -108,10 +108,31 @@ def test_numbers_of_every_kind_come_back() -> None:
     assert len(table) == len({json.dumps(entry) for entry in table}), "nothing is stored twice"
 
 
+def test_integers_longer_than_python_prints_come_back() -> None:
+    long = Real(2 ** (1 << 14) + 1)
+    assert len(str(long.rational)) > 4900
+    values = [long, 1 / long, (long + Fraction(1, 2)).sqrt(), roots([-long, 0, 1, 1])[0] / long]
+    out = Encoder()
+    written = [out.number(value) for value in values]
+    decoder = Decoder(out.table)
+    assert [decoder.number(number).compare(value) for number, value in zip(written, values, strict=True)] == [
+        0
+    ] * 4
+
+
 def test_decimals_stand_beside() -> None:
     document = sightseer(gallery.scene("circles")).to_json()
     assert document["length"]["closed"] == "5 + 12*pi"
     assert document["events"][-1]["at"] == document["length"]["decimal"]
+
+
+ONE_PLUS_ROOT = [["1", ["radical", "1"]], ["1", ["radical", "2"]]]
+"""Its square's square's square doubles in length at every step."""
+
+
+def nested(k: int) -> list:
+    """Entry k + 1 of the table: 1 + sqrt(number k)."""
+    return [["1", ["radical", "1"]], ["1", ["sqrt", k]]]
 
 
 def damaged(change):
@@ -134,6 +155,10 @@ def damaged(change):
         lambda d: d.update(numbers=[[["1", ["root", ["1", "0", "1"], 0, 1]]]]),
         lambda d: d.update(numbers=[[["1", ["root", ["1"] * 9999, 0, 1]]]]),
         lambda d: d.update(numbers=[[["1", ["logarithm", "2"]]]]),
+        lambda d: d.update(numbers=[[["1/2x", ["radical", "2"]]]]),
+        lambda d: d.update(numbers=[[["1", ["radical", "1/2"]]]]),
+        lambda d: d.update(numbers=[ONE_PLUS_ROOT, *([["1", ["product", k, k]]] for k in range(99))]),
+        lambda d: d.update(numbers=[ONE_PLUS_ROOT, *(nested(k) for k in range(99))]),
         lambda d: d.update(numbers={}),
         lambda d: d.update(start=["0"]),
         lambda d: d.update(start=["nan", "0"]),
