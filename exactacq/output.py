@@ -16,16 +16,23 @@ TRACES = (".json",)
 """File types of traces."""
 
 
+BITS_PER_CHARACTER = 4
+"""More than the 3.33 bits of a decimal digit."""
+
+
 def readable(length: Length, limit: int, digits: int) -> tuple[str, ...]:
     """The closed form, if it has at most *limit* characters, and ``≈`` the decimal value.
 
     A whole number is its own decimal value and comes alone. Forms of more radicals than *limit* are not even
-    written out, which would take seconds: k distinct radicals take more than k characters.
+    written out, which would take seconds: k distinct radicals take more than k characters. Nor are forms of
+    numbers so long that their digits alone are too many.
     """
     decimal = length.decimal(digits)
     if "e" not in decimal and "." in decimal:
         decimal = decimal.rstrip("0").rstrip(".")
-    closed = str(length) if len(length.algebraic.generators()) <= limit else ""
+    algebraic = length.algebraic
+    short = len(algebraic.generators()) <= limit and algebraic.height_bound() <= BITS_PER_CHARACTER * limit
+    closed = str(length) if short else ""
     if closed == decimal:
         return (closed,)
     return (closed, f"≈ {decimal}") if 0 < len(closed) <= limit else (f"≈ {decimal}",)
