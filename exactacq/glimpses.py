@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import pairwise
+from math import hypot
 
 import numpy as np
 from flint import arb, ctx, fmpq
@@ -17,11 +18,12 @@ from exactacq.contacts import line_contacts, nearest_points
 from exactacq.curves import Curve, Segment
 from exactacq.errors import Undecided
 from exactacq.links import Links, box_gaps
+from exactacq.points import Point
 from exactacq.reals import Real
-from exactacq.vision.chords import Chord, chord_at, critical
+from exactacq.vision.chords import Chord, chord_at, critical, meet
 from exactacq.vision.clearance import is_free, walk_line
 from exactacq.vision.features import Sector
-from exactacq.vision.pencil import pencil
+from exactacq.vision.pencil import Cell, pencil, rational_between
 from exactacq.vision.table import Floats
 
 WORKING_BITS = 256
@@ -61,15 +63,30 @@ def _past_features(links: Links, piece: Segment, box: Floats, target: int) -> It
         feature = links.features[int(k)]
         if feature.owner == target:
             continue
+        approach = _tangent_bound(links, int(k), piece)
+        if approach > links.reach:
+            continue
         for sector in feature.sectors:
             sweep = pencil(table, sector, feature.edges, links.reach)
             for cell in sweep.cells:
                 for far, side in ((cell.behind, -1), (cell.ahead, 1)):
-                    if far is not None and owner[far] == target:
-                        ends = cell.low, cell.high
-                        yield _in_cell(links, sector, ends, piece, table.curves[far], side)
+                    if far is None or owner[far] != target:
+                        continue
+                    if approach + links.clearance(int(k), far) <= links.reach:
+                        yield _in_cell(links, sector, cell, piece, side)
             for t in sweep.pinches:
                 yield _at_pinch(links, sector, t, piece, target)
+
+
+def _tangent_bound(links: Links, k: int, piece: Segment) -> float:
+    """Lower bound of the way along a tangent of a feature from the contact to a piece."""
+    (x, y), size = links.spots[0][k], links.spots[1][k]
+    (ax, ay), (bx, by) = piece.start.xy, piece.end.xy
+    dx, dy = bx - ax, by - ay
+    u = ((x - ax) * dx + (y - ay) * dy) / max(dx * dx + dy * dy, 1e-300)
+    u = min(max(u, 0.0), 1.0)
+    gap = max(hypot(x - ax - u * dx, y - ay - u * dy) * (1 - 1e-14) - 64 * links.table.roundoff, 0.0)
+    return float(max(gap**2 - size**2 * (1 + 1e-12), 0.0) ** 0.5 * (1 - 1e-13))
 
 
 def _at_pinch(links: Links, sector: Sector, t: Real, piece: Segment, target: int) -> bool:
@@ -85,29 +102,56 @@ def _at_pinch(links: Links, sector: Sector, t: Real, piece: Segment, target: int
     return False
 
 
-def _in_cell(
-    links: Links, sector: Sector, ends: tuple[Real, Real], piece: Segment, far: Curve, side: int
-) -> bool:
-    """Whether some line of a cell that crosses the piece sees *far* (ahead: side 1) within the radius."""
-    low, high = ends
-    cuts = [t for p in (piece.start, piece.end) for t in sector.through(p)]
-    inner = sorted(t for t in cuts if t.compare(low) > 0 and t.compare(high) < 0)
+def _in_cell(links: Links, sector: Sector, cell: Cell, piece: Segment, side: int) -> bool:
+    """Whether a line of a cell that crosses the piece sees its far edge (ahead: side 1) within the radius."""
+    near, far = (cell.behind, cell.ahead) if side > 0 else (cell.ahead, cell.behind)
+    assert far is not None
+    curves = links.table.curves
+    wall = None if near is None else curves[near]
+    inner = sorted(t for p in (piece.start, piece.end) for t in _cuts(sector, cell, p))
     return any(
         a.compare(b) != 0
-        and _is_open(links, sector, (a + b) / 2, piece, far, side)
-        and _comes_near(links, sector, (a, b), piece, far, side)
-        for a, b in pairwise([low, *inner, high])
+        and _is_open(sector, Real(rational_between(a, b)), piece, wall, side)
+        and _comes_near(links, sector, (a, b), piece, curves[far], side)
+        for a, b in pairwise([cell.low, *inner, cell.high])
     )
 
 
-def _is_open(links: Links, sector: Sector, t: Real, piece: Segment, far: Curve, side: int) -> bool:
-    """Whether the line at *t* crosses the piece beyond the contact and is free from there to *far*."""
+def _cuts(sector: Sector, cell: Cell, p: Point) -> Iterator[Real]:
+    """The parameters strictly inside a cell at which its lines pass through a point.
+
+    A piece often ends on a line that bounds the cell. That is asked of the point: comparing the parameters
+    would take a root more.
+    """
+    values = sector.through(p)
+    apart = len(values) < 2 or not _overlap(*values)
+    for t in values:
+        for bound, side in ((cell.low, 1), (cell.high, -1)):
+            if apart and _overlap(t, bound):
+                contact, direction = sector.touch(bound)
+                if direction.cross(p - contact).sign() == 0:
+                    break
+            if t.compare(bound) != side:
+                break
+        else:
+            yield t
+
+
+def _overlap(a: Real, b: Real) -> bool:
+    return bool(a.ball(WORKING_BITS).overlaps(b.ball(WORKING_BITS)))
+
+
+def _is_open(sector: Sector, t: Real, piece: Segment, wall: Curve | None, side: int) -> bool:
+    """Whether the line at *t* crosses the piece beyond the contact, no farther than the cell's near edge.
+
+    The line is free between the edges of its cell. What the cell left out lies beyond the radius, and so
+    does a piece behind it. A rational *t* keeps the numbers short.
+    """
     contact, direction = sector.touch(t)
     met = line_contacts(contact, direction, piece)
     if not met or met[0].sign() * side >= 0:
         return False
-    chord = _chord(sector, t, piece, far, side)
-    return is_free(links.table, chord.start, chord.end)
+    return wall is None or (met[0] - meet(contact, direction, wall, -side)).sign() * side >= 0
 
 
 def _chord(sector: Sector, t: Real, piece: Segment, far: Curve, side: int) -> Chord:

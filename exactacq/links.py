@@ -293,13 +293,16 @@ class Links:
         return first
 
     def _cell_bound(self, k: int, cell: Cell) -> float:
-        """Lower bound of the chords of a cell: the distances from the feature to the two edges."""
+        """Lower bound of the chords of a cell: the ways from the feature to the two edges."""
         assert cell.behind is not None
         assert cell.ahead is not None
+        return self.clearance(k, cell.behind) + self.clearance(k, cell.ahead)
+
+    def clearance(self, k: int, e: int) -> float:
+        """Lower bound of the way along a tangent of a feature from the contact to an edge."""
         (x, y), size = self.spots[0][k], self.spots[1][k]
-        edges = np.array((cell.behind, cell.ahead))
-        gaps = self.table.distance_bounds(float(x), float(y), edges)
-        return float((np.maximum(gaps**2 - size**2 * (1 + 1e-12), 0.0) ** 0.5).sum() * (1 - 1e-13))
+        gap = self.table.distance_bounds(float(x), float(y), np.array((e,)))[0]
+        return float(max(gap**2 - size**2 * (1 + 1e-12), 0.0) ** 0.5 * (1 - 1e-13))
 
     def _cell_chords(self, sweep: Pencil, cell: Cell) -> Iterator[Chord]:
         """The chords of a closed cell among which its shortest are."""

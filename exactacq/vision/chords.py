@@ -67,8 +67,12 @@ class _Fraction:
 def chord_at(sector: Sector, t: Real, behind: Curve | None, ahead: Curve) -> Chord:
     """The chord of the line at *t*; from the contact itself if *behind* is None (a fan)."""
     contact, direction = sector.touch(t)
-    start = contact if behind is None else contact + direction * meet(contact, direction, behind, -1)
-    end = contact + direction * meet(contact, direction, ahead, 1)
+    low = Real(0) if behind is None else meet(contact, direction, behind, -1)
+    high = meet(contact, direction, ahead, 1)
+    start, end = contact + direction * low, contact + direction * high
+    if sector.round:
+        # The direction is as long as the radius. The same chord found at another circle has the same roots.
+        return Chord(start, end, (high - low) * Real(dot(sector.base, sector.base)).sqrt())
     return Chord(start, end, (end - start).norm_sq().sqrt())
 
 

@@ -99,7 +99,7 @@ class _Sweep:
 
     def run(self) -> Pencil:
         values, pinches = self._events()
-        middles = [_between(a, b) for a, b in pairwise(values)]
+        middles = [rational_between(a, b) for a, b in pairwise(values)]
         cells: list[Cell] = []
         for (low, high), (behind, ahead) in zip(pairwise(values), self._meets(middles), strict=True):
             if cells and (cells[-1].behind, cells[-1].ahead) == (behind, ahead):
@@ -322,7 +322,7 @@ def _clusters(events: list[_Event]) -> Iterator[list[_Event]]:
         yield cluster
 
 
-def _between(low: Real, high: Real) -> fmpq:
+def rational_between(low: Real, high: Real) -> fmpq:
     """A short rational strictly between two reals, near their middle."""
     bits = 64
     while True:
