@@ -36,6 +36,7 @@ from exactacq.vision.families import free_pieces
 from exactacq.vision.fans import edges_at, fan
 from exactacq.vision.features import Feature, leaving
 from exactacq.vision.features import features as scene_features
+from exactacq.vision.mirrors import Mirrors
 from exactacq.vision.pencil import Cell, Pencil, pencil
 from exactacq.vision.table import STRAIGHT, EdgeTable, Floats, Ints
 
@@ -234,6 +235,7 @@ class Links:
         bounds = box_gaps(centers, self.hulls[i], sizes) + box_gaps(centers, self.hulls[j], sizes)
         order = count()
         heap: list[tuple[float, int, tuple[Pencil, Cell, bool]]] = []
+        mirrors: dict[tuple[Hashable, ...], Mirrors] = {}
         for k in np.flatnonzero(bounds <= best.guess):
             owner = self.features[k].owner
             if owner in (i, j):
@@ -248,7 +250,8 @@ class Links:
                     best.offer(chord.length, chord if ends == (i, j) else chord.reversed())
         while heap and heap[0][0] <= best.guess:
             _, _, (sweep, cell, flip) = heappop(heap)
-            for chord in self._cell_chords(sweep, cell):
+            pair = sweep.sector.center, *sorted((cell.behind or 0, cell.ahead or 0))
+            for chord in self._cell_chords(sweep, cell, mirrors.setdefault(pair, Mirrors())):
                 best.offer(chord.length, chord.reversed() if flip else chord)
 
     def _cells(self, k: int) -> dict[tuple[int, int], list[tuple[Pencil, Cell]]]:
@@ -304,17 +307,22 @@ class Links:
         gap = self.table.distance_bounds(float(x), float(y), np.array((e,)))[0]
         return float(max(gap**2 - size**2 * (1 + 1e-12), 0.0) ** 0.5 * (1 - 1e-13))
 
-    def _cell_chords(self, sweep: Pencil, cell: Cell) -> Iterator[Chord]:
-        """The chords of a closed cell among which its shortest are."""
+    def _cell_chords(self, sweep: Pencil, cell: Cell, mirrors: Mirrors | None = None) -> Iterator[Chord]:
+        """The chords of a closed cell among which its shortest are; *mirrors* recognises equal ones."""
         behind = None if cell.behind is None else self.table.curves[cell.behind]
         assert cell.ahead is not None
         ahead = self.table.curves[cell.ahead]
         yield chord_at(sweep.sector, cell.low, behind, ahead)
         yield chord_at(sweep.sector, cell.high, behind, ahead)
         # A constant length (arcs about the contact's centre) is never the least: it shrinks off the feature.
-        for t in critical(sweep.sector, behind, ahead) or ():
+        stationary = critical(sweep.sector, behind, ahead) or []
+        for t in stationary:
             if t.compare(cell.low) > 0 and t.compare(cell.high) < 0:
-                yield chord_at(sweep.sector, t, behind, ahead)
+                chord = chord_at(sweep.sector, t, behind, ahead)
+                if mirrors is not None and behind is not None:
+                    ends = behind, ahead
+                    chord = mirrors.chord(sweep.sector, t, stationary, chord, ends)
+                yield chord
 
     # -- from the start ----------------------------------------------------------------------------
 
@@ -472,6 +480,10 @@ def _flipped(item: Shortest) -> Shortest:
 
 def _same(a: Shortest, b: Shortest) -> bool:
     if isinstance(a, Chord) and isinstance(b, Chord):
+        ends = ((a.start, b.start), (a.end, b.end))
+        # Mirrored chords share a coordinate, which is long to prove: the other one tells them apart at once.
+        if any(abs((p - q).norm_sq().ball(128)) > 0 for p, q in ends):
+            return False
         return a.start == b.start and a.end == b.end
     return a is b
 

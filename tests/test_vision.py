@@ -116,3 +116,32 @@ def test_a_start_at_a_tip_of_a_crescent(crescent: list[tuple[object, ...]], mirr
     assert graph.edges["S", 0]["weight"] == 0
     assert graph.edges["S", 1]["weight"] == 7
     assert graph.edges["S", 1]["hit"] == (Point(0, -3) if mirrored else Point(0, 7))
+
+
+@pytest.mark.parametrize(
+    ("circles", "radius"),
+    [
+        ([((0, 0), 1), ((3, 3), Fraction(1, 2)), ((7, 7), 1)], 12),
+        ([((0, 0), 1), ((3, 0), Fraction(1, 2)), ((7, 0), 1)], 12),
+        ([((0, 0), 1), ((2, 1), Fraction(1, 3)), ((6, 3), 2)], 12),
+    ],
+)
+def test_circles_in_a_row_are_joined_by_two_mirrored_chords(circles: list[tuple], radius: int) -> None:
+    """Both have one length, over roots of different polynomials of degree 12 and more: symmetry decides."""
+    data = visibility_graph(Scene([Circle(*circle) for circle in circles]), radius).edges[0, 2]
+    (one, other) = data["link"].shortest
+    (ax, ay), (bx, by) = circles[0][0], circles[2][0]
+    dx, dy = bx - ax, by - ay
+
+    def height(point: Point) -> float:
+        return (dx * (float(point.y) - ay) - dy * (float(point.x) - ax)) / (dx * dx + dy * dy) ** 0.5
+
+    for p, q in ((one.start, other.start), (one.end, other.end)):
+        assert height(p) == pytest.approx(-height(q), abs=1e-12) and abs(height(p)) > 0.1
+    for chord in (one, other):
+        assert float(chord.length) == pytest.approx(
+            float((chord.end - chord.start).norm_sq()) ** 0.5, rel=1e-14
+        )
+        for point, (center, r) in ((chord.start, circles[0]), (chord.end, circles[2])):
+            distance = (point - Point(*center)).norm_sq()
+            assert float(distance) == pytest.approx(float(r) ** 2, rel=1e-14)
