@@ -25,8 +25,8 @@ def sightseer_bounds(
 
     n counts all obstacles of the scene. The corrected ones add the way S-S1 from a free start to the first
     obstacle; the first of them also replaces the largest distance by the longest link between obstacles,
-    counts 2n - 3 traversals, and charges no return along the last obstacle. Outside model (a), where links can
-    start at S twice, even these may fail. Empty without obstacles.
+    counts 2n - 3 traversals, and charges no return along the last obstacle. Outside model (a), where links
+    can start at S twice, even these may fail. Empty without obstacles.
     """
     n = len(scene.obstacles)
     if n == 0:

@@ -1,10 +1,10 @@
 """Mirrored chords: equal lengths recognised by symmetry, where comparing them would be long.
 
-If the centres of a feature and of the two arcs that a chord ends on lie on one line, reflection in that line
-maps all three circles to themselves. A stationary chord's mirror image is then stationary too, so its
-parameter is a root of the polynomial that belongs to the sector it falls in. If balls leave exactly one of that
-polynomial's roots there, it is that root: the chord is then built as the mirror image of the one met first,
-so that lengths, and coordinates along an axis, are equal term by term.
+If the centres of a feature and of the two arcs that a chord ends on lie on one line, reflection in it maps
+all three circles to themselves. A stationary chord's mirror image is then stationary too, so its parameter
+is a root of the polynomial that belongs to the sector it falls in. If balls leave exactly one of that
+polynomial's roots there, it is that root: the chord is then built as the mirror image of the one met
+first, so that lengths, and coordinates along an axis, are equal term by term.
 """
 
 from __future__ import annotations
