@@ -95,10 +95,10 @@ class Links:
 
     @cached_property
     def spots(self) -> tuple[Floats, Floats]:
-        """Feature centres and radii in floats."""
+        """Feature centres in floats, and radii that cover the rounding of the centres and of boxes."""
         centers = [(float(f.center[0]), float(f.center[1])) for f in self.features]
         sizes = [float(Real(f.radius_sq).sqrt()) if f.round else 0.0 for f in self.features]
-        return np.array(centers).reshape(-1, 2), np.array(sizes)
+        return np.array(centers).reshape(-1, 2), np.array(sizes) + 8 * self.table.roundoff
 
     @cached_property
     def hulls(self) -> Floats:
