@@ -22,8 +22,8 @@ from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.vision.chords import Chord, chord_at, critical, meet
 from exactacq.vision.clearance import is_free, walk_line
-from exactacq.vision.features import Sector
 from exactacq.vision.pencil import Cell, pencil, rational_between
+from exactacq.vision.sectors import Sector
 from exactacq.vision.table import Floats
 
 WORKING_BITS = 256

@@ -18,7 +18,8 @@ from exactacq.curves import Curve, Segment
 from exactacq.numerals import rational
 from exactacq.points import Point
 from exactacq.reals import Real, roots
-from exactacq.vision.features import Sector, Vector, cross, dot
+from exactacq.vectors import cross, dot
+from exactacq.vision.sectors import Sector, Vector
 
 X = fmpq_poly([0, 1])
 UNIT = fmpq_poly([1])

@@ -18,7 +18,7 @@ from exactacq.curves import Arc, Curve
 from exactacq.points import Location, Point
 from exactacq.reals import Real
 from exactacq.vision.crossings import Crossings
-from exactacq.vision.features import Sector
+from exactacq.vision.sectors import Sector
 from exactacq.vision.table import EdgeTable, Ints
 
 HALF = fmpq(1, 2)

@@ -8,25 +8,23 @@ from flint import fmpq
 
 from exactacq.curves import Arc
 from exactacq.points import Point
-from exactacq.vision.features import Vector, corner_sectors
+from exactacq.vectors import raw
 from exactacq.vision.pencil import Pencil, pencil
+from exactacq.vision.sectors import Vector, corner_sectors
 from exactacq.vision.table import EdgeTable
 
 EAST = fmpq(1), fmpq(0)
 
 
-def fan(table: EdgeTable, point: Point, reach: float) -> list[Pencil]:
+def fan(table: EdgeTable, point: Point, reach: float, own: tuple[int, ...] | None = None) -> list[Pencil]:
     """Four pencils of a quarter turn each, counterclockwise from the east; only ``ahead`` means anything.
 
-    The point must be free and have rational coordinates (ValueError otherwise). On a boundary, a ray into the
-    obstacle meets nothing.
+    The point must be free. On a boundary, a ray into the obstacle meets nothing; *own* are the edges through
+    the point, found by `edges_at` if not given.
     """
-    center = point.rational
-    if center is None:
-        raise ValueError("a fan needs a point with rational coordinates")
-    own = edges_at(table, point)
+    own = edges_at(table, point) if own is None else own
     breaks = tuple(_tangents(table, point, own))
-    return [pencil(table, sector, own, reach, breaks) for sector in corner_sectors(center, EAST, None)]
+    return [pencil(table, sector, own, reach, breaks) for sector in corner_sectors(raw(point), EAST, None)]
 
 
 def edges_at(table: EdgeTable, point: Point) -> tuple[int, ...]:
@@ -44,6 +42,4 @@ def _tangents(table: EdgeTable, point: Point, own: tuple[int, ...]) -> Iterator[
     for e in own:
         curve = table.curves[e]
         tangent = curve.tangent(point) if isinstance(curve, Arc) else curve.direction
-        pair = tangent.rational
-        assert pair is not None, "a rational point has rational tangents"
-        yield pair
+        yield raw(tangent)

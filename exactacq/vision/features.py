@@ -2,72 +2,21 @@
 
 A corner is a circle of radius 0. A line touches a feature with the obstacle on its left; its
 direction then lies in the feature's *tangent range*, which turns counterclockwise from the direction
-of the incoming edge to that of the outgoing one. The range is cut into `Sector`s of at most a quarter
-turn, on which a rational parameter t describes the tangent line:
-
-- corner at C, base vector e:    d(t) = e + t e',             contact C,        -1 <= t <= 1
-- circle about C, base radius e: v(t) = (e (1 - t^2) + 2 t e') / (1 + t^2), contact C + v, d = v',
-  0 <= t <= 1  (t is the tangent of half the angle turned; |v| = |e| is the radius)
-
-where ' turns a vector counterclockwise by a quarter. All data are rational, also for irrational radii.
+of the incoming edge to that of the outgoing one. The range is cut into `Sector`s of at most a quarter turn.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TypeAlias
 
 from flint import fmpq
 
 from exactacq.curves import Arc, Curve
 from exactacq.points import Point
 from exactacq.reals import Real
+from exactacq.vectors import cross, dot
+from exactacq.vision.sectors import Sector, Vector, corner_sectors, round_sectors
 from exactacq.vision.table import EdgeTable
-
-Vector: TypeAlias = "tuple[fmpq, fmpq]"
-ONE = fmpq(1)
-
-
-@dataclass(frozen=True, slots=True)
-class Sector:
-    """At most a quarter turn of the tangent lines of one feature: t runs from low to high."""
-
-    center: Vector
-    base: Vector
-    round: bool
-    low: fmpq
-    high: fmpq
-
-    def touch(self, t: Real) -> tuple[Point, Point]:
-        """Contact point and direction of the tangent line at *t*."""
-        (cx, cy), (ex, ey) = self.center, self.base
-        if not self.round:
-            return Point(cx, cy), Point(ex - t * ey, ey + t * ex)
-        square = t * t
-        cosine, sine = (1 - square) / (1 + square), 2 * t / (1 + square)
-        vx, vy = cosine * ex - sine * ey, cosine * ey + sine * ex
-        return Point(vx + cx, vy + cy), Point(-vy, vx)
-
-    def through(self, point: Point) -> list[Real]:
-        """The parameters, in the sector or not, of the tangent lines through a point.
-
-        At a circle the roots of (k + p) t^2 - 2 q t + (k - p) = 0 with k = |e|^2, p and q the point's
-        coordinates along e and e'.
-        """
-        offset = point - Point(*self.center)
-        base = Point(*self.base)
-        along, across = base.dot(offset), base.cross(offset)
-        if not self.round:
-            return [across / along] if along.sign() else []
-        k = Real(dot(self.base, self.base))
-        square = along * along + across * across - k * k
-        if square.sign() < 0:
-            return []
-        if (k + along).sign() == 0:
-            return [(k - along) / (2 * across)] if across.sign() else []
-        root = square.sqrt()
-        return [(across + root) / (k + along), (across - root) / (k + along)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,7 +50,7 @@ def features(table: EdgeTable) -> list[Feature]:
 def _arc_feature(table: EdgeTable, e: int, arc: Arc) -> Feature:
     center = _exact(arc.center)
     first, last = _exact(arc.start - arc.center), _exact(arc.end - arc.center)
-    sectors = tuple(_round_sectors(center, first, None if arc.full else last))
+    sectors = tuple(round_sectors(center, first, None if arc.full else last))
     return Feature(int(table.owner[e]), True, center, arc.radius_sq, (e,), sectors)
 
 
@@ -141,48 +90,6 @@ def leaving(curve: Curve, at_end: bool) -> Vector:
     if isinstance(curve, Arc):
         return _exact(curve.tangent(curve.end if at_end else curve.start))
     return _exact(curve.direction)
-
-
-def corner_sectors(center: Vector, first: Vector, last: Vector | None) -> Iterator[Sector]:
-    """Quarter turns from direction *first* to *last* (None: all around)."""
-    ray = first
-    for _ in range(4):
-        base = (ray[0] - ray[1], ray[1] + ray[0])
-        if last is not None and dot(ray, last) >= 0 and cross(ray, last) >= 0:
-            if cross(ray, last) > 0:
-                high = cross(base, last) / dot(base, last)
-                yield Sector(center, base, False, -ONE, high)
-            return
-        yield Sector(center, base, False, -ONE, ONE)
-        ray = left(ray)
-
-
-def _round_sectors(center: Vector, first: Vector, last: Vector | None) -> Iterator[Sector]:
-    """Quarter turns from radius *first* to *last* (None: the full circle)."""
-    radius = first
-    for _ in range(4):
-        if last is not None and dot(radius, last) >= 0 and cross(radius, last) >= 0:
-            if cross(radius, last) > 0:
-                high = cross(radius, last) / (dot(radius, radius) + dot(radius, last))
-                yield Sector(center, radius, True, fmpq(0), high)
-            return
-        yield Sector(center, radius, True, fmpq(0), ONE)
-        radius = left(radius)
-
-
-def dot(a: Vector, b: Vector) -> fmpq:
-    """Scalar product of rational vectors."""
-    return a[0] * b[0] + a[1] * b[1]
-
-
-def cross(a: Vector, b: Vector) -> fmpq:
-    """z of the vector product of rational vectors."""
-    return a[0] * b[1] - a[1] * b[0]
-
-
-def left(a: Vector) -> Vector:
-    """A rational vector turned by a quarter, counterclockwise."""
-    return -a[1], a[0]
 
 
 def _exact(point: Point) -> Vector:

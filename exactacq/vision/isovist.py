@@ -27,7 +27,8 @@ from exactacq.validation import sensor_flaws
 from exactacq.vision.chords import chord_at
 from exactacq.vision.clearance import is_free
 from exactacq.vision.fans import edges_at, fan
-from exactacq.vision.features import Sector, is_spike
+from exactacq.vision.features import is_spike
+from exactacq.vision.sectors import Sector
 from exactacq.vision.table import EdgeTable
 
 
@@ -98,8 +99,6 @@ def isovist(scene: Scene, point: object, radius: object = None) -> Isovist:
     reach = scene.radius if radius is None else rational(radius)
     if reach is None:
         raise InvalidScene(["a radius of vision must be given"])
-    if place.rational is None:
-        raise InvalidScene(["an isovist needs a point with rational coordinates"])
     flaws = list(sensor_flaws(place, reach))
     flaws += [
         f"the point {place} lies inside {o!r}" for o in scene.obstacles if o.locate(place) is Location.INSIDE

@@ -15,7 +15,7 @@ from exactacq.curves import Arc, Curve
 from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.vision.chords import Chord
-from exactacq.vision.features import Sector
+from exactacq.vision.sectors import Sector
 
 BITS = 256
 

@@ -17,7 +17,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cmp_to_key
 from itertools import pairwise
-from math import hypot
 
 import numpy as np
 from flint import fmpq, fmpz
@@ -27,7 +26,7 @@ from exactacq.curves import Segment
 from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.vision.crossings import Crossings
-from exactacq.vision.features import Sector, Vector, dot, left
+from exactacq.vision.sectors import Sector, Vector
 from exactacq.vision.table import CONVEX, STRAIGHT, EdgeTable, Floats, Ints
 
 CHUNK = 1 << 18
@@ -78,10 +77,13 @@ def pencil(
     lies beyond *reach* may be reported wrongly or as None, so a chord is to be trusted only if both its
     halves are no longer than *reach*.
     """
-    center = (float(sector.center[0]), float(sector.center[1]))
-    size = hypot(float(sector.base[0]), float(sector.base[1])) * (1 + 1e-9) if sector.round else 0.0
-    edges = table.near(center, center, reach + size)
+    edges = table.near(*_box(sector), reach)
     return _Sweep(table, sector, own, edges, breaks).run()
+
+
+def _box(sector: Sector) -> tuple[tuple[float, float], tuple[float, float]]:
+    (x, y), extent = sector.origin, sector.extent
+    return (x - extent, y - extent), (x + extent, y + extent)
 
 
 class _Sweep:
@@ -89,11 +91,7 @@ class _Sweep:
         self, table: EdgeTable, sector: Sector, own: tuple[int, ...], edges: Ints, breaks: tuple[Vector, ...]
     ) -> None:
         self.table, self.sector, self.own, self.breaks = table, sector, own, breaks
-        self.origin = np.array((float(sector.center[0]), float(sector.center[1])))
-        base = np.array((float(sector.base[0]), float(sector.base[1])))
-        self.base = base / np.hypot(*base)
-        self.size = float(np.hypot(*base)) if sector.round else 0.0
-        self.slack = 64 * (table.roundoff + 2.0**-50 * self.size)
+        self.slack = 64 * (table.roundoff + 2.0**-50 * sector.extent)
         straight_own = [e for e in own if table.kind[e] == STRAIGHT]
         self.edges = edges[~np.isin(edges, list(own) if sector.round else straight_own)]
 
@@ -143,40 +141,29 @@ class _Sweep:
             yield current, sources
 
     def _break_events(self) -> Iterator[_Event]:
-        for direction in self.breaks:
-            along = dot(self.sector.base, direction)
-            if along != 0:
-                value = dot(left(self.sector.base), direction) / along
-                if self.sector.low <= value <= self.sector.high:
-                    yield _Event(float(value), 1e-15, -1, 0, 0, Real(value))
+        x, y = self.sector.center
+        for dx, dy in self.breaks:
+            value = self.sector.exact((x + dx, y + dy), fmpq(0), 0, 0)
+            if value is not None and self.sector.low <= value <= self.sector.high:
+                yield _Event(float(value), 1e-15, -1, 0, 0, value)
 
     def _vertex_events(self) -> Iterator[_Event]:
-        table = self.table
+        table, sector = self.table, self.sector
         edges = self.edges[~table.full[self.edges]]
         ids = np.unique(np.concatenate((edges, table.next[edges])))
-        offsets = table.start[ids] - self.origin
-        if not self.sector.round:
-            own = [int(table.next[self.own[0]])] if len(self.own) == 2 else []
-            keep = ~np.isin(ids, own)
-            ids, offsets = ids[keep], offsets[keep]
-            yield from self._collect(ids, 0, 0, *self._line_through(offsets))
-            return
-        for sign in (1, -1):
-            yield from self._collect(ids, 0, sign, *self._tangent_through(offsets, 0.0, sign))
+        if len(self.own) == 2:
+            ids = ids[ids != table.next[self.own[0]]]
+        offsets = table.start[ids] - sector.origin
+        for side, sign, guess, margin in sector.past_points(offsets, self.slack):
+            yield from self._collect(ids, side, sign, guess, margin)
 
     def _arc_events(self) -> Iterator[_Event]:
-        table = self.table
+        table, sector = self.table, self.sector
         ids = self.edges[table.kind[self.edges] == CONVEX]
-        if not self.sector.round:
-            ids = ids[~np.isin(ids, list(self.own))]
-        offsets, radii = table.center[ids] - self.origin, table.radius[ids]
-        for sign in (1, -1):
-            if self.sector.round:
-                for side in (1, -1):
-                    guess = self._tangent_through(offsets, side * radii, sign)
-                    yield from self._collect(ids, side, sign, *guess)
-            else:
-                yield from self._collect(ids, 1, sign, *self._tangent_from(offsets, radii, sign))
+        ids = ids[~np.isin(ids, list(self.own))]
+        offsets, radii = table.center[ids] - sector.origin, table.radius[ids]
+        for side, sign, guess, margin in sector.past_circles(offsets, radii, self.slack):
+            yield from self._collect(ids, side, sign, guess, margin)
 
     def _collect(self, ids: Ints, side: int, sign: int, guess: Floats, margin: Floats) -> Iterator[_Event]:
         low, high = float(self.sector.low), float(self.sector.high)
@@ -186,48 +173,10 @@ class _Sweep:
         for k in np.flatnonzero(inside):
             yield _Event(float(guess[k]), float(margin[k]), int(ids[k]), side, sign)
 
-    def _polar(self, offsets: Floats) -> tuple[Floats, Floats, Floats]:
-        """Distance, angle from the base vector, and error of the angle."""
-        x = offsets @ self.base
-        y = offsets @ np.array((-self.base[1], self.base[0]))
-        size = np.hypot(x, y)
-        error = np.minimum(self.slack / np.maximum(size, 1e-300), 1.0) + 1e-14
-        return size, np.arctan2(y, x), error
-
-    def _line_through(self, offsets: Floats) -> tuple[Floats, Floats]:
-        """Parameter at a corner of the line through a point, on either side."""
-        _, angle, error = self._polar(offsets)
-        return _slope(angle), 4 * error
-
-    def _tangent_from(self, offsets: Floats, radii: Floats, sign: int) -> tuple[Floats, Floats]:
-        """Parameter at a corner of the line tangent to a circle."""
-        size, angle, error = self._polar(offsets)
-        ratio = radii / np.maximum(size, 1e-300)
-        wing = np.arcsin(np.clip(ratio, -1.0, 1.0))
-        guess, margin = _slope(angle + sign * wing), 4 * (error + _arc_error(ratio, error))
-        return np.where(ratio > 1 + error, np.nan, guess), margin
-
-    def _tangent_through(self, offsets: Floats, radii: Floats | float, sign: int) -> tuple[Floats, Floats]:
-        """Parameter at a circle of the line tangent to another one (radius 0: through a point)."""
-        size, angle, error = self._polar(offsets)
-        ratio = (self.size + radii) / np.maximum(size, 1e-300)
-        wing = np.arccos(np.clip(ratio, -1.0, 1.0))
-        turned = np.remainder(angle + sign * wing + np.pi, 2 * np.pi) - np.pi
-        guess, margin = np.tan(turned / 2), 4 * (error + _arc_error(ratio, error))
-        return np.where(np.abs(ratio) > 1 + error, np.nan, guess), margin
-
     def _exact(self, event: _Event) -> Real | None:
         """The exact parameter, or None if the tangent that floats proposed does not exist."""
         if event.value is None:
-            target, radius_sq = self._target(event)
-            offset = (target[0] - self.sector.center[0], target[1] - self.sector.center[1])
-            along, across = dot(self.sector.base, offset), dot(left(self.sector.base), offset)
-            if self.sector.round:
-                event.value = self._exact_round(event, offset, along, across, radius_sq)
-            elif event.side == 0:
-                event.value = None if along == 0 else Real(across / along)
-            else:
-                event.value = _exact_corner(event.sign, offset, along, across, radius_sq)
+            event.value = self.sector.exact(*self._target(event), event.side, event.sign)
         return event.value
 
     def _target(self, event: _Event) -> tuple[Vector, fmpq]:
@@ -235,23 +184,6 @@ class _Sweep:
             return self.table.vertices[event.edge], fmpq(0)
         arc = self.table.curves[event.edge]
         return arc.center.rational, arc.radius_sq  # type: ignore[union-attr, return-value]
-
-    def _exact_round(
-        self, event: _Event, offset: Vector, along: fmpq, across: fmpq, radius_sq: fmpq
-    ) -> Real | None:
-        """Root of (k + q) t^2 - 2 p t + (k - q) = 0, k = rho (rho +- r): see `features` for t."""
-        rho_sq = dot(self.sector.base, self.sector.base)
-        k = Real(rho_sq) + event.side * Real(rho_sq * radius_sq).sqrt()
-        square = Real(rho_sq * dot(offset, offset)) - k * k
-        if square.sign() < 0:
-            return None
-        root = square.sqrt() * event.sign
-        below = k + along
-        if below.sign() == 0:
-            # One root is at infinity: half a turn from the base, in no sector.
-            return (k - along) / (across - root) if (across - root).sign() else None
-        value: Real = (across + root) / below
-        return value
 
     # -- edges met -----------------------------------------------------------------------------
 
@@ -266,14 +198,9 @@ class _Sweep:
 
     def _meet_chunk(self, middles: list[fmpq]) -> Iterator[tuple[int | None, int | None]]:
         t = np.array([float(m) for m in middles])
-        if self.sector.round:
-            angle = 2 * np.arctan(t)
-            spoke = _rotated(self.base, angle)
-            contact, direction = spoke * self.size, np.stack((-spoke[:, 1], spoke[:, 0]), axis=1)
-        else:
-            direction = _rotated(self.base, np.arctan(t))
-            contact = np.zeros_like(direction)
-        found = Crossings(self.table, self.edges, self.own, self.origin, contact, direction, self.slack)
+        contact, direction = self.sector.lines(t)
+        origin = self.sector.origin
+        found = Crossings(self.table, self.edges, self.own, origin, contact, direction, self.slack)
         for row, middle in enumerate(middles):
             met = found.nearest(row)
             yield self._exact_meet(middle, found.possible(row)) if met is None else met
@@ -296,16 +223,6 @@ class _Sweep:
             return edge.direction.cross(direction).sign() == side
         outward = (contact + direction * tau - edge.center).dot(direction).sign() * side
         return outward == (-1 if edge.ccw else 1)
-
-
-def _exact_corner(sign: int, offset: Vector, along: fmpq, across: fmpq, radius_sq: fmpq) -> Real | None:
-    """tan(angle of the centre +- asin(r / distance)), from the addition theorem."""
-    square = dot(offset, offset) - radius_sq
-    if square < 0:
-        return None
-    reach, radius = Real(square).sqrt(), Real(radius_sq).sqrt() * sign
-    below = reach * along - radius * across
-    return (reach * across + radius * along) / below if below.sign() else None
 
 
 def _clusters(events: list[_Event]) -> Iterator[list[_Event]]:
@@ -336,22 +253,3 @@ def rational_between(low: Real, high: Real) -> fmpq:
 
 def _by_value(a: tuple[Real, _Event], b: tuple[Real, _Event]) -> int:
     return a[0].compare(b[0])
-
-
-def _slope(angle: Floats) -> Floats:
-    """Parameter at a corner for a direction, taken modulo a half turn; NaN far from the base."""
-    folded = np.remainder(angle + np.pi / 2, np.pi) - np.pi / 2
-    return np.where(np.abs(folded) > 1.0, np.nan, np.tan(folded))
-
-
-def _arc_error(ratio: Floats, error: Floats) -> Floats:
-    """Error of asin or acos of a ratio that is off by about *error*."""
-    capped = np.minimum(np.abs(ratio), 1.0)
-    flat = np.sqrt(np.maximum(1 - capped * capped, 1e-30))
-    bound: Floats = np.minimum(4 * error / flat, 4 * np.sqrt(error))
-    return bound
-
-
-def _rotated(vector: Floats, angle: Floats) -> Floats:
-    cosine, sine = np.cos(angle), np.sin(angle)
-    return np.stack((cosine * vector[0] - sine * vector[1], cosine * vector[1] + sine * vector[0]), axis=1)
