@@ -11,7 +11,7 @@ ends only. Candidates are visited in the order of proven lower bounds until the 
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, cmp_to_key
 from heapq import heapify, heappop, heappush
 from itertools import count
@@ -37,6 +37,7 @@ from exactacq.vision.fans import edges_at, fan
 from exactacq.vision.features import Feature, leaving
 from exactacq.vision.features import features as scene_features
 from exactacq.vision.mirrors import Mirrors
+from exactacq.vision.names import Namer
 from exactacq.vision.pencil import Cell, Pencil, pencil
 from exactacq.vision.table import STRAIGHT, EdgeTable, Floats, Ints
 
@@ -60,6 +61,13 @@ class Link:
         A continuum gives its ends, its segment from *position*, and that to its westernmost hit point.
         """
         return [pair for item in self.shortest for pair in _extremes(item, position)]
+
+    def touches(self, leave: Point | None, hit: Point) -> tuple[Hashable, ...]:
+        """What the line of one of the segments touches, if features hold it; *leave* is None at the start."""
+        for item in self.shortest:
+            if isinstance(item, Chord) and item.end is hit and (leave is None or item.start is leave):
+                return item.touches
+        return ()
 
     def reversed(self) -> Link:
         """The same link from the other obstacle; the source must be an obstacle."""
@@ -87,6 +95,7 @@ class Links:
         self._between: dict[tuple[int, int], Link | None] = {}
         self._pencils: dict[int, dict[tuple[int, int], list[tuple[Pencil, Cell]]]] = {}
         self._pinch_table: dict[int, list[tuple[Chord, tuple[int, int]]]] = {}
+        self._namer = Namer(self.table)
         self._from_start: tuple[Point, dict[int, Link]] | None = None
 
     @cached_property
@@ -234,7 +243,7 @@ class Links:
             return
         bounds = box_gaps(centers, self.hulls[i], sizes) + box_gaps(centers, self.hulls[j], sizes)
         order = count()
-        heap: list[tuple[float, int, tuple[Pencil, Cell, bool]]] = []
+        heap: list[tuple[float, int, tuple[int, Pencil, Cell, bool]]] = []
         mirrors: dict[tuple[Hashable, ...], Mirrors] = {}
         for k in np.flatnonzero(bounds <= best.guess):
             owner = self.features[k].owner
@@ -244,14 +253,15 @@ class Links:
                 for sweep, cell in self._cells(int(k)).get(key, ()):
                     bound = self._cell_bound(int(k), cell)
                     if bound <= best.guess:
-                        heappush(heap, (bound, next(order), (sweep, cell, flip)))
+                        heappush(heap, (bound, next(order), (int(k), sweep, cell, flip)))
             for chord, ends in self._pinches(int(k)):
                 if ends in ((i, j), (j, i)):
                     best.offer(chord.length, chord if ends == (i, j) else chord.reversed())
         while heap and heap[0][0] <= best.guess:
-            _, _, (sweep, cell, flip) = heappop(heap)
+            _, _, (feature, sweep, cell, flip) = heappop(heap)
             pair = sweep.sector.center, *sorted((cell.behind or 0, cell.ahead or 0))
-            for chord in self._cell_chords(sweep, cell, mirrors.setdefault(pair, Mirrors())):
+            kept = mirrors.setdefault(pair, Mirrors())
+            for chord in self._cell_chords(sweep, cell, kept, self.features[feature]):
                 best.offer(chord.length, chord.reversed() if flip else chord)
 
     def _cells(self, k: int) -> dict[tuple[int, int], list[tuple[Pencil, Cell]]]:
@@ -307,13 +317,22 @@ class Links:
         gap = self.table.distance_bounds(float(x), float(y), np.array((e,)))[0]
         return float(max(gap**2 - size**2 * (1 + 1e-12), 0.0) ** 0.5 * (1 - 1e-13))
 
-    def _cell_chords(self, sweep: Pencil, cell: Cell, mirrors: Mirrors | None = None) -> Iterator[Chord]:
-        """The chords of a closed cell among which its shortest are; *mirrors* recognises equal ones."""
+    def _cell_chords(
+        self, sweep: Pencil, cell: Cell, mirrors: Mirrors | None = None, feature: Feature | None = None
+    ) -> Iterator[Chord]:
+        """The chords of a closed cell among which its shortest are; *mirrors* recognises equal ones.
+
+        *feature* is what the cell's lines touch, None in a fan.
+        """
         behind = None if cell.behind is None else self.table.curves[cell.behind]
         assert cell.ahead is not None
         ahead = self.table.curves[cell.ahead]
-        yield chord_at(sweep.sector, cell.low, behind, ahead)
-        yield chord_at(sweep.sector, cell.high, behind, ahead)
+        own = () if feature is None else (self._namer.anchor(feature),)
+        for t, passed in zip((cell.low, cell.high), cell.bounds, strict=True):
+            touches = (*own, *self._namer.passed(passed))
+            if feature is not None:
+                touches += tuple(name for name, _ in self._namer.names(feature, sweep.sector, t, passed))
+            yield replace(chord_at(sweep.sector, t, behind, ahead), touches=touches)
         # A constant length (arcs about the contact's centre) is never the least: it shrinks off the feature.
         stationary = critical(sweep.sector, behind, ahead) or []
         for t in stationary:
@@ -322,7 +341,7 @@ class Links:
                 if mirrors is not None and behind is not None:
                     ends = behind, ahead
                     chord = mirrors.chord(sweep.sector, t, stationary, chord, ends)
-                yield chord
+                yield replace(chord, touches=own)
 
     # -- from the start ----------------------------------------------------------------------------
 
@@ -357,7 +376,7 @@ class Links:
             part = (ahead if ahead.ccw else ahead.reversed()).part(low.end, high.end)
             best.offer(low.length, Family(FamilyKind.CONCENTRIC, low.start, part))
             return
-        for chord in self._cell_chords(sweep, Cell(cell.low, cell.high, None, cell.ahead)):
+        for chord in self._cell_chords(sweep, replace(cell, behind=None)):
             best.offer(chord.length, chord)
 
     def _offer_pinched_rays(self, sweep: Pencil, t: Real, best: dict[int, _Best]) -> None:

@@ -56,6 +56,7 @@ from exactacq.numerals import (
     round_to_float,
     sympy_rational,
 )
+from exactacq.towers import vanishes
 
 if TYPE_CHECKING:
     import sympy
@@ -68,6 +69,8 @@ ZERO_TEST_BITS = 1 << 23
 """Largest precision of the zero test: there an operation takes about a tenth of a second."""
 TRIAL_BITS = 1 << 16
 """Precision that is tried where the zero test would be too long: what is not zero shows long before."""
+TOWER_BITS = 1 << 12
+"""Zero tests that would take more bits go by norms first (see `exactacq.towers`)."""
 EXPAND_TERMS = 64
 """A product of two radical sums is multiplied out up to this many terms."""
 
@@ -313,8 +316,11 @@ class Real:
                 return Real._form(merged).sign()
         elif self._field() is None:
             limit = self._separation_bits()
+            zero = vanishes(self) if limit > TOWER_BITS else None
+            if zero:
+                return 0
             bits = 2 * FILTER_BITS[-1]
-            while True:
+            while zero is None:
                 ball = self.ball(bits)
                 if sign := ball_sign(ball):
                     return sign

@@ -6,11 +6,13 @@ has walked all around (or from the start). It cannot ask for anything else.
 
 from __future__ import annotations
 
+from collections.abc import Hashable
+
 from exactacq.boundary import Boundary
 from exactacq.curves import Curve, Segment
-from exactacq.glimpses import sees
 from exactacq.lengths import Length
 from exactacq.links import START, Link, Links, Node
+from exactacq.memory import Memory, Report
 from exactacq.points import Location, Point
 from exactacq.scene import Scene
 from exactacq.trace import Event, Path, Piece
@@ -26,7 +28,7 @@ class Robot:
         self._links = Links(scene, radius)
         self._boundaries: dict[int, Boundary] = {}
         self._pieces: list[Piece] = []
-        self._marks: list[tuple[str, Point, int | None, str, int]] = []
+        self._marks: list[tuple[str, Point, int | None, str, int, bool]] = []
         for obstacle in scene.obstacles:
             if obstacle.locate(start) is Location.INSIDE:
                 raise ValueError(f"the start {start} lies inside obstacle {obstacle.index}")
@@ -34,11 +36,10 @@ class Robot:
         self.start = self.position = start
         self.at: Node = START
         self.visited: list[int] = []
-        self._seen: set[int] = set(self._links.from_point(start))
-        self._straight: list[Segment] = []
         self._exhausted: set[Node] = set()
-        self._checked: dict[int, int] = {}
+        self._memory = Memory(scene, self.radius, self._links.table)
         self.mark("start", None, "")
+        self._write(self._memory.begin(start))
 
     # -- the map -----------------------------------------------------------------------------------
 
@@ -78,34 +79,13 @@ class Robot:
 
     def knows_unvisited(self) -> bool:
         """Whether an obstacle that was not visited is on the map."""
-        return (
-            not self._seen <= set(self.visited)
-            or any(self.nearest_unvisited(node) is not None for node in reversed(self.visited))
-            or any(self._is_glimpsed(j) for j in range(self._links.count) if j not in self.visited)
-        )
-
-    def _is_glimpsed(self, j: int) -> bool:
-        """Whether an obstacle that no visited boundary sees is seen from inside a straight piece."""
-        checked = self._checked.get(j, 0)
-        self._checked[j] = len(self._straight)
-        if any(sees(self._links, piece, j) for piece in self._straight[checked:]):
-            self._seen.add(j)
-        return j in self._seen
+        return not self._memory.seen <= set(self.visited)
 
     def unvisited(self) -> tuple[list[int], list[int]]:
         """The obstacles on the map that were not visited, and those that never came on the map."""
-        known: list[int] = []
-        unseen: list[int] = []
-        for j in range(self._links.count):
-            if j not in self.visited:
-                near = set(self._links.neighbours(j)).intersection(self.visited)
-                seen = (
-                    j in self._seen
-                    or any(self._links.between(i, j) is not None for i in near)
-                    or self._is_glimpsed(j)
-                )
-                (known if seen else unseen).append(j)
-        return known, unseen
+        left = [j for j in range(self._links.count) if j not in self.visited]
+        seen = self._memory.seen
+        return [j for j in left if j in seen], [j for j in left if j not in seen]
 
     # -- motion ------------------------------------------------------------------------------------
 
@@ -122,10 +102,20 @@ class Robot:
     def linear_navigate(self, node: Node, target: Point) -> None:
         """Go straight to a point of *node* along a free segment."""
         if self.position != target:
-            piece = Segment(self.position, target)
-            self._straight.append(piece)
-            self._pieces.append(Piece("straight", None, piece))
+            self._move(Piece("straight", None, Segment(self.position, target), self._touches(node, target)))
         self.at, self.position = node, target
+
+    def _touches(self, node: Node, target: Point) -> tuple[Hashable, ...]:
+        """What holds the way to a point of another node."""
+        if isinstance(self.at, int) and isinstance(node, int):
+            link = self._links.between(self.at, node)
+            return () if link is None else link.touches(self.position, target)
+        inner = self.at if isinstance(self.at, int) else node
+        link = self._links.from_point(self.start).get(inner) if isinstance(inner, int) else None
+        if link is None:
+            return ()
+        hit = target if isinstance(node, int) else self.position
+        return link.touches(None, hit)
 
     def circumnavigate(self) -> None:
         """Walk the whole present boundary, back to where the robot is, and mark the obstacle visited."""
@@ -141,15 +131,25 @@ class Robot:
 
     def _walk(self, curves: list[Curve]) -> None:
         assert isinstance(self.at, int)
-        self._pieces += [Piece("boundary", self.at, curve) for curve in curves]
+        for curve in curves:
+            self._move(Piece("boundary", self.at, curve))
+
+    def _move(self, piece: Piece) -> None:
+        """Walk a piece of the path with open eyes."""
+        self._pieces.append(piece)
+        self._write(self._memory.walk(piece))
 
     # -- the trace ---------------------------------------------------------------------------------
 
     def mark(self, kind: str, obstacle: int | None, note: str) -> None:
         """Write an event here and now."""
-        self._marks.append((kind, self.position, obstacle, note, len(self._pieces)))
+        self._marks.append((kind, self.position, obstacle, note, len(self._pieces), False))
 
-    def trace(self) -> tuple[Path, tuple[Event, ...]]:
-        """The path and the events so far."""
+    def _write(self, reports: list[Report]) -> None:
+        for r in reports:
+            self._marks.append((r.kind.value, r.place, r.obstacle, r.note, r.after, r.inside))
+
+    def trace(self) -> tuple[Path, tuple[Event, ...], Memory]:
+        """The path, the events and the memory so far."""
         path = Path(self._pieces)
-        return path, tuple(Event(*mark, path) for mark in self._marks)
+        return path, tuple(Event(*mark[:5], path, mark[5]) for mark in self._marks), self._memory

@@ -139,6 +139,8 @@ def _link(out: Encoder, link: TreeLink) -> dict[str, Any]:
 def _piece(out: Encoder, piece: Piece) -> dict[str, Any]:
     document: dict[str, Any] = {"kind": piece.kind, "obstacle": piece.obstacle}
     document["start"], document["end"] = _point(out, piece.start), _point(out, piece.end)
+    if piece.touches:
+        document["touches"] = [list(name) for name in piece.touches]  # type: ignore[call-overload]
     curve = piece.curve
     if isinstance(curve, Arc):
         document["arc"] = {
@@ -157,7 +159,8 @@ def _event(out: Encoder, event: Event, positions: list[str]) -> dict[str, Any]:
         "note": event.note,
         "point": _point(out, event.point),
         "after": event.after,
-        "at": positions[event.after],
+        "inside": event.inside,
+        "at": event.at.decimal(DIGITS) if event.inside else positions[event.after],
     }
 
 
@@ -189,7 +192,8 @@ def _read_piece(numbers: _Points, document: dict[str, Any]) -> Piece:
         curve = Arc(start, end, center, square, arc["ccw"] is True, arc["full"] is True)
     if document["kind"] not in ("straight", "boundary"):
         raise FormatError("a piece of the path is straight or boundary")
-    return Piece(document["kind"], _index(document["obstacle"]), curve)
+    touches = tuple(tuple(name) for name in document.get("touches", ()))
+    return Piece(document["kind"], _index(document["obstacle"]), curve, touches)
 
 
 def _read_link(numbers: _Points, document: dict[str, Any]) -> TreeLink:
@@ -209,7 +213,10 @@ def _read_event(numbers: _Points, document: dict[str, Any], path: Path) -> Event
     if not 0 <= after <= len(path):
         raise FormatError(f"an event after piece {after} of a path of {len(path)}")
     point, obstacle = numbers.point(document["point"]), _index(document["obstacle"])
-    return Event(str(document["kind"]), point, obstacle, str(document["note"]), after, path)
+    inside = document["inside"] is True
+    if inside and after == len(path):
+        raise FormatError(f"an event inside piece {after} of a path of {len(path)}")
+    return Event(str(document["kind"]), point, obstacle, str(document["note"]), after, path, inside)
 
 
 def _index(value: Any) -> int | None:

@@ -123,7 +123,7 @@ class _Sightseer:
 
     def _finished(self, scene: Scene) -> Run:
         robot = self.robot
-        path, events = robot.trace()
+        path, events, record = robot.trace()
         links = tuple(self.tree.values())
         unvisited, unseen = robot.unvisited()
         length = path.length_after(len(path))
@@ -142,4 +142,5 @@ class _Sightseer:
             tuple(unseen),
             tuple(unvisited),
             self.depth,
+            record,
         )

@@ -2,26 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from itertools import accumulate
+from typing import TYPE_CHECKING, Any
 
 from flint import fmpq
 
-from exactacq.curves import Curve
+from exactacq.curves import Curve, Segment
 from exactacq.lengths import Length
 from exactacq.points import Point
 from exactacq.scene import Scene
 
+if TYPE_CHECKING:
+    from exactacq.memory import Memory
+    from exactacq.vision.isovist import Isovist
+    from exactacq.vision.knowledge import Map
+
 
 @dataclass(frozen=True)
 class Piece:
-    """One piece of the path: ``kind`` "straight", or "boundary" along ``obstacle``."""
+    """One piece of the path: ``kind`` "straight", or "boundary" along ``obstacle``.
+
+    ``touches`` names the features that hold a straight piece (see `exactacq.vision.names`): known from how it
+    was found, they spare long proofs.
+    """
 
     kind: str
     obstacle: int | None
     curve: Curve
+    touches: tuple[Hashable, ...] = ()
 
     @property
     def start(self) -> Point:
@@ -52,13 +63,38 @@ class Path(tuple[Piece, ...]):
         """Length of the first *count* pieces; linear in *count*."""
         return Length.sum(piece.length for piece in self[:count])
 
+    def find(self, length: Length) -> tuple[int, Point | None, Length]:
+        """Where the path is after a length: number of whole pieces, place, and rest of the length.
+
+        The place is None inside an arc, and inside a straight piece if the rest is not algebraic. ValueError
+        if the path is shorter, or the length negative.
+        """
+        guesses = list(accumulate((float(piece.length) for piece in self), initial=0.0))
+        slack = 1e-6 * (guesses[-1] + 1.0)
+        count = max(sum(guess < float(length) - slack for guess in guesses) - 1, 0)
+        rest = length - self.length_after(count)
+        while count < len(self) and rest >= self[count].length:
+            rest = rest - self[count].length
+            count += 1
+        if rest.sign() < 0 or (count == len(self) and rest.sign() > 0):
+            raise ValueError(
+                f"the path has no place after length {length}: it is {float(guesses[-1]):.6g} long"
+            )
+        if rest.sign() == 0:
+            return count, None, rest
+        curve = self[count].curve
+        if isinstance(curve, Segment) and rest == Length(rest.algebraic):
+            share = rest.algebraic / curve.length.algebraic
+            return count, curve.start + curve.direction * share, rest
+        return count, None, rest
+
 
 @dataclass(frozen=True)
 class Event:
-    """Something that happened after the first ``after`` pieces of the path.
+    """Something that happened after the first ``after`` pieces of the path, or ``inside`` the next one.
 
-    Kinds of the Sightseer: start, hit, leave, backtrack, stop. Events are ordered by ``after``, then as
-    they happened.
+    Kinds: start, stop; hit, leave, backtrack (the strategy's moves); sight, acquire, lose, regain (see
+    `exactacq.vision.sensing`). Events are in the order in which they happened.
     """
 
     kind: str
@@ -67,11 +103,21 @@ class Event:
     note: str
     after: int
     path: Path = field(repr=False, compare=False)
+    inside: bool = False
 
     @property
     def at(self) -> Length:
         """Path length so far, summed on demand."""
-        return self.path.length_after(self.after)
+        whole = self.path.length_after(self.after)
+        return whole + self.beyond if self.inside else whole
+
+    @property
+    def beyond(self) -> Length:
+        """Length walked since the end of the last whole piece."""
+        if not self.inside:
+            return Length(0)
+        curve = self.path[self.after].curve
+        return curve.part(curve.start, self.point).length
 
 
 @dataclass(frozen=True)
@@ -105,7 +151,8 @@ class Run:
     """A finished exploration. See the fields' types for what each entry holds.
 
     ``unseen`` obstacles never came on the map and ``unvisited`` ones did without being reached: both are
-    empty where the paper's model (a) holds for the radius.
+    empty where the paper's model (a) holds for the radius. A run that was read from a file has no
+    ``record``: its sensing is repeated when it is first asked for.
     """
 
     scene: Scene
@@ -120,6 +167,7 @@ class Run:
     unseen: tuple[int, ...]
     unvisited: tuple[int, ...]
     stack_depth: int
+    record: Memory | None = field(default=None, repr=False, compare=False)
 
     @cached_property
     def length(self) -> Length:
@@ -131,13 +179,62 @@ class Run:
         """Whether every obstacle was visited."""
         return not self.unseen and not self.unvisited
 
+    @cached_property
+    def memory(self) -> Memory:
+        """What the robot learned on its way."""
+        if self.record is not None:
+            return self.record
+        from exactacq.memory import Memory
+
+        return Memory.of(self.scene, self.radius, self.start, self.path)
+
+    @cached_property
+    def map(self) -> Map:
+        """The map at the end."""
+        return self.memory.after(len(self.path))
+
     @property
     def incomplete(self) -> tuple[int, ...]:
-        """The obstacles on the map that were not circumnavigated.
+        """The obstacles of which some but not all was seen."""
+        return self.map.incomplete
 
-        Visited ones are acquired; whether an unvisited one was seen all around from afar is not tracked.
+    def map_at(self, moment: Event | Length | object) -> Map:
+        """The map as it was at an event, or after a length of the path.
+
+        ValueError if the path has no such place, or if the place has no algebraic coordinates, as most
+        places on an arc have not: take an event's. Cost: that of sensing one piece.
         """
-        return self.unvisited
+        count, place = self._moment(moment)
+        return self.memory.after(count) if place is None else self.memory.within(count, place)
+
+    def view_at(self, moment: Event | Length | object) -> Isovist:
+        """What the robot sees at an event, or after a length of the path; as `map_at`."""
+        from exactacq.vision.isovist import isovist
+
+        count, place = self._moment(moment)
+        if place is None:
+            place = (
+                self.path[count].start
+                if count < len(self.path)
+                else self.path[-1].end
+                if count
+                else self.start
+            )
+        return isovist(self.scene, place, self.radius)
+
+    def _moment(self, moment: object) -> tuple[int, Point | None]:
+        """The number of whole pieces, and the place inside the next one, if it is inside."""
+        if isinstance(moment, Event):
+            return moment.after, moment.point if moment.inside else None
+        count, place, rest = self.path.find(Length(moment))
+        if place is None and rest.sign():
+            for event in self.events:
+                if event.after == count and event.inside and event.beyond == rest:
+                    return count, event.point
+            raise ValueError(
+                f"the place after length {moment} lies inside an arc and has no event: ask for an event"
+            )
+        return count, place
 
     def _repr_svg_(self) -> str:
         from exactacq.figures import svg

@@ -6,6 +6,7 @@ import math
 import random
 from fractions import Fraction
 from itertools import pairwise
+from xml.etree import ElementTree
 
 import pytest
 
@@ -84,6 +85,59 @@ def test_points_that_see_nothing(point: tuple[object, object]) -> None:
         isovist(Scene([SQUARE]), point, 10)
     with pytest.raises(InvalidScene, match="radius"):
         isovist(Scene([SQUARE]), (0, 0))
+
+
+def test_what_lies_beyond_the_own_obstacle_is_not_in_range() -> None:
+    """A far edge met through the point's own obstacle, beyond the range, once passed for free space there."""
+    scene = Scene([Polygon([(0, 0), (2, 0), (2, 2), (0, 2)]), Polygon([(0, -2), (2, -2), (2, -1), (0, -1)])])
+    view = isovist(scene, (1, 2), 1)
+    assert view.area == turns(Fraction(1, 2))
+    assert [piece.kind.value for piece in view.pieces] == ["edge", "edge", "range"]
+
+
+def test_a_boundary_point_does_not_see_through_its_obstacle() -> None:
+    view = isovist(Scene([SQUARE]), (1, 0), 10)
+    assert not view.contains(Point(2, 0)) and not view.contains(Point(2, 1))
+    assert view.contains(Point(1, 1)) and view.contains(Point(0, 5))
+
+
+@pytest.mark.parametrize("radius", [Fraction(1, 2), 5])
+def test_from_algebraic_points_of_a_circle(radius: object) -> None:
+    """Square roots, plain and nested, whichever way the tangent there runs."""
+    half = Real(2).sqrt() / 2
+    nested = ((1 + half) / 2).sqrt(), ((1 - half) / 2).sqrt()
+    for x, y in ((half, half), nested):
+        view = isovist(Scene([Circle((0, 0), 1)]), (x, y), radius)
+        assert view.area == turns(Fraction(radius) ** 2 / 2)
+        assert view.seen() == {(0, 0): [(view.point, view.point)]}
+
+
+def test_from_an_algebraic_point_at_large() -> None:
+    """A square whose corners lie at 45 degrees either way takes a quarter, but for a triangle."""
+    root = Real(2).sqrt()
+    view = isovist(Scene([Polygon([(1, -1), (2, -1), (2, 1), (1, 1)])]), (1 - root, 0), 10)
+    shadow = Length.arc(1, (root * root - 1) / (root * root + 1), 2 * root / (root * root + 1))
+    assert view.area == turns(100) - shadow * 50 + Length(root)
+    assert view.pieces[1].curve.start == Point(1, -1)
+
+
+def test_rays_see_beyond_the_outline() -> None:
+    pinch = [Polygon([(0, 1), (1, 1), (1, 2), (0, 2)]), Polygon([(-1, 3), (0, 3), (0, 4), (-1, 4)])]
+    (ray,) = isovist(Scene(pinch), (0, 0), 10).rays
+    assert (ray.start, ray.end) == (Point(0, 0), Point(0, 10))
+    assert isovist(Scene([SQUARE]), (0, 0), 10).rays == ()
+
+
+def test_the_picture() -> None:
+    """Well-formed, the same each time, with the view, dashed windows, range arcs and the point."""
+    room = Outline([(-4, -4), (4, -4, Fraction(1, 4)), (4, 4), (-4, 4)])
+    view = isovist(Scene([SQUARE, Circle((-1, 2), Fraction(1, 2))], enclosure=room), (0, 0), 3)
+    text = view._repr_svg_()
+    root = ElementTree.fromstring(text)
+    paths = root.findall(".//{http://www.w3.org/2000/svg}path")
+    assert len(paths) == 3 + 4 and sum("stroke-dasharray" in path.attrib for path in paths) == 1
+    assert text == isovist(view.scene, (0, 0), 3)._repr_svg_()
+    assert ElementTree.fromstring(isovist(Scene([]), (0, 0), 1)._repr_svg_()) is not None
 
 
 # -- laws ------------------------------------------------------------------------------------------

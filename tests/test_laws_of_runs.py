@@ -6,6 +6,7 @@ Continues `test_laws` on what rooms, crescents, irrational pieces and large coor
 from __future__ import annotations
 
 from fractions import Fraction
+from itertools import pairwise
 from random import Random
 
 import numpy as np
@@ -82,6 +83,10 @@ def crowded_room(rng: Random) -> Terrain:
     return Terrain((*kept, Room(wall)), (Q(x), Q(y)), Q(rng.choice([1, 2, 4, 8, 20])))
 
 
+MOVES = {"start", "hit", "leave", "backtrack", "stop"}
+"""Events of the strategy; the others are reports of the sensor."""
+
+
 def law_of_the_path(terrain: Terrain) -> None:
     """The path is one line; a loop is the whole perimeter; every other walk is the shorter way."""
     run = run_of(terrain)
@@ -94,7 +99,8 @@ def law_of_the_path(terrain: Terrain) -> None:
         here = piece.end
         if piece.kind == "straight":
             assert free(terrain.shapes, piece.start.xy, piece.end.xy, 1e-6)
-    for before, after in zip(run.events, run.events[1:], strict=False):
+    moves = [event for event in run.events if event.kind in MOVES]
+    for before, after in pairwise(moves):
         walked = run.path[before.after : after.after]
         if before.kind == "leave" or before.obstacle is None:
             assert all(piece.kind == "straight" for piece in walked)

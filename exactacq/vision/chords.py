@@ -10,6 +10,7 @@ closed cell gives a free chord.
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from dataclasses import dataclass
 
 from flint import fmpq, fmpq_poly
@@ -29,15 +30,16 @@ GROWTH = fmpq_poly([1, 0, 1])
 
 @dataclass(frozen=True, slots=True)
 class Chord:
-    """A free segment and its exact length."""
+    """A free segment and its exact length; ``touches`` names what its line touches (see `names`)."""
 
     start: Point
     end: Point
     length: Real
+    touches: tuple[Hashable, ...] = ()
 
     def reversed(self) -> Chord:
         """The same segment from the other end."""
-        return Chord(self.end, self.start, self.length)
+        return Chord(self.end, self.start, self.length, self.touches)
 
 
 class _Fraction:
@@ -60,6 +62,10 @@ class _Fraction:
     def derivative(self) -> _Fraction:
         top = self.top.derivative() * self.bottom - self.top * self.bottom.derivative()
         return _Fraction(top, self.bottom * self.bottom)
+
+    def reduced(self) -> _Fraction:
+        common = self.top.gcd(self.bottom)
+        return self if common.degree() < 1 else _Fraction(self.top // common, self.bottom // common)
 
     def __bool__(self) -> bool:
         return not self.top.is_zero()
@@ -99,10 +105,42 @@ def meet(contact: Point, direction: Point, edge: Curve, side: int) -> Real:
     return curved
 
 
-def _derivative(
-    sector: Sector, behind: Curve | None, ahead: Curve
+def of_length(sector: Sector, behind: Curve | None, ahead: Curve | None, square: fmpq) -> list[Real]:
+    """A finite superset of the t where the chord's squared length is *square*, of Turning or Rolling lines.
+
+    From the contact itself if an edge is None. Empty where the length is constant. With g as in the module's
+    docstring, G g^2 = square |e|^2 with G = 1 + t^2 at a corner and 1 at a circle; the radicals go by norms.
+    """
+    plain, radicals = _scaled_length(sector, behind, ahead)
+    growth = UNIT if sector.round else GROWTH
+    value = plain * plain
+    for factor, under in radicals:
+        value = value + factor * factor * _Fraction(under)
+    rest = _Fraction(growth) * value + _Fraction(-square * dot(sector.base, sector.base) * UNIT)
+    rest = rest.reduced()
+    if radicals:
+        twice = _Fraction(2 * growth) * plain
+        parts = [(twice * factor).reduced() for factor, _ in radicals]
+        under = radicals[0][1]
+        if len(radicals) == 1:
+            rest = rest * rest + -(parts[0] * parts[0] * _Fraction(under))
+        else:
+            other = _Fraction(radicals[1][1])
+            both = (_Fraction(2 * growth) * radicals[0][0] * radicals[1][0]).reduced()
+            first = _Fraction(under)
+            # (rest + a r + b s + c r s)(rest + a r - b s - c r s) = norm + 2 mixed r, with r^2 = first
+            norm = rest * rest + parts[0] * parts[0] * first
+            norm = (norm + -(other * (parts[1] * parts[1] + both * both * first))).reduced()
+            mixed = (rest * parts[0] + -(other * parts[1] * both)).reduced()
+            rest = norm * norm + -(_Fraction(4 * UNIT) * mixed * mixed * first)
+    polynomial = rest.reduced().top
+    return [] if polynomial.is_zero() else roots(polynomial.coeffs())
+
+
+def _scaled_length(
+    sector: Sector, behind: Curve | None, ahead: Curve | None
 ) -> tuple[_Fraction, list[tuple[_Fraction, fmpq_poly]]]:
-    """The derivative of the length as slope + sum of R_k sqrt(D_k), times a positive function."""
+    """The function g of the module's docstring: a fraction, and factors of square roots."""
     plain = _Fraction(fmpq_poly([0]))
     radicals: list[tuple[_Fraction, fmpq_poly]] = []
     for edge, side in ((behind, -1), (ahead, 1)):
@@ -113,6 +151,14 @@ def _derivative(
         if radical is not None:
             factor, square = radical
             _collect(radicals, factor if side > 0 else -factor, square)
+    return plain, radicals
+
+
+def _derivative(
+    sector: Sector, behind: Curve | None, ahead: Curve
+) -> tuple[_Fraction, list[tuple[_Fraction, fmpq_poly]]]:
+    """The derivative of the length as slope + sum of R_k sqrt(D_k), times a positive function."""
+    plain, radicals = _scaled_length(sector, behind, ahead)
     slope = _grow(sector, plain, plain.derivative())
     terms = []
     for factor, square in radicals:

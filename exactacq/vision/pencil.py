@@ -17,6 +17,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cmp_to_key
 from itertools import pairwise
+from typing import TypeAlias
 
 import numpy as np
 from flint import fmpq, fmpz
@@ -33,14 +34,22 @@ CHUNK = 1 << 18
 """Entries of one array of the cell-by-edge tables: bounds the memory of a sweep."""
 
 
+Passed: TypeAlias = "tuple[tuple[int, int, int], ...]"
+"""The events at one line, each with number (a vertex, or an arc), side and sign: see `Sector.exact`."""
+
+
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """Lines from ``low`` to ``high`` of a sector that first meet edge ``behind`` and edge ``ahead``."""
+    """Lines from ``low`` to ``high`` of a sector that first meet edge ``behind`` and edge ``ahead``.
+
+    The bounds say what the first and the last line pass.
+    """
 
     low: Real
     high: Real
     behind: int | None
     ahead: int | None
+    bounds: tuple[Passed, Passed] = ((), ())
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,49 +105,50 @@ class _Sweep:
         self.edges = edges[~np.isin(edges, list(own) if sector.round else straight_own)]
 
     def run(self) -> Pencil:
-        values, pinches = self._events()
-        middles = [rational_between(a, b) for a, b in pairwise(values)]
+        lines = self._events()
+        middles = [rational_between(a, b) for (a, _), (b, _) in pairwise(lines)]
         cells: list[Cell] = []
-        for (low, high), (behind, ahead) in zip(pairwise(values), self._meets(middles), strict=True):
+        for ((low, first), (high, last)), (behind, ahead) in zip(
+            pairwise(lines), self._meets(middles), strict=True
+        ):
+            cell = Cell(low, high, behind, ahead, (first, last))
             if cells and (cells[-1].behind, cells[-1].ahead) == (behind, ahead):
-                cells[-1] = Cell(cells[-1].low, high, behind, ahead)
-            else:
-                cells.append(Cell(low, high, behind, ahead))
-        return Pencil(self.sector, tuple(cells), tuple(pinches))
+                before = cells.pop()
+                cell = Cell(before.low, high, behind, ahead, (before.bounds[0], last))
+            cells.append(cell)
+        pinches = tuple(value for value, passed in lines if len(passed) > 1)
+        return Pencil(self.sector, tuple(cells), pinches)
 
     # -- events --------------------------------------------------------------------------------
 
-    def _events(self) -> tuple[list[Real], list[Real]]:
-        """Distinct event parameters from low to high, and those that two or more events share."""
+    def _events(self) -> list[tuple[Real, Passed]]:
+        """Distinct event parameters from low to high, with what the lines pass there."""
         low, high = Real(self.sector.low), Real(self.sector.high)
         bounds = [_Event(float(low), 1e-15, -1, 0, 0, low), _Event(float(high), 1e-15, -1, 0, 0, high)]
         events = [*bounds, *self._break_events(), *self._vertex_events(), *self._arc_events()]
-        values: list[Real] = []
-        pinches: list[Real] = []
-        for cluster in _clusters(events):
-            for value, sources in self._resolve(cluster):
-                if value.compare(low) < 0 or value.compare(high) > 0:
-                    continue
-                values.append(value)
-                if sources > 1:
-                    pinches.append(value)
-        return values, pinches
+        return [
+            (value, passed)
+            for cluster in _clusters(events)
+            for value, passed in self._resolve(cluster)
+            if value.compare(low) >= 0 and value.compare(high) <= 0
+        ]
 
-    def _resolve(self, cluster: list[_Event]) -> Iterator[tuple[Real, int]]:
-        """The distinct exact values of a cluster, ascending, with the number of true events at each."""
+    def _resolve(self, cluster: list[_Event]) -> Iterator[tuple[Real, Passed]]:
+        """The distinct exact values of a cluster, ascending, with the true events at each."""
         known = [(value, event) for event in cluster if (value := self._exact(event)) is not None]
         if len(known) > 1:
             known.sort(key=cmp_to_key(_by_value))
         current: Real | None = None
-        sources = 0
+        passed: list[tuple[int, int, int]] = []
         for value, event in known:
             if current is not None and value.compare(current) != 0:
-                yield current, sources
-                current, sources = None, 0
+                yield current, tuple(passed)
+                current, passed = None, []
             current = value if current is None else current
-            sources += event.edge >= 0
+            if event.edge >= 0:
+                passed.append((event.edge, event.side, event.sign))
         if current is not None:
-            yield current, sources
+            yield current, tuple(passed)
 
     def _break_events(self) -> Iterator[_Event]:
         x, y = self.sector.center

@@ -40,8 +40,8 @@ class Sector:
 
     center: Vector
     base: Vector
-    low: fmpq
-    high: fmpq
+    low: fmpq | Real
+    high: fmpq | Real
 
     round = False
     """Whether the contact rolls on a circle of radius |base|."""

@@ -1,0 +1,105 @@
+"""Memory: the sensing of a whole path, piece by piece, and the map as it was at any moment of it.
+
+What a piece added is kept as the edges that changed, so a run remembers every moment in memory proportional
+to what was learned.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from flint import fmpq
+
+from exactacq.points import Point
+from exactacq.scene import Scene
+from exactacq.trace import Piece
+from exactacq.vision.intervals import Cover
+from exactacq.vision.knowledge import Map
+from exactacq.vision.legs import Leg, legs_of
+from exactacq.vision.sensing import Kind, Senses
+from exactacq.vision.table import EdgeTable
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """A notice placed on the path: after ``after`` whole pieces, or inside the piece of that number."""
+
+    kind: Kind
+    obstacle: int
+    place: Point
+    note: str
+    after: int
+    inside: bool
+
+
+class Memory:
+    """What a robot has learned on its way so far. *radius* is rational and positive."""
+
+    def __init__(self, scene: Scene, radius: fmpq, table: EdgeTable | None = None) -> None:
+        self.scene, self.radius = scene, radius
+        self._senses = Senses(EdgeTable(scene.obstacles) if table is None else table, radius)
+        self._learned: list[dict[int, Cover]] = []
+        self._legs: list[list[Leg]] = []
+
+    @classmethod
+    def of(cls, scene: Scene, radius: fmpq, start: Point, path: Iterable[Piece]) -> Memory:
+        """The memory of a robot that walked a path."""
+        memory = cls(scene, radius)
+        memory.begin(start)
+        for piece in path:
+            memory.walk(piece)
+        return memory
+
+    @property
+    def seen(self) -> set[int]:
+        """The obstacles of which some point is known by now."""
+        return self._senses.seen
+
+    def begin(self, start: Point) -> list[Report]:
+        """Look around at the start."""
+        notices, learned = self._senses.look_around(start)
+        self._learned.append(learned)
+        return [Report(n.kind, n.obstacle, n.place, n.note, 0, False) for n in notices]
+
+    def walk(self, piece: Piece) -> list[Report]:
+        """Take in all that a piece of the path shows; the reports in the order in which they come."""
+        legs = legs_of(self._senses.table, self._senses.rails, piece.obstacle, piece.curve, piece.touches)
+        count, reports = len(self._legs), []
+        learned: dict[int, Cover] = {}
+        for k, leg in enumerate(legs):
+            notices, more = self._senses.follow(leg)
+            learned.update(more)
+            for n in notices:
+                at_start = k == 0 and leg.order(n.u, leg.first) == 0
+                at_end = k == len(legs) - 1 and leg.order(n.u, leg.last) == 0
+                after = count + 1 if at_end and not at_start else count
+                inside = not (at_start or at_end)
+                reports.append(Report(n.kind, n.obstacle, n.place, n.note, after, inside))
+        self._learned.append(learned)
+        self._legs.append(legs)
+        return reports
+
+    def after(self, count: int) -> Map:
+        """The map after the first *count* pieces."""
+        return self._map(self._covers(count))
+
+    def within(self, count: int, place: Point) -> Map:
+        """The map when the robot is at a place inside piece number *count*."""
+        covers = self._covers(count)
+        for leg in self._legs[count]:
+            u = leg.rail.parameter(place) if leg.curve.passes(place) else None
+            if u is not None and leg.order(u, leg.first) > 0 and leg.order(u, leg.last) <= 0:
+                covers.update(self._senses.known_after(leg.upto(u, place), covers))
+                break
+            covers.update(self._senses.known_after(leg, covers))
+        return self._map(covers)
+
+    def _covers(self, count: int) -> dict[int, Cover]:
+        covers: dict[int, Cover] = {}
+        for learned in self._learned[: count + 1]:
+            covers.update(learned)
+        return covers
+
+    def _map(self, covers: dict[int, Cover]) -> Map:
+        return Map(self.scene, self._senses.rails, covers)

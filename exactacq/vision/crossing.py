@@ -1,0 +1,222 @@
+"""What a way through free space crosses: the glances of a straight piece of the path.
+
+The beams of the scene's features and edges are free lines. Where such a line crosses the way, inside its free
+part, the robot looks along it both ways: past the contact, at the contact, or, on an edge's normal, at
+the foot. Cut where the line passes an end of the way, a beam crosses it everywhere or nowhere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import cmp_to_key
+from itertools import pairwise
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from exactacq.contacts import line_contacts
+from exactacq.curves import Segment
+from exactacq.points import Point, distance_sq
+from exactacq.reals import Real
+from exactacq.vectors import minus, raw
+from exactacq.vision.chords import meet
+from exactacq.vision.glances import End, Glance, Pin, Role, Side, Strand
+from exactacq.vision.legs import Leg
+from exactacq.vision.names import Names
+from exactacq.vision.pencil import pencil, rational_between
+from exactacq.vision.sectors import Sliding
+from exactacq.vision.sightlines import Beam, Ray, Sightlines
+from exactacq.vision.table import EdgeTable
+
+Cut: TypeAlias = "tuple[Real, Pin | None, Names]"
+"""A parameter where a beam is cut, the point of the way there, and the names of the line."""
+
+OVERLAP_BITS = 256
+"""Numbers that differ by less are taken for candidates of a tie."""
+
+
+class Crossing:
+    """The glances at some edges from one straight way: a span of a rail in closed free space."""
+
+    def __init__(self, sightlines: Sightlines, leg: Leg, wanted: Callable[[int], bool]) -> None:
+        self.sightlines, self.span, self.wanted = sightlines, leg.span, wanted
+        self.touches: frozenset[Any] = frozenset(leg.touches)
+        self.rail = rail = leg.rail
+        self.ranges = sightlines.ranges.with_way(rail)
+        self.way = len(self.ranges.rails) - 1
+        self.piece = Segment(leg.span.start, leg.span.end)
+        self.line = rail.curve
+
+    def glances(self) -> Iterator[Glance]:
+        """All glances at wanted edges whose first side lies on the way."""
+        (ax, ay), (bx, by) = self.piece.start.xy, self.piece.end.xy
+        box = np.array((min(ax, bx), min(ay, by), max(ax, bx), max(ay, by)))
+        for family in self.sightlines.near(box):
+            for beam in family.beams:
+                yield from self._across(beam)
+            for ray in family.rays:
+                if self.wanted(ray.shown):
+                    yield from self._along(ray)
+        yield from self._normals()
+        yield from self._own_line()
+
+    def _across(self, beam: Beam) -> Iterator[Glance]:
+        sides = (beam.behind, beam.contact, beam.ahead)
+        if not any(side is not None and self.wanted(side.edge) for side in sides):
+            return
+        if not beam.sector.round and beam.anchor in self.touches:
+            # Every line through a corner that the way touches crosses it there and shows nothing else.
+            return
+        for (low, first, called), (high, last, named) in pairwise(self._cuts(beam)):
+            role = self._role(beam, Real(rational_between(low, high)))
+            if role is None:
+                continue
+            here = Side(self.way, role)
+            for other in (beam.contact, beam.ahead if role is Role.BEHIND else beam.behind):
+                if other is not None and self.wanted(other.edge):
+                    strand = Strand(beam.sector, low, high, (here, other), (called, named), (first, last))
+                    yield from self.ranges.glances(strand)
+
+    def _cuts(self, beam: Beam) -> list[Cut]:
+        """A beam's ends, and the parameters between them of the lines through the way's ends, in order."""
+        span = self.span
+        pins = (span.start, span.low), (span.end, span.high)
+        lines: list[tuple[Real, Pin]] = []
+        for pin in pins:
+            for t in beam.sector.through(pin[0]):
+                same = next((k for k, (known, _) in enumerate(lines) if _overlap(known, t)), None)
+                if same is None:
+                    lines.append((t, pin))
+                elif beam.anchor in self.touches:
+                    # The one line through both ends is the way's own, which touches the circle.
+                    contact = beam.sector.touch(t)[0]
+                    lines[same] = t, (contact, self.rail.parameter(contact))
+                else:
+                    lines.append((t, pin))
+        low, high = (
+            (t, self._pin_at(beam, t, names, pins), names)
+            for t, names in zip((beam.low, beam.high), beam.names, strict=True)
+        )
+        inner = [line for line in lines if self._is_inside(beam, *line)]
+        inner.sort(key=cmp_to_key(_by_parameter))
+        cuts = [low]
+        for t, pin in inner:
+            if t.compare(cuts[-1][0]) != 0:
+                cuts.append((t, pin, ()))
+        return [*cuts, high]
+
+    def _is_inside(self, beam: Beam, t: Real, pin: Pin) -> bool:
+        """Whether a line through a point of the way lies strictly inside a beam.
+
+        A way often ends on a line that bounds a beam. That is asked of the point: comparing parameters would
+        take a root more. If the way's own line bounds the beam, its name tells.
+        """
+        for bound, side, names in ((beam.low, 1, beam.names[0]), (beam.high, -1, beam.names[1])):
+            if _overlap(t, bound):
+                if any(name in self.touches for name, _ in names):
+                    return False
+                contact, direction = beam.sector.touch(bound)
+                if direction.cross(pin[0] - contact).sign() == 0:
+                    return False
+            if t.compare(bound) != side:
+                return False
+        return True
+
+    def _pin_at(self, beam: Beam, t: Real, names: Names, pins: tuple[Pin, Pin]) -> Pin | None:
+        """The point of the way on a line that bounds a beam, where it need not be computed."""
+        contact, direction = beam.sector.touch(t)
+        if any(name in self.touches for name, _ in names):
+            return contact, self.rail.parameter(contact)
+        for point, place in pins:
+            offset = direction.cross(point - contact)
+            if offset.ball(OVERLAP_BITS).contains(0) and offset.sign() == 0:
+                return point, place
+        return None
+
+    def _role(self, beam: Beam, t: Real) -> Role | None:
+        """On which side of the contact the line crosses the way within its free part, if it does."""
+        contact, direction = beam.sector.touch(t)
+        met = line_contacts(contact, direction, self.piece)
+        if not met or met[0].sign() == 0:
+            return None
+        side = met[0].sign()
+        role = Role.AHEAD if side > 0 else Role.BEHIND
+        wall = beam.ahead if side > 0 else beam.behind
+        if wall is None:
+            # Nothing was met within reach; normals do not go back from their edge.
+            return role if side > 0 or beam.goes_back else None
+        limit = meet(contact, direction, self.ranges.curve(wall.edge), side)
+        return role if (limit - met[0]).sign() * side >= 0 else None
+
+    def _along(self, ray: Ray) -> Iterator[Glance]:
+        """A single line that crosses the way between its place and the run that it shows."""
+        direction = ray.run[0] - ray.place
+        met = line_contacts(ray.place, direction, self.piece)
+        if not met:
+            return
+        for place in {id(m): m for m in (met[0], met[-1])}.values():
+            if place.sign() < 0 or place.compare(1) > 0:
+                continue
+            point = ray.place + direction * place
+            for first, last in self.ranges.along(point, self.ranges.rails[self.way], ray.run, ray.shown):
+                yield Glance((self.way, ray.shown), first, last)
+
+    def _own_line(self) -> Iterator[Glance]:
+        """The views along the way itself, of the boundary at its ends and of corners that it touches."""
+        table, span = self.sightlines.table, self.span
+        shown = [(e, p) for p in (span.start, span.end) for e in _edges_near(table, p)]
+        for name in self.touches:
+            if name[0] == "corner":
+                shown.append((name[1], table.curves[name[1]].start))
+        for e, point in shown:
+            if self.wanted(e):
+                place = self.ranges.rails[e].parameter(point)
+                near = self._within(point)
+                ends = [End(Real(0), (p, point), (u, place)) for p, u in near]
+                if ends:
+                    yield Glance((self.way, e), ends[0], ends[-1])
+
+    def _within(self, point: Point) -> list[Pin]:
+        """The ends of the part of the way within range of a point of its line."""
+        span, square = self.span, self.ranges.square
+        ends = [(span.start, span.low), (span.end, span.high)]
+        far = [distance_sq(p, point).compare(square) > 0 for p, _ in ends]
+        if not any(far):
+            return ends
+        along = self.line.end - self.line.start
+        step = along * (self.ranges.radius / along.norm_sq().sqrt())
+        for k, place in enumerate((point - step, point + step)):
+            if far[k]:
+                u = self.rail.parameter(place)
+                if u.compare(span.low) < 0 or u.compare(span.high) > 0:
+                    return []
+                ends[k] = place, u
+        return ends
+
+    def _normals(self) -> Iterator[Glance]:
+        """The views along the normals of the way itself, to both sides."""
+        start, end = raw(self.line.start), raw(self.line.end)
+        low, high = self.span.low, self.span.high
+        here = Side(self.way, Role.CONTACT)
+        for leftward in (True, False):
+            sector = Sliding(start, minus(end, start), low, high, leftward=leftward)
+            sweep = pencil(self.sightlines.table, sector, (), self.sightlines.reach)
+            for cell in sweep.cells:
+                if cell.ahead is not None and self.wanted(cell.ahead):
+                    strand = Strand(sector, cell.low, cell.high, (here, Side(cell.ahead, Role.AHEAD)))
+                    yield from self.ranges.glances(strand)
+
+
+def _edges_near(table: EdgeTable, point: Point) -> list[int]:
+    """The edges that balls do not part from a point: the end of a way lies on a boundary, or it does not."""
+    x, y = point.xy
+    near = (int(e) for e in table.near((x, y), (x, y), 0.0))
+    return [e for e in near if table.curves[e].may_pass(point, OVERLAP_BITS)]
+
+
+def _by_parameter(a: tuple[Real, Pin], b: tuple[Real, Pin]) -> int:
+    return a[0].compare(b[0])
+
+
+def _overlap(a: Real, b: Real) -> bool:
+    return bool(a.ball(OVERLAP_BITS).overlaps(b.ball(OVERLAP_BITS)))

@@ -1,0 +1,362 @@
+"""Glances: one-parameter families of free segments between two boundary edges, none longer than the range.
+
+A point of edge f that is seen from edge e has a *shortest* view from it, which cannot be shortened by moving
+its end on e: it is held by a feature that it touches, it is normal to e, or it starts at an end of e. So
+a feature's tangent lines, an edge's normals and a vertex's rays, families with one parameter each, tell all
+that edge e teaches about edge f; read the other way, they tell from which part of e anything of f is in
+sight. A `Strand` is such a family as a cell of a pencil gives it; `Ranges.glances` cuts it to the range.
+"""
+
+from __future__ import annotations
+
+from collections import ChainMap
+from collections.abc import Hashable, Iterator, MutableMapping
+from dataclasses import dataclass
+from enum import Enum
+from functools import cmp_to_key
+from itertools import pairwise
+from math import hypot
+from typing import TypeAlias
+
+from flint import fmpq
+
+from exactacq.contacts import contacts, line_contacts
+from exactacq.curves import Arc, Curve, Segment
+from exactacq.points import Point, distance_sq
+from exactacq.reals import Real
+from exactacq.vision.chords import meet, of_length
+from exactacq.vision.intervals import Interval
+from exactacq.vision.names import Names
+from exactacq.vision.pencil import rational_between
+from exactacq.vision.rails import Rail
+from exactacq.vision.sectors import Rolling, Sector, Sliding, Spokes
+from exactacq.vision.view_lengths import of_length_on
+
+SURE = 1e-9
+"""Relative margin beyond which floats decide on the range; round-off is far below."""
+
+
+Pin: TypeAlias = "tuple[Point, Real]"
+"""A point of an edge with its parameter."""
+
+
+class Role(Enum):
+    """Where on a line one end of a view lies."""
+
+    BEHIND = -1
+    CONTACT = 0
+    AHEAD = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Side:
+    """One end of a family of views: the edge it runs on and its role on the lines.
+
+    A ``fixed`` end stays at the contact: a corner, the start of its edge.
+    """
+
+    edge: int
+    role: Role
+    fixed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """One view of a family: line parameter, the two end points with their rail parameters."""
+
+    t: Real
+    points: tuple[Point, Point]
+    places: tuple[Real, Real]
+
+
+@dataclass(frozen=True, slots=True)
+class Strand:
+    """The views between two sides along the lines of a sector from ``low`` to ``high``.
+
+    ``names`` are what else the first and the last line are called (see `names`); ``pinned`` are their points
+    on the first side, where these are known.
+    """
+
+    sector: Sector
+    low: Real
+    high: Real
+    sides: tuple[Side, Side]
+    names: tuple[Names, Names] = ((), ())
+    pinned: tuple[Pin | None, Pin | None] = (None, None)
+
+
+@dataclass(frozen=True, slots=True)
+class Glance:
+    """A family of free views within range, from one extreme view to the other; both ends move monotonically.
+
+    Without a strand the family has one fixed end, and all views lie on one line.
+    """
+
+    edges: tuple[int, int]
+    first: End
+    last: End
+    strand: Strand | None = None
+
+
+class Ranges:
+    """Cuts strands to a range and finds their views; holds the rails of the scene's edges by number."""
+
+    def __init__(self, rails: list[Rail], radius: fmpq, roundoff: float) -> None:
+        self.rails, self.radius, self.roundoff = rails, radius, roundoff
+        self.square, self.limit = radius * radius, float(radius)
+        self._pins: MutableMapping[tuple[Hashable, int, int], Pin] = {}
+
+    def with_way(self, way: Rail) -> Ranges:
+        """The same with one more curve, a way through free space, under the next number."""
+        ranges = Ranges([*self.rails, way], self.radius, self.roundoff)
+        ranges._pins = ChainMap({}, self._pins)
+        return ranges
+
+    def curve(self, e: int) -> Curve:
+        """The curve of a number."""
+        return self.rails[e].curve
+
+    def glances(self, strand: Strand) -> list[Glance]:
+        """The parts of a strand that lie within range, as closed families; single views count."""
+        found = list(self._within(strand))
+        for k, side in enumerate(strand.sides):
+            if getattr(self.curve(side.edge), "full", False):
+                found = [part for glance in found for part in self._unrolled(glance, k)]
+        return found
+
+    def _unrolled(self, glance: Glance, k: int) -> Iterator[Glance]:
+        """On a full circle: cut where a side passes the circle's start, whose parameter is 0 or 4."""
+        first, last, strand = glance.first, glance.last, glance.strand
+        if strand is None or first is last:
+            yield glance
+            return
+        a, b = first.places[k], last.places[k]
+        middle = self.end(strand, Real(rational_between(first.t, last.t))).places[k]
+        if a.sign() == 0 and middle.compare(b) > 0:
+            a = Real(4)
+        if b.sign() == 0 and middle.compare(a) > 0:
+            b = Real(4)
+        first, last = _placed(first, k, a), _placed(last, k, b)
+        if min(a, b) <= middle <= max(a, b):
+            yield Glance(glance.edges, first, last, strand)
+            return
+        seam = self.view_from(glance, k, self.curve(glance.edges[k]).start)
+        before, after = (Real(4), Real(0)) if a > b else (Real(0), Real(4))
+        yield Glance(glance.edges, first, _placed(seam, k, before), strand)
+        yield Glance(glance.edges, _placed(seam, k, after), last, strand)
+
+    def _within(self, strand: Strand) -> Iterator[Glance]:
+        low, high = self.end(strand, strand.low), self.end(strand, strand.high)
+        certain = self._certain(strand, low, high)
+        edges = strand.sides[0].edge, strand.sides[1].edge
+        if certain is not None:
+            if certain:
+                yield Glance(edges, low, high, strand)
+            return
+        ends = [low, *self._at_range(strand), high]
+        inside = [self._is_inside(strand, rational_between(a.t, b.t)) for a, b in pairwise(ends)]
+        begin: End | None = None
+        for k, end in enumerate(ends):
+            before, after = k > 0 and inside[k - 1], k < len(inside) and inside[k]
+            if after and begin is None:
+                begin = end
+            elif before and not after:
+                assert begin is not None
+                yield Glance(edges, begin, end, strand)
+                begin = None
+            elif not before and not after and distance_sq(*end.points).compare(self.square) <= 0:
+                yield Glance(edges, end, end, strand)
+
+    def along(
+        self, place: Point, near: Rail, run: tuple[Point, Point], shown: int
+    ) -> Iterator[tuple[End, End]]:
+        """The views along one line from a place to a run on an edge, as far as it is within range."""
+        first, last = run
+        if distance_sq(place, first).compare(self.square) > 0:
+            return
+        if distance_sq(place, last).compare(self.square) > 0:
+            along = last - place
+            last = place + along * (self.radius / along.norm_sq().sqrt())
+        here, far = near.parameter(place), self.rails[shown]
+        one, other = (End(Real(0), (place, p), (here, far.parameter(p))) for p in (first, last))
+        yield one, other
+
+    def end(self, strand: Strand, t: Real) -> End:
+        """The view of a strand at a parameter."""
+        names: Names = ()
+        pin = None
+        for k, bound in enumerate((strand.low, strand.high)):
+            if t is bound:
+                names, pin = strand.names[k], strand.pinned[k]
+        contact, direction = strand.sector.touch(t)
+        pins = [
+            pin if pin is not None and k == 0 else self._pin(side, contact, direction, names)
+            for k, side in enumerate(strand.sides)
+        ]
+        return End(t, (pins[0][0], pins[1][0]), (pins[0][1], pins[1][1]))
+
+    def _pin(self, side: Side, contact: Point, direction: Point, names: Names) -> Pin:
+        """Where a line meets an edge: the same point as on the same line under another name."""
+        role = side.role.value
+        keys = [(name, side.edge, role * sense) for name, sense in names]
+        for key in keys:
+            if key in self._pins:
+                return self._pins[key]
+        point = self._point(side, contact, direction)
+        pin = point, self.rails[side.edge].parameter(point)
+        self._pins.update((key, pin) for key in keys)
+        return pin
+
+    def clipped(self, glance: Glance, side: int, span: Interval) -> Glance | None:
+        """The part of a glance whose one side lies in an interval of that side's rail."""
+        a, b = glance.first.places[side], glance.last.places[side]
+        low, high = (a, b) if a.compare(b) <= 0 else (b, a)
+        if low.compare(span.high) > 0 or high.compare(span.low) < 0:
+            return None
+        first = self._moved(glance, glance.first, glance.last, side, span)
+        last = self._moved(glance, glance.last, glance.first, side, span)
+        if glance.strand is not None and first.t.compare(last.t) > 0:
+            first, last = last, first
+        return Glance(glance.edges, first, last, glance.strand)
+
+    def _moved(self, glance: Glance, end: End, other: End, side: int, span: Interval) -> End:
+        """An extreme view, moved to the end of an interval if it lies outside; *other* is the other one."""
+        place = end.places[side]
+        if place.compare(span.low) < 0:
+            place, point = span.low, span.start
+        elif place.compare(span.high) > 0:
+            place, point = span.high, span.end
+        else:
+            return end
+        if place.compare(other.places[side]) == 0:
+            return other
+        if glance.strand is None:
+            points = (point, end.points[1]) if side == 0 else (end.points[0], point)
+            return _placed(End(end.t, points, end.places), side, place)
+        return _placed(self.view_from(glance, side, point), side, place)
+
+    def view_from(self, glance: Glance, side: int, point: Point) -> End:
+        """The view of a glance from a point of one of its sides, strictly between its extreme views."""
+        strand = glance.strand
+        assert strand is not None
+        role = strand.sides[side].role.value
+        for t in strand.sector.through(point):
+            if t.compare(glance.first.t) < 0 or t.compare(glance.last.t) > 0:
+                continue
+            contact, direction = strand.sector.touch(t)
+            if role == 0 or (point - contact).dot(direction).sign() == role:
+                other = self._point(strand.sides[1 - side], contact, direction)
+                points = (point, other) if side == 0 else (other, point)
+                places = [self.rails[s.edge].parameter(p) for s, p in zip(strand.sides, points, strict=True)]
+                return End(t, points, (places[0], places[1]))
+        raise AssertionError("a line of the glance passes each point between its extreme views")
+
+    def _point(self, side: Side, contact: Point, direction: Point) -> Point:
+        curve = self.curve(side.edge)
+        if side.role is Role.CONTACT:
+            return curve.start if side.fixed else contact
+        return contact + direction * meet(contact, direction, curve, side.role.value)
+
+    def _is_inside(self, strand: Strand, t: fmpq) -> bool:
+        contact, direction = strand.sector.touch(Real(t))
+        a, b = (self._point(side, contact, direction) for side in strand.sides)
+        return distance_sq(a, b).compare(self.square) <= 0
+
+    def _certain(self, strand: Strand, low: End, high: End) -> bool | None:
+        """Whether floats prove that all views are within range, or that none is; None if they cannot tell.
+
+        Sides are hulls of their extreme points, widened by the sagitta of arcs.
+        """
+        hulls = [(low.points[k].xy, high.points[k].xy, self._sagitta(strand, k, low, high)) for k in (0, 1)]
+        (a, b, wide), (c, d, far) = hulls
+        slack = wide + far + 64 * self.roundoff
+        longest = max(hypot(p[0] - q[0], p[1] - q[1]) for p in (a, b) for q in (c, d))
+        if (longest + slack) * (1 + SURE) < self.limit:
+            return True
+        gap_x = max(min(a[0], b[0]) - max(c[0], d[0]), min(c[0], d[0]) - max(a[0], b[0]), 0.0)
+        gap_y = max(min(a[1], b[1]) - max(c[1], d[1]), min(c[1], d[1]) - max(a[1], b[1]), 0.0)
+        return False if hypot(gap_x, gap_y) - slack > self.limit * (1 + SURE) else None
+
+    def _sagitta(self, strand: Strand, k: int, low: End, high: End) -> float:
+        """How far a side bends away from its chord at most (no side of Turning lines passes a half turn)."""
+        side = strand.sides[k]
+        curve = self.curve(side.edge)
+        if side.fixed or isinstance(curve, Segment):
+            return 0.0
+        radius = float(curve.radius)
+        if isinstance(strand.sector, Rolling | Sliding):
+            return 2 * radius
+        (ax, ay), (bx, by) = low.points[k].xy, high.points[k].xy
+        return min(((ax - bx) ** 2 + (ay - by) ** 2) / (4 * radius) * (1 + SURE) * 2, radius)
+
+    # -- where a family meets the range --------------------------------------------------------------
+
+    def _at_range(self, strand: Strand) -> list[End]:
+        """The views strictly between low and high that may be as long as the range, in order."""
+        found = [
+            t for t in self._candidates(strand) if t.compare(strand.low) > 0 and t.compare(strand.high) < 0
+        ]
+        found.sort(key=cmp_to_key(Real.compare))
+        distinct = [t for k, t in enumerate(found) if k == 0 or t.compare(found[k - 1]) != 0]
+        ends = (self.end(strand, t) for t in distinct)
+        return [end for end in ends if self._may_be_at_range(end)]
+
+    def _may_be_at_range(self, end: End) -> bool:
+        return not abs((distance_sq(*end.points) - self.square).ball(128)) > 0
+
+    def _candidates(self, strand: Strand) -> Iterator[Real]:
+        sector, (one, other) = strand.sector, strand.sides
+        roles = {side.role: side.edge for side in (one, other)}
+        curves = {role: self.curve(edge) for role, edge in roles.items()}
+        if Role.CONTACT not in roles:
+            behind, ahead = curves[Role.BEHIND], curves[Role.AHEAD]
+            if _is_rational(behind) and _is_rational(ahead):
+                yield from of_length(sector, behind, ahead, self.square)
+            else:
+                yield from of_length_on(sector, behind, ahead, self.square, strand.low, strand.high)
+            return
+        far = next(curve for role, curve in curves.items() if role is not Role.CONTACT)
+        if isinstance(sector, Sliding):
+            yield from self._beside(sector, far)
+            return
+        center = Point(*sector.center)
+        for point in _at_distance(center, self._square_from_center(sector), far):
+            yield from sector.through(point)
+
+    def _beside(self, sector: Sliding, far: Curve) -> list[Real]:
+        """Where the parallel of a segment at the range meets an edge."""
+        start, normal = sector.touch(Real(0))
+        offset = normal * (self.radius / normal.norm_sq().sqrt())
+        return line_contacts(start + offset, Point(*sector.base), far)
+
+    def _square_from_center(self, sector: Sector) -> Real:
+        """Squared distance from a sector's centre to the far end of a view that is as long as the range."""
+        if sector.round:
+            return Real(self.square + sector.base[0] ** 2 + sector.base[1] ** 2)
+        if isinstance(sector, Spokes):
+            radius = Real(sector.radius_sq).sqrt()
+            away: Real = radius + self.radius if sector.outward else radius - self.radius
+            return away * away
+        return Real(self.square)
+
+
+def _placed(end: End, k: int, place: Real) -> End:
+    """The same view with another parameter on side k."""
+    places = (place, end.places[1]) if k == 0 else (end.places[0], place)
+    return End(end.t, end.points, places)
+
+
+def _is_rational(curve: Curve) -> bool:
+    """Whether lines meet a curve in rational functions of the data and their roots: arcs, rational segments."""
+    return isinstance(curve, Arc) or (curve.start.rational is not None and curve.end.rational is not None)
+
+
+def _at_distance(center: Point, square: Real, curve: Curve) -> Iterator[Point]:
+    """The points of a curve at a squared distance from a point; none where that is all or nothing of it."""
+    if square.sign() == 0:
+        return
+    east = Point(center.x + square.sqrt(), center.y)
+    circle = Arc(east, east, center, square, ccw=True, full=True)
+    for contact in contacts(curve, circle):
+        if contact.start is contact.end:
+            yield contact.start

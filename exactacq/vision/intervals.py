@@ -1,0 +1,89 @@
+"""Unions of closed intervals on a rail, with exact ends."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from exactacq.points import Point
+from exactacq.reals import Real
+from exactacq.vision.rails import Rail
+
+
+@dataclass(frozen=True, slots=True)
+class Interval:
+    """A closed interval of rail parameters with its end points; low = high is a single point."""
+
+    low: Real
+    start: Point
+    high: Real
+    end: Point
+
+    @classmethod
+    def of(cls, u: Real, p: Point, v: Real, q: Point) -> Interval:
+        """The interval between two places, given in any order."""
+        return cls(u, p, v, q) if u.compare(v) <= 0 else cls(v, q, u, p)
+
+    @classmethod
+    def between(cls, rail: Rail, start: Point, end: Point) -> list[Interval]:
+        """The part of a rail from start to end, in two pieces if it passes the start of a full circle."""
+        low, high = rail.parameter(start), rail.parameter(end)
+        if low.compare(high) <= 0:
+            return [cls(low, start, high, end)]
+        seam = rail.curve.start
+        return [
+            part
+            for part in (cls(low, start, rail.top, seam), cls(Real(0), seam, high, end))
+            if part.low.compare(part.high) < 0
+        ]
+
+
+class Cover:
+    """A union of closed intervals on one rail: sorted, disjoint, merged. Immutable."""
+
+    __slots__ = ("intervals",)
+
+    def __init__(self, intervals: tuple[Interval, ...] = ()) -> None:
+        self.intervals = intervals
+
+    def added(self, new: Interval) -> Cover:
+        """The union with one more interval; self if that adds nothing."""
+        before: list[Interval] = []
+        after: list[Interval] = []
+        for old in self.intervals:
+            if old.high.compare(new.low) < 0:
+                before.append(old)
+            elif old.low.compare(new.high) > 0:
+                after.append(old)
+            else:
+                at_low, at_high = old.low.compare(new.low), old.high.compare(new.high)
+                if at_low <= 0 and at_high >= 0:
+                    return self
+                left = old if at_low <= 0 else new
+                right = old if at_high >= 0 else new
+                new = Interval(left.low, left.start, right.high, right.end)
+        return Cover((*before, new, *after))
+
+    def contains(self, u: Real) -> bool:
+        """Whether a parameter is covered."""
+        return any(i.low.compare(u) <= 0 and i.high.compare(u) >= 0 for i in self.intervals)
+
+    def covers(self, top: Real) -> bool:
+        """Whether all of [0, top] is covered."""
+        if len(self.intervals) != 1:
+            return False
+        (only,) = self.intervals
+        return only.low.sign() <= 0 and only.high.compare(top) >= 0
+
+    def gaps(self, rail: Rail) -> Iterator[Interval]:
+        """The closures of what is left of a whole rail, from low to high."""
+        at, place = Real(0), rail.curve.start
+        for i in self.intervals:
+            if i.low.compare(at) > 0:
+                yield Interval(at, place, i.low, i.start)
+            at, place = i.high, i.end
+        if at.compare(rail.top) < 0:
+            yield Interval(at, place, rail.top, rail.curve.end)
+
+
+EMPTY = Cover()

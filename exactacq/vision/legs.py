@@ -1,0 +1,145 @@
+"""Legs: the pieces of a path as spans of rails with rational data wherever possible."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from exactacq.boxes import box
+from exactacq.curves import Arc, Curve, Segment
+from exactacq.points import Point
+from exactacq.reals import Real
+from exactacq.vision.intervals import Interval
+from exactacq.vision.rails import Rail
+from exactacq.vision.table import EdgeTable
+
+
+@dataclass(frozen=True)
+class Leg:
+    """A way along one rail: of boundary edge ``edge``, or in free space if None.
+
+    ``ahead`` tells whether the rail's parameter grows along the way; ``touches`` names what a straight way
+    is known to touch (see `names`).
+    """
+
+    rail: Rail
+    edge: int | None
+    span: Interval
+    ahead: bool
+    touches: tuple[Hashable, ...] = ()
+
+    @property
+    def start(self) -> Point:
+        """Where the leg begins."""
+        return self.span.start if self.ahead else self.span.end
+
+    @property
+    def end(self) -> Point:
+        """Where it ends."""
+        return self.span.end if self.ahead else self.span.start
+
+    @property
+    def first(self) -> Real:
+        """The parameter of the start."""
+        return self.span.low if self.ahead else self.span.high
+
+    @property
+    def last(self) -> Real:
+        """The parameter of the end."""
+        return self.span.high if self.ahead else self.span.low
+
+    @cached_property
+    def curve(self) -> Curve:
+        """The part of the rail's curve that the leg covers, in the curve's direction."""
+        whole = self.span.low.sign() == 0 and self.span.high.compare(self.rail.top) == 0
+        return self.rail.curve if whole else self.rail.curve.part(self.span.start, self.span.end)
+
+    @property
+    def box(self) -> tuple[float, float, float, float]:
+        """A box that contains the leg."""
+        return box(self.curve)
+
+    def upto(self, u: Real, place: Point) -> Leg:
+        """The leg as far as a place on it."""
+        span = self.span
+        cut = (span.low, span.start, u, place) if self.ahead else (u, place, span.high, span.end)
+        return replace(self, span=Interval(*cut))
+
+    def order(self, a: Real, b: Real) -> int:
+        """-1, 0 or 1 as the robot passes one parameter before, at or after another."""
+        return a.compare(b) if self.ahead else b.compare(a)
+
+
+def legs_of(
+    table: EdgeTable,
+    rails: list[Rail],
+    obstacle: int | None,
+    curve: Curve,
+    touches: tuple[Hashable, ...] = (),
+) -> list[Leg]:
+    """The legs of a path piece, on the boundary of an obstacle or straight through free space if None.
+
+    One leg; two if the piece passes the start of a full circle. *touches* is what a straight piece touches.
+    """
+    if obstacle is None:
+        assert isinstance(curve, Segment), "free space is crossed on straight lines"
+        return [_through_space(curve, touches)]
+    first = int(table.first[obstacle])
+    edges = range(first, first + len(table.obstacles[obstacle].edges))
+    e = next(e for e in edges if _carries(table.curves[e], curve))
+    rail, start, end = rails[e], curve.start, curve.end
+    low, high = rail.parameter(start), rail.parameter(end)
+    if isinstance(curve, Arc) and isinstance(rail.curve, Arc):
+        ahead = curve.ccw == rail.curve.ccw
+    else:
+        ahead = low.compare(high) < 0
+    if not ahead:
+        start, end, low, high = end, start, high, low
+    if low.compare(high) < 0:
+        return [Leg(rail, e, Interval(low, start, high, end), ahead)]
+    seam = rail.curve.start
+    spans = [Interval(low, start, rail.top, seam), Interval(Real(0), seam, high, end)]
+    legs = [Leg(rail, e, span, ahead) for span in spans if span.low.compare(span.high) < 0]
+    return legs if ahead else legs[::-1]
+
+
+def _through_space(piece: Segment, touches: tuple[Hashable, ...]) -> Leg:
+    """The leg of a straight piece, on a rail with rational ends if its line is seen to be rational."""
+    rail = Rail(_rational_carrier(piece) or piece)
+    low, high = rail.parameter(piece.start), rail.parameter(piece.end)
+    return Leg(rail, None, Interval(low, piece.start, high, piece.end), True, touches)
+
+
+def _carries(edge: Curve, piece: Curve) -> bool:
+    """Whether an edge may carry a piece of its boundary: both ends, and the circle of an arc."""
+    if isinstance(edge, Arc) != isinstance(piece, Arc):
+        return False
+    circle = (edge.radius_sq, *edge.center) if isinstance(edge, Arc) else ()
+    if circle != ((piece.radius_sq, *piece.center) if isinstance(piece, Arc) else ()):
+        return False
+    return all(edge.may_pass(p, 256) for p in (piece.start, piece.end))
+
+
+def _rational_carrier(piece: Segment) -> Segment | None:
+    """A segment with rational ends on the line of a piece that contains it, or None if none is seen."""
+    (dx, dy), (x, y) = piece.direction, piece.start
+    if piece.start.rational is not None and piece.end.rational is not None:
+        return piece
+    steep = abs(float(dy)) > abs(float(dx))
+    if steep:
+        dx, dy, x, y = dy, dx, y, x
+    slope = Real(0) if dy.rational == 0 else dy.rational_ratio(dx)
+    if slope is None:
+        return None
+    height = (y - x * slope).rational
+    if height is None:
+        return None
+    ends = []
+    for point, side in ((piece.start, -1), (piece.end, 1)):
+        value = point.y if steep else point.x
+        outward = side if float(dx) > 0 else -side
+        low, high = value.enclosure(64)
+        at = (high.ceil() if outward > 0 else low.floor()) + 0
+        ends.append(Point(height + slope * at, at) if steep else Point(at, height + slope * at))
+    return Segment(ends[0], ends[1])

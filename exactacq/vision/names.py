@@ -1,0 +1,87 @@
+"""Names of lines: the same line found from two features has one name, so its points are made once.
+
+A line that touches two features bounds cells in the pencils of both. Its points on the edges, computed from
+either, are equal numbers in different forms, and with arcs their equality is long to prove. The name says
+which line it is: two vertices, a vertex and a circle with its side, or two circles with the kind of
+common tangent. Every name has a sense; 1 tells that the direction in which a sector runs along the line
+agrees with that of the name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterator
+from functools import cached_property
+from typing import TypeAlias
+
+from exactacq.curves import Arc
+from exactacq.reals import Real
+from exactacq.vectors import raw
+from exactacq.vision.features import Feature
+from exactacq.vision.pencil import Passed
+from exactacq.vision.sectors import Sector
+from exactacq.vision.table import EdgeTable
+
+Names: TypeAlias = "tuple[tuple[Hashable, int], ...]"
+"""Names of one line with their senses."""
+
+
+class Namer:
+    """Names the tangent lines of a scene's features."""
+
+    def __init__(self, table: EdgeTable) -> None:
+        self.table = table
+
+    @cached_property
+    def _circles(self) -> dict[int, int]:
+        """For every arc the number of the first arc on its circle."""
+        numbers: dict[Hashable, int] = {}
+        return {
+            e: numbers.setdefault((*raw(curve.center), curve.radius_sq), e)
+            for e, curve in enumerate(self.table.curves)
+            if isinstance(curve, Arc)
+        }
+
+    def anchor(self, feature: Feature) -> Hashable:
+        """The name of what a feature's lines touch."""
+        return ("circle", self._circles[feature.edges[0]]) if feature.round else ("corner", feature.edges[1])
+
+    def passed(self, passed: Passed) -> Iterator[Hashable]:
+        """The names of what a line passes."""
+        for number, side, _ in passed:
+            yield ("circle", self._circles[number]) if side else ("corner", number)
+
+    def names(self, feature: Feature, sector: Sector, t: Real, passed: Passed) -> Names:
+        """The names of a feature's tangent line at *t*, from what it passes."""
+        return tuple(
+            self._round(feature, passed) if feature.round else self._corner(feature, sector, t, passed)
+        )
+
+    def _corner(
+        self, feature: Feature, sector: Sector, t: Real, passed: Passed
+    ) -> Iterator[tuple[Hashable, int]]:
+        own = feature.edges[1]
+        x, y = sector.touch(t)[1].xy
+        for number, side, sign in passed:
+            # On the line, and not at the contact: no float can mistake ahead for behind.
+            middle = self.table.center if side else self.table.start
+            px, py = middle[number] - self.table.start[own]
+            ahead = 1 if px * x + py * y > 0 else -1
+            if side:
+                yield ("corner, circle", own, self._circles[number], sign > 0), ahead
+            else:
+                pair = min(own, number), max(own, number)
+                yield ("corners", *pair), ahead if own < number else -ahead
+
+    def _round(self, feature: Feature, passed: Passed) -> Iterator[tuple[Hashable, int]]:
+        own = self._circles[feature.edges[0]]
+        for number, side, sign in passed:
+            # The contact's spoke is turned by *sign* from the direction to what is passed: 1 means behind.
+            if side == 0:
+                yield ("corner, circle", number, own, sign < 0), sign
+                continue
+            other = self._circles[number]
+            if own != other:
+                crossing, swapped = side > 0, own > other
+                turn = sign if crossing or not swapped else -sign
+                sense = -sign if not swapped else sign
+                yield ("circles", min(own, other), max(own, other), crossing, turn), sense

@@ -1,0 +1,265 @@
+"""Sightlines: where views change, as families of views between a scene's edges, swept on demand and kept.
+
+Three pencils of lines are swept where the robot comes near: the tangent lines of every feature, the normals
+of every edge, and the normals of every convex corner. Their cells are the strands between edges; the
+lines that bound the cells are the sightlines, at which a view changes. Two kinds of single lines join
+them: a line along a straight edge shows that edge end on, from beyond its end; and a *pinched* line that
+grazes several features shows what no neighbouring line does. Each family is swept once; cost: near linear
+in the scene at constant density and range.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from flint import fmpq
+
+from exactacq.curves import Curve, Segment
+from exactacq.points import Point, distance_sq
+from exactacq.reals import Real
+from exactacq.vectors import minus, raw
+from exactacq.vision.chords import meet
+from exactacq.vision.clearance import walk_line
+from exactacq.vision.features import Feature, features, leaving
+from exactacq.vision.glances import Glance, Ranges, Role, Side, Strand
+from exactacq.vision.names import Namer, Names
+from exactacq.vision.pencil import Cell, Pencil, pencil
+from exactacq.vision.rails import Rail
+from exactacq.vision.sectors import Sector, Sliding, Spokes, corner_sectors, quarters
+from exactacq.vision.table import EdgeTable, Floats
+
+
+@dataclass(frozen=True, slots=True)
+class Beam:
+    """A cell of a pencil with what its lines meet; None where nothing is met within reach.
+
+    Normals have nothing ``behind`` and do not go back: they start at the contact, which lies on an edge. So
+    does the contact of a convex arc; a corner counts as the start of the edge that follows it. ``anchor``
+    names what tangents touch, ``names`` the first and the last line (see `names`).
+    """
+
+    sector: Sector
+    low: Real
+    high: Real
+    behind: Side | None
+    contact: Side
+    ahead: Side | None
+    goes_back: bool
+    anchor: Hashable = None
+    names: tuple[Names, Names] = ((), ())
+
+    def strands(self) -> Iterator[Strand]:
+        """The families of views between any two of the three."""
+        for one, other in (
+            (self.behind, self.ahead),
+            (self.behind, self.contact),
+            (self.contact, self.ahead),
+        ):
+            if one is not None and other is not None:
+                yield Strand(self.sector, self.low, self.high, (one, other), self.names)
+
+
+@dataclass(frozen=True, slots=True)
+class Ray:
+    """A single line: from ``place`` it shows edge ``shown`` from one point of a run to the other.
+
+    The place lies on edge ``edge``, or in free space within reach (None); what lies between sees the run too.
+    """
+
+    place: Point
+    edge: int | None
+    run: tuple[Point, Point]
+    shown: int
+
+
+class Bundle:
+    """The glances of one strand, cut to the range when they are first asked for."""
+
+    __slots__ = ("_source", "edges")
+
+    def __init__(self, edges: tuple[int, int], source: Strand | list[Glance]) -> None:
+        self.edges = edges
+        self._source = source
+
+    def glances(self, ranges: Ranges) -> list[Glance]:
+        """The families within range."""
+        if isinstance(self._source, Strand):
+            self._source = ranges.glances(self._source)
+        return self._source
+
+
+@dataclass(frozen=True, slots=True)
+class Family:
+    """The beams and single rays of one feature, edge or corner."""
+
+    beams: tuple[Beam, ...]
+    rays: tuple[Ray, ...] = ()
+
+
+class Sightlines:
+    """The families of views of one scene within one radius."""
+
+    def __init__(self, table: EdgeTable, radius: fmpq) -> None:
+        self.table, self.radius = table, radius
+        self.reach = float(radius) * (1 + 1e-12)
+        self.ranges = Ranges([Rail(curve) for curve in table.curves], radius, table.roundoff)
+        self._on: dict[int, list[tuple[Bundle, int]]] = {}
+        self._namer = Namer(table)
+        self._of_edge: dict[int, Family] = {}
+        self._of_feature: dict[int, Family] = {}
+
+    @cached_property
+    def features(self) -> list[Feature]:
+        """Convex corners and arcs."""
+        return features(self.table)
+
+    @cached_property
+    def _spots(self) -> Floats:
+        """Boxes of the features: where their contacts lie."""
+        boxes = [
+            self.table.boxes[f.edges[0]] if f.round else (*self.table.start[f.edges[1]],) * 2
+            for f in self.features
+        ]
+        return np.array(boxes, dtype=float).reshape(-1, 4)
+
+    def on(self, edge: int) -> list[tuple[Bundle, int]]:
+        """All bundles with one side on an edge, with the number of that side."""
+        for _ in self.near(self.table.boxes[edge]):
+            pass
+        return self._on.get(edge, [])
+
+    def near(self, box: Floats) -> Iterator[Family]:
+        """All families of the features and edges that come within range of a box."""
+        low, high = (float(box[0]), float(box[1])), (float(box[2]), float(box[3]))
+        for e in map(int, self.table.near(low, high, self.reach)):
+            if e not in self._of_edge:
+                self._of_edge[e] = self._kept(Family(tuple(self._normals(e))))
+            yield self._of_edge[e]
+        gap = np.maximum(np.maximum(self._spots[:, :2] - box[2:], box[:2] - self._spots[:, 2:]), 0.0)
+        for k in map(int, np.flatnonzero(np.hypot(*gap.T) <= self.reach + 8 * self.table.roundoff)):
+            if k not in self._of_feature:
+                self._of_feature[k] = self._kept(self._tangents(self.features[k]))
+            yield self._of_feature[k]
+
+    def _kept(self, family: Family) -> Family:
+        for beam in family.beams:
+            for strand in beam.strands():
+                self._keep(Bundle((strand.sides[0].edge, strand.sides[1].edge), strand))
+        for ray in family.rays:
+            if ray.edge is not None:
+                glances = self.ranges.along(ray.place, self.ranges.rails[ray.edge], ray.run, ray.shown)
+                self._keep(
+                    Bundle((ray.edge, ray.shown), [Glance((ray.edge, ray.shown), *g) for g in glances])
+                )
+        return family
+
+    def _keep(self, bundle: Bundle) -> None:
+        for side, edge in enumerate(bundle.edges):
+            self._on.setdefault(edge, []).append((bundle, side))
+
+    # -- the families ------------------------------------------------------------------------------
+
+    def _tangents(self, feature: Feature) -> Family:
+        contact = Side(feature.edges[-1], Role.CONTACT, fixed=not feature.round)
+        sweeps = [pencil(self.table, s, feature.edges, self.reach) for s in feature.sectors]
+        beams = [self._beam(feature, s.sector, cell, contact) for s in sweeps for cell in s.cells]
+        rays = [ray for s in sweeps for t in s.pinches for ray in self._pinched(s.sector, t, feature.edges)]
+        if not feature.round:
+            rays += self._end_on(feature, sweeps[0], sweeps[-1])
+            beams += self._corner_normals(feature)
+        return Family(tuple(beams), tuple(rays))
+
+    def _beam(self, feature: Feature, sector: Sector, cell: Cell, contact: Side) -> Beam:
+        behind = None if cell.behind is None else Side(cell.behind, Role.BEHIND)
+        ahead = None if cell.ahead is None else Side(cell.ahead, Role.AHEAD)
+        first, last = (
+            self._namer.names(feature, sector, t, passed)
+            for t, passed in zip((cell.low, cell.high), cell.bounds, strict=True)
+        )
+        anchor = self._namer.anchor(feature)
+        return Beam(sector, cell.low, cell.high, behind, contact, ahead, True, anchor, (first, last))
+
+    def _normals(self, e: int) -> Iterator[Beam]:
+        """The views along the normals of an edge."""
+        for sector in normals(self.table.curves[e]):
+            sweep = pencil(self.table, sector, (e,), self.reach)
+            yield from (_outward(sector, cell, Side(e, Role.CONTACT)) for cell in sweep.cells)
+
+    def _corner_normals(self, feature: Feature) -> Iterator[Beam]:
+        """The views from a convex corner along the normals of the boundary there."""
+        incoming, outgoing = feature.edges
+        ax, ay = leaving(self.table.curves[incoming], at_end=True)
+        bx, by = leaving(self.table.curves[outgoing], at_end=False)
+        corner = Side(outgoing, Role.CONTACT, fixed=True)
+        for sector in corner_sectors(feature.center, (ay, -ax), (by, -bx)):
+            sweep = pencil(self.table, sector, feature.edges, self.reach)
+            anchor = self._namer.anchor(feature)
+            yield from (_outward(sector, cell, corner, anchor) for cell in sweep.cells)
+
+    # -- single lines ------------------------------------------------------------------------------
+
+    def _end_on(self, feature: Feature, first: Pencil, last: Pencil) -> Iterator[Ray]:
+        """The two edges of a corner as seen along their own lines, from where these lines first end."""
+        incoming, outgoing = feature.edges
+        for e, sweep, cell, ahead in (
+            (incoming, first, first.cells[0], True),
+            (outgoing, last, last.cells[-1], False),
+        ):
+            edge, met = self.table.curves[e], cell.ahead if ahead else cell.behind
+            if not isinstance(edge, Segment):
+                continue
+            contact, direction = sweep.sector.touch(cell.low if ahead else cell.high)
+            if not ahead:
+                direction = -direction
+            if met is None:
+                place = contact + direction * (self.radius / direction.norm_sq().sqrt())
+            else:
+                place = contact + direction * meet(contact, direction, self.table.curves[met], 1)
+            yield Ray(place, met, (edge.end, edge.start) if ahead else (edge.start, edge.end), e)
+
+    def _pinched(self, sector: Sector, t: Real, own: tuple[int, ...]) -> Iterator[Ray]:
+        """What the touched points and edges of a line that grazes several features show of each other."""
+        behind, ahead = walk_line(self.table, sector, t, self.reach)
+        contact, direction = sector.touch(t)
+        met = [*reversed(behind), (Real(0), own[-1]), *ahead]
+        runs: list[tuple[int, Point, Point]] = []
+        for e in dict.fromkeys(e for _, e in met):
+            points = [contact + direction * tau for tau, f in met if f == e]
+            if isinstance(self.table.curves[e], Segment):
+                runs.append((e, points[0], points[-1]))
+            else:
+                runs += [(e, point, point) for point in points]
+        for e, start, end in runs:
+            for f, low, high in runs:
+                if e == f:
+                    continue
+                for place in (start, end) if start != end else (start,):
+                    near, far = (low, high) if _nearer(place, low, high) else (high, low)
+                    if place != near:
+                        yield Ray(place, e, (near, far), f)
+
+
+def normals(curve: Curve) -> Iterator[Sector]:
+    """The normals of a boundary edge on its free side."""
+    start, end = raw(curve.start), raw(curve.end)
+    if isinstance(curve, Segment):
+        yield Sliding(start, minus(end, start), fmpq(0), fmpq(1), leftward=False)
+        return
+    center = raw(curve.center)
+    first, last = minus(start, center), None if curve.full else minus(end, center)
+    if not curve.ccw and last is not None:
+        first, last = last, first
+    for base, low, high in quarters(first, last):
+        yield Spokes(center, base, low, high, radius_sq=curve.radius_sq, outward=curve.ccw)
+
+
+def _outward(sector: Sector, cell: Cell, start: Side, anchor: Hashable = None) -> Beam:
+    ahead = None if cell.ahead is None else Side(cell.ahead, Role.AHEAD)
+    return Beam(sector, cell.low, cell.high, None, start, ahead, False, anchor)
+
+
+def _nearer(place: Point, a: Point, b: Point) -> bool:
+    return distance_sq(place, a).compare(distance_sq(place, b)) <= 0

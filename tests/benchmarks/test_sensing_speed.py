@@ -1,0 +1,160 @@
+"""Timings of sensing beside its peers, reported and not asserted.
+
+``pytest tests/benchmarks/test_sensing_speed.py --benchmark-enable -s`` shows ratios, group by group; without
+that option each small workload runs once, to see that it still runs. The peers:
+
+- pyvispoly (CGAL): the view of unlimited range within the scene's square, from coordinates as exact as ours;
+- the stepping simulator of `stepping`: approximate, and without loss and regain of sight. Its "polygon" makes
+  the view of limited range at every step, "lazy" only what the map still needs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from math import isqrt
+from random import Random
+
+import pytest
+from flint import fmpq
+from stepping import Stepper
+
+import exactacq as xa
+from exactacq.generators import random_octagons
+from exactacq.points import Location
+
+SEED = 1
+POINTS = 40
+SENSED = ("sight", "acquire", "lose", "regain")
+GLIMPSE = 100
+"""Steps of the stepping simulator where timings are off."""
+FEW = 10
+"""Obstacles of a whole run where timings are off."""
+
+
+def skip_unless_timed(benchmark: object, n: int) -> None:
+    """Large workloads are for timing only."""
+    if n > 100 and benchmark.disabled:
+        pytest.skip(f"n = {n} takes too long for the everyday suite: run with --benchmark-enable")
+
+
+@cache
+def octagons(n: int) -> xa.Scene:
+    """One scene for all tests, as tables that belong to a scene are kept with it."""
+    return random_octagons(n, SEED)
+
+
+@cache
+def places(n: int) -> list[tuple[fmpq, fmpq]]:
+    """Free rational points of the middle of the scene, out of sight of its rim for both radii.
+
+    The octagons are as dense in every scene, so what is in range does not depend on n.
+    """
+    rng, scene = Random(SEED), octagons(n)
+    side = max(max(x, y) for shape in scene.shapes for x, y, _ in shape.vertices)
+    middle, reach = isqrt(int(side * side / 4)), 11
+    found: list[tuple[fmpq, fmpq]] = []
+    while len(found) < POINTS:
+        point = tuple(middle + fmpq(rng.randint(-97 * reach, 97 * reach), 97) for _ in range(2))
+        place = xa.Point.of(point)
+        if all(obstacle.locate(place) is Location.OUTSIDE for obstacle in scene.obstacles):
+            found.append(point)
+    return found
+
+
+# -- views: one group, so that n = 100, n = 1000 and the peer stand side by side -------------------------
+
+
+def outline(scene: xa.Scene, point: object, radius: int) -> list[tuple[xa.Point, xa.Point]]:
+    """The closed outline with all its ends, as a view makes only what it is asked for."""
+    return [(piece.curve.start, piece.curve.end) for piece in xa.isovist(scene, point, radius).pieces]
+
+
+def area(scene: xa.Scene, point: object, radius: int) -> xa.Length:
+    """The view's exact area (a view made for it alone, outline included)."""
+    return xa.isovist(scene, point, radius).area
+
+
+@pytest.mark.benchmark(group="one view")
+@pytest.mark.parametrize("radius", [5, 10])
+@pytest.mark.parametrize("n", [100, 1000])
+@pytest.mark.parametrize("ask", [outline, area])
+def test_isovist(benchmark: object, ask: Callable[..., object], n: int, radius: int) -> None:
+    """The median is one view; what a scene needs once is made before."""
+    skip_unless_timed(benchmark, n)
+    scene, points = octagons(n), iter(places(n))
+    ask(scene, places(n)[0], radius)
+    assert benchmark.pedantic(ask, setup=lambda: ((scene, next(points), radius), {}), rounds=POINTS)
+
+
+@pytest.mark.benchmark(group="one view")
+@pytest.mark.parametrize("n", [100, 1000])
+@pytest.mark.parametrize("ask", ["outline", "area"])
+def test_pyvispoly(benchmark: object, ask: str, n: int) -> None:
+    """The whole visibility polygon; the scene's arrangement is made before."""
+    skip_unless_timed(benchmark, n)
+    peers = pytest.importorskip("peers", reason="needs pyvispoly, an optional test dependency")
+    views = peers.views(octagons(n), peers.square_around(octagons(n)))
+    points = iter([peers.place(point) for point in places(n)])
+
+    def look(point: object) -> object:
+        seen = views.compute_visibility_polygon(point)
+        return seen.boundary() if ask == "outline" else seen.area()
+
+    assert benchmark.pedantic(look, setup=lambda: ((next(points),), {}), rounds=POINTS)
+
+
+# -- whole runs -------------------------------------------------------------------------------------
+
+
+def explored(scene: xa.Scene) -> xa.Run:
+    """A Sightseer's run with its map."""
+    run = xa.sightseer(scene)
+    assert not run.map.incomplete
+    return run
+
+
+@pytest.mark.benchmark(group="a run with its map, n = 100")
+def test_sensing_sightseer(benchmark: object) -> None:
+    n = FEW if benchmark.disabled else 100
+    run = benchmark.pedantic(explored, setup=lambda: ((random_octagons(n, SEED),), {}), rounds=3)
+    report(benchmark, run)
+
+
+@pytest.mark.benchmark(group="a run with its map, n = 1000")
+def test_large_sensing_sightseer(benchmark: object) -> None:
+    skip_unless_timed(benchmark, 1000)
+    run = benchmark.pedantic(explored, setup=lambda: ((random_octagons(1000, SEED),), {}), rounds=1)
+    report(benchmark, run)
+
+
+def report(benchmark: object, run: xa.Run) -> None:
+    """Cost per sensing event, printed (with -s) and kept with the benchmark's data."""
+    events = sum(event.kind in SENSED for event in run.events)
+    assert events >= 2 * len(run.scene.obstacles), "each obstacle is seen and acquired"
+    benchmark.extra_info["sensing events"] = events
+    if not benchmark.disabled:
+        cost = benchmark.stats.stats.median / events
+        benchmark.extra_info["seconds per sensing event"] = cost
+        print(f"\n{events} sensing events, {1e3 * cost:.2f} ms of the whole run for each")
+
+
+@pytest.mark.benchmark(group="a run with its map, n = 100")
+@pytest.mark.parametrize("look", ["lazy", "polygon", "cgal"])
+def test_stepping(benchmark: object, look: str) -> None:
+    """The peer walks the whole path of the finished run in steps of R / 100."""
+    if look == "cgal":
+        pytest.importorskip("peers", reason="needs pyvispoly, an optional test dependency")
+    run = finished(FEW if benchmark.disabled else 100)
+    curves = [piece.curve for piece in run.path]
+    steps = GLIMPSE if benchmark.disabled else None
+    found = benchmark.pedantic(lambda: Stepper(run.scene, run.radius, look).walk(curves, steps), rounds=1)
+    assert found.events
+    if steps is None:
+        assert found.done.all(), "the peer knows all in the end"
+
+
+@cache
+def finished(n: int) -> xa.Run:
+    """The run whose path the steppers walk."""
+    return xa.sightseer(octagons(n))
