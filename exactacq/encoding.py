@@ -39,7 +39,10 @@ KINDS = {Sqrt: "sqrt", Product: "product", Inverse: "inverse"}
 
 
 class Encoder:
-    """Collects the table of a document while its numbers are written."""
+    """Collects the table of a document while its numbers are written.
+
+    `FormatError` for a number without an expression, such as a zero of a function (`exactacq.zeros`).
+    """
 
     def __init__(self) -> None:
         self.table: list[list[list[Any]]] = []
@@ -61,7 +64,9 @@ class Encoder:
         if isinstance(atom, Root):
             coefficients, index, power = atom.args
             return ["root", [_digits(c) for c in coefficients], index, power]
-        kind = next(name for cls, name in KINDS.items() if isinstance(atom, cls))
+        kind = next((name for cls, name in KINDS.items() if isinstance(atom, cls)), None)
+        if kind is None:
+            raise FormatError(f"no exact form in JSON for the {type(atom).__name__.lower()} {atom.sympy()}")
         return [kind, *(self.number(argument) for argument in atom.args)]
 
 

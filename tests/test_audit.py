@@ -262,7 +262,8 @@ class TestLookout:
         world = World(run.scene)
         for _ in range(12):
             curve = rng.choice(run.path).curve
-            q = point_at(rng.choice(world.edges), fmpq(rng.randrange(13), 12))
+            edge = rng.choice(world.edges)
+            q = rng.choice([edge.start, point_at(edge, fmpq(rng.randrange(1, 12), 12))])
             places = rational_points(curve, world)
             if q is None or not places:
                 continue

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from functools import cmp_to_key
 from itertools import pairwise
+from math import atan, atan2, hypot, pi, sin
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -46,10 +47,12 @@ class Crossing:
         self.way = len(self.ranges.rails) - 1
         self.piece = Segment(leg.span.start, leg.span.end)
         self.line = rail.curve
+        self.places = [_rough(p) for p in (leg.span.start, leg.span.end)]
+        self.slack = 256 * sightlines.table.roundoff
 
     def glances(self) -> Iterator[Glance]:
         """All glances at wanted edges whose first side lies on the way."""
-        (ax, ay), (bx, by) = self.piece.start.xy, self.piece.end.xy
+        (ax, ay), (bx, by) = self.places
         box = np.array((min(ax, bx), min(ay, by), max(ax, bx), max(ay, by)))
         for family in self.sightlines.near(box):
             for beam in family.beams:
@@ -61,21 +64,37 @@ class Crossing:
         yield from self._own_line()
 
     def _across(self, beam: Beam) -> Iterator[Glance]:
-        sides = (beam.behind, beam.contact, beam.ahead)
-        if not any(side is not None and self.wanted(side.edge) for side in sides):
+        met = (beam.behind, beam.contact, beam.ahead)
+        if not any(side is not None and self.wanted(side.edge) for side in met):
             return
         if not beam.sector.round and beam.anchor in self.touches:
             # Every line through a corner that the way touches crosses it there and shows nothing else.
             return
-        for (low, first, called), (high, last, named) in pairwise(self._cuts(beam)):
+        sides = tuple(self._side(beam, *place) for place in self.places)
+        if sides[0] == sides[1] != 0:
+            return
+        cuts: list[Cut] = [(beam.low, None, beam.names[0]), (beam.high, None, beam.names[1])]
+        if 0 in sides:
+            cuts = self._cuts(beam)
+        for (low, first, called), (high, last, named) in pairwise(cuts):
             role = self._role(beam, Real(rational_between(low, high)))
             if role is None:
                 continue
             here = Side(self.way, role)
-            for other in (beam.contact, beam.ahead if role is Role.BEHIND else beam.behind):
-                if other is not None and self.wanted(other.edge):
-                    strand = Strand(beam.sector, low, high, (here, other), (called, named), (first, last))
-                    yield from self.ranges.glances(strand)
+            for other in self._shown(beam, role):
+                strand = Strand(beam.sector, low, high, (here, other), (called, named), (first, last))
+                yield from self.ranges.glances(strand)
+
+    def _shown(self, beam: Beam, role: Role) -> list[Side]:
+        """The wanted sides that a beam shows from behind or ahead of its contact."""
+        shown = (beam.contact, beam.ahead if role is Role.BEHIND else beam.behind)
+        return [side for side in shown if side is not None and self.wanted(side.edge)]
+
+    def _side(self, beam: Beam, x: float, y: float) -> int:
+        """1 or -1 if a place is certainly to the left or to the right of all lines of a beam, else 0."""
+        low, high = signed_distances(beam, x, y)
+        slack = self.slack + 1e-9 * (abs(low) + abs(high))
+        return 1 if low > slack else -1 if high < -slack else 0
 
     def _cuts(self, beam: Beam) -> list[Cut]:
         """A beam's ends, and the parameters between them of the lines through the way's ends, in order."""
@@ -141,6 +160,8 @@ class Crossing:
             return None
         side = met[0].sign()
         role = Role.AHEAD if side > 0 else Role.BEHIND
+        if not self._shown(beam, role):
+            return None
         wall = beam.ahead if side > 0 else beam.behind
         if wall is None:
             # Nothing was met within reach; normals do not go back from their edge.
@@ -205,6 +226,37 @@ class Crossing:
                 if cell.ahead is not None and self.wanted(cell.ahead):
                     strand = Strand(sector, cell.low, cell.high, (here, Side(cell.ahead, Role.AHEAD)))
                     yield from self.ranges.glances(strand)
+
+
+def signed_distances(beam: Beam, x: float, y: float) -> tuple[float, float]:
+    """Bounds, up to round-off, of the distances of a place from a beam's lines, positive to their left."""
+    sector = beam.sector
+    wx, wy = x - float(sector.origin[0]), y - float(sector.origin[1])
+    low, high = (float(t.ball(64).mid()) for t in (beam.low, beam.high))
+    ux, uy = float(sector.unit[0]), float(sector.unit[1])
+    if isinstance(sector, Sliding):
+        along, turn = wx * ux + wy * uy, 1 if sector.leftward else -1
+        # A normal at t e leaves what lies farther along to its right, if it goes left.
+        ends = [turn * (t * sector.size - along) for t in (low, high)]
+        return min(ends), max(ends)
+    angle, half = atan2(uy, ux), 2 if sector.round else 1
+    first, last = (angle + half * atan(t) + (pi / 2 if sector.round else 0.0) for t in (low, high))
+    away, size = atan2(wy, wx), hypot(wx, wy)
+    least, most = _sines(away - last, away - first)
+    lift = sector.size if sector.round else 0.0
+    return size * least + lift, size * most + lift
+
+
+def _sines(low: float, high: float) -> tuple[float, float]:
+    """Least and greatest sine of the angles between two, less than a full turn apart."""
+    ends = sin(low), sin(high)
+    peak = low + (pi / 2 - low) % (2 * pi) <= high
+    trough = low + (-pi / 2 - low) % (2 * pi) <= high
+    return -1.0 if trough else min(ends), 1.0 if peak else max(ends)
+
+
+def _rough(point: Point) -> tuple[float, float]:
+    return float(point.x.ball(64).mid()), float(point.y.ball(64).mid())
 
 
 def _edges_near(table: EdgeTable, point: Point) -> list[int]:

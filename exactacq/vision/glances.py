@@ -10,13 +10,13 @@ sight. A `Strand` is such a family as a cell of a pencil gives it; `Ranges.glanc
 from __future__ import annotations
 
 from collections import ChainMap
-from collections.abc import Hashable, Iterator, MutableMapping
+from collections.abc import Collection, Hashable, Iterator, MutableMapping
 from dataclasses import dataclass
 from enum import Enum
 from functools import cmp_to_key
 from itertools import pairwise
 from math import hypot
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from flint import fmpq
 
@@ -24,6 +24,7 @@ from exactacq.contacts import contacts, line_contacts
 from exactacq.curves import Arc, Curve, Segment
 from exactacq.points import Point, distance_sq
 from exactacq.reals import Real
+from exactacq.vectors import dot, raw
 from exactacq.vision.chords import meet, of_length
 from exactacq.vision.intervals import Interval
 from exactacq.vision.names import Names
@@ -105,11 +106,14 @@ class Ranges:
         self.rails, self.radius, self.roundoff = rails, radius, roundoff
         self.square, self.limit = radius * radius, float(radius)
         self._pins: MutableMapping[tuple[Hashable, int, int], Pin] = {}
+        self._touched: set[Hashable] = set()
 
-    def with_way(self, way: Rail) -> Ranges:
-        """The same with one more curve, a way through free space, under the next number."""
+    def with_way(self, way: Rail, touches: Collection[Any] = ()) -> Ranges:
+        """The same with one more curve, a way through free space that touches what is named (see `names`)."""
         ranges = Ranges([*self.rails, way], self.radius, self.roundoff)
         ranges._pins = ChainMap({}, self._pins)
+        arcs = [self.curve(name[1]) for name in touches if name[0] == "circle"]
+        ranges._touched = {(*raw(arc.center), arc.radius_sq) for arc in arcs if isinstance(arc, Arc)}
         return ranges
 
     def curve(self, e: int) -> Curve:
@@ -313,7 +317,9 @@ class Ranges:
             if _is_rational(behind) and _is_rational(ahead):
                 yield from of_length(sector, behind, ahead, self.square)
             else:
-                yield from of_length_on(sector, behind, ahead, self.square, strand.low, strand.high)
+                circle = (*sector.center, dot(sector.base, sector.base)) if sector.round else None
+                way = self.rails[-1].curve if circle in self._touched else None
+                yield from of_length_on(sector, behind, ahead, self.square, strand.low, strand.high, way)
             return
         far = next(curve for role, curve in curves.items() if role is not Role.CONTACT)
         if isinstance(sector, Sliding):
@@ -347,7 +353,7 @@ def _placed(end: End, k: int, place: Real) -> End:
 
 
 def _is_rational(curve: Curve) -> bool:
-    """Whether lines meet a curve in rational functions of the data and their roots: arcs, rational segments."""
+    """Whether a curve is fit for `of_length`: arcs, and segments with rational ends."""
     return isinstance(curve, Arc) or (curve.start.rational is not None and curve.end.rational is not None)
 
 

@@ -1,0 +1,253 @@
+"""Views of one length along irrational ways: eliminated polynomials and floats as oracles, ties, limits."""
+
+from __future__ import annotations
+
+import pickle
+import random
+import sys
+from math import hypot
+
+import mpmath
+import pytest
+from flint import arb, ctx, fmpq
+
+from exactacq.curves import Arc, Curve, Segment
+from exactacq.encoding import Encoder
+from exactacq.errors import FormatError, Undecided
+from exactacq.points import Point
+from exactacq.reals import Real, roots
+from exactacq.vision.chords import chord_at, of_length
+from exactacq.vision.sectors import Rolling, Sector, Turning
+from exactacq.vision.view_lengths import of_length_on
+from exactacq.zeros import Zero, zeros_between
+
+TURNING = Turning((fmpq(0), fmpq(0)), (fmpq(1), fmpq(0)), fmpq(-1), fmpq(1))
+ROLLING = Rolling((fmpq(0), fmpq(0)), (fmpq(0), fmpq(-1)), fmpq(0), fmpq(1))
+"""Lines that start eastward below the unit circle, and turn counterclockwise."""
+ROOT2 = Real(2).sqrt()
+CUBIC = roots([-3, 1, 0, 1])[0]
+"""1.2134..., of x^3 + x = 3"""
+
+
+def circle(x: object, y: object, radius_sq: object, ccw: bool = True) -> Arc:
+    end = Point(Real(x) + Real(radius_sq).sqrt(), y)
+    return Arc(end, end, Point(x, y), fmpq(radius_sq), ccw, full=True)
+
+
+def excess(sector: Sector, t: Real, behind: Curve, ahead: Curve, square: fmpq) -> Real:
+    chord = chord_at(sector, t, behind, ahead)
+    return (chord.end - chord.start).norm_sq() - square
+
+
+def solutions(sector: Sector, behind: Curve, ahead: Curve, square: fmpq, low: Real, high: Real) -> list[Real]:
+    """Oracle for rational curves: the roots of the eliminated polynomial that are no artefacts."""
+    candidates = (t for t in of_length(sector, behind, ahead, square) if low < t < high)
+    return [t for t in candidates if excess(sector, t, behind, ahead, square).ball(2000).contains(0)]
+
+
+def fraction(rng: random.Random, low: int, high: int) -> fmpq:
+    return fmpq(rng.randint(16 * low, 16 * high), 16)
+
+
+def rational_view(rng: random.Random) -> tuple[Sector, Curve, Curve]:
+    """A sector, a steep segment behind, and a segment, or a circle as a convex or concave wall, ahead."""
+    behind = Segment(Point(fraction(rng, -4, -3), -20), Point(fraction(rng, -3, -2), 20))
+    sector: Sector = rng.choice((TURNING, ROLLING))
+    ahead: Curve = Segment(Point(fraction(rng, 2, 3), -20), Point(fraction(rng, 3, 4), 20))
+    if rng.random() < 0.5:
+        ahead = circle(fraction(rng, 3, 4), fraction(rng, -1, 0), 25, ccw=False)
+    return sector, behind, ahead
+
+
+class TestOracles:
+    @pytest.mark.parametrize("seed", range(60))
+    def test_the_eliminated_polynomial_has_the_same_roots(self, seed: int) -> None:
+        rng = random.Random(seed)
+        sector, behind, ahead = rational_view(rng)
+        low, high = sorted((Real(fmpq(rng.randint(0, 99), 200)), Real(fmpq(rng.randint(0, 99), 200))))
+        inside = fmpq(rng.randint(1, 30), 31)
+        square = (excess(sector, low + (high - low) * inside, behind, ahead, fmpq(0))).enclosure(20)[0]
+        expected = solutions(sector, behind, ahead, square, low, high)
+        found = of_length_on(sector, behind, ahead, square, low, high)
+        assert len(found) == len(expected)
+        for one, other in zip(found, expected, strict=True):
+            assert (one - other).ball(400).contains(0)
+            assert (one - other).ball(400).rad() < 1e-90
+
+    def test_lines_about_a_corner_on_the_circle_of_an_arc(self) -> None:
+        way = Segment(Point(-2, -20), Point(-3, 20))
+        arc = circle(2, 0, 4, ccw=False)
+        expected = solutions(TURNING, way, arc, fmpq(41), Real(-1), Real(1))
+        found = of_length_on(TURNING, way, arc, fmpq(41), Real(-1), Real(1))
+        assert len(found) == len(expected) > 0
+        assert all((a - b).ball(400).contains(0) for a, b in zip(found, expected, strict=True))
+
+    @pytest.mark.parametrize("seed", range(20))
+    def test_irrational_ways_against_sampled_lengths(self, seed: int) -> None:
+        rng = random.Random(seed)
+        sector: Sector = rng.choice((TURNING, ROLLING))
+        way = Segment(
+            Point(-ROOT2 * fraction(rng, 2, 3), -20), Point(-CUBIC * fraction(rng, 2, 3) - ROOT2.sqrt(), 20)
+        )
+        ahead: Curve = Segment(Point(fraction(rng, 2, 3), -20), Point(fraction(rng, 3, 4), 20))
+        if rng.random() < 0.5:
+            ahead = circle(fraction(rng, 3, 4), fraction(rng, -1, 0), 25, ccw=False)
+        low, high = Real(0), CUBIC / 3
+
+        def length(t: float) -> float:
+            chord = chord_at(sector, Real(t), Segment(Point(*way.start.xy), Point(*way.end.xy)), ahead)
+            (ax, ay), (bx, by) = chord.start.xy, chord.end.xy
+            return hypot(ax - bx, ay - by)
+
+        steps = [k / 40 * float(high) for k in range(41)]
+        lengths = [length(t) for t in steps]
+        radius = fmpq(*(0.63 * min(lengths) + 0.37 * max(lengths)).as_integer_ratio())
+        found = of_length_on(sector, way, ahead, radius * radius, low, high)
+        changes = [
+            t
+            for t, a, b in zip(steps, lengths, lengths[1:], strict=False)
+            if (a > float(radius)) != (b > float(radius))
+        ]
+        assert len(found) == len(changes)
+        for t, at in zip(found, changes, strict=True):
+            assert 0 <= float(t) - at <= float(high) / 40
+            assert abs(excess(sector, t, way, ahead, radius * radius).ball(400)) < 1e-80
+
+
+class TestRoots:
+    """Verticals at -sqrt 2 and 3 seen from between: (3 + sqrt 2)^2 (1 + t^2) is least at t = 0."""
+
+    way = Segment(Point(-ROOT2, -5), Point(-ROOT2, 5))
+    wall = Segment(Point(3, -5), Point(3, 5))
+
+    def at(self, square: object, low: object = -1, high: object = 1) -> list[Real]:
+        return of_length_on(TURNING, self.way, self.wall, fmpq(square), Real(low), Real(high))
+
+    def test_no_one_and_two_roots(self) -> None:
+        assert self.at(19) == []
+        first, last = self.at(20)
+        assert [float(t) for t in self.at(20, low=0)] == [float(last)]
+        assert float(first) == -float(last)
+
+    def test_decimals(self) -> None:
+        with mpmath.workdps(80):
+            expected = mpmath.sqrt(20 / (3 + mpmath.sqrt(2)) ** 2 - 1)
+            assert self.at(20)[1].decimal(50) == mpmath.nstr(expected, 50)
+            assert str(self.at(20)[1]).startswith(mpmath.nstr(expected, 25)[:-1])
+
+    def test_an_end_at_the_very_root_is_none_strictly_between(self) -> None:
+        root = (20 / (3 + ROOT2) ** 2 - 1).sqrt()
+        assert self.at(20, low=root) == []
+        assert self.at(20, low=-root, high=root) == []
+        assert len(self.at(20, low=root - fmpq(1, 10**60))) == 1
+        assert self.at(20, low=root + fmpq(1, 10**60)) == []
+        assert len(self.at(20, low=0, high=root + fmpq(1, 10**60))) == 1
+        assert self.at(20, low=0, high=root - fmpq(1, 10**60)) == []
+
+    def test_a_dyadic_root_is_found_as_a_rational(self) -> None:
+        wall = Segment(Point(ROOT2, -5), Point(ROOT2, 5))
+        found = of_length_on(TURNING, self.way, wall, fmpq(10), Real(-1), Real(1))
+        assert [t.rational for t in found] == [fmpq(-1, 2), fmpq(1, 2)]
+        assert of_length_on(TURNING, self.way, wall, fmpq(10), Real(fmpq(-1, 2)), Real(fmpq(1, 2))) == []
+
+    def test_a_double_root_is_undecided(self) -> None:
+        wall = Segment(Point(ROOT2, -5), Point(ROOT2, 5))
+        with pytest.raises(Undecided, match=r"through \(0, 0\).*range 2\.828"):
+            of_length_on(TURNING, self.way, wall, fmpq(8), Real(-1), Real(1))
+
+    def test_roots_near_a_double_root_are_told_apart(self) -> None:
+        wall = Segment(Point(ROOT2, -5), Point(ROOT2, 5))
+        gap = fmpq(1, 10**30)
+        found = of_length_on(TURNING, self.way, wall, 8 + gap, Real(-1), Real(1))
+        assert [float(t) for t in found] == pytest.approx([-(0.125e-30**0.5), 0.125e-30**0.5])
+        assert of_length_on(TURNING, self.way, wall, 8 - gap, Real(-1), Real(1)) == []
+
+    def test_a_way_that_touches_the_circle_on_which_lines_roll(self) -> None:
+        # The tangent of the unit circle at 45 degrees (t = tan 67.5 degrees, counted from below: a high end
+        # of a sector that starts there) meets the line through angle t; behind stands a wall.
+        half = ROOT2 / 2
+        way = Segment(Point(half, -half), Point(half + 4, -half + 4))
+        low = ROOT2 - 1  # tan 22.5 degrees: the way's own line touches at -45 degrees
+        wall = Segment(Point(-3, -20), Point(-3, 20))
+        assert ROLLING.touch(low)[0] == way.start
+        lines = low, Real(fmpq(9, 10))
+        mirrored = of_length_on(ROLLING, way, way, fmpq(1), *lines)
+        assert mirrored == []  # a view between two points of one line
+        near, far = (excess(ROLLING, Real(t), wall, way, fmpq(0)) for t in (fmpq(1, 2), fmpq(7, 10)))
+        for square in (near.enclosure(8)[0], far.enclosure(8)[0]):
+            (t,) = of_length_on(ROLLING, wall, way, square, *lines)
+            assert abs(excess(ROLLING, t, wall, way, square).ball(400)) < 1e-80
+            assert of_length_on(ROLLING, wall, way, square, *lines, way)[0].key == t.key
+
+    def test_lines_that_touch_an_arc_at_an_end(self) -> None:
+        # The line through the origin with slope 3 / 4 touches the circle about (5, 0) with radius 3.
+        arc = circle(5, 0, 9)
+        found = of_length_on(TURNING, self.way, arc, fmpq(20), Real(fmpq(-3, 4)), Real(fmpq(3, 4)))
+        assert [float(t) for t in found] == pytest.approx([-float(found[1]), float(found[1])])
+        assert abs(excess(TURNING, found[1], self.way, arc, fmpq(20)).ball(400)) < 1e-80
+
+
+class TestNumbers:
+    def root(self, low: object = 0, high: object = 1) -> Real:
+        (t,) = of_length_on(TURNING, TestRoots.way, TestRoots.wall, fmpq(20), Real(low), Real(high))
+        return t
+
+    def test_one_zero_is_one_number_however_it_is_found(self) -> None:
+        assert self.root().key == self.root(fmpq(1, 50), fmpq(99, 100)).key
+        assert (self.root() - self.root(low=-1 + fmpq(99, 100))).rational == 0
+        assert self.root() * 2 - self.root() == self.root(fmpq(1, 7))
+
+    def test_signs_beside_it(self) -> None:
+        t = self.root()
+        below, above = t.enclosure(1000)
+        assert below < t < above
+        assert (t * t - above * above).sign() == -1
+        assert ((t + ROOT2) / (below + ROOT2) - 1).sign() == 1
+        assert t.sqrt() < Real(above).sqrt()
+
+    def test_ties_with_other_expressions_are_decided_as_far_as_the_bounds_allow(self) -> None:
+        assert self.root() == (20 / (3 + ROOT2) ** 2 - 1).sqrt()
+        many = sum((Real(p).sqrt() for p in (3, 5, 7, 11, 13, 17, 19)), ROOT2)
+        way = Segment(Point(-many, -5), Point(-many, 5))
+        (t,) = of_length_on(TURNING, way, TestRoots.wall, fmpq(800), Real(0), Real(1))
+        with pytest.raises(Undecided):
+            t.compare((800 / (3 + many) ** 2 - 1).sqrt())
+
+    def test_balls_are_as_fine_as_asked_for(self) -> None:
+        t = self.root()
+        for bits in (64, 300, 5000):
+            assert t.ball(bits).rel_accuracy_bits() > bits - 60
+            assert t.ball(bits).overlaps((20 / (3 + ROOT2) ** 2 - 1).sqrt().ball(bits))
+
+    def test_pickles_and_names(self) -> None:
+        t = self.root()
+        assert pickle.loads(pickle.dumps(t)).key == t.key
+        assert "0.162529" in repr(t)
+
+    def test_bounds_hold_for_a_zero_that_is_known(self) -> None:
+        t, known = self.root(), (20 / (3 + ROOT2) ** 2 - 1).sqrt()
+        ((node, degree),) = t.generators()
+        assert isinstance(node, Zero)
+        assert degree >= 4
+        assert t.height_bound() >= known.height_bound()
+
+    def test_there_is_no_exact_text_for_it(self) -> None:
+        with pytest.raises(FormatError, match="no exact form in JSON for the zero"):
+            Encoder().number(self.root())
+
+
+class Sine:
+    """sin(t): any analytic function with bounds will do."""
+
+    key, degree, height = "sine", sys.maxsize, float(1 << 40)
+
+    def __call__(self, t: object) -> object:
+        return t.sin()  # type: ignore[attr-defined]
+
+
+def test_zeros_of_any_function() -> None:
+    first, second, third = zeros_between(Sine(), Real(fmpq(5, 2)), Real(11))
+    with ctx.workprec(1000):
+        assert first.ball(1000).overlaps(arb.pi())
+        assert (second / 2).ball(1000).overlaps(arb.pi())
+        assert (third / 3).ball(1000).overlaps(arb.pi())
