@@ -7,7 +7,7 @@ the foot. Cut where the line passes an end of the way, a beam crosses it everywh
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from functools import cmp_to_key
 from itertools import pairwise
 from math import atan, atan2, hypot, pi, sin
@@ -22,11 +22,12 @@ from exactacq.reals import Real
 from exactacq.vectors import minus, raw
 from exactacq.vision.chords import meet
 from exactacq.vision.glances import End, Glance, Pin, Role, Side, Strand
+from exactacq.vision.intervals import Interval
 from exactacq.vision.legs import Leg
 from exactacq.vision.names import Names
 from exactacq.vision.pencil import pencil, rational_between
 from exactacq.vision.sectors import Sliding
-from exactacq.vision.sightlines import Beam, Ray, Sightlines
+from exactacq.vision.sightlines import Beam, Ray, Sightlines, grazed
 from exactacq.vision.table import EdgeTable
 
 Cut: TypeAlias = "tuple[Real, Pin | None, Names]"
@@ -37,13 +38,22 @@ OVERLAP_BITS = 256
 
 
 class Crossing:
-    """The glances at some edges from one straight way: a span of a rail in closed free space."""
+    """The glances at some edges from one straight way: a span of a rail in closed free space.
 
-    def __init__(self, sightlines: Sightlines, leg: Leg, wanted: Callable[[int], bool]) -> None:
-        self.sightlines, self.span, self.wanted = sightlines, leg.span, wanted
+    *view* tells what is seen from an end of the way.
+    """
+
+    def __init__(
+        self,
+        sightlines: Sightlines,
+        leg: Leg,
+        wanted: Callable[[int], bool],
+        view: Callable[[Point], Mapping[int, list[Interval]]],
+    ) -> None:
+        self.sightlines, self.span, self.wanted, self.view = sightlines, leg.span, wanted, view
         self.touches: frozenset[Any] = frozenset(leg.touches)
         self.rail = rail = leg.rail
-        self.ranges = sightlines.ranges.with_way(rail)
+        self.ranges = sightlines.ranges.with_way(rail, leg.touches)
         self.way = len(self.ranges.rails) - 1
         self.piece = Segment(leg.span.start, leg.span.end)
         self.line = rail.curve
@@ -82,7 +92,12 @@ class Crossing:
                 continue
             here = Side(self.way, role)
             for other in self._shown(beam, role):
-                strand = Strand(beam.sector, low, high, (here, other), (called, named), (first, last))
+                names, pins = (called, named), (first, last)
+                arcs = (
+                    beam.grazed[0] if low is beam.low else (),
+                    beam.grazed[1] if high is beam.high else (),
+                )
+                strand = Strand(beam.sector, low, high, (here, other), names, pins, arcs)
                 yield from self.ranges.glances(strand)
 
     def _shown(self, beam: Beam, role: Role) -> list[Side]:
@@ -183,9 +198,11 @@ class Crossing:
                 yield Glance((self.way, ray.shown), first, last)
 
     def _own_line(self) -> Iterator[Glance]:
-        """The views along the way itself, of the boundary at its ends and of corners that it touches."""
+        """The views along the way itself: of its ends, of corners it touches, and of what lies beyond."""
         table, span = self.sightlines.table, self.span
         shown = [(e, p) for p in (span.start, span.end) for e in _edges_near(table, p)]
+        along = self.line.end - self.line.start
+        shown += [*self._beyond(span.end, along), *self._beyond(span.start, -along)]
         for name in self.touches:
             if name[0] == "corner":
                 shown.append((name[1], table.curves[name[1]].start))
@@ -196,6 +213,34 @@ class Crossing:
                 ends = [End(Real(0), (p, point), (u, place)) for p, u in near]
                 if ends:
                     yield Glance((self.way, e), ends[0], ends[-1])
+
+    def _beyond(self, end: Point, onward: Point) -> Iterator[tuple[int, Point]]:
+        """What the way's line meets beyond an end, as far as it is seen from there."""
+        table = self.sightlines.table
+        own = _edges_near(table, end)
+        (x, y), (dx, dy) = _rough(end), _rough(onward)
+        size = hypot(dx, dy)
+        for e, intervals in self.view(end).items():
+            curve = table.curves[e]
+            low, high = table.boxes[e, :2], table.boxes[e, 2:]
+            corners = [(cx - x, cy - y) for cx in (low[0], high[0]) for cy in (low[1], high[1])]
+            ahead = max(cx * dx + cy * dy for cx, cy in corners)
+            sides = [cx * dy - cy * dx for cx, cy in corners]
+            slack = self.slack * size
+            if not self.wanted(e) or ahead < -slack or min(sides) > slack or max(sides) < -slack:
+                continue
+            if e in own:
+                # The line meets an edge at its end only there, unless it runs along it.
+                if isinstance(curve, Segment) and len(line_contacts(end, onward, curve)) == 2:
+                    far = max((curve.start, curve.end), key=lambda p: (p - end).dot(onward))
+                    yield e, far
+                continue
+            for share in line_contacts(end, onward, curve):
+                if share.sign() > 0:
+                    point = end + onward * share
+                    u = self.ranges.rails[e].parameter(point)
+                    if any(i.low.compare(u) <= 0 and i.high.compare(u) >= 0 for i in intervals):
+                        yield e, point
 
     def _within(self, point: Point) -> list[Pin]:
         """The ends of the part of the way within range of a point of its line."""
@@ -224,7 +269,8 @@ class Crossing:
             sweep = pencil(self.sightlines.table, sector, (), self.sightlines.reach)
             for cell in sweep.cells:
                 if cell.ahead is not None and self.wanted(cell.ahead):
-                    strand = Strand(sector, cell.low, cell.high, (here, Side(cell.ahead, Role.AHEAD)))
+                    sides = here, Side(cell.ahead, Role.AHEAD)
+                    strand = Strand(sector, cell.low, cell.high, sides, grazed=grazed(cell))
                     yield from self.ranges.glances(strand)
 
 

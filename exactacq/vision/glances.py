@@ -37,6 +37,8 @@ SURE = 1e-9
 """Relative margin beyond which floats decide on the range; round-off is far below."""
 
 
+Arcs: TypeAlias = "tuple[int, ...]"
+"""Numbers of arcs."""
 Pin: TypeAlias = "tuple[Point, Real]"
 """A point of an edge with its parameter."""
 
@@ -75,7 +77,7 @@ class Strand:
     """The views between two sides along the lines of a sector from ``low`` to ``high``.
 
     ``names`` are what else the first and the last line are called (see `names`); ``pinned`` are their points
-    on the first side, where these are known.
+    on the first side, where these are known; ``grazed`` are the arcs that they touch.
     """
 
     sector: Sector
@@ -84,6 +86,7 @@ class Strand:
     sides: tuple[Side, Side]
     names: tuple[Names, Names] = ((), ())
     pinned: tuple[Pin | None, Pin | None] = (None, None)
+    grazed: tuple[Arcs, Arcs] = ((), ())
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,25 +191,34 @@ class Ranges:
     def end(self, strand: Strand, t: Real) -> End:
         """The view of a strand at a parameter."""
         names: Names = ()
-        pin = None
+        pin: Pin | None = None
+        grazed: Arcs = ()
         for k, bound in enumerate((strand.low, strand.high)):
             if t is bound:
-                names, pin = strand.names[k], strand.pinned[k]
+                names, pin, grazed = strand.names[k], strand.pinned[k], strand.grazed[k]
         contact, direction = strand.sector.touch(t)
         pins = [
-            pin if pin is not None and k == 0 else self._pin(side, contact, direction, names)
+            pin
+            if pin is not None and k == 0
+            else self._pin(side, contact, direction, names, side.edge in grazed)
             for k, side in enumerate(strand.sides)
         ]
         return End(t, (pins[0][0], pins[1][0]), (pins[0][1], pins[1][1]))
 
-    def _pin(self, side: Side, contact: Point, direction: Point, names: Names) -> Pin:
+    def _pin(self, side: Side, contact: Point, direction: Point, names: Names, touching: bool) -> Pin:
         """Where a line meets an edge: the same point as on the same line under another name."""
         role = side.role.value
         keys = [(name, side.edge, role * sense) for name, sense in names]
         for key in keys:
             if key in self._pins:
                 return self._pins[key]
-        point = self._point(side, contact, direction)
+        curve = self.curve(side.edge)
+        if touching and isinstance(curve, Arc) and side.role is not Role.CONTACT:
+            # Where a line touches a circle is the foot of the centre: no root, and none to prove 0.
+            foot: Real = (curve.center - contact).dot(direction) / direction.norm_sq()
+            point = contact + direction * foot
+        else:
+            point = self._point(side, contact, direction)
         pin = point, self.rails[side.edge].parameter(point)
         self._pins.update((key, pin) for key in keys)
         return pin

@@ -165,7 +165,7 @@ class Senses:
     def _glances(self, leg: Leg, obstacles: set[int]) -> Iterator[tuple[Glance, int]]:
         owner, ranges = self.table.owner, self.sightlines.ranges
         if leg.edge is None:
-            crossing = Crossing(self.sightlines, leg, lambda e: int(owner[e]) in obstacles)
+            crossing = Crossing(self.sightlines, leg, lambda e: int(owner[e]) in obstacles, self._view)
             yield from ((glance, 0) for glance in crossing.glances())
             return
         for bundle, side in self.sightlines.on(leg.edge):
@@ -316,8 +316,10 @@ class Senses:
                     found += self._reaching(leg, [s for s in shares if s.edge == e], u, point)
                     if e == leg.edge:
                         found.append((u, point))
-        inside = [m for m in found if leg.order(m[0], leg.first) >= 0 and leg.order(m[0], leg.last) <= 0]
-        inside.sort(key=cmp_to_key(lambda a, b: leg.order(a[0], b[0])))
+        inside: list[tuple[Real, Point]] = [
+            m for m in found if leg.order(m[0], leg.first) >= 0 and leg.order(m[0], leg.last) <= 0
+        ]
+        inside.sort(key=lambda moment: moment[0], reverse=not leg.ahead)
         return [m for k, m in enumerate(inside) if k == 0 or leg.order(m[0], inside[k - 1][0]) > 0]
 
     def _reaching(self, leg: Leg, shares: list[Share], u: Real, point: Point) -> Iterator[tuple[Real, Point]]:

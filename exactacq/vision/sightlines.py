@@ -24,7 +24,7 @@ from exactacq.vectors import minus, raw
 from exactacq.vision.chords import meet
 from exactacq.vision.clearance import walk_line
 from exactacq.vision.features import Feature, features, leaving
-from exactacq.vision.glances import Glance, Ranges, Role, Side, Strand
+from exactacq.vision.glances import Arcs, Glance, Ranges, Role, Side, Strand
 from exactacq.vision.names import Namer, Names
 from exactacq.vision.pencil import Cell, Pencil, pencil
 from exactacq.vision.rails import Rail
@@ -38,7 +38,7 @@ class Beam:
 
     Normals have nothing ``behind`` and do not go back: they start at the contact, which lies on an edge. So
     does the contact of a convex arc; a corner counts as the start of the edge that follows it. ``anchor``
-    names what tangents touch, ``names`` the first and the last line (see `names`).
+    names what tangents touch, ``names`` the first and the last line (see `names`), which touch ``grazed``.
     """
 
     sector: Sector
@@ -50,6 +50,7 @@ class Beam:
     goes_back: bool
     anchor: Hashable = None
     names: tuple[Names, Names] = ((), ())
+    grazed: tuple[Arcs, Arcs] = ((), ())
 
     def strands(self) -> Iterator[Strand]:
         """The families of views between any two of the three."""
@@ -59,7 +60,7 @@ class Beam:
             (self.contact, self.ahead),
         ):
             if one is not None and other is not None:
-                yield Strand(self.sector, self.low, self.high, (one, other), self.names)
+                yield Strand(self.sector, self.low, self.high, (one, other), self.names, grazed=self.grazed)
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,7 +181,9 @@ class Sightlines:
             for t, passed in zip((cell.low, cell.high), cell.bounds, strict=True)
         )
         anchor = self._namer.anchor(feature)
-        return Beam(sector, cell.low, cell.high, behind, contact, ahead, True, anchor, (first, last))
+        return Beam(
+            sector, cell.low, cell.high, behind, contact, ahead, True, anchor, (first, last), grazed(cell)
+        )
 
     def _normals(self, e: int) -> Iterator[Beam]:
         """The views along the normals of an edge."""
@@ -256,9 +259,15 @@ def normals(curve: Curve) -> Iterator[Sector]:
         yield Spokes(center, base, low, high, radius_sq=curve.radius_sq, outward=curve.ccw)
 
 
+def grazed(cell: Cell) -> tuple[Arcs, Arcs]:
+    """The arcs that the first and the last line of a cell touch."""
+    first, last = (tuple(number for number, side, _ in passed if side) for passed in cell.bounds)
+    return first, last
+
+
 def _outward(sector: Sector, cell: Cell, start: Side, anchor: Hashable = None) -> Beam:
     ahead = None if cell.ahead is None else Side(cell.ahead, Role.AHEAD)
-    return Beam(sector, cell.low, cell.high, None, start, ahead, False, anchor)
+    return Beam(sector, cell.low, cell.high, None, start, ahead, False, anchor, grazed=grazed(cell))
 
 
 def _nearer(place: Point, a: Point, b: Point) -> bool:

@@ -35,7 +35,7 @@ DEGREE = 80
 SPREAD = 240
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Side:
     """One side of a view: the carrier of its curve, by the numbers that define it."""
 
@@ -70,7 +70,7 @@ class _Tangent(_Side):
         return (p - t * q) / (q + t * p)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Round(_Side):
     """A circle, given by its centre and squared radius; ``far`` is the sign of the root."""
 
@@ -94,7 +94,7 @@ class _Through(_Side):
         return 2 * dot(minus(numbers, contact), direction) / dot(direction, direction)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ViewLength:
     """The function f of the module's docstring; ``numbers`` are the sector's centre and base, and R^2."""
 
@@ -176,7 +176,7 @@ def _touches(sector: Sector, curve: Curve, ends: tuple[Real, Real]) -> bool:
     if all(abs(sector.touch(t)[1].cross(along).ball(BITS)) > 0 for t in ends):
         return False
     offset = along.cross(curve.start - Point(*sector.center))
-    return offset * offset == along.norm_sq() * dot(sector.base, sector.base)
+    return (offset * offset).compare(along.norm_sq() * dot(sector.base, sector.base)) == 0
 
 
 def _side(sector: Sector, curve: Curve, side: int, touches: bool) -> _Side:
