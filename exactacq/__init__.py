@@ -2,6 +2,7 @@
 
 from typing import TYPE_CHECKING, Any
 
+from exactacq.audit import audit
 from exactacq.errors import AuditError, ExactacqError, FormatError, InvalidScene, Undecided
 from exactacq.lengths import Length
 from exactacq.links import visibility_graph
@@ -33,6 +34,7 @@ __all__ = [
     "Scene",
     "Terrain",
     "Undecided",
+    "audit",
     "figure",
     "isovist",
     "load",

@@ -16,10 +16,11 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 from exactacq import gallery as scenes
+from exactacq.audit import audit
 from exactacq.errors import ExactacqError, FormatError, InvalidScene
 from exactacq.loading import load
 from exactacq.numerals import rational
-from exactacq.output import FIGURES, TRACES, check_output, write_whole
+from exactacq.output import FIGURES, PAGES, TRACES, check_output, write_whole
 from exactacq.report import console, run_report, scene_list, scene_report
 from exactacq.scene import Scene
 from exactacq.sightseer import sightseer
@@ -93,7 +94,16 @@ def explore(
     radius: Radius = None,
     start: Start = None,
     figure: FigureFile = None,
+    at: Annotated[
+        str | None, typer.Option(metavar="L", help="Draw the figure after this length of the path.")
+    ] = None,
+    animate: Annotated[
+        str | None, typer.Option(metavar="F", help="Write a page that plays the run: .html.")
+    ] = None,
     trace: Annotated[str | None, typer.Option(metavar="F", help="Write the exact run as .json.")] = None,
+    check_run: Annotated[
+        bool, typer.Option("--audit", help="Check the finished run by independent means.")
+    ] = False,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the exact run as JSON, and no table.")
     ] = False,
@@ -108,7 +118,11 @@ def explore(
     range_ = None if radius is None else _number("--radius", radius)
     if range_ is not None and range_ <= 0:
         raise FormatError(f"--radius: must be positive, not {radius}")
-    outputs = [check_output(f, s) for f, s in ((figure, FIGURES), (trace, TRACES)) if f is not None]
+    if at is not None and figure is None:
+        raise FormatError("--at: names a moment of a figure; give the figure with --figure F")
+    length = None if at is None else _number("--at", at)
+    wanted = ((figure, FIGURES), (trace, TRACES), (animate, PAGES))
+    outputs = [check_output(f, s) for f, s in wanted if f is not None]
     if any(_same_file(path, scene) for path in outputs):
         raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
     world = _scene(scene, start, layers, outer, tolerance, union)
@@ -118,7 +132,16 @@ def explore(
     if figure is not None:
         from exactacq.figures import save  # matplotlib takes long to import
 
-        save(run, figure)
+        try:
+            save(run, figure, length)
+        except ValueError as error:
+            raise FormatError(f"--at: {error}") from None
+    if animate is not None:
+        from exactacq.animation import frames_of, page
+
+        write_whole(animate, page(run, frames_of(run)).encode())
+    if check_run:
+        audit(run)
     if as_json or trace is not None:
         text = json.dumps(run.to_json(), indent=1, ensure_ascii=False) + "\n"
         if trace is not None:
@@ -128,7 +151,9 @@ def explore(
             return
     out = console()
     out.print(run_report(run))
-    for name, path in (("figure", figure), ("trace", trace)):
+    if check_run:
+        out.print("audit passed")
+    for name, path in (("figure", figure), ("page", animate), ("trace", trace)):
         if path is not None:
             out.print(f"{name} written to {path}", soft_wrap=True)
 

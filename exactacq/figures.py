@@ -31,10 +31,12 @@ from matplotlib.patheffects import withStroke
 from matplotlib.transforms import Affine2D
 
 from exactacq.errors import FormatError
+from exactacq.lengths import Length
+from exactacq.moments import Moment
 from exactacq.output import FIGURES, check_output, readable, write_whole
 from exactacq.scene import Obstacle, Scene
-from exactacq.strokes import Region, Stroke, clearance
-from exactacq.trace import Run
+from exactacq.strokes import Region, Stroke, clearance, closed
+from exactacq.trace import Event, Run
 from exactacq.vision.table import Floats
 
 CLOSED_FORM = 40
@@ -64,14 +66,19 @@ STYLES: dict[str, dict[str, Any]] = {
 }  # fmt: skip
 
 
-def figure(subject: Run | Scene) -> Figure:
+def figure(subject: Run | Scene, at: Event | Length | object = None) -> Figure:
     """A figure of a run, or of a scene alone.
+
+    With *at*, an event of the run or a length of its path, the figure shows that moment: the path so far,
+    what the robot sees (shaded), known boundary (strong), unknown boundary (faint), and the frontier
+    between them. Without, the map at the end is shown where it is not complete. As `Run.map_at`, ValueError
+    for a length that has no algebraic place.
 
     Shows obstacles with the order of visits (in a scene alone: their names or numbers), the path coloured
     by its length so far, hit and leave points, tree links, start S, end T, and the radius of vision R once.
     Raises `FormatError` for a scene that is `FINEST` times its distance from the origin or less.
     """
-    return _Drawing(subject).figure()
+    return _Drawing(subject, at).figure()
 
 
 def svg(subject: Run | Scene) -> str:
@@ -79,16 +86,16 @@ def svg(subject: Run | Scene) -> str:
     return _rendered(subject, ".svg").decode()
 
 
-def save(subject: Run | Scene, path: str | os.PathLike[str]) -> None:
-    """Write the figure to a .svg, .pdf or .png file, whole or not at all.
+def save(subject: Run | Scene, path: str | os.PathLike[str], at: Event | Length | object = None) -> None:
+    """Write the figure to a .svg, .pdf or .png file, whole or not at all; *at* as in `figure`.
 
     Raises `FormatError` for another suffix or a place that cannot be written, before anything is drawn.
     """
     target = check_output(path, FIGURES)
-    write_whole(target, _rendered(subject, target.suffix.lower()))
+    write_whole(target, _rendered(subject, target.suffix.lower(), at))
 
 
-def _rendered(subject: Run | Scene, suffix: str) -> bytes:
+def _rendered(subject: Run | Scene, suffix: str, at: Event | Length | object = None) -> bytes:
     """The figure as a file's content, without dates, random names or the user's own settings of matplotlib:
     equal subjects give equal bytes."""
     maker: dict[str, str | None] = {"Creator": "exactacq"}
@@ -99,7 +106,7 @@ def _rendered(subject: Run | Scene, suffix: str) -> bytes:
     }
     out = io.BytesIO()
     with style.context(["default", {"svg.hashsalt": "exactacq", "hatch.linewidth": 0.5}]):
-        figure(subject).savefig(out, format=suffix[1:], metadata=metadata[suffix], dpi=DOTS)
+        figure(subject, at).savefig(out, format=suffix[1:], metadata=metadata[suffix], dpi=DOTS)
     return out.getvalue()
 
 
@@ -110,13 +117,16 @@ def _counted(count: int) -> str:
 class _Drawing:
     """One figure in the making; lengths in points and inches follow from the scene's size."""
 
-    def __init__(self, subject: Run | Scene) -> None:
+    def __init__(self, subject: Run | Scene, at: Event | Length | object = None) -> None:
         self.run = subject if isinstance(subject, Run) else None
         self.scene = scene = subject.scene if isinstance(subject, Run) else subject
         start = self.run.start if self.run is not None else scene.start
         radius = self.run.radius if self.run is not None else scene.radius
         self.regions = [Region.of(o) for o in scene.obstacles]
-        self.strokes = [Stroke.of(p.curve) for p in self.run.path] if self.run is not None else []
+        self.moment = None if self.run is None or at is None else Moment.of(self.run, at)
+        walked = self.moment.walked if self.moment is not None else self.run.path if self.run else ()
+        self.strokes = [Stroke.of(p.curve) for p in walked]
+        self.pieces = walked
         self.start = None if start is None else start.xy
         self.radius = None if radius is None else float(radius)
         self.low, self.high = self._view()
@@ -170,7 +180,9 @@ class _Drawing:
         axes.set_xlim(self.low[0], self.high[0])
         axes.set_ylim(self.low[1], self.high[1])
         self._ground()
+        self._view_then()
         self._obstacles()
+        self._knowledge()
         collection = self._path()
         self._marks()
         self._numbers()
@@ -224,6 +236,10 @@ class _Drawing:
             return [name or "Scene", f"{_counted(count)}{room}"]
         strategy = {"sightseer": "Sightseer Strategy"}.get(run.strategy, run.strategy)
         length = " ".join(readable(run.length, CLOSED_FORM, digits=8))
+        if self.moment is not None:
+            so_far = " ".join(readable(self.moment.at, CLOSED_FORM, digits=8))
+            seen = f"{len(self.moment.map.acquired)} of {_counted(len(self.scene.obstacles))} acquired"
+            return [f"{strategy}: {name}" if name else strategy, f"after {so_far} of {length},  {seen}"]
         visited = f"{len(run.visits)} of {_counted(len(self.scene.obstacles))} visited"
         lines = [f"{strategy}: {name}" if name else strategy, f"length {length},  {visited}"]
         missed = ((run.unseen, "never seen"), (run.unvisited, "seen but never visited"))
@@ -261,6 +277,39 @@ class _Drawing:
         """A counterclockwise rectangle beyond the view: the clockwise enclosure is a hole in it."""
         (x0, y0), (x1, y1) = self.low - (self.high - self.low), self.high + (self.high - self.low)
         return Outline([(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)], closed=True)
+
+    # -- what is known -----------------------------------------------------------------------------
+
+    def _view_then(self) -> None:
+        """What the robot sees at the moment, shaded."""
+        if self.moment is not None:
+            outline = closed(Stroke.of(piece.curve) for piece in self.moment.view.pieces)
+            look: dict[str, Any] = {"facecolor": VIEW, "alpha": 0.16, "edgecolor": "none"}
+            self.axes.add_patch(PathPatch(outline, zorder=0.8, **look))
+            self.legend.setdefault("what the robot sees", Patch(**look))
+
+    def _knowledge(self) -> None:
+        """Known boundary strong and the frontier marked, where something is left unknown."""
+        if self.run is None:
+            return
+        known = self.run.map if self.moment is None else self.moment.map
+        if self.moment is None and len(known.acquired) == len(self.scene.obstacles):
+            return
+        curves = [p.curve for i in known.seen for p in known.known(i) if p.curve is not None]
+        paths = [Stroke.of(curve).part(0.0, 1.0) for curve in curves]
+        if paths:
+            self.axes.add_collection(
+                PathCollection(
+                    paths, facecolors="none", edgecolors=INK, linewidths=1.7, zorder=2.2, capstyle="round"
+                ),
+                autolim=False,
+            )
+            self.legend.setdefault("known boundary", Line2D([], [], color=INK, linewidth=1.7))
+        if known.frontier:
+            x, y = zip(*(point.xy for _, point in known.frontier), strict=True)
+            look: dict[str, Any] = {"marker": "D", "markersize": 4, "markerfacecolor": PAPER, "linewidth": 0}
+            self.axes.plot(x, y, color=HIT, zorder=4.2, **look)
+            self.legend.setdefault("frontier", Line2D([], [], color=HIT, **look))
 
     # -- the path ----------------------------------------------------------------------------------
 
@@ -306,7 +355,7 @@ class _Drawing:
         """How often each step's middle was passed before: by earlier pieces along the same curve."""
         assert self.run is not None
         groups: dict[int | None, list[int]] = defaultdict(list)
-        for number, piece in enumerate(self.run.path):
+        for number, piece in enumerate(self.pieces):
             groups[piece.obstacle].append(number)
         ranks = np.zeros(len(owners), dtype=int)
         tolerance = 1e-7 * max(self.width, self.height)
@@ -323,7 +372,7 @@ class _Drawing:
         assert self.run is not None
         size, done = self.line + 4.6, 0.0
         ways = Counter(frozenset((stroke.start, stroke.end)) for stroke in self.strokes)
-        for piece, stroke in zip(self.run.path, self.strokes, strict=True):
+        for piece, stroke in zip(self.pieces, self.strokes, strict=True):
             twice = ways[frozenset((stroke.start, stroke.end))] > 1
             if piece.kind == "straight" and self.points(stroke.length) > (5 if twice else 3) * size:
                 colour = collection.to_rgba(np.array(done + stroke.length / 2))
@@ -338,11 +387,15 @@ class _Drawing:
         """Tree links, and the points where they leave and hit."""
         if self.run is None or not self.run.links:
             return
-        links = [(link.leave.xy, link.hit.xy) for link in self.run.links]
+        walked = self.run.links
+        if self.moment is not None:
+            hits = sum(e.kind == "hit" and e.after <= self.moment.count for e in self.run.events)
+            walked = walked[:hits]
+        links = [(link.leave.xy, link.hit.xy) for link in walked]
         style: dict[str, Any] = {"alpha": 0.55, "linewidths": self.line + 4, "capstyle": "round"}
         self.axes.add_collection(LineCollection(links, colors=TREE, zorder=2, **style), autolim=False)
         self.legend["tree link"] = Line2D([], [], color=TREE, alpha=0.55, linewidth=6)
-        leaves = [spot for link, (spot, _) in zip(self.run.links, links, strict=True) if link.source != "S"]
+        leaves = [spot for link, (spot, _) in zip(walked, links, strict=True) if link.source != "S"]
         size = max(self.line + 1.2, 3.6)
         self._dots("leave point", leaves, ms=size + 3, mfc=PAPER, mec=INK, mew=0.9, zorder=4.6)
         self._dots("hit point", [hit for _, hit in links], ms=size, mfc=HIT, mec=PAPER, mew=0.5, zorder=5)
@@ -449,7 +502,10 @@ class _Drawing:
         """S and T."""
         if self.start is not None:
             self._end(self.start, "S", "s")
-        if self.run is not None and self.strokes:
+        if self.moment is not None:
+            spot: dict[str, Any] = {"marker": "o", "ms": max(self.line + 4, 6.5), "mfc": VIEW, "mec": PAPER, "zorder": 5.2}
+            self._dots("robot", [self.moment.place.xy], **spot)
+        elif self.run is not None and self.strokes:
             self._end(self.strokes[-1].end, "T", "D")
 
     def _end(self, place: tuple[float, float], text: str, marker: str) -> None:

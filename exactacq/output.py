@@ -14,7 +14,8 @@ FIGURES = (".svg", ".pdf", ".png")
 """File types of figures."""
 TRACES = (".json",)
 """File types of traces."""
-
+PAGES = (".html",)
+"""File types of animated pages."""
 
 BITS_PER_CHARACTER = 4
 """More than the 3.33 bits of a decimal digit."""

@@ -204,14 +204,14 @@ class Run:
         ValueError if the path has no such place, or if the place has no algebraic coordinates, as most
         places on an arc have not: take an event's. Cost: that of sensing one piece.
         """
-        count, place = self._moment(moment)
+        count, place = self.moment(moment)
         return self.memory.after(count) if place is None else self.memory.within(count, place)
 
     def view_at(self, moment: Event | Length | object) -> Isovist:
         """What the robot sees at an event, or after a length of the path; as `map_at`."""
         from exactacq.vision.isovist import isovist
 
-        count, place = self._moment(moment)
+        count, place = self.moment(moment)
         if place is None:
             place = (
                 self.path[count].start
@@ -222,8 +222,8 @@ class Run:
             )
         return isovist(self.scene, place, self.radius)
 
-    def _moment(self, moment: object) -> tuple[int, Point | None]:
-        """The number of whole pieces, and the place inside the next one, if it is inside."""
+    def moment(self, moment: Event | Length | object) -> tuple[int, Point | None]:
+        """The number of whole pieces before a moment, and the place in the next one if it lies inside it."""
         if isinstance(moment, Event):
             return moment.after, moment.point if moment.inside else None
         count, place, rest = self.path.find(Length(moment))

@@ -1,0 +1,35 @@
+"""A moment of a run: how far the robot has come, what it knows, and what it sees."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from exactacq.lengths import Length
+from exactacq.points import Point
+from exactacq.trace import Event, Piece, Run
+from exactacq.vision.isovist import Isovist
+from exactacq.vision.knowledge import Map
+
+
+@dataclass(frozen=True)
+class Moment:
+    """How many whole pieces were walked, all of the way (the last perhaps in part), the map and the view."""
+
+    count: int
+    walked: tuple[Piece, ...]
+    at: Length
+    place: Point
+    map: Map
+    view: Isovist
+
+    @classmethod
+    def of(cls, run: Run, at: Event | object) -> Moment:
+        """The moment of an event, or after a length of the path; errors as `Run.map_at`."""
+        count, place = run.moment(at)
+        walked = tuple(run.path[:count])
+        if place is not None:
+            piece = run.path[count]
+            walked += (replace(piece, curve=piece.curve.part(piece.start, place)),)
+        here = walked[-1].end if walked else run.start
+        length = Length.sum(piece.length for piece in walked)
+        return cls(count, walked, length, here, run.map_at(at), run.view_at(at))
