@@ -67,6 +67,10 @@ class World:
             self.points.append(point)
         return number
 
+    def edges_of(self, i: int) -> list[int]:
+        """Numbers of the edges of an obstacle."""
+        return list(range(self.first[i], self.first[i + 1]))
+
     def blocker(
         self, origin: Point, direction: Point, upto: object, edges: Iterable[int] | None = None
     ) -> tuple[int, Point] | None:

@@ -503,8 +503,8 @@ class _Drawing:
         if self.start is not None:
             self._end(self.start, "S", "s")
         if self.moment is not None:
-            spot: dict[str, Any] = {"marker": "o", "ms": max(self.line + 4, 6.5), "mfc": VIEW, "mec": PAPER, "zorder": 5.2}
-            self._dots("robot", [self.moment.place.xy], **spot)
+            size = max(self.line + 4, 6.5)
+            self._dots("robot", [self.moment.place.xy], ms=size, mfc=VIEW, mec=PAPER, zorder=5.2)
         elif self.run is not None and self.strokes:
             self._end(self.strokes[-1].end, "T", "D")
 

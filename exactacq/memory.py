@@ -88,11 +88,13 @@ class Memory:
         """The map when the robot is at a place inside piece number *count*."""
         covers = self._covers(count)
         for leg in self._legs[count]:
-            u = leg.rail.parameter(place) if leg.curve.passes(place) else None
-            if u is not None and leg.order(u, leg.first) > 0 and leg.order(u, leg.last) <= 0:
+            if place == leg.end or not leg.curve.passes(place):
+                covers.update(self._senses.known_after(leg, covers))
+            elif place != leg.start:
+                u = leg.rail.parameter(place)
                 covers.update(self._senses.known_after(leg.upto(u, place), covers))
+            if leg.curve.passes(place):
                 break
-            covers.update(self._senses.known_after(leg, covers))
         return self._map(covers)
 
     def _covers(self, count: int) -> dict[int, Cover]:

@@ -20,7 +20,7 @@ from flint import fmpq
 from exactacq.curves import Curve, Segment
 from exactacq.points import Point, distance_sq
 from exactacq.reals import Real
-from exactacq.vectors import minus, raw
+from exactacq.vectors import Vector, cross, dot, minus, raw
 from exactacq.vision.chords import meet
 from exactacq.vision.clearance import walk_line
 from exactacq.vision.features import Feature, features, leaving
@@ -29,7 +29,7 @@ from exactacq.vision.names import Namer, Names
 from exactacq.vision.pencil import Cell, Pencil, pencil
 from exactacq.vision.rails import Rail
 from exactacq.vision.sectors import Sector, Sliding, Spokes, corner_sectors, quarters
-from exactacq.vision.table import EdgeTable, Floats
+from exactacq.vision.table import EdgeTable, Floats, Ints
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,8 +168,8 @@ class Sightlines:
         sweeps = [pencil(self.table, s, feature.edges, self.reach) for s in feature.sectors]
         beams = [self._beam(feature, s.sector, cell, contact) for s in sweeps for cell in s.cells]
         rays = [ray for s in sweeps for t in s.pinches for ray in self._pinched(s.sector, t, feature.edges)]
+        rays += self._end_on(feature, sweeps[0], sweeps[-1])
         if not feature.round:
-            rays += self._end_on(feature, sweeps[0], sweeps[-1])
             beams += self._corner_normals(feature)
         return Family(tuple(beams), tuple(rays))
 
@@ -205,8 +205,8 @@ class Sightlines:
     # -- single lines ------------------------------------------------------------------------------
 
     def _end_on(self, feature: Feature, first: Pencil, last: Pencil) -> Iterator[Ray]:
-        """The two edges of a corner as seen along their own lines, from where these lines first end."""
-        incoming, outgoing = feature.edges
+        """The straight edges beside a feature as seen along their own lines, from where these first end."""
+        incoming, outgoing = self._beside(feature)
         for e, sweep, cell, ahead in (
             (incoming, first, first.cells[0], True),
             (outgoing, last, last.cells[-1], False),
@@ -222,6 +222,28 @@ class Sightlines:
             else:
                 place = contact + direction * meet(contact, direction, self.table.curves[met], 1)
             yield Ray(place, met, (edge.end, edge.start) if ahead else (edge.start, edge.end), e)
+
+    def _beside(self, feature: Feature) -> tuple[int, int]:
+        """The edges into and out of a feature; an arc's neighbours only where they go on in its direction.
+
+        Elsewhere they meet it at a corner of its own, and the arc stands for itself.
+        """
+        if not feature.round:
+            return feature.edges[0], feature.edges[1]
+        (e,) = feature.edges
+        curves = self.table.curves
+        before, after = int(self._previous[e]), int(self.table.next[e])
+        ends = leaving(curves[before], at_end=True), leaving(curves[e], at_end=False)
+        incoming = before if _continues(*ends) else e
+        ends = leaving(curves[e], at_end=True), leaving(curves[after], at_end=False)
+        return incoming, after if _continues(*ends) else e
+
+    @cached_property
+    def _previous(self) -> Ints:
+        """The edge before each edge."""
+        before = np.zeros(len(self.table.curves), dtype=np.intp)
+        before[self.table.next] = np.arange(len(before))
+        return before
 
     def _pinched(self, sector: Sector, t: Real, own: tuple[int, ...]) -> Iterator[Ray]:
         """What the touched points and edges of a line that grazes several features show of each other."""
@@ -268,6 +290,10 @@ def grazed(cell: Cell) -> tuple[Arcs, Arcs]:
 def _outward(sector: Sector, cell: Cell, start: Side, anchor: Hashable = None) -> Beam:
     ahead = None if cell.ahead is None else Side(cell.ahead, Role.AHEAD)
     return Beam(sector, cell.low, cell.high, None, start, ahead, False, anchor, grazed=grazed(cell))
+
+
+def _continues(a: Vector, b: Vector) -> bool:
+    return bool(cross(a, b) == 0 and dot(a, b) > 0)
 
 
 def _nearer(place: Point, a: Point, b: Point) -> bool:
