@@ -3,32 +3,33 @@
 A real made of rationals and nested square roots is a fraction N / D of polynomials in its radicals t_1,
 ..., t_k, linear in each, where t_i^2 is such a polynomial in earlier radicals. Split by the last one,
 N = A + B t, it is 0 only if A^2 - B^2 t^2 is, a polynomial in one radical less; and if that is 0, then N or
-A - B t is 0, and balls tell which. Radicals may depend on each other: nothing is assumed to be a field.
+A - B t is 0, and balls tell which. Radicals may depend on each other: nothing is assumed to be a field. The
+coefficients are integers or, where the real holds a root of higher degree, elements of that root's field.
 The norms of a true zero cancel after few steps, whatever the degree of the numbers in it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-from flint import arb, ctx, fmpz
+from flint import arb, ctx, fmpq_poly, fmpz
 
-from exactacq.atoms import Inverse, Node, Product, Sqrt
+from exactacq.atoms import Inverse, Node, Product, Root, Sqrt
 from exactacq.numerals import ball_sign
 
 if TYPE_CHECKING:
     from exactacq.reals import Real
 
-Polynomial: TypeAlias = "dict[int, fmpz]"
-"""Integer coefficients by monomial: bit i of the key tells whether t_i is a factor."""
+Coefficient: TypeAlias = "fmpz | fmpq_poly"
+Polynomial: TypeAlias = "dict[int, Any]"
+"""Coefficients by monomial: bit i of the key tells whether t_i is a factor."""
 Fraction: TypeAlias = "tuple[Polynomial, Polynomial]"
 
 MOST_RADICALS = 12
 MOST_TERMS = 1 << 18
 """Products of terms after which a test gives up: less than a second of work."""
 BITS = 256
-ONE: Polynomial = {0: fmpz(1)}
 
 
 class _TooLong(Exception):
@@ -36,7 +37,7 @@ class _TooLong(Exception):
 
 
 def vanishes(value: Real) -> bool | None:
-    """Whether a real is 0; None if it holds other roots, or the test would take too long."""
+    """Whether a real is 0; None if it holds several other roots, or the test would take too long."""
     try:
         tower = _Tower(value)
         return tower.is_zero(tower.fraction(value)[0])
@@ -49,9 +50,12 @@ class _Tower:
         self.squares: list[Polynomial] = []
         self.balls: list[tuple[Node | int, Polynomial | None]] = []
         self.known: dict[Node, Fraction] = {}
-        self.work = 0
+        self.work, self.field = 0, _field(value)
         for d in _coprime(_radicands(value)):
-            self._radical({0: fmpz(d)}, d, None)
+            self._radical({0: self._constant(fmpz(d))}, d, None)
+
+    def _constant(self, n: fmpz) -> Coefficient:
+        return n if self.field is None else fmpq_poly([n])
 
     def _radical(self, square: Polynomial, source: Node | int, factor: Polynomial | None) -> Polynomial:
         """A new radical: the root of an integer, or a node times a factor; given with its square."""
@@ -59,7 +63,7 @@ class _Tower:
             raise _TooLong
         self.squares.append(square)
         self.balls.append((source, factor))
-        return {1 << (len(self.squares) - 1): fmpz(1)}
+        return {1 << (len(self.squares) - 1): self._constant(fmpz(1))}
 
     # -- reals as fractions ------------------------------------------------------------------------
 
@@ -69,16 +73,17 @@ class _Tower:
         for c in value.terms.values():
             scale = scale.lcm(c.q)
         top: Polynomial = {}
-        bottom = ONE
+        bottom: Polynomial = {0: self._constant(fmpz(1))}
         for atom, c in value.terms.items():
             n, d = self._root_of(atom) if isinstance(atom, int) else self._node(atom)
-            n = {m: (c * scale).p * q for m, q in n.items()}
+            n = {m: q * (c * scale).p for m, q in n.items()}
             if d == bottom:
                 top = _sum(top, n)
             else:
                 top = _sum(self.times(top, d), self.times(n, bottom))
                 bottom = self.times(bottom, d)
-        return _primitive(top, {m: scale * q for m, q in bottom.items()})
+        bottom = {m: q * scale for m, q in bottom.items()}
+        return _primitive(top, bottom) if self.field is None else (top, bottom)
 
     def _root_of(self, d: int) -> Fraction:
         """The root of an integer as a rational multiple of a product of the tower's integer radicals."""
@@ -92,7 +97,7 @@ class _Tower:
                 side *= fmpz(source) ** (power // 2)
                 mask |= (power % 2) << i
         assert rest == 1, "the radicals of integers divide every radicand"
-        return {mask: fmpz(side)}, ONE
+        return {mask: self._constant(side)}, {0: self._constant(fmpz(1))}
 
     def _node(self, node: Node) -> Fraction:
         if node not in self.known:
@@ -107,21 +112,25 @@ class _Tower:
                 top, bottom = self.fraction(node.args[0])  # type: ignore[arg-type]
                 self.known[node] = bottom, top
             else:
-                raise _TooLong
+                assert isinstance(node, Root)
+                power = fmpq_poly([*[0] * node.args[2], 1])
+                self.known[node] = {0: power}, {0: self._constant(fmpz(1))}
         return self.known[node]
 
     # -- arithmetic --------------------------------------------------------------------------------
 
     def times(self, a: Polynomial, b: Polynomial) -> Polynomial:
         """The product, with squares of radicals replaced."""
-        self.work += len(a) * len(b)
+        self.work += len(a) * len(b) * (1 if self.field is None else self.field[0].degree() ** 2)
         if self.work > MOST_TERMS:
             raise _TooLong
-        plain: dict[tuple[int, int], fmpz] = {}
+        plain: dict[tuple[int, int], Any] = {}
         for m, p in a.items():
             for n, q in b.items():
                 key = m ^ n, m & n
-                plain[key] = plain.get(key, fmpz(0)) + p * q
+                plain[key] = plain[key] + p * q if key in plain else p * q
+        if self.field is not None:
+            plain = {key: c % self.field[0] for key, c in plain.items()}
         result: Polynomial = {}
         squared: dict[int, Polynomial] = {}
         for (mask, twice), c in plain.items():
@@ -165,11 +174,18 @@ class _Tower:
         with ctx.workprec(bits):
             total = arb(0)
             for mask, c in value.items():
-                term = arb(c)
+                term = arb(c) if self.field is None else self._evaluated(c, bits)
                 for i in range(mask.bit_length()):
                     if mask >> i & 1:
                         term *= self._radical_ball(i, bits)
                 total += term
+        return total
+
+    def _evaluated(self, c: fmpq_poly, bits: int) -> arb:
+        assert self.field is not None
+        root, total = self.field[1].ball(bits), arb(0)
+        for coefficient in reversed(c.coeffs()):
+            total = total * root + arb(coefficient)
         return total
 
     def _radical_ball(self, i: int, bits: int) -> arb:
@@ -183,7 +199,7 @@ class _Tower:
 def _sum(a: Polynomial, b: Polynomial) -> Polynomial:
     result = dict(a)
     for m, c in b.items():
-        total = result.get(m, fmpz(0)) + c
+        total = result[m] + c if m in result else c
         if total:
             result[m] = total
         else:
@@ -201,6 +217,18 @@ def _primitive(top: Polynomial, bottom: Polynomial) -> Fraction:
     return {m: c // common for m, c in top.items()}, {m: c // common for m, c in bottom.items()}
 
 
+def _field(value: Real) -> tuple[fmpq_poly, Node] | None:
+    """Polynomial and first power of the one root of higher degree that a real is made of, if there is any."""
+    found = {key for key, _ in value.generators() if not isinstance(key, int | Sqrt)}
+    if not found:
+        return None
+    key = found.pop()
+    if found or not isinstance(key, tuple):
+        raise _TooLong
+    coefficients, index = key
+    return fmpq_poly(list(coefficients)), Root.make(coefficients, index, 1)
+
+
 def _radicands(value: Real) -> set[int]:
     """The integers whose square roots a real is made of."""
     found: set[int] = set()
@@ -212,9 +240,8 @@ def _radicands(value: Real) -> set[int]:
                     found.add(atom)
             elif atom not in done:
                 done.add(atom)
-                if not isinstance(atom, Sqrt | Product | Inverse):
-                    raise _TooLong
-                waiting += atom.args  # type: ignore[arg-type]
+                if isinstance(atom, Sqrt | Product | Inverse):
+                    waiting += atom.args  # type: ignore[arg-type]
     return found
 
 
