@@ -66,6 +66,11 @@ class Leg:
         cut = (span.low, span.start, u, place) if self.ahead else (u, place, span.high, span.end)
         return replace(self, span=Interval(*cut))
 
+    def between(self, begin: tuple[Real, Point], end: tuple[Real, Point]) -> Leg:
+        """The part of the leg between two places, given as the robot passes them."""
+        low, high = (begin, end) if self.ahead else (end, begin)
+        return replace(self, span=Interval(*low, *high))
+
     def order(self, a: Real, b: Real) -> int:
         """-1, 0 or 1 as the robot passes one parameter before, at or after another."""
         return a.compare(b) if self.ahead else b.compare(a)

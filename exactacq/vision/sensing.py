@@ -274,25 +274,43 @@ class Senses:
         """When an obstacle that is wholly known after a leg became so.
 
         What is known grows with closed sets, so the moment is one of finitely many candidates; between two of
-        them a place with a rational parameter tells.
+        them a place with a rational parameter tells. The gaps at the start of the leg give a first guess;
+        their ends may have moved meanwhile, so the gaps just before it are looked at again.
         """
         learned = self._with_view({}, self.covers, self._view(leg.start), {k})
         before = ChainMap(learned, self.covers)
         if self._is_whole(before, k):
             return Notice(Kind.ACQUIRE, k, leg.first, leg.start)
-        moments = self._moments(leg, k, shares, before)
+        _, around = self._closing(leg, leg, k, shares, before)
+        late = self._until(leg.upto(around.first, around.start), k, shares, before)
+        moment, _ = self._closing(leg, around, k, shares, late)
+        return Notice(Kind.ACQUIRE, k, *moment)
+
+    def _closing(
+        self, leg: Leg, around: Leg, k: int, shares: list[Share], known: ChainMap[int, Cover]
+    ) -> tuple[tuple[Real, Point], Leg]:
+        """The first candidate on a part of a leg after which an obstacle is whole, and the way around it.
+
+        *known* is what is known at the start of the part.
+        """
+        moments = self._moments(around, k, shares, known)
+        before = ChainMap(self._with_view({}, self.covers, self._view(leg.start), {k}), self.covers)
         low, high = 0, len(moments) - 1
+        begin, end = (around.first, around.start), (around.last, around.end)
         while low < high:
             middle = (low + high) // 2
             one, other = moments[middle][0], moments[middle + 1][0]
             u = rational_between(*((one, other) if leg.ahead else (other, one)))
-            if self._is_whole(self._until(leg.upto(Real(u), leg.rail.point(u)), k, shares, before), k):
-                high = middle
+            place = leg.rail.point(u)
+            if self._is_whole(self._until(leg.upto(Real(u), place), k, shares, before), k):
+                high, end = middle, (Real(u), place)
             else:
-                low = middle + 1
-        return Notice(Kind.ACQUIRE, k, *moments[low])
+                low, begin = middle + 1, (Real(u), place)
+        return moments[low], leg.between(begin, end)
 
-    def _until(self, leg: Leg, k: int, shares: list[Share], before: ChainMap[int, Cover]) -> Covers:
+    def _until(
+        self, leg: Leg, k: int, shares: list[Share], before: ChainMap[int, Cover]
+    ) -> ChainMap[int, Cover]:
         cut, ranges = [], self._ranges(leg)
         for share in shares:
             glance = ranges.clipped(share.glance, share.side, leg.span)
@@ -311,9 +329,10 @@ class Senses:
             for end in (share.glance.first, share.glance.last):
                 found.append((end.places[share.side], end.points[share.side]))
         for e in self._edges(k):
+            on_edge = [share for share in shares if share.edge == e]
             for gap in before.get(e, EMPTY).gaps(self.rails[e]):
                 for u, point in ((gap.low, gap.start), (gap.high, gap.end)):
-                    found += self._reaching(leg, [s for s in shares if s.edge == e], u, point)
+                    found += self._reaching(leg, on_edge, u, point)
                     if e == leg.edge:
                         found.append((u, point))
         inside: list[tuple[Real, Point]] = [
