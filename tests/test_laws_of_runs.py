@@ -28,7 +28,7 @@ from test_laws import (
 )
 
 import exactacq as xa
-from exactacq.errors import InvalidScene
+from exactacq.errors import InvalidScene, Undecided
 from exactacq.lengths import Length
 from exactacq.trace import Run
 
@@ -204,6 +204,11 @@ class TestGlimpses:
         )
         self._check(Terrain(shapes, (Q(20, 7), Q(16, 3)), Q(6)))
 
+    @pytest.mark.xfail(
+        raises=Undecided,
+        strict=True,
+        reason="a way held by an arc ends on arcs: that its views and its end's view agree there takes 10^10 bits",
+    )
     def test_pieces_that_end_on_lines_that_bound_cells(self) -> None:
         shapes = (
             [(Q(1, 2), Q(-3, 2), Q(1, 3)), (Q(1, 2), Q(5, 2), Q(-1, 4))],

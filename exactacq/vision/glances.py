@@ -196,29 +196,29 @@ class Ranges:
         for k, bound in enumerate((strand.low, strand.high)):
             if t is bound:
                 names, pin, grazed = strand.names[k], strand.pinned[k], strand.grazed[k]
-        contact, direction = strand.sector.touch(t)
         pins = [
             pin
             if pin is not None and k == 0
-            else self._pin(side, contact, direction, names, side.edge in grazed)
+            else self._pin(strand.sector, t, side, names, side.edge in grazed)
             for k, side in enumerate(strand.sides)
         ]
         return End(t, (pins[0][0], pins[1][0]), (pins[0][1], pins[1][1]))
 
-    def _pin(self, side: Side, contact: Point, direction: Point, names: Names, touching: bool) -> Pin:
+    def _pin(self, sector: Sector, t: Real, side: Side, names: Names, touching: bool) -> Pin:
         """Where a line meets an edge: the same point as on the same line under another name."""
         role = side.role.value
         keys = [(name, side.edge, role * sense) for name, sense in names]
         for key in keys:
             if key in self._pins:
                 return self._pins[key]
+        contact, direction = sector.touch(t)
         curve = self.curve(side.edge)
         if touching and isinstance(curve, Arc) and side.role is not Role.CONTACT:
             # Where a line touches a circle is the foot of the centre: no root, and none to prove 0.
             foot: Real = (curve.center - contact).dot(direction) / direction.norm_sq()
             point = contact + direction * foot
         else:
-            point = self._point(side, contact, direction)
+            point = self._point(sector, side, contact, direction)
         pin = point, self.rails[side.edge].parameter(point)
         self._pins.update((key, pin) for key in keys)
         return pin
@@ -261,21 +261,27 @@ class Ranges:
                 continue
             contact, direction = strand.sector.touch(t)
             if role == 0 or (point - contact).dot(direction).sign() == role:
-                other = self._point(strand.sides[1 - side], contact, direction)
+                other = self._point(strand.sector, strand.sides[1 - side], contact, direction)
                 points = (point, other) if side == 0 else (other, point)
                 places = [self.rails[s.edge].parameter(p) for s, p in zip(strand.sides, points, strict=True)]
                 return End(t, points, (places[0], places[1]))
         raise AssertionError("a line of the glance passes each point between its extreme views")
 
-    def _point(self, side: Side, contact: Point, direction: Point) -> Point:
+    def _point(self, sector: Sector, side: Side, contact: Point, direction: Point) -> Point:
         curve = self.curve(side.edge)
         if side.role is Role.CONTACT:
             return curve.start if side.fixed else contact
-        return contact + direction * meet(contact, direction, curve, side.role.value)
+        try:
+            return contact + direction * meet(contact, direction, curve, side.role.value)
+        except ZeroDivisionError:
+            # A line along the edge. All others of the family meet it in one point, the centre of the arc to
+            # which they are normal: that is the limit.
+            assert isinstance(sector, Spokes)
+            return Point(*sector.center)
 
     def _is_inside(self, strand: Strand, t: fmpq) -> bool:
         contact, direction = strand.sector.touch(Real(t))
-        a, b = (self._point(side, contact, direction) for side in strand.sides)
+        a, b = (self._point(strand.sector, side, contact, direction) for side in strand.sides)
         return distance_sq(a, b).compare(self.square) <= 0
 
     def _certain(self, strand: Strand, low: End, high: End) -> bool | None:
