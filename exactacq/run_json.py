@@ -18,7 +18,7 @@ from exactacq.output import readable
 from exactacq.points import Point
 from exactacq.trace import Bound, Event, Path, Piece, Run, TreeLink
 
-FORMAT, VERSION = "exactacq run", 1
+FORMAT, VERSION = "exactacq run", 2
 DIGITS = 20
 """Decimals beside exact values are for readers: they are not read back."""
 CLOSED = 200

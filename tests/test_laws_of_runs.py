@@ -207,7 +207,7 @@ class TestGlimpses:
     @pytest.mark.xfail(
         raises=Undecided,
         strict=True,
-        reason="a way held by an arc ends on arcs: that its views and its end's view agree there takes 10^10 bits",
+        reason="a way held by an arc ends on arcs: that two views agree there would take 10^10 bits",
     )
     def test_pieces_that_end_on_lines_that_bound_cells(self) -> None:
         shapes = (
