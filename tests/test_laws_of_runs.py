@@ -5,6 +5,7 @@ Continues `test_laws` on what rooms, crescents, irrational pieces and large coor
 
 from __future__ import annotations
 
+import os
 from fractions import Fraction
 from itertools import pairwise
 from random import Random
@@ -204,6 +205,7 @@ class TestGlimpses:
         )
         self._check(Terrain(shapes, (Q(20, 7), Q(16, 3)), Q(6)))
 
+    @pytest.mark.skipif(os.environ.get("HYPOTHESIS_PROFILE") != "long", reason="takes two minutes")
     @pytest.mark.xfail(
         raises=Undecided,
         strict=True,
