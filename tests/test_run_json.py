@@ -27,6 +27,7 @@ from exactacq import (
 from exactacq.encoding import Decoder, Encoder
 from exactacq.generators import random_octagons
 from exactacq.reals import roots
+from exactacq.run_json import VERSION
 
 
 def curve_data(piece):
@@ -145,7 +146,7 @@ def damaged(change):
     "change",
     [
         lambda d: d.pop("format"),
-        lambda d: d.update(version=2),
+        lambda d: d.update(version=VERSION + 1),
         lambda d: d.pop("path"),
         lambda d: d.update(path=3),
         lambda d: d.update(numbers=[[["1", ["sqrt", "-1"]]]]),
