@@ -445,7 +445,7 @@ def test_readme_example_prints_what_it_says(
     exec(compile(code, "README.md", "exec"), {})
     printed = capsys.readouterr().out.splitlines()
     said = re.findall(r"^print\(.*# (.*)", code, re.M)
-    assert len(said) == 4
+    assert len(said) == 5
     for shown, promised in zip(printed, said, strict=False):
         assert promised.startswith(shown)
     assert (tmp_path / "circles.svg").exists()
