@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections import ChainMap
 from collections.abc import Collection, Hashable, Iterator, MutableMapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cmp_to_key
 from itertools import pairwise
@@ -65,11 +65,19 @@ class Side:
 
 @dataclass(frozen=True, slots=True)
 class End:
-    """One view of a family: line parameter, the two end points with their rail parameters."""
+    """One view of a family: line parameter, the two end points with their rail parameters.
+
+    ``tight`` if it is known to be as long as the range, because the views on one side of it are longer.
+    """
 
     t: Real
     points: tuple[Point, Point]
     places: tuple[Real, Real]
+    tight: bool = False
+
+    def is_short(self, square: fmpq) -> bool:
+        """Whether the view is shorter than the range, whose square is given."""
+        return not self.tight and distance_sq(*self.points).compare(square) < 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,10 +174,10 @@ class Ranges:
         for k, end in enumerate(ends):
             before, after = k > 0 and inside[k - 1], k < len(inside) and inside[k]
             if after and begin is None:
-                begin = end
+                begin = replace(end, tight=k > 0)
             elif before and not after:
                 assert begin is not None
-                yield Glance(edges, begin, end, strand)
+                yield Glance(edges, begin, replace(end, tight=k < len(inside)), strand)
                 begin = None
             elif not before and not after and distance_sq(*end.points).compare(self.square) <= 0:
                 yield Glance(edges, end, end, strand)
@@ -366,8 +374,7 @@ class Ranges:
 
 def _placed(end: End, k: int, place: Real) -> End:
     """The same view with another parameter on side k."""
-    places = (place, end.places[1]) if k == 0 else (end.places[0], place)
-    return End(end.t, end.points, places)
+    return replace(end, places=(place, end.places[1]) if k == 0 else (end.places[0], place))
 
 
 def _is_rational(curve: Curve) -> bool:

@@ -90,9 +90,7 @@ def legs_of(
     if obstacle is None:
         assert isinstance(curve, Segment), "free space is crossed on straight lines"
         return [_through_space(curve, touches)]
-    first = int(table.first[obstacle])
-    edges = range(first, first + len(table.obstacles[obstacle].edges))
-    e = next(e for e in edges if _carries(table.curves[e], curve))
+    e = next(e for e in table.edges_of(obstacle) if _carries(table.curves[e], curve))
     rail, start, end = rails[e], curve.start, curve.end
     low, high = rail.parameter(start), rail.parameter(end)
     if isinstance(curve, Arc) and isinstance(rail.curve, Arc):

@@ -36,6 +36,7 @@ class EdgeTable:
         self.curves: list[Curve] = [edge for o in obstacles for edge in o.edges]
         counts = [len(o.edges) for o in obstacles]
         self.owner: Ints = np.repeat(np.arange(len(obstacles)), counts)
+        self.owners: list[int] = self.owner.tolist()
         firsts = np.cumsum([0, *counts])
         self.first: Ints = firsts[:-1]
         self.next: Ints = np.arange(1, len(self.curves) + 1)
@@ -59,6 +60,11 @@ class EdgeTable:
     def index(self) -> BoxIndex:
         """Spatial index over the edges' boxes."""
         return BoxIndex(self.boxes)
+
+    def edges_of(self, obstacle: int) -> range:
+        """The edges of one obstacle."""
+        first = int(self.first[obstacle])
+        return range(first, first + len(self.obstacles[obstacle].edges))
 
     def near(self, low: tuple[float, float], high: tuple[float, float], reach: float) -> Ints:
         """The edges whose boxes come within *reach* of the box from *low* to *high*."""
