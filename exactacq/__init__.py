@@ -14,6 +14,7 @@ from exactacq.shapes import Circle, Outline, Polygon, Terrain
 from exactacq.sightseer import sightseer
 from exactacq.trace import Run
 from exactacq.vision.isovist import isovist
+from exactacq.vision.sweep import sweep
 
 if TYPE_CHECKING:
     from exactacq.figures import figure
@@ -40,6 +41,7 @@ __all__ = [
     "load",
     "load_run",
     "sightseer",
+    "sweep",
     "visibility_graph",
 ]
 

@@ -7,6 +7,7 @@ angle of any such number is ``k pi/2 +- t`` for an interned angle t (or t/2). An
 
 from __future__ import annotations
 
+import atexit
 from collections.abc import Callable, Hashable, Iterable, Mapping
 from typing import ClassVar, NamedTuple, TypeAlias
 from weakref import WeakValueDictionary
@@ -96,6 +97,10 @@ class Angle:
                     ball = arb.atan2(self.sine.ball(bits), self.cosine.ball(bits))
             self._ball, self._bits = ball, bits
         return self._ball
+
+
+# Keys cannot be hashed any more once the interpreter takes its modules apart.
+atexit.register(Angle._interned.clear)
 
 
 def _share_of_pi(angle: Angle) -> fmpq | None:

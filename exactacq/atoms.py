@@ -6,6 +6,7 @@ their nodes, so that identity decides whether two terms of a form are the same.
 
 from __future__ import annotations
 
+import atexit
 from abc import ABC, abstractmethod
 from collections.abc import Hashable
 from functools import lru_cache
@@ -107,6 +108,10 @@ class Node(ABC):
     @abstractmethod
     def sympy(self) -> sympy.Expr:
         """Closed form."""
+
+
+# Keys cannot be hashed any more once the interpreter takes its modules apart.
+atexit.register(Node._interned.clear)
 
 
 class Sqrt(Node):

@@ -7,7 +7,7 @@ the foot. Cut where the line passes an end of the way, a beam crosses it everywh
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from functools import cmp_to_key
 from itertools import pairwise
 from math import atan, atan2, hypot, pi, sin
@@ -22,7 +22,7 @@ from exactacq.reals import Real
 from exactacq.vectors import minus, raw
 from exactacq.vision.chords import meet
 from exactacq.vision.glances import End, Glance, Pin, Role, Side, Strand
-from exactacq.vision.intervals import Interval
+from exactacq.vision.holds import Seen
 from exactacq.vision.legs import Leg
 from exactacq.vision.names import Names
 from exactacq.vision.pencil import pencil, rational_between
@@ -48,7 +48,7 @@ class Crossing:
         sightlines: Sightlines,
         leg: Leg,
         wanted: Callable[[int], bool],
-        view: Callable[[Point], Mapping[int, list[Interval]]],
+        view: Callable[[Point], Seen],
     ) -> None:
         self.sightlines, self.span, self.wanted, self.view = sightlines, leg.span, wanted, view
         self.touches: frozenset[Any] = frozenset(leg.touches)
@@ -97,7 +97,16 @@ class Crossing:
                     beam.grazed[0] if low is beam.low else (),
                     beam.grazed[1] if high is beam.high else (),
                 )
-                strand = Strand(beam.sector, low, high, (here, other), names, pins, arcs)
+                strand = Strand(
+                    beam.sector,
+                    low,
+                    high,
+                    (here, other),
+                    names,
+                    pins,
+                    arcs,
+                    beam.anchor if beam.goes_back else None,
+                )
                 yield from self.ranges.glances(strand)
 
     def _shown(self, beam: Beam, role: Role) -> list[Side]:
@@ -220,7 +229,7 @@ class Crossing:
         own = _edges_near(table, end)
         (x, y), (dx, dy) = _rough(end), _rough(onward)
         size = hypot(dx, dy)
-        for e, intervals in self.view(end).items():
+        for e, intervals in self.view(end).spans.items():
             curve = table.curves[e]
             low, high = table.boxes[e, :2], table.boxes[e, 2:]
             corners = [(cx - x, cy - y) for cx in (low[0], high[0]) for cy in (low[1], high[1])]

@@ -40,14 +40,23 @@ NOWHERE = -1
 
 class Mark:
     """An event that is no vertex: its point and the exact direction to it, made by *make* when asked for,
-    and that direction as floats with a margin."""
+    and that direction as floats with a margin.
 
-    __slots__ = ("_exact", "_make", "margin", "xy")
+    It lies on arc ``edge``, to whose circle the direction is tangent; ``side`` is 1 if the circle is to the
+    left, else -1.
+    """
+
+    __slots__ = ("_exact", "_make", "edge", "margin", "side", "xy")
 
     def __init__(
-        self, make: Callable[[], tuple[Point, Vector]], xy: tuple[float, float], margin: float
+        self,
+        make: Callable[[], tuple[Point, Vector]],
+        xy: tuple[float, float],
+        margin: float,
+        edge: int,
+        side: int,
     ) -> None:
-        self._make, self.xy, self.margin = make, xy, margin
+        self._make, self.xy, self.margin, self.edge, self.side = make, xy, margin, edge, side
         self._exact: tuple[Point, Vector] | None = None
 
     @property
@@ -213,7 +222,7 @@ class Facets:
             wx, wy = float(w[0]), float(w[1])
             radius, reach = float(arc.radius), sqrt(float(dot(w, w) - arc.radius_sq))
         xy = wx * reach - wy * radius * side, wy * reach + wx * radius * side
-        return self._mark(Mark(partial(_touch, self.origin, arc, w, side), xy, margin))
+        return self._mark(Mark(partial(_touch, self.origin, arc, w, side), xy, margin, e, -side))
 
     # -- the point's own edges ---------------------------------------------------------------------
 
@@ -245,7 +254,7 @@ class Facets:
         x, y = raw(curve.tangent(self.point))
         vector = x * sense, y * sense
         xy = float(vector[0]), float(vector[1])
-        return self._mark(Mark(lambda: (self.point, vector), xy, EXACT))
+        return self._mark(Mark(lambda: (self.point, vector), xy, EXACT, e, sense if curve.ccw else -sense))
 
 
 def _touch(origin: Vector, arc: Arc, w: Vector, side: int) -> tuple[Point, Vector]:

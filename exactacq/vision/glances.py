@@ -27,7 +27,7 @@ from exactacq.reals import Real
 from exactacq.vectors import dot, raw
 from exactacq.vision.chords import meet, of_length
 from exactacq.vision.intervals import Interval
-from exactacq.vision.names import Names
+from exactacq.vision.names import Anchor, Names
 from exactacq.vision.pencil import rational_between
 from exactacq.vision.rails import Rail
 from exactacq.vision.sectors import Rolling, Sector, Sliding, Spokes
@@ -85,7 +85,8 @@ class Strand:
     """The views between two sides along the lines of a sector from ``low`` to ``high``.
 
     ``names`` are what else the first and the last line are called (see `names`); ``pinned`` are their points
-    on the first side, where these are known; ``grazed`` are the arcs that they touch.
+    on the first side, where these are known; ``grazed`` are the arcs that they touch. ``anchor`` names
+    the feature that tangents touch; the views along normals, without, bound nothing of what is seen.
     """
 
     sector: Sector
@@ -95,6 +96,7 @@ class Strand:
     names: tuple[Names, Names] = ((), ())
     pinned: tuple[Pin | None, Pin | None] = (None, None)
     grazed: tuple[Arcs, Arcs] = ((), ())
+    anchor: Anchor | None = None
 
 
 @dataclass(frozen=True, slots=True)

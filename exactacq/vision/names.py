@@ -10,12 +10,9 @@ agrees with that of the name.
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterator
-from functools import cached_property
 from typing import TypeAlias
 
-from exactacq.curves import Arc
 from exactacq.reals import Real
-from exactacq.vectors import raw
 from exactacq.vision.features import Feature
 from exactacq.vision.pencil import Passed
 from exactacq.vision.sectors import Sector
@@ -23,6 +20,8 @@ from exactacq.vision.table import EdgeTable
 
 Names: TypeAlias = "tuple[tuple[Hashable, int], ...]"
 """Names of one line with their senses."""
+Anchor: TypeAlias = "tuple[str, int]"
+"""A corner, by the edge that starts there, or a circle, by the first arc on it."""
 
 
 class Namer:
@@ -31,24 +30,16 @@ class Namer:
     def __init__(self, table: EdgeTable) -> None:
         self.table = table
 
-    @cached_property
-    def _circles(self) -> dict[int, int]:
-        """For every arc the number of the first arc on its circle."""
-        numbers: dict[Hashable, int] = {}
-        return {
-            e: numbers.setdefault((*raw(curve.center), curve.radius_sq), e)
-            for e, curve in enumerate(self.table.curves)
-            if isinstance(curve, Arc)
-        }
-
-    def anchor(self, feature: Feature) -> Hashable:
+    def anchor(self, feature: Feature) -> Anchor:
         """The name of what a feature's lines touch."""
-        return ("circle", self._circles[feature.edges[0]]) if feature.round else ("corner", feature.edges[1])
+        if feature.round:
+            return "circle", self.table.circles[feature.edges[0]]
+        return "corner", feature.edges[1]
 
-    def passed(self, passed: Passed) -> Iterator[Hashable]:
+    def passed(self, passed: Passed) -> Iterator[Anchor]:
         """The names of what a line passes."""
         for number, side, _ in passed:
-            yield ("circle", self._circles[number]) if side else ("corner", number)
+            yield ("circle", self.table.circles[number]) if side else ("corner", number)
 
     def names(self, feature: Feature, sector: Sector, t: Real, passed: Passed) -> Names:
         """The names of a feature's tangent line at *t*, from what it passes."""
@@ -67,19 +58,19 @@ class Namer:
             px, py = middle[number] - self.table.start[own]
             ahead = 1 if px * x + py * y > 0 else -1
             if side:
-                yield ("corner, circle", own, self._circles[number], sign > 0), ahead
+                yield ("corner, circle", own, self.table.circles[number], sign > 0), ahead
             else:
                 pair = min(own, number), max(own, number)
                 yield ("corners", *pair), ahead if own < number else -ahead
 
     def _round(self, feature: Feature, passed: Passed) -> Iterator[tuple[Hashable, int]]:
-        own = self._circles[feature.edges[0]]
+        own = self.table.circles[feature.edges[0]]
         for number, side, sign in passed:
             # The contact's spoke is turned by *sign* from the direction to what is passed: 1 means behind.
             if side == 0:
                 yield ("corner, circle", number, own, sign < 0), sign
                 continue
-            other = self._circles[number]
+            other = self.table.circles[number]
             if own != other:
                 crossing, swapped = side > 0, own > other
                 turn = sign if crossing or not swapped else -sign

@@ -20,13 +20,13 @@ from exactacq.contacts import contacts
 from exactacq.curves import Arc
 from exactacq.points import Point
 from exactacq.reals import Real
-from exactacq.vision.intervals import EMPTY, Cover, Interval
+from exactacq.vision.holds import Seen
+from exactacq.vision.intervals import EMPTY, Cover
 from exactacq.vision.legs import Leg
 from exactacq.vision.pencil import rational_between
-from exactacq.vision.shares import Covers, Shares, View, add
+from exactacq.vision.shares import Covers, Shares, add
 from exactacq.vision.sightlines import Sightlines
 from exactacq.vision.table import EdgeTable
-from exactacq.vision.views import seen_from
 
 VIEWS_KEPT = 64
 """Views from ends of legs that are remembered: enough for a walk along one boundary and back."""
@@ -73,17 +73,17 @@ class Senses:
         self.seen: set[int] = set()
         self.acquired: set[int] = set()
         self.in_sight: set[int] = set()
-        self._views: dict[int, tuple[Point, dict[int, list[Interval]]]] = {}
+        self._views: dict[int, Seen] = {}
 
     # -- moving ------------------------------------------------------------------------------------
 
     def look_around(self, place: Point) -> tuple[list[Notice], dict[int, Cover]]:
         """Take in the view from the start of the path; as `follow`."""
         view = self._view(place)
-        learned: dict[int, Cover] = {}
-        self._add_view(learned, self.covers, view)
+        seen = sorted({self.table.owners[e] for e in view.spans})
+        learned = self._with_view(view, seen)
         notices = []
-        for k in sorted({int(self.table.owner[e]) for e in view}):
+        for k in seen:
             notices.append(Notice(Kind.SIGHT, k, Real(0), place))
             if self._is_whole(ChainMap(learned, self.covers), k):
                 notices.append(Notice(Kind.ACQUIRE, k, Real(0), place))
@@ -110,7 +110,11 @@ class Senses:
 
     def known_after(self, leg: Leg, covers: Covers) -> dict[int, Cover]:
         """The covers that grow along a leg, if *covers* are known before it."""
-        return Shares(self.sightlines, leg, self._near(leg), self._view).taught(covers)
+        return self.shares(leg).taught(covers)
+
+    def shares(self, leg: Leg) -> Shares:
+        """All that a leg shows, also of acquired obstacles."""
+        return Shares(self.sightlines, leg, self._near(leg), self._view)
 
     def _settle(
         self, notices: list[Notice], learned: dict[int, Cover]
@@ -133,26 +137,22 @@ class Senses:
         edges = self.table.near((x, y), (right, top), self.sightlines.reach)
         return {int(k) for k in np.unique(self.table.owner[edges])}
 
-    def _view(self, place: Point) -> dict[int, list[Interval]]:
+    def _view(self, place: Point) -> Seen:
         """What is seen from a place; the last views are kept, for legs share their ends."""
         kept = self._views.get(id(place))
         if kept is None:
             if len(self._views) >= VIEWS_KEPT:
                 self._views.clear()
-            seen = seen_from(self.table, place, self.radius)
-            view = {
-                e: [i for a, b in parts for i in Interval.between(self.rails[e], a, b)]
-                for e, parts in seen.items()
-            }
-            kept = self._views[id(place)] = place, view
-        return kept[1]
+            kept = self._views[id(place)] = Seen(self.table, self.rails, place, self.radius)
+        return kept
 
-    def _add_view(self, learned: dict[int, Cover], covers: Covers, view: View, k: int | None = None) -> None:
-        """Add what a view shows; only of obstacle *k* if that is given."""
-        for e, intervals in view.items():
-            if k is None or self.table.owners[e] == k:
-                for interval in intervals:
-                    add(learned, covers, e, interval)
+    def _with_view(self, view: Seen, obstacles: list[int]) -> dict[int, Cover]:
+        """The covers that grow by what a view shows of some obstacles."""
+        learned: dict[int, Cover] = {}
+        for k in obstacles:
+            for e, interval in view.of(k):
+                add(learned, self.covers, e, interval)
+        return learned
 
     def _is_whole(self, covers: Covers, k: int) -> bool:
         return all(covers.get(e, EMPTY).covers(self.rails[e].top) for e in self.table.edges_of(k))
@@ -183,9 +183,7 @@ class Senses:
         their ends may have moved meanwhile, so the gaps just before it are looked at again.
         """
         leg = shares.leg
-        learned: dict[int, Cover] = {}
-        self._add_view(learned, self.covers, self._view(leg.start), k)
-        before = ChainMap(learned, self.covers)
+        before = ChainMap(self._with_view(self._view(leg.start), [k]), self.covers)
         if self._is_whole(before, k):
             return Notice(Kind.ACQUIRE, k, leg.first, leg.start)
         _, around = self._closing(shares, leg, k, before, before)

@@ -7,22 +7,21 @@ free space, which crosses them. The views from the two ends of the leg belong to
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TypeAlias
 
 from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.vision.crossing import Crossing
-from exactacq.vision.glances import Glance, Ranges
+from exactacq.vision.glances import End, Glance, Ranges
+from exactacq.vision.holds import Seen
 from exactacq.vision.intervals import EMPTY, Cover, Interval
 from exactacq.vision.legs import Leg
 from exactacq.vision.sightlines import Sightlines
 
 Covers: TypeAlias = "Mapping[int, Cover]"
 """What is known of each edge, by its number; nothing is known of an edge that is missing."""
-View: TypeAlias = "Mapping[int, list[Interval]]"
-"""What is seen from one place, by edge."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +52,7 @@ class Shares:
         sightlines: Sightlines,
         leg: Leg,
         obstacles: Collection[int],
-        view: Callable[[Point], View],
+        view: Callable[[Point], Seen],
         of: dict[int, list[Share]] | None = None,
     ) -> None:
         self.sightlines, self.leg, self.obstacles, self.view = sightlines, leg, obstacles, view
@@ -63,10 +62,23 @@ class Shares:
     def _found(self) -> dict[int, list[Share]]:
         found: dict[int, list[Share]] = {k: [] for k in self.obstacles}
         for glance, side in self._glances():
-            cut = self._ranges.clipped(glance, side, self.leg.span)
-            if cut is not None:
-                found[self.owner[glance.edges[1 - side]]].append(Share.of(cut, side))
+            share = self._share(glance, side, self.leg)
+            if share is not None:
+                found[self.owner[share.edge]].append(share)
         return found
+
+    def _share(self, glance: Glance, side: int, leg: Leg) -> Share | None:
+        """The part of a glance that is seen from a leg; views from its ends share their points."""
+        cut = self._ranges.clipped(glance, side, leg.span)
+        if cut is None:
+            return None
+        first, last = (self._pinned(end, cut, side, leg) for end in (cut.first, cut.last))
+        return Share.of(replace(cut, first=first, last=last), side)
+
+    def _pinned(self, end: End, glance: Glance, side: int, leg: Leg) -> End:
+        u = end.places[side]
+        place = leg.start if u is leg.first else leg.end if u is leg.last else None
+        return end if place is None else self.view(place).pinned(end, glance, side)
 
     def _glances(self) -> Iterator[tuple[Glance, int]]:
         sightlines, leg, owner, obstacles = self.sightlines, self.leg, self.owner, self.obstacles
@@ -84,17 +96,21 @@ class Shares:
         ranges = self.sightlines.ranges
         return ranges if self.leg.edge is not None else ranges.with_way(self.leg.rail)
 
-    def cut(self, leg: Leg, obstacles: Collection[int]) -> Shares:
-        """What a part of the leg shows of some of the obstacles."""
-        of = {
+    def cut(self, leg: Leg, obstacles: Collection[int] | None = None) -> Shares:
+        """What a part of the leg shows, of some of the obstacles if these are given."""
+        obstacles = self.obstacles if obstacles is None else obstacles
+        of: dict[int, list[Share]] = {
             k: [
-                Share.of(cut, share.side)
-                for share in self.of[k]
-                if (cut := self._ranges.clipped(share.glance, share.side, leg.span)) is not None
+                cut for share in self.of[k] if (cut := self._share(share.glance, share.side, leg)) is not None
             ]
             for k in obstacles
         }
         return Shares(self.sightlines, leg, obstacles, self.view, of)
+
+    def at(self, share: Share, u: Real, place: Point) -> Share | None:
+        """The one view of a share from a place of the leg, if it has one."""
+        cut = self._ranges.clipped(share.glance, share.side, Interval(u, place, u, place))
+        return None if cut is None else Share.of(cut, share.side)
 
     def taught(self, covers: Covers) -> dict[int, Cover]:
         """The covers that grow along the leg, if *covers* are known before it."""
@@ -104,10 +120,10 @@ class Shares:
             for share in sorted(shares, key=lambda share: size(share.shown), reverse=True):
                 add(learned, covers, share.edge, share.shown)
         for place in (leg.start, leg.end):
-            for e, intervals in self.view(place).items():
-                if self.owner[e] in self.obstacles:
-                    for interval in intervals:
-                        add(learned, covers, e, interval)
+            view = self.view(place)
+            for k in self.obstacles:
+                for e, interval in view.of(k):
+                    add(learned, covers, e, interval)
         if leg.edge is not None and self.owner[leg.edge] in self.obstacles:
             add(learned, covers, leg.edge, leg.span)
         return learned
@@ -120,18 +136,19 @@ class Shares:
             return Cover((span,))
         times = Cover()
         for u, place in ((span.low, span.start), (span.high, span.end)):
-            if any(e in edges for e in self.view(place)):
+            if any(e in edges for e in self.view(place).spans):
                 times = times.added(Interval(u, place, u, place))
         sources = (share.source for share in self.of[k] if share.edge in edges)
         for interval in sorted(sources, key=size, reverse=True):
             times = times.added(interval)
         return times
 
-    def is_short(self, k: int, u: Real) -> bool:
-        """Whether some view of an obstacle that begins or ends at *u* is shorter than the range."""
+    def is_short(self, k: int, u: Real, edge: int | None = None) -> bool:
+        """Whether a view that begins or ends at *u*, of an obstacle or an edge, is shorter than the range."""
         ends = [
             (end.places[share.side], end)
             for share in self.of[k]
+            if edge is None or share.edge == edge
             for end in (share.glance.first, share.glance.last)
         ]
         # Most often the very number was copied: no proof is needed that it is equal.

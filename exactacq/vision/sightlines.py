@@ -10,9 +10,9 @@ in the scene at constant density and range.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from flint import fmpq
@@ -25,7 +25,7 @@ from exactacq.vision.chords import meet
 from exactacq.vision.clearance import walk_line
 from exactacq.vision.features import Feature, features, leaving
 from exactacq.vision.glances import Arcs, Glance, Ranges, Role, Side, Strand
-from exactacq.vision.names import Namer, Names
+from exactacq.vision.names import Anchor, Namer, Names
 from exactacq.vision.pencil import Cell, Pencil, pencil
 from exactacq.vision.rails import Rail
 from exactacq.vision.sectors import Sector, Sliding, Spokes, corner_sectors, quarters
@@ -48,7 +48,7 @@ class Beam:
     contact: Side
     ahead: Side | None
     goes_back: bool
-    anchor: Hashable = None
+    anchor: Anchor | None = None
     names: tuple[Names, Names] = ((), ())
     grazed: tuple[Arcs, Arcs] = ((), ())
 
@@ -60,7 +60,15 @@ class Beam:
             (self.contact, self.ahead),
         ):
             if one is not None and other is not None:
-                yield Strand(self.sector, self.low, self.high, (one, other), self.names, grazed=self.grazed)
+                yield Strand(
+                    self.sector,
+                    self.low,
+                    self.high,
+                    (one, other),
+                    self.names,
+                    grazed=self.grazed,
+                    anchor=self.anchor if self.goes_back else None,
+                )
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,10 +102,16 @@ class Bundle:
 
 @dataclass(frozen=True, slots=True)
 class Family:
-    """The beams and single rays of one feature, edge or corner."""
+    """The beams and single rays of one feature, edge or corner; ``on`` gives its bundles with a side on an
+    edge, with the number of that side."""
 
     beams: tuple[Beam, ...]
-    rays: tuple[Ray, ...] = ()
+    rays: tuple[Ray, ...]
+    on: dict[int, list[tuple[Bundle, int]]]
+
+
+KEPT = 4096
+"""Families that are remembered, the last used: enough for a wide neighbourhood, and a bound of the memory."""
 
 
 class Sightlines:
@@ -107,10 +121,8 @@ class Sightlines:
         self.table, self.radius = table, radius
         self.reach = float(radius) * (1 + 1e-12)
         self.ranges = Ranges([Rail(curve) for curve in table.curves], radius, table.roundoff)
-        self._on: dict[int, list[tuple[Bundle, int]]] = {}
         self._namer = Namer(table)
-        self._of_edge: dict[int, Family] = {}
-        self._of_feature: dict[int, Family] = {}
+        self._family = lru_cache(KEPT)(self._swept)
 
     @cached_property
     def features(self) -> list[Feature]:
@@ -126,52 +138,54 @@ class Sightlines:
         ]
         return np.array(boxes, dtype=float).reshape(-1, 4)
 
-    def on(self, edge: int) -> list[tuple[Bundle, int]]:
+    def on(self, edge: int) -> Iterator[tuple[Bundle, int]]:
         """All bundles with one side on an edge, with the number of that side."""
-        for _ in self.near(self.table.boxes[edge]):
-            pass
-        return self._on.get(edge, [])
+        for family in self.near(self.table.boxes[edge]):
+            yield from family.on.get(edge, ())
 
     def near(self, box: Floats) -> Iterator[Family]:
         """All families of the features and edges that come within range of a box."""
         low, high = (float(box[0]), float(box[1])), (float(box[2]), float(box[3]))
         for e in map(int, self.table.near(low, high, self.reach)):
-            if e not in self._of_edge:
-                self._of_edge[e] = self._kept(Family(tuple(self._normals(e))))
-            yield self._of_edge[e]
+            yield self._family(e, None)
         gap = np.maximum(np.maximum(self._spots[:, :2] - box[2:], box[:2] - self._spots[:, 2:]), 0.0)
         for k in map(int, np.flatnonzero(np.hypot(*gap.T) <= self.reach + 8 * self.table.roundoff)):
-            if k not in self._of_feature:
-                self._of_feature[k] = self._kept(self._tangents(self.features[k]))
-            yield self._of_feature[k]
+            yield self._family(None, k)
 
-    def _kept(self, family: Family) -> Family:
-        for beam in family.beams:
-            for strand in beam.strands():
-                self._keep(Bundle((strand.sides[0].edge, strand.sides[1].edge), strand))
-        for ray in family.rays:
+    def _swept(self, edge: int | None, feature: int | None) -> Family:
+        """The family of an edge's normals, or of a feature's tangents."""
+        beams: list[Beam] = []
+        rays: list[Ray] = []
+        if edge is not None:
+            beams += self._normals(edge)
+        if feature is not None:
+            self._add_tangents(self.features[feature], beams, rays)
+        bundles = [
+            Bundle((strand.sides[0].edge, strand.sides[1].edge), strand)
+            for beam in beams
+            for strand in beam.strands()
+        ]
+        for ray in rays:
             if ray.edge is not None:
-                glances = self.ranges.along(ray.place, self.ranges.rails[ray.edge], ray.run, ray.shown)
-                self._keep(
-                    Bundle((ray.edge, ray.shown), [Glance((ray.edge, ray.shown), *g) for g in glances])
-                )
-        return family
-
-    def _keep(self, bundle: Bundle) -> None:
-        for side, edge in enumerate(bundle.edges):
-            self._on.setdefault(edge, []).append((bundle, side))
+                ends = self.ranges.along(ray.place, self.ranges.rails[ray.edge], ray.run, ray.shown)
+                edges = ray.edge, ray.shown
+                bundles.append(Bundle(edges, [Glance(edges, *end) for end in ends]))
+        on: dict[int, list[tuple[Bundle, int]]] = {}
+        for bundle in bundles:
+            for side, e in enumerate(bundle.edges):
+                on.setdefault(e, []).append((bundle, side))
+        return Family(tuple(beams), tuple(rays), on)
 
     # -- the families ------------------------------------------------------------------------------
 
-    def _tangents(self, feature: Feature) -> Family:
+    def _add_tangents(self, feature: Feature, beams: list[Beam], rays: list[Ray]) -> None:
         contact = Side(feature.edges[-1], Role.CONTACT, fixed=not feature.round)
         sweeps = [pencil(self.table, s, feature.edges, self.reach) for s in feature.sectors]
-        beams = [self._beam(feature, s.sector, cell, contact) for s in sweeps for cell in s.cells]
-        rays = [ray for s in sweeps for t in s.pinches for ray in self._pinched(s.sector, t, feature.edges)]
+        beams += [self._beam(feature, s.sector, cell, contact) for s in sweeps for cell in s.cells]
+        rays += [ray for s in sweeps for t in s.pinches for ray in self._pinched(s.sector, t, feature.edges)]
         rays += self._end_on(feature, sweeps[0], sweeps[-1])
         if not feature.round:
             beams += self._corner_normals(feature)
-        return Family(tuple(beams), tuple(rays))
 
     def _beam(self, feature: Feature, sector: Sector, cell: Cell, contact: Side) -> Beam:
         behind = None if cell.behind is None else Side(cell.behind, Role.BEHIND)
@@ -287,7 +301,7 @@ def grazed(cell: Cell) -> tuple[Arcs, Arcs]:
     return first, last
 
 
-def _outward(sector: Sector, cell: Cell, start: Side, anchor: Hashable = None) -> Beam:
+def _outward(sector: Sector, cell: Cell, start: Side, anchor: Anchor | None = None) -> Beam:
     ahead = None if cell.ahead is None else Side(cell.ahead, Role.AHEAD)
     return Beam(sector, cell.low, cell.high, None, start, ahead, False, anchor, grazed=grazed(cell))
 

@@ -6,7 +6,7 @@ margins of the pruning code are multiples of it.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from exactacq.boxes import BoxIndex, box
 from exactacq.curves import Arc, Curve, Segment
 from exactacq.scene import Obstacle
+from exactacq.vectors import raw
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
@@ -60,6 +61,16 @@ class EdgeTable:
     def index(self) -> BoxIndex:
         """Spatial index over the edges' boxes."""
         return BoxIndex(self.boxes)
+
+    @cached_property
+    def circles(self) -> dict[int, int]:
+        """For every arc the number of the first arc on its circle."""
+        numbers: dict[Hashable, int] = {}
+        return {
+            e: numbers.setdefault((*raw(curve.center), curve.radius_sq), e)
+            for e, curve in enumerate(self.curves)
+            if isinstance(curve, Arc)
+        }
 
     def edges_of(self, obstacle: int) -> range:
         """The edges of one obstacle."""

@@ -24,6 +24,8 @@ from exactacq.vision.ranges import Span, of_circle, within
 from exactacq.vision.table import EdgeTable, Floats
 
 LAST = 1 << 60
+AT_RANGE = -1
+"""In place of the rank of a point's direction."""
 
 
 def seen_from(
@@ -69,6 +71,7 @@ class View:
         self.panorama = Panorama(table, point, float(radius) * (1 + 1e-12), self.own)
         self.origin = self.panorama.facets.origin
         self._at_range: dict[int, Point] = {}
+        self._held: dict[int, tuple[Point, int]] = {}
 
     @cached_property
     def near(self) -> list[bool]:
@@ -140,7 +143,28 @@ class View:
     def ends(self, sight: Sight) -> Span:
         """What a sight sees of a facet, in the boundary's direction and whatever the range."""
         panorama = self.panorama
-        return panorama.at(sight.facet, sight.high, False), panorama.at(sight.facet, sight.low, True)
+        ends = panorama.at(sight.facet, sight.high, False), panorama.at(sight.facet, sight.low, True)
+        for point, rank in zip(ends, (sight.high, sight.low), strict=True):
+            self._held[id(point)] = point, rank
+        return ends
+
+    def is_at_range(self, point: Point) -> bool:
+        """Whether an end of what is seen was made as a point as far away as the range."""
+        return self._held.get(id(point), (point, LAST))[1] == AT_RANGE
+
+    def touched(self, point: Point) -> list[tuple[int, int]]:
+        """What the ray to an end of what is seen touches, if it ends a sight; else nothing.
+
+        Vertices come with 0, arcs with 1 if the circle is to the left of the ray, else -1.
+        """
+        rank = self._held.get(id(point), (point, LAST))[1]
+        if rank in (AT_RANGE, LAST):
+            return []
+        count, marks = len(self.table.vertices), self.panorama.facets.marks
+        return [
+            (event, 0) if event < count else (marks[event - count].edge, marks[event - count].side)
+            for event in self.panorama.groups[rank]
+        ]
 
     def clipped(self, facet: int, ends: Span) -> list[Span]:
         """The parts of a piece of a facet within range; ends within range stay the same objects."""
@@ -149,7 +173,10 @@ class View:
             return [ends]
         curve = self.table.curves[int(self.panorama.facets.edge[facet])]
         if start is not end:
-            return within(curve, start, end, self.origin, self.radius_sq)
+            spans = within(curve, start, end, self.origin, self.radius_sq)
+            for point in (p for span in spans for p in span if p is not start and p is not end):
+                self._held[id(point)] = point, AT_RANGE
+            return spans
         # All of a full circle that passes through the point itself.
         assert isinstance(curve, Arc)
         opposite = curve.center + (curve.center - start)

@@ -1,0 +1,105 @@
+"""What holds the ends of views, so that points made in two ways are known to be one without a proof.
+
+From a given place, the point of an edge past a corner, or past a circle on its left or right, is one point,
+whether the view from that place tells of it or a glance that passes there. So is the point of an edge as far
+away as the range, ahead or back along the edge.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterator
+from dataclasses import replace
+from functools import cached_property
+from typing import TypeAlias
+
+from flint import fmpq
+
+from exactacq.curves import Arc
+from exactacq.points import Point
+from exactacq.reals import Real
+from exactacq.vision.glances import End, Glance, Pin
+from exactacq.vision.intervals import Interval
+from exactacq.vision.rails import Rail
+from exactacq.vision.table import EdgeTable
+from exactacq.vision.views import View
+
+Hold: TypeAlias = "tuple[int, Hashable, int]"
+"""An edge, the name of what the line to its point touches (see `names`) or of the range, and a side."""
+RANGE = "range"
+BITS = 128
+"""Signs are read from balls of this precision, or not at all."""
+
+
+class Seen:
+    """What is seen from a place: ``spans`` are the closed intervals of each edge, by its number."""
+
+    def __init__(self, table: EdgeTable, rails: list[Rail], place: Point, radius: fmpq) -> None:
+        self.table, self.place = table, place
+        self._view = View(table, place, radius)
+        self.spans: dict[int, list[Interval]] = {
+            e: [i for a, b in parts for i in Interval.between(rails[e], a, b)]
+            for e, parts in self._view.seen().items()
+        }
+
+    def of(self, obstacle: int) -> Iterator[tuple[int, Interval]]:
+        """What is seen of one obstacle: edges and intervals."""
+        for e in self.table.edges_of(obstacle):
+            for interval in self.spans.get(e, ()):
+                yield e, interval
+
+    def pinned(self, end: End, glance: Glance, side: int) -> End:
+        """An extreme view of a glance from this place, its other end the view's own point if it is one."""
+        for hold in self._holds(end, glance, side):
+            pin = self._held.get(hold)
+            # A full circle's start has two parameters: a glance over it keeps the one on its side.
+            if pin is not None and _sign(pin[1] - end.places[1 - side]) == 0:
+                here = end.points[side], end.places[side]
+                (p, u), (q, v) = (here, pin) if side == 0 else (pin, here)
+                return replace(end, points=(p, q), places=(u, v))
+        return end
+
+    @cached_property
+    def _held(self) -> dict[Hold, Pin]:
+        """The ends of what is seen, by what holds them."""
+        found: dict[Hold, Pin] = {}
+        for e, intervals in self.spans.items():
+            for i in intervals:
+                for point, u in ((i.start, i.low), (i.end, i.high)):
+                    if self._view.is_at_range(point):
+                        found[e, RANGE, self._onward(e, point)] = point, u
+                    for number, side in self._view.touched(point):
+                        name = ("circle", self.table.circles[number]) if side else ("corner", number)
+                        found[e, name, side] = point, u
+        return {hold: pin for hold, pin in found.items() if hold[1] != RANGE or hold[2]}
+
+    def _holds(self, end: End, glance: Glance, side: int) -> Iterator[Hold]:
+        e, point = glance.edges[1 - side], end.points[1 - side]
+        if end.tight:
+            yield e, RANGE, self._onward(e, point)
+        strand = glance.strand
+        if strand is None or strand.anchor is None:
+            return
+        kind, number = strand.anchor
+        if kind == "circle":
+            yield e, strand.anchor, self._turn(number, point)
+        elif not any(one.fixed for one in strand.sides):
+            # Only past the corner: from there the lines of the glance show different points.
+            yield e, strand.anchor, 0
+
+    def _onward(self, e: int, point: Point) -> int:
+        """1 or -1 as a point of an edge lies to one side or the other from here; 0 if balls do not tell."""
+        curve = self.table.curves[e]
+        if isinstance(curve, Arc):
+            return self._turn(e, point)
+        return _sign((point - self.place).dot(curve.direction))
+
+    def _turn(self, arc: int, point: Point) -> int:
+        """1 or -1 as an arc's centre is to the left or right of the line from here to a point; as above."""
+        curve = self.table.curves[arc]
+        assert isinstance(curve, Arc)
+        return _sign((point - self.place).cross(curve.center - self.place))
+
+
+def _sign(value: Real) -> int:
+    ball = value.ball(BITS)
+    return 1 if ball > 0 else -1 if ball < 0 else 0

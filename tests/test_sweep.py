@@ -1,0 +1,169 @@
+"""The sweep along a piece: its events by hand, and its cells against isovists made from scratch."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from random import Random
+
+import pytest
+from strategies import degenerate_terrain, random_terrain
+
+import exactacq as xa
+from exactacq import Circle, Point, Polygon, Scene
+from exactacq.curves import Arc, Segment
+from exactacq.errors import InvalidScene
+from exactacq.memory import Memory
+from exactacq.trace import Piece
+from exactacq.vision.outline import ViewKind
+from exactacq.vision.pencil import rational_between
+from exactacq.vision.sweep import Change, Sweep, SweepCell, sweep
+
+BITS = 600
+"""Points made in two ways, as roots of different polynomials, count as equal if so many bits agree."""
+
+
+def same(p: Point | None, q: Point | None) -> bool:
+    if p is None or q is None:
+        return p is q
+    return all(
+        (a - b).ball(BITS).contains(0) and (a - b).ball(BITS).rad() < 1e-100
+        for a, b in zip(p, q, strict=True)
+    )
+
+
+def seen_through(
+    scene: Scene, radius: object, cell: SweepCell, u: object
+) -> list[tuple[Point, Point | None]]:
+    """The windows of a view made from scratch: what the sweep leaves out is left out."""
+    point, line = cell.point(u), cell.shares.leg.rail.curve
+    square = Point(radius, 0).norm_sq()
+    found = []
+    for window in xa.isovist(scene, point, radius).pieces:
+        if window.kind is not ViewKind.WINDOW:
+            continue
+        near, ends = window.near, (window.curve.start, window.curve.end)
+        far = next(p for p in ends if p != near)
+        beyond = (far - point).norm_sq().compare(square) == 0
+        on_own_line = isinstance(line, Segment) and line.direction.cross(near - point).sign() == 0
+        if not on_own_line and not (beyond and near == point):
+            found.append((near, None if beyond else far))
+    return found
+
+
+def check_cells(scene: Scene, radius: object, piece: Piece) -> int:
+    """In the middle of every cell: the windows are those of the isovist, and all it sees was taught."""
+    swept = sweep(scene, piece.curve, radius, piece.obstacle)
+    for cell in swept.cells:
+        u = rational_between(cell.low, cell.high)
+        mine, its = cell.windows(u), seen_through(scene, radius, cell, u)
+        assert len(mine) == len(its)
+        for near, far in its:
+            assert any(same(near, n) and same(far, f) for n, f in mine), (piece, u, near, far)
+        for (i, e), spans in xa.isovist(scene, cell.point(u), radius).seen().items():
+            for start, end in spans:
+                assert cell.map.knows(i, start)
+                assert cell.map.knows(i, end)
+                middle = middle_of(scene.obstacles[i].edges[e], start, end)
+                assert middle is None or cell.map.knows(i, middle)
+    return len(swept.cells)
+
+
+def middle_of(edge: Segment | Arc, start: Point, end: Point) -> Point | None:
+    """A rational point of a part of an edge, where that is easy to have."""
+    if start == end or start.rational is None or end.rational is None:
+        return None
+    return edge.part(start, end).point(xa.Real(1).rational / 2)
+
+
+def pieces(terrain: object, count: int) -> Iterator[tuple[Scene, object, Piece]]:
+    scene = terrain.scene()
+    run = xa.sightseer(scene, terrain.radius)
+    for piece in run.path[:count]:
+        yield scene, terrain.radius, piece
+
+
+def events(swept: Sweep) -> list[tuple[str, int, int, str]]:
+    return [(e.change.value, e.obstacle, e.edge, str(e.place.x)) for e in swept.events]
+
+
+def test_past_a_square() -> None:
+    # Its lower side comes into range first, then the sides are seen end on from x = 4 and x = 6.
+    scene = Scene([Polygon([(4, 1), (6, 1), (6, 3), (4, 3)])])
+    swept = sweep(scene, Segment(Point(0, 0), Point(10, 0)), 5)
+    assert events(swept) == [
+        ("entry", 0, 1, "6 - 2*sqrt(6)"),
+        ("turning", 0, 0, "4"),
+        ("occlusion", 0, 3, "4"),
+        ("turning", 0, 1, "6"),
+        ("reappearance", 0, 2, "6"),
+        ("exit", 0, 0, "4 + 2*sqrt(6)"),
+    ]
+    assert [str(cell.begin[1].x) for cell in swept.cells] == ["0", "6 - 2*sqrt(6)", "4", "6", "4 + 2*sqrt(6)"]
+
+
+def test_a_circle_within_range_for_a_while() -> None:
+    # From 5 - x = sqrt(7^2 - 5^2) on its nearest point is 4 away.
+    swept = sweep(Scene([Circle((5, 5), 3)]), Segment(Point(0, 0), Point(10, 0)), 4)
+    assert [event.change for event in swept.events] == [Change.ENTRY, Change.EXIT]
+    assert [str(event.place.x) for event in swept.events] == ["5 - 2*sqrt(6)", "2*sqrt(6) + 5"]
+
+
+def test_events_come_as_the_robot_passes_them() -> None:
+    scene = Scene([Polygon([(4, 1), (6, 1), (6, 3), (4, 3)])])
+    there = sweep(scene, Segment(Point(0, 0), Point(10, 0)), 5)
+    back = sweep(scene, Segment(Point(10, 0), Point(0, 0)), 5)
+    opposite = {
+        Change.ENTRY: Change.EXIT,
+        Change.EXIT: Change.ENTRY,
+        Change.OCCLUSION: Change.REAPPEARANCE,
+        Change.REAPPEARANCE: Change.OCCLUSION,
+        Change.TURNING: Change.TURNING,
+    }
+    assert {(e.change, e.edge, str(e.place)) for e in there.events} == {
+        (opposite[e.change], e.edge, str(e.place)) for e in back.events
+    }
+    assert [float(e.place.x) for e in back.events] == sorted(
+        (float(e.place.x) for e in back.events), reverse=True
+    )
+    assert back.cells[0].begin[1] == Point(10, 0)
+
+
+def test_a_full_circle_is_two_legs_when_its_start_is_passed() -> None:
+    scene = Scene([Circle((0, 0), 1), Circle((4, 0), 1)])
+    (edge,) = scene.obstacles[0].edges
+    half = edge.part(Point(0, -1), Point(0, 1))
+    swept = sweep(scene, half, 5, obstacle=0)
+    assert {cell.leg for cell in swept.cells} == {0, 1}
+    assert swept.cells[0].begin[1] == Point(0, -1)
+    assert swept.cells[-1].end[1] == Point(0, 1)
+
+
+@pytest.mark.parametrize("make", [random_terrain, degenerate_terrain])
+@pytest.mark.parametrize("seed", [0, 1, 3, 4, 5])
+def test_every_cell_has_the_views_of_isovists(make: object, seed: int) -> None:
+    cases = list(pieces(make(Random(seed)), 12))
+    assert sum(check_cells(*case) for case in cases) > len(cases)
+
+
+@pytest.mark.parametrize("make", [random_terrain, degenerate_terrain])
+@pytest.mark.parametrize("seed", range(4))
+def test_cells_together_teach_what_the_piece_teaches(make: object, seed: int) -> None:
+    for scene, radius, piece in pieces(make(Random(seed)), 8):
+        memory = Memory(scene, xa.Scene([], radius=radius).radius)
+        memory.walk(piece)
+        whole, cells = memory.after(1), sweep(scene, piece.curve, radius, piece.obstacle).cells
+        for i in range(len(scene.obstacles)):
+            parts = [known for cell in cells for known in cell.map.known(i)]
+            for known in whole.known(i):
+                assert any(same(known.start, p) for part in parts for p in (part.start, part.end))
+            for part in parts:
+                assert whole.knows(i, part.start)
+                assert whole.knows(i, part.end)
+
+
+def test_errors() -> None:
+    scene = Scene([Circle((5, 5), 3)])
+    with pytest.raises(InvalidScene, match="radius"):
+        sweep(scene, Segment(Point(0, 0), Point(1, 0)))
+    with pytest.raises(ValueError, match="obstacle"):
+        sweep(scene, scene.obstacles[0].edges[0], 2)
