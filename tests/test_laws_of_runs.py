@@ -5,7 +5,6 @@ Continues `test_laws` on what rooms, crescents, irrational pieces and large coor
 
 from __future__ import annotations
 
-import os
 from fractions import Fraction
 from itertools import pairwise
 from random import Random
@@ -29,7 +28,7 @@ from test_laws import (
 )
 
 import exactacq as xa
-from exactacq.errors import InvalidScene, Undecided
+from exactacq.errors import InvalidScene
 from exactacq.lengths import Length
 from exactacq.trace import Run
 
@@ -205,12 +204,6 @@ class TestGlimpses:
         )
         self._check(Terrain(shapes, (Q(20, 7), Q(16, 3)), Q(6)))
 
-    @pytest.mark.skipif(os.environ.get("HYPOTHESIS_PROFILE") != "long", reason="takes two minutes")
-    @pytest.mark.xfail(
-        raises=Undecided,
-        strict=True,
-        reason="a way held by an arc ends on arcs: that two views agree there would take 10^10 bits",
-    )
     def test_pieces_that_end_on_lines_that_bound_cells(self) -> None:
         shapes = (
             [(Q(1, 2), Q(-3, 2), Q(1, 3)), (Q(1, 2), Q(5, 2), Q(-1, 4))],

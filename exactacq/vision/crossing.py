@@ -27,7 +27,7 @@ from exactacq.vision.legs import Leg
 from exactacq.vision.names import Names
 from exactacq.vision.pencil import pencil, rational_between
 from exactacq.vision.sectors import Sliding
-from exactacq.vision.sightlines import Beam, Ray, Sightlines, grazed
+from exactacq.vision.sightlines import Beam, Ray, Sightlines
 from exactacq.vision.table import EdgeTable
 
 Cut: TypeAlias = "tuple[Real, Pin | None, Names]"
@@ -93,9 +93,9 @@ class Crossing:
             here = Side(self.way, role)
             for other in self._shown(beam, role):
                 names, pins = (called, named), (first, last)
-                arcs = (
-                    beam.grazed[0] if low is beam.low else (),
-                    beam.grazed[1] if high is beam.high else (),
+                passed = (
+                    beam.passed[0] if low is beam.low else (),
+                    beam.passed[1] if high is beam.high else (),
                 )
                 strand = Strand(
                     beam.sector,
@@ -104,7 +104,7 @@ class Crossing:
                     (here, other),
                     names,
                     pins,
-                    arcs,
+                    passed,
                     beam.anchor if beam.goes_back else None,
                 )
                 yield from self.ranges.glances(strand)
@@ -279,7 +279,7 @@ class Crossing:
             for cell in sweep.cells:
                 if cell.ahead is not None and self.wanted(cell.ahead):
                     sides = here, Side(cell.ahead, Role.AHEAD)
-                    strand = Strand(sector, cell.low, cell.high, sides, grazed=grazed(cell))
+                    strand = Strand(sector, cell.low, cell.high, sides, passed=cell.bounds)
                     yield from self.ranges.glances(strand)
 
 

@@ -28,17 +28,17 @@ from exactacq.vectors import dot, raw
 from exactacq.vision.chords import meet, of_length
 from exactacq.vision.intervals import Interval
 from exactacq.vision.names import Anchor, Names
-from exactacq.vision.pencil import rational_between
+from exactacq.vision.pencil import Passed, rational_between
 from exactacq.vision.rails import Rail
 from exactacq.vision.sectors import Rolling, Sector, Sliding, Spokes
 from exactacq.vision.view_lengths import of_length_on
 
 SURE = 1e-9
 """Relative margin beyond which floats decide on the range; round-off is far below."""
+BITS = 128
+"""Precision of the balls that tell a short way from a long proof."""
 
 
-Arcs: TypeAlias = "tuple[int, ...]"
-"""Numbers of arcs."""
 Pin: TypeAlias = "tuple[Point, Real]"
 """A point of an edge with its parameter."""
 
@@ -85,7 +85,7 @@ class Strand:
     """The views between two sides along the lines of a sector from ``low`` to ``high``.
 
     ``names`` are what else the first and the last line are called (see `names`); ``pinned`` are their points
-    on the first side, where these are known; ``grazed`` are the arcs that they touch. ``anchor`` names
+    on the first side, where these are known; ``passed`` tells what they pass. ``anchor`` names
     the feature that tangents touch; the views along normals, without, bound nothing of what is seen.
     """
 
@@ -95,7 +95,7 @@ class Strand:
     sides: tuple[Side, Side]
     names: tuple[Names, Names] = ((), ())
     pinned: tuple[Pin | None, Pin | None] = (None, None)
-    grazed: tuple[Arcs, Arcs] = ((), ())
+    passed: tuple[Passed, Passed] = ((), ())
     anchor: Anchor | None = None
 
 
@@ -202,19 +202,17 @@ class Ranges:
         """The view of a strand at a parameter."""
         names: Names = ()
         pin: Pin | None = None
-        grazed: Arcs = ()
+        passed: Passed = ()
         for k, bound in enumerate((strand.low, strand.high)):
             if t is bound:
-                names, pin, grazed = strand.names[k], strand.pinned[k], strand.grazed[k]
+                names, pin, passed = strand.names[k], strand.pinned[k], strand.passed[k]
         pins = [
-            pin
-            if pin is not None and k == 0
-            else self._pin(strand.sector, t, side, names, side.edge in grazed)
+            pin if pin is not None and k == 0 else self._pin(strand.sector, t, side, names, passed)
             for k, side in enumerate(strand.sides)
         ]
         return End(t, (pins[0][0], pins[1][0]), (pins[0][1], pins[1][1]))
 
-    def _pin(self, sector: Sector, t: Real, side: Side, names: Names, touching: bool) -> Pin:
+    def _pin(self, sector: Sector, t: Real, side: Side, names: Names, passed: Passed) -> Pin:
         """Where a line meets an edge: the same point as on the same line under another name."""
         role = side.role.value
         keys = [(name, side.edge, role * sense) for name, sense in names]
@@ -222,16 +220,31 @@ class Ranges:
             if key in self._pins:
                 return self._pins[key]
         contact, direction = sector.touch(t)
-        curve = self.curve(side.edge)
-        if touching and isinstance(curve, Arc) and side.role is not Role.CONTACT:
-            # Where a line touches a circle is the foot of the centre: no root, and none to prove 0.
-            foot: Real = (curve.center - contact).dot(direction) / direction.norm_sq()
-            point = contact + direction * foot
-        else:
+        point = self._passed(side, contact, direction, passed)
+        if point is None:
             point = self._point(sector, side, contact, direction)
         pin = point, self.rails[side.edge].parameter(point)
         self._pins.update((key, pin) for key in keys)
         return pin
+
+    def _passed(self, side: Side, contact: Point, direction: Point, passed: Passed) -> Point | None:
+        """Where a line meets an edge, if that is an event of the line: no root is to be proved 0 or equal."""
+        if side.role is Role.CONTACT:
+            return None
+        curve = self.curve(side.edge)
+        for number, touching, _ in passed:
+            if touching and number == side.edge and isinstance(curve, Arc):
+                foot: Real = (curve.center - contact).dot(direction) / direction.norm_sq()
+                return contact + direction * foot
+            vertex = self.curve(number).start
+            for end in (curve.start, curve.end):
+                if (
+                    not touching
+                    and end.rational == vertex.rational
+                    and _is_met(direction, curve, end, side.role)
+                ):
+                    return end
+        return None
 
     def clipped(self, glance: Glance, side: int, span: Interval) -> Glance | None:
         """The part of a glance whose one side lies in an interval of that side's rail."""
@@ -372,6 +385,14 @@ class Ranges:
             away: Real = radius + self.radius if sector.outward else radius - self.radius
             return away * away
         return Real(self.square)
+
+
+def _is_met(direction: Point, curve: Curve, end: Point, role: Role) -> bool:
+    """Whether balls tell that a line through an end of an edge enters its obstacle there."""
+    if isinstance(curve, Segment):
+        return not direction.cross(curve.direction).ball(BITS).contains(0)
+    far = -role.value if curve.ccw else role.value
+    return bool((end - curve.center).dot(direction).ball(BITS) * far > 0)
 
 
 def _placed(end: End, k: int, place: Real) -> End:

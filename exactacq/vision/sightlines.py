@@ -24,9 +24,9 @@ from exactacq.vectors import Vector, cross, dot, minus, raw
 from exactacq.vision.chords import meet
 from exactacq.vision.clearance import walk_line
 from exactacq.vision.features import Feature, features, leaving
-from exactacq.vision.glances import Arcs, Glance, Ranges, Role, Side, Strand
+from exactacq.vision.glances import Glance, Ranges, Role, Side, Strand
 from exactacq.vision.names import Anchor, Namer, Names
-from exactacq.vision.pencil import Cell, Pencil, pencil
+from exactacq.vision.pencil import Cell, Passed, Pencil, pencil
 from exactacq.vision.rails import Rail
 from exactacq.vision.sectors import Sector, Sliding, Spokes, corner_sectors, quarters
 from exactacq.vision.table import EdgeTable, Floats, Ints
@@ -38,7 +38,7 @@ class Beam:
 
     Normals have nothing ``behind`` and do not go back: they start at the contact, which lies on an edge. So
     does the contact of a convex arc; a corner counts as the start of the edge that follows it. ``anchor``
-    names what tangents touch, ``names`` the first and the last line (see `names`), which touch ``grazed``.
+    names what tangents touch, ``names`` the first and the last line (see `names`), ``passed`` what they pass.
     """
 
     sector: Sector
@@ -50,7 +50,7 @@ class Beam:
     goes_back: bool
     anchor: Anchor | None = None
     names: tuple[Names, Names] = ((), ())
-    grazed: tuple[Arcs, Arcs] = ((), ())
+    passed: tuple[Passed, Passed] = ((), ())
 
     def strands(self) -> Iterator[Strand]:
         """The families of views between any two of the three."""
@@ -66,7 +66,7 @@ class Beam:
                     self.high,
                     (one, other),
                     self.names,
-                    grazed=self.grazed,
+                    passed=self.passed,
                     anchor=self.anchor if self.goes_back else None,
                 )
 
@@ -196,7 +196,7 @@ class Sightlines:
         )
         anchor = self._namer.anchor(feature)
         return Beam(
-            sector, cell.low, cell.high, behind, contact, ahead, True, anchor, (first, last), grazed(cell)
+            sector, cell.low, cell.high, behind, contact, ahead, True, anchor, (first, last), cell.bounds
         )
 
     def _normals(self, e: int) -> Iterator[Beam]:
@@ -295,15 +295,9 @@ def normals(curve: Curve) -> Iterator[Sector]:
         yield Spokes(center, base, low, high, radius_sq=curve.radius_sq, outward=curve.ccw)
 
 
-def grazed(cell: Cell) -> tuple[Arcs, Arcs]:
-    """The arcs that the first and the last line of a cell touch."""
-    first, last = (tuple(number for number, side, _ in passed if side) for passed in cell.bounds)
-    return first, last
-
-
 def _outward(sector: Sector, cell: Cell, start: Side, anchor: Anchor | None = None) -> Beam:
     ahead = None if cell.ahead is None else Side(cell.ahead, Role.AHEAD)
-    return Beam(sector, cell.low, cell.high, None, start, ahead, False, anchor, grazed=grazed(cell))
+    return Beam(sector, cell.low, cell.high, None, start, ahead, False, anchor, passed=cell.bounds)
 
 
 def _continues(a: Vector, b: Vector) -> bool:
