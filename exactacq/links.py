@@ -291,8 +291,8 @@ class Links:
         behind, ahead = walk_line(self.table, sweep.sector, t, self.reach)
         contact, direction = sweep.sector.touch(t)
         size = direction.norm_sq().sqrt()
-        first_behind = self.first_contacts(behind)
-        for j, high in self.first_contacts(ahead).items():
+        first_behind = self.first_contacts(behind.hits)
+        for j, high in self.first_contacts(ahead.hits).items():
             for i, low in first_behind.items():
                 length = (high - low) * size
                 if i != j and length.compare(self.limit) <= 0:
@@ -383,7 +383,7 @@ class Links:
         contact, direction = sweep.sector.touch(t)
         size = direction.norm_sq().sqrt()
         _, ahead = walk_line(self.table, sweep.sector, t, self.reach)
-        for j, tau in self.first_contacts(ahead).items():
+        for j, tau in self.first_contacts(ahead.hits).items():
             chord = Chord(contact, contact + direction * tau, tau * size)
             best.setdefault(j, _Best(self.limit)).offer(chord.length, chord)
 

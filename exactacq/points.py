@@ -32,7 +32,8 @@ class Point:
     __slots__ = ("x", "y")
 
     def __init__(self, x: object, y: object) -> None:
-        self.x, self.y = Real(x), Real(y)
+        self.x = x if type(x) is Real else Real(x)
+        self.y = y if type(y) is Real else Real(y)
 
     @classmethod
     def of(cls, value: Point | Sequence[object]) -> Point:

@@ -96,18 +96,12 @@ class Real:
     _terms: Mapping[Atom, fmpq]
 
     def __new__(cls, value: object = 0) -> Real:
-        return value if isinstance(value, Real) else cls._rational(rational(value))
-
-    @classmethod
-    def _rational(cls, q: fmpq) -> Real:
-        self = object.__new__(cls)
-        self._q, self._terms, self._bits, self._sign = q, ({1: q} if q else {}), 0, None
-        return self
+        return value if isinstance(value, Real) else _of(rational(value))
 
     @classmethod
     def _form(cls, terms: Mapping[Atom, fmpq]) -> Real:
         if not terms or (len(terms) == 1 and 1 in terms):
-            return cls._rational(terms.get(1, ZERO))
+            return _of(terms.get(1, ZERO))
         self = object.__new__(cls)
         self._q, self._terms, self._bits, self._sign = None, terms, 0, None
         return self
@@ -124,6 +118,13 @@ class Real:
             for atom, c in value._terms.items():
                 terms[atom] = terms.get(atom, ZERO) + c
         return cls._form({a: c for a, c in terms.items() if c})
+
+    def __getattr__(self, name: str) -> Any:
+        # Most rationals never need the form: it is made when it is first asked for.
+        if name != "_terms":
+            raise AttributeError(name)
+        self._terms = {1: self._q} if self._q else {}
+        return self._terms
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Caches stay behind: balls cannot be pickled, and atoms must be interned where they arrive.
@@ -171,12 +172,12 @@ class Real:
     # -- arithmetic --------------------------------------------------------------------------
 
     def __add__(self, other: object) -> Real:
-        right = _coerce(other)
+        right = other if type(other) is Real else _coerce(other)
         if right is None:
             return NotImplemented
         if self._q is not None and right._q is not None:
-            return Real._rational(self._q + right._q)
-        return Real.sum((self, right))
+            return _of(self._q + right._q)
+        return self._plus(right, ONE)
 
     __radd__ = __add__
 
@@ -190,19 +191,34 @@ class Real:
         return -self if self.sign() < 0 else self
 
     def __sub__(self, other: object) -> Real:
-        right = _coerce(other)
-        return NotImplemented if right is None else self + right._scaled(-ONE)
+        right = other if type(other) is Real else _coerce(other)
+        if right is None:
+            return NotImplemented
+        if self._q is not None and right._q is not None:
+            return _of(self._q - right._q)
+        return self._plus(right, -ONE)
 
     def __rsub__(self, other: object) -> Real:
-        return (-self) + other
+        left = _coerce(other)
+        return NotImplemented if left is None else left - self
+
+    def _plus(self, other: Real, factor: fmpq) -> Real:
+        terms = dict(self._terms)
+        for atom, c in other._terms.items():
+            total = terms.get(atom, ZERO) + c * factor
+            if total:
+                terms[atom] = total
+            else:
+                terms.pop(atom, None)
+        return Real._form(terms)
 
     def _scaled(self, q: fmpq) -> Real:
         if self._q is not None:
-            return Real._rational(self._q * q)
+            return _of(self._q * q)
         return Real._form({a: c * q for a, c in self._terms.items()} if q else {})
 
     def __mul__(self, other: object) -> Real:
-        right = _coerce(other)
+        right = other if type(other) is Real else _coerce(other)
         if right is None:
             return NotImplemented
         if right._q is not None:
@@ -226,7 +242,7 @@ class Real:
     __rmul__ = __mul__
 
     def __truediv__(self, other: object) -> Real:
-        right = _coerce(other)
+        right = other if type(other) is Real else _coerce(other)
         if right is None:
             return NotImplemented
         if right._q is not None:
@@ -234,7 +250,7 @@ class Real:
                 raise ZeroDivisionError("division of an exact real by zero")
             return self._scaled(1 / right._q)
         if self.key == right.key:
-            return Real._rational(ONE)
+            return _of(ONE)
         return self * right._inverse()
 
     def __rtruediv__(self, other: object) -> Real:
@@ -483,12 +499,21 @@ class Real:
         return f"Real({str(self)!r})" if self._q is not None else f"<Real {self.decimal(15)}>"
 
 
+def _of(q: fmpq) -> Real:
+    """A rational as a Real: the commonest of all steps."""
+    self = object.__new__(Real)
+    self._q, self._bits, self._sign = q, 0, None
+    return self
+
+
 def _coerce(value: object) -> Real | None:
     """A number as a Real, None for what is no number (bools included); FormatError if it is not finite."""
     if isinstance(value, Real):
         return value
+    if type(value) is fmpq:
+        return _of(value)
     if isinstance(value, (int, fmpz, fmpq, Fraction, float, Decimal)) and not isinstance(value, bool):
-        return Real._rational(rational(value))
+        return _of(rational(value))
     return None
 
 
@@ -533,7 +558,7 @@ def _primitive(x: Real) -> tuple[fmpq, Real]:
 def _sqrt_rational(q: fmpq) -> Real:
     side, radicand = square_free(int(q.p * q.q))
     coefficient = fmpq(side) / q.q
-    return Real._rational(coefficient) if radicand == 1 else Real._form({radicand: coefficient})
+    return _of(coefficient) if radicand == 1 else Real._form({radicand: coefficient})
 
 
 def _denested(x: Real) -> Real | None:
@@ -595,7 +620,7 @@ def roots(coefficients: Iterable[object]) -> list[Real]:
 def _irreducible_roots(factor: fmpz_poly) -> list[Real]:
     coefficients = tuple(factor.coeffs())
     if len(coefficients) == 2:
-        return [Real._rational(fmpq(-coefficients[0], coefficients[1]))]
+        return [_of(fmpq(-coefficients[0], coefficients[1]))]
     if len(coefficients) == 3:
         c, b, a = coefficients
         square = b * b - 4 * a * c

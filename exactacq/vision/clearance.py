@@ -6,7 +6,7 @@ segment into pieces, and one exact point of each tells whether the piece is insi
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import cmp_to_key
 from itertools import pairwise
 
@@ -71,14 +71,16 @@ def _contacts(start: Point, end: Point, direction: Point, curve: Curve) -> list[
     return [other] if curve.contains(start + direction * other) else []
 
 
-def walk_line(
-    table: EdgeTable, sector: Sector, t: Real, reach: float
-) -> tuple[list[tuple[Real, int]], list[tuple[Real, int]]]:
-    """What a tangent line touches behind and ahead of its contact, up to the first obstacle that blocks it.
+@dataclass(frozen=True, slots=True)
+class Walk:
+    """The contacts (signed parameter, edge) of a line within reach, nearest first; the last may block it."""
 
-    Two lists of (signed parameter, edge), nearest first, of contacts with edges within *reach*; each ends
-    with the contact at which the line is blocked, or where nothing more lies within reach.
-    """
+    hits: list[tuple[Real, int]]
+    blocked: bool
+
+
+def walk_line(table: EdgeTable, sector: Sector, t: Real, reach: float) -> tuple[Walk, Walk]:
+    """What a tangent line touches behind and ahead of its contact, up to what first blocks it."""
     contact, direction = sector.touch(t)
     x, y = contact.xy
     edges = table.near((x, y), (x, y), reach)
@@ -92,25 +94,20 @@ def walk_line(
     met.sort(key=cmp_to_key(_by_parameter))
     ahead = [hit for hit in met if hit[0].sign() > 0]
     behind = [hit for hit in reversed(met) if hit[0].sign() < 0]
-    return (
-        list(_until_blocked(table, contact, direction, behind)),
-        list(_until_blocked(table, contact, direction, ahead)),
-    )
+    return _until_blocked(table, contact, direction, behind), _until_blocked(table, contact, direction, ahead)
 
 
 def _by_parameter(a: tuple[Real, int], b: tuple[Real, int]) -> int:
     return a[0].compare(b[0])
 
 
-def _until_blocked(
-    table: EdgeTable, contact: Point, direction: Point, hits: list[tuple[Real, int]]
-) -> Iterator[tuple[Real, int]]:
+def _until_blocked(table: EdgeTable, contact: Point, direction: Point, hits: list[tuple[Real, int]]) -> Walk:
     previous = Real(0)
     owners = {int(table.owner[e]) for _, e in hits}
-    for tau, e in hits:
+    for k, (tau, _) in enumerate(hits):
         if tau.compare(previous) != 0:
             middle = contact + direction * ((previous + tau) * HALF)
-            if any(table.obstacles[k].locate(middle) is Location.INSIDE for k in owners):
-                return
+            if any(table.obstacles[i].locate(middle) is Location.INSIDE for i in owners):
+                return Walk(hits[:k], blocked=True)
             previous = tau
-        yield tau, e
+    return Walk(hits, blocked=False)

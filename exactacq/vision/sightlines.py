@@ -228,13 +228,18 @@ class Sightlines:
             edge, met = self.table.curves[e], cell.ahead if ahead else cell.behind
             if not isinstance(edge, Segment):
                 continue
-            contact, direction = sweep.sector.touch(cell.low if ahead else cell.high)
+            t, passed = (cell.low, cell.bounds[0]) if ahead else (cell.high, cell.bounds[1])
+            contact, direction = sweep.sector.touch(t)
             if not ahead:
                 direction = -direction
-            if met is None:
-                place = contact + direction * (self.radius / direction.norm_sq().sqrt())
-            else:
-                place = contact + direction * meet(contact, direction, self.table.curves[met], 1)
+            far = None if met is None else meet(contact, direction, self.table.curves[met], 1)
+            if any(side or number not in (e, self.table.next[e]) for number, side, _ in passed):
+                # The line grazes what may block its neighbours: it goes on by itself.
+                walk = walk_line(self.table, sweep.sector, t, self.reach)[ahead]
+                far, met = (abs(walk.hits[-1][0]), walk.hits[-1][1]) if walk.blocked else (None, None)
+            if far is None:
+                far = self.radius / direction.norm_sq().sqrt()
+            place = contact + direction * far
             yield Ray(place, met, (edge.end, edge.start) if ahead else (edge.start, edge.end), e)
 
     def _beside(self, feature: Feature) -> tuple[int, int]:
@@ -263,7 +268,7 @@ class Sightlines:
         """What the touched points and edges of a line that grazes several features show of each other."""
         behind, ahead = walk_line(self.table, sector, t, self.reach)
         contact, direction = sector.touch(t)
-        met = [*reversed(behind), (Real(0), own[-1]), *ahead]
+        met = [*reversed(behind.hits), (Real(0), own[-1]), *ahead.hits]
         runs: list[tuple[int, Point, Point]] = []
         for e in dict.fromkeys(e for _, e in met):
             points = [contact + direction * tau for tau, f in met if f == e]
