@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from functools import cmp_to_key
 from itertools import pairwise
-from math import atan, atan2, hypot, pi, sin
+from math import hypot
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -27,7 +27,8 @@ from exactacq.vision.legs import Leg
 from exactacq.vision.names import Names
 from exactacq.vision.pencil import pencil, rational_between
 from exactacq.vision.sectors import Sliding
-from exactacq.vision.sightlines import Beam, Ray, Sightlines
+from exactacq.vision.sides import Sides
+from exactacq.vision.sightlines import Beam, Family, Ray, Sightlines
 from exactacq.vision.table import EdgeTable
 
 Cut: TypeAlias = "tuple[Real, Pin | None, Names]"
@@ -64,27 +65,33 @@ class Crossing:
         """All glances at wanted edges whose first side lies on the way."""
         (ax, ay), (bx, by) = self.places
         box = np.array((min(ax, bx), min(ay, by), max(ax, bx), max(ay, by)))
-        for family in self.sightlines.near(box):
-            for beam in family.beams:
-                yield from self._across(beam)
+        families = list(self.sightlines.near(box))
+        yield from self._beams([family for family in families if family.beams])
+        for family in families:
             for ray in family.rays:
                 if self.wanted(ray.shown):
                     yield from self._along(ray)
         yield from self._normals()
         yield from self._own_line()
 
-    def _across(self, beam: Beam) -> Iterator[Glance]:
+    def _beams(self, families: list[Family]) -> Iterator[Glance]:
+        """The glances along the lines of all beams but those that leave the whole way on one side."""
+        sides = Sides.joined([family.sides for family in families])
+        one, other = (sides.of(x, y, self.slack) for x, y in self.places)
+        beams = [beam for family in families for beam in family.beams]
+        for k in np.flatnonzero((one != other) | (one == 0)).tolist():
+            yield from self._across(beams[k], bool(one[k] and other[k]))
+
+    def _across(self, beam: Beam, certain: bool) -> Iterator[Glance]:
+        """The glances along a beam's lines; *certain* if each of them passes between the ends of the way."""
         met = (beam.behind, beam.contact, beam.ahead)
         if not any(side is not None and self.wanted(side.edge) for side in met):
             return
         if not beam.sector.round and beam.anchor in self.touches:
             # Every line through a corner that the way touches crosses it there and shows nothing else.
             return
-        sides = tuple(self._side(beam, *place) for place in self.places)
-        if sides[0] == sides[1] != 0:
-            return
         cuts: list[Cut] = [(beam.low, None, beam.names[0]), (beam.high, None, beam.names[1])]
-        if 0 in sides:
+        if not certain:
             cuts = self._cuts(beam)
         for (low, first, called), (high, last, named) in pairwise(cuts):
             role = self._role(beam, Real(rational_between(low, high)))
@@ -113,12 +120,6 @@ class Crossing:
         """The wanted sides that a beam shows from behind or ahead of its contact."""
         shown = (beam.contact, beam.ahead if role is Role.BEHIND else beam.behind)
         return [side for side in shown if side is not None and self.wanted(side.edge)]
-
-    def _side(self, beam: Beam, x: float, y: float) -> int:
-        """1 or -1 if a place is certainly to the left or to the right of all lines of a beam, else 0."""
-        low, high = signed_distances(beam, x, y)
-        slack = self.slack + 1e-9 * (abs(low) + abs(high))
-        return 1 if low > slack else -1 if high < -slack else 0
 
     def _cuts(self, beam: Beam) -> list[Cut]:
         """A beam's ends, and the parameters between them of the lines through the way's ends, in order."""
@@ -214,7 +215,11 @@ class Crossing:
         shown += [*self._beyond(span.end, along), *self._beyond(span.start, -along)]
         for name in self.touches:
             if name[0] == "corner":
-                shown.append((name[1], table.curves[name[1]].start))
+                # Its line may touch corners beyond its ends too; those at an end are there already.
+                corner = table.curves[name[1]].start
+                u = self.rail.parameter(corner)
+                if _certainly(span.low, u) and _certainly(u, span.high):
+                    shown.append((name[1], corner))
         for e, point in shown:
             if self.wanted(e):
                 place = self.ranges.rails[e].parameter(point)
@@ -283,33 +288,6 @@ class Crossing:
                     yield from self.ranges.glances(strand)
 
 
-def signed_distances(beam: Beam, x: float, y: float) -> tuple[float, float]:
-    """Bounds, up to round-off, of the distances of a place from a beam's lines, positive to their left."""
-    sector = beam.sector
-    wx, wy = x - float(sector.origin[0]), y - float(sector.origin[1])
-    low, high = (float(t.ball(64).mid()) for t in (beam.low, beam.high))
-    ux, uy = float(sector.unit[0]), float(sector.unit[1])
-    if isinstance(sector, Sliding):
-        along, turn = wx * ux + wy * uy, 1 if sector.leftward else -1
-        # A normal at t e leaves what lies farther along to its right, if it goes left.
-        ends = [turn * (t * sector.size - along) for t in (low, high)]
-        return min(ends), max(ends)
-    angle, half = atan2(uy, ux), 2 if sector.round else 1
-    first, last = (angle + half * atan(t) + (pi / 2 if sector.round else 0.0) for t in (low, high))
-    away, size = atan2(wy, wx), hypot(wx, wy)
-    least, most = _sines(away - last, away - first)
-    lift = sector.size if sector.round else 0.0
-    return size * least + lift, size * most + lift
-
-
-def _sines(low: float, high: float) -> tuple[float, float]:
-    """Least and greatest sine of the angles between two, less than a full turn apart."""
-    ends = sin(low), sin(high)
-    peak = low + (pi / 2 - low) % (2 * pi) <= high
-    trough = low + (-pi / 2 - low) % (2 * pi) <= high
-    return -1.0 if trough else min(ends), 1.0 if peak else max(ends)
-
-
 def _rough(point: Point) -> tuple[float, float]:
     return float(point.x.ball(64).mid()), float(point.y.ball(64).mid())
 
@@ -323,6 +301,11 @@ def _edges_near(table: EdgeTable, point: Point) -> list[int]:
 
 def _by_parameter(a: tuple[Real, Pin], b: tuple[Real, Pin]) -> int:
     return a[0].compare(b[0])
+
+
+def _certainly(low: Real, high: Real) -> bool:
+    """Whether balls tell that one number is less than another."""
+    return bool(low.ball(OVERLAP_BITS) < high.ball(OVERLAP_BITS))
 
 
 def _overlap(a: Real, b: Real) -> bool:

@@ -29,6 +29,7 @@ from exactacq.vision.names import Anchor, Namer, Names
 from exactacq.vision.pencil import Cell, Passed, Pencil, pencil
 from exactacq.vision.rails import Rail
 from exactacq.vision.sectors import Sector, Sliding, Spokes, corner_sectors, quarters
+from exactacq.vision.sides import Sides
 from exactacq.vision.table import EdgeTable, Floats, Ints
 
 
@@ -100,7 +101,7 @@ class Bundle:
         return self._source
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Family:
     """The beams and single rays of one feature, edge or corner; ``on`` gives its bundles with a side on an
     edge, with the number of that side."""
@@ -108,6 +109,11 @@ class Family:
     beams: tuple[Beam, ...]
     rays: tuple[Ray, ...]
     on: dict[int, list[tuple[Bundle, int]]]
+
+    @cached_property
+    def sides(self) -> Sides:
+        """The beams as `Sides`."""
+        return Sides([(beam.sector, beam.low, beam.high) for beam in self.beams])
 
 
 KEPT = 4096
