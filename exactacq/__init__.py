@@ -12,9 +12,9 @@ from exactacq.reals import Real
 from exactacq.scene import Scene
 from exactacq.shapes import Circle, Outline, Polygon, Terrain
 from exactacq.sightseer import sightseer
+from exactacq.sweep import sweep
 from exactacq.trace import Run
 from exactacq.vision.isovist import isovist
-from exactacq.vision.sweep import sweep
 
 if TYPE_CHECKING:
     from exactacq.figures import figure

@@ -88,13 +88,12 @@ class Memory:
         """The map when the robot is at a place inside piece number *count*."""
         covers = self._covers(count)
         for leg in self._legs[count]:
-            if place == leg.end or not leg.curve.passes(place):
-                covers.update(self._senses.known_after(leg, covers))
-            elif place != leg.start:
-                u = leg.rail.parameter(place)
-                covers.update(self._senses.known_after(leg.upto(u, place), covers))
-            if leg.curve.passes(place):
+            u = leg.rail.parameter(place)
+            if leg.span.low.compare(u) <= 0 and leg.span.high.compare(u) >= 0:
+                if leg.order(u, leg.first) > 0:
+                    covers.update(self._senses.known_after(leg.upto(u, place), covers))
                 break
+            covers.update(self._senses.known_after(leg, covers))
         return self._map(covers)
 
     def _covers(self, count: int) -> dict[int, Cover]:

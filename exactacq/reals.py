@@ -385,6 +385,8 @@ class Real:
 
     def _order(self, other: object) -> Any:
         """The sign of self - other; None for a NaN, NotImplemented for what is no number."""
+        if self is other:
+            return 0
         right = other if isinstance(other, Real) else None
         if right is None:
             special = nonfinite(other)

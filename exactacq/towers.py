@@ -28,7 +28,9 @@ Fraction: TypeAlias = "tuple[Polynomial, Polynomial]"
 
 MOST_RADICALS = 12
 MOST_TERMS = 1 << 18
-"""Products of terms after which a test gives up: less than a second of work."""
+"""Products of terms after which a test gives up: a few seconds of work at most."""
+WORDS = 512
+"""Machine words of a factor that take as long as one product of short terms."""
 BITS = 256
 
 
@@ -122,6 +124,7 @@ class _Tower:
     def times(self, a: Polynomial, b: Polynomial) -> Polynomial:
         """The product, with squares of radicals replaced."""
         self.work += len(a) * len(b) * (1 if self.field is None else self.field[0].degree() ** 2)
+        self.work += (len(b) * _words(a) + len(a) * _words(b)) // WORDS
         if self.work > MOST_TERMS:
             raise _TooLong
         plain: dict[tuple[int, int], Any] = {}
@@ -205,6 +208,17 @@ def _sum(a: Polynomial, b: Polynomial) -> Polynomial:
         else:
             result.pop(m, None)
     return result
+
+
+def _words(a: Polynomial) -> int:
+    """Machine words of all coefficients."""
+    return sum(_bits(c) for c in a.values()) >> 6
+
+
+def _bits(c: Coefficient) -> int:
+    if isinstance(c, fmpz):
+        return int(c.bit_length())
+    return len(c) * int(c.numer().height_bits() + c.denom().bit_length())
 
 
 def _primitive(top: Polynomial, bottom: Polynomial) -> Fraction:

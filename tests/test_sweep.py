@@ -13,10 +13,10 @@ from exactacq import Circle, Point, Polygon, Scene
 from exactacq.curves import Arc, Segment
 from exactacq.errors import InvalidScene
 from exactacq.memory import Memory
+from exactacq.sweep import Change, Sweep, SweepCell, sweep
 from exactacq.trace import Piece
 from exactacq.vision.outline import ViewKind
 from exactacq.vision.pencil import rational_between
-from exactacq.vision.sweep import Change, Sweep, SweepCell, sweep
 
 BITS = 600
 """Points made in two ways, as roots of different polynomials, count as equal if so many bits agree."""

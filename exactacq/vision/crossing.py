@@ -14,6 +14,7 @@ from math import hypot
 from typing import Any, TypeAlias
 
 import numpy as np
+from flint import fmpq
 
 from exactacq.contacts import line_contacts
 from exactacq.curves import Segment
@@ -27,8 +28,8 @@ from exactacq.vision.legs import Leg
 from exactacq.vision.names import Names
 from exactacq.vision.pencil import pencil, rational_between
 from exactacq.vision.sectors import Sliding
-from exactacq.vision.sides import Sides
-from exactacq.vision.sightlines import Beam, Family, Ray, Sightlines
+from exactacq.vision.sides import Sides, rough
+from exactacq.vision.sightlines import Beam, Ray, Sightlines
 from exactacq.vision.table import EdgeTable
 
 Cut: TypeAlias = "tuple[Real, Pin | None, Names]"
@@ -49,7 +50,7 @@ class Crossing:
         sightlines: Sightlines,
         leg: Leg,
         wanted: Callable[[int], bool],
-        view: Callable[[Point], Seen],
+        view: Callable[[Point, None], Seen],
     ) -> None:
         self.sightlines, self.span, self.wanted, self.view = sightlines, leg.span, wanted, view
         self.touches: frozenset[Any] = frozenset(leg.touches)
@@ -58,7 +59,7 @@ class Crossing:
         self.way = len(self.ranges.rails) - 1
         self.piece = Segment(leg.span.start, leg.span.end)
         self.line = rail.curve
-        self.places = [_rough(p) for p in (leg.span.start, leg.span.end)]
+        self.places = [rough(p) for p in (leg.span.start, leg.span.end)]
         self.slack = 256 * sightlines.table.roundoff
 
     def glances(self) -> Iterator[Glance]:
@@ -66,21 +67,21 @@ class Crossing:
         (ax, ay), (bx, by) = self.places
         box = np.array((min(ax, bx), min(ay, by), max(ax, bx), max(ay, by)))
         families = list(self.sightlines.near(box))
-        yield from self._beams([family for family in families if family.beams])
-        for family in families:
-            for ray in family.rays:
-                if self.wanted(ray.shown):
-                    yield from self._along(ray)
+        beams = [beam for family in families for beam in family.beams]
+        for k, certain in self._crossing(Sides.joined([family.sides for family in families])):
+            yield from self._across(beams[k], certain)
+        rays = [ray for family in families for ray in family.rays]
+        for k, _ in self._crossing(Sides.joined([family.ray_sides for family in families])):
+            if self.wanted(rays[k].shown):
+                yield from self._along(rays[k])
         yield from self._normals()
         yield from self._own_line()
 
-    def _beams(self, families: list[Family]) -> Iterator[Glance]:
-        """The glances along the lines of all beams but those that leave the whole way on one side."""
-        sides = Sides.joined([family.sides for family in families])
+    def _crossing(self, sides: Sides) -> Iterator[tuple[int, bool]]:
+        """The beams that do not leave the whole way on one side; True if all their lines cross it."""
         one, other = (sides.of(x, y, self.slack) for x, y in self.places)
-        beams = [beam for family in families for beam in family.beams]
         for k in np.flatnonzero((one != other) | (one == 0)).tolist():
-            yield from self._across(beams[k], bool(one[k] and other[k]))
+            yield k, bool(one[k] and other[k])
 
     def _across(self, beam: Beam, certain: bool) -> Iterator[Glance]:
         """The glances along a beam's lines; *certain* if each of them passes between the ends of the way."""
@@ -94,7 +95,7 @@ class Crossing:
         if not certain:
             cuts = self._cuts(beam)
         for (low, first, called), (high, last, named) in pairwise(cuts):
-            role = self._role(beam, Real(rational_between(low, high)))
+            role = self._role(beam, rational_between(low, high))
             if role is None:
                 continue
             here = Side(self.way, role)
@@ -177,9 +178,9 @@ class Crossing:
                 return point, place
         return None
 
-    def _role(self, beam: Beam, t: Real) -> Role | None:
+    def _role(self, beam: Beam, t: fmpq) -> Role | None:
         """On which side of the contact the line crosses the way within its free part, if it does."""
-        contact, direction = beam.sector.touch(t)
+        contact, direction = beam.sector.touch(Real(t))
         met = line_contacts(contact, direction, self.piece)
         if not met or met[0].sign() == 0:
             return None
@@ -232,9 +233,9 @@ class Crossing:
         """What the way's line meets beyond an end, as far as it is seen from there."""
         table = self.sightlines.table
         own = _edges_near(table, end)
-        (x, y), (dx, dy) = _rough(end), _rough(onward)
+        (x, y), (dx, dy) = rough(end), rough(onward)
         size = hypot(dx, dy)
-        for e, intervals in self.view(end).spans.items():
+        for e, intervals in self.view(end, None).spans.items():
             curve = table.curves[e]
             low, high = table.boxes[e, :2], table.boxes[e, 2:]
             corners = [(cx - x, cy - y) for cx in (low[0], high[0]) for cy in (low[1], high[1])]
@@ -286,10 +287,6 @@ class Crossing:
                     sides = here, Side(cell.ahead, Role.AHEAD)
                     strand = Strand(sector, cell.low, cell.high, sides, passed=cell.bounds)
                     yield from self.ranges.glances(strand)
-
-
-def _rough(point: Point) -> tuple[float, float]:
-    return float(point.x.ball(64).mid()), float(point.y.ball(64).mid())
 
 
 def _edges_near(table: EdgeTable, point: Point) -> list[int]:

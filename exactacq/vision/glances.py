@@ -249,6 +249,8 @@ class Ranges:
     def clipped(self, glance: Glance, side: int, span: Interval) -> Glance | None:
         """The part of a glance whose one side lies in an interval of that side's rail."""
         a, b = glance.first.places[side], glance.last.places[side]
+        if span.low.rational == 0 and span.high is self.rails[glance.edges[side]].top:
+            return glance
         low, high = (a, b) if a.compare(b) <= 0 else (b, a)
         if low.compare(span.high) > 0 or high.compare(span.low) < 0:
             return None
@@ -279,7 +281,12 @@ class Ranges:
         strand = glance.strand
         assert strand is not None
         role = strand.sides[side].role.value
-        for t in strand.sector.through(point):
+        sector = strand.sector
+        if role == 0 and isinstance(sector, Rolling):
+            lines = [sector.touching(point)]
+        else:
+            lines = sector.through(point)
+        for t in lines:
             if t.compare(glance.first.t) < 0 or t.compare(glance.last.t) > 0:
                 continue
             contact, direction = strand.sector.touch(t)

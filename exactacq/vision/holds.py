@@ -31,11 +31,21 @@ BITS = 128
 
 
 class Seen:
-    """What is seen from a place: ``spans`` are the closed intervals of each edge, by its number."""
+    """What is seen from a place: ``spans`` are the closed intervals of each edge, by its number.
 
-    def __init__(self, table: EdgeTable, rails: list[Rail], place: Point, radius: fmpq) -> None:
+    *own* are the edges through the place, if known.
+    """
+
+    def __init__(
+        self,
+        table: EdgeTable,
+        rails: list[Rail],
+        place: Point,
+        radius: fmpq,
+        own: tuple[int, ...] | None,
+    ) -> None:
         self.table, self.place = table, place
-        self._view = View(table, place, radius)
+        self._view = View(table, place, radius, own)
         self.spans: dict[int, list[Interval]] = {
             e: [i for a, b in parts for i in Interval.between(rails[e], a, b)]
             for e, parts in self._view.seen().items()

@@ -60,6 +60,14 @@ class Leg:
         """A box that contains the leg."""
         return box(self.curve)
 
+    def own(self, u: Real) -> tuple[int, ...] | None:
+        """The edges through a place of the leg if they are known: inside its edge there is no other."""
+        if self.edge is None:
+            return None
+        full = isinstance(self.rail.curve, Arc) and self.rail.curve.full
+        inside = u is not self.rail.top and u.rational != 0
+        return (self.edge,) if full or inside else None
+
     def upto(self, u: Real, place: Point) -> Leg:
         """The leg as far as a place on it."""
         span = self.span

@@ -168,6 +168,11 @@ class Rolling(Sector):
         vx, vy = cosine * ex - sine * ey, cosine * ey + sine * ex
         return Point(vx + cx, vy + cy), Point(-vy, vx)
 
+    def touching(self, point: Point) -> Real:
+        """The parameter of the line that touches the circle at a point, not opposite to the start."""
+        _, along, across = self._frame((point.x, point.y))
+        return Real(across / (dot(self.base, self.base) + along))
+
     def through(self, point: Point) -> list[Real]:
         """Roots of (k + p) t^2 - 2 q t + (k - p) = 0, k = |e|^2, p and q the components along e and e'."""
         _, along, across = self._frame((point.x, point.y))

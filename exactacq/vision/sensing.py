@@ -137,13 +137,13 @@ class Senses:
         edges = self.table.near((x, y), (right, top), self.sightlines.reach)
         return {int(k) for k in np.unique(self.table.owner[edges])}
 
-    def _view(self, place: Point) -> Seen:
-        """What is seen from a place; the last views are kept, for legs share their ends."""
+    def _view(self, place: Point, own: tuple[int, ...] | None = None) -> Seen:
+        """What is seen from a place on edges *own*, if known; the last are kept, for legs share ends."""
         kept = self._views.get(id(place))
         if kept is None:
             if len(self._views) >= VIEWS_KEPT:
                 self._views.clear()
-            kept = self._views[id(place)] = Seen(self.table, self.rails, place, self.radius)
+            kept = self._views[id(place)] = Seen(self.table, self.rails, place, self.radius, own)
         return kept
 
     def _with_view(self, view: Seen, obstacles: list[int]) -> dict[int, Cover]:
@@ -183,7 +183,7 @@ class Senses:
         their ends may have moved meanwhile, so the gaps just before it are looked at again.
         """
         leg = shares.leg
-        before = ChainMap(self._with_view(self._view(leg.start), [k]), self.covers)
+        before = ChainMap(self._with_view(self._view(leg.start, leg.own(leg.first)), [k]), self.covers)
         if self._is_whole(before, k):
             return Notice(Kind.ACQUIRE, k, leg.first, leg.start)
         _, around = self._closing(shares, leg, k, before, before)

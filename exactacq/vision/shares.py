@@ -45,14 +45,17 @@ class Share:
 
 
 class Shares:
-    """What a leg shows of some obstacles. *view* gives what is seen from a point."""
+    """What a leg shows of some obstacles.
+
+    *view* gives what is seen from a point, with the edges through it if these are known.
+    """
 
     def __init__(
         self,
         sightlines: Sightlines,
         leg: Leg,
         obstacles: Collection[int],
-        view: Callable[[Point], Seen],
+        view: Callable[[Point, tuple[int, ...] | None], Seen],
         of: dict[int, list[Share]] | None = None,
     ) -> None:
         self.sightlines, self.leg, self.obstacles, self.view = sightlines, leg, obstacles, view
@@ -78,7 +81,7 @@ class Shares:
     def _pinned(self, end: End, glance: Glance, side: int, leg: Leg) -> End:
         u = end.places[side]
         place = leg.start if u is leg.first else leg.end if u is leg.last else None
-        return end if place is None else self.view(place).pinned(end, glance, side)
+        return end if place is None else self.view(place, leg.own(u)).pinned(end, glance, side)
 
     def _glances(self) -> Iterator[tuple[Glance, int]]:
         sightlines, leg, owner, obstacles = self.sightlines, self.leg, self.owner, self.obstacles
@@ -119,8 +122,8 @@ class Shares:
         for shares in self.of.values():
             for share in sorted(shares, key=lambda share: size(share.shown), reverse=True):
                 add(learned, covers, share.edge, share.shown)
-        for place in (leg.start, leg.end):
-            view = self.view(place)
+        for u, place in ((leg.first, leg.start), (leg.last, leg.end)):
+            view = self.view(place, leg.own(u))
             for k in self.obstacles:
                 for e, interval in view.of(k):
                     add(learned, covers, e, interval)
@@ -136,7 +139,7 @@ class Shares:
             return Cover((span,))
         times = Cover()
         for u, place in ((span.low, span.start), (span.high, span.end)):
-            if any(e in edges for e in self.view(place).spans):
+            if any(e in edges for e in self.view(place, self.leg.own(u)).spans):
                 times = times.added(Interval(u, place, u, place))
         sources = (share.source for share in self.of[k] if share.edge in edges)
         for interval in sorted(sources, key=size, reverse=True):

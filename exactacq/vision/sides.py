@@ -1,4 +1,7 @@
-"""On which side of all lines of a beam a place lies: floats with proven margins, many beams at once."""
+"""On which side of all lines of a beam a place lies: floats with proven margins, many beams at once.
+
+A single line is a beam whose first and last line are one.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +10,7 @@ from math import pi
 
 import numpy as np
 
+from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.vision.sectors import Sector, Sliding
 from exactacq.vision.table import Floats, Ints
@@ -21,6 +25,17 @@ class Sides:
 
     def __len__(self) -> int:
         return len(self._table)
+
+    @classmethod
+    def of_lines(cls, lines: Sequence[tuple[Point, Point]]) -> Sides:
+        """The lines from one point through another."""
+        whole = cls([])
+        if lines:
+            start, end = (np.array([rough(line[k]) for line in lines]) for k in (0, 1))
+            angle = np.arctan2(*(end - start).T[::-1])
+            nothing = np.zeros(len(lines))
+            whole._table = np.stack((*start.T, angle, angle, *[nothing] * 4), axis=1)
+        return whole
 
     @classmethod
     def joined(cls, parts: Sequence[Sides]) -> Sides:
@@ -52,6 +67,11 @@ class Sides:
         low = np.where(slides, np.minimum(*ends), size * least + lift)
         high = np.where(slides, np.maximum(*ends), size * most + lift)
         return low, high
+
+
+def rough(point: Point) -> tuple[float, float]:
+    """A point in floats; never a proof, however deep its numbers are."""
+    return float(point.x.ball(64).mid()), float(point.y.ball(64).mid())
 
 
 def _image(sector: Sector, low: Real, high: Real) -> tuple[float, ...]:

@@ -115,6 +115,11 @@ class Family:
         """The beams as `Sides`."""
         return Sides([(beam.sector, beam.low, beam.high) for beam in self.beams])
 
+    @cached_property
+    def ray_sides(self) -> Sides:
+        """The lines of the rays as `Sides`."""
+        return Sides.of_lines([(ray.place, ray.run[0]) for ray in self.rays])
+
 
 KEPT = 4096
 """Families that are remembered, the last used: enough for a wide neighbourhood, and a bound of the memory."""

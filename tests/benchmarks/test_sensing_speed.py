@@ -22,6 +22,9 @@ from stepping import Stepper
 import exactacq as xa
 from exactacq.generators import random_octagons
 from exactacq.points import Location
+from exactacq.sweep import Sweep
+from exactacq.vision.sensing import Senses
+from exactacq.vision.table import EdgeTable
 
 SEED = 1
 POINTS = 40
@@ -30,6 +33,10 @@ GLIMPSE = 100
 """Steps of the stepping simulator where timings are off."""
 FEW = 10
 """Obstacles of a whole run where timings are off."""
+SOME = 300
+"""Steps of the stepping simulator that stand for the whole path of a large scene."""
+LARGE: list[xa.Run] = []
+"""The large run, once it was timed."""
 
 
 def skip_unless_timed(benchmark: object, n: int) -> None:
@@ -125,6 +132,7 @@ def test_sensing_sightseer(benchmark: object) -> None:
 def test_large_sensing_sightseer(benchmark: object) -> None:
     skip_unless_timed(benchmark, 1000)
     run = benchmark.pedantic(explored, setup=lambda: ((random_octagons(1000, SEED),), {}), rounds=1)
+    LARGE.append(run)
     report(benchmark, run)
 
 
@@ -152,6 +160,47 @@ def test_stepping(benchmark: object, look: str) -> None:
     assert found.events
     if steps is None:
         assert found.done.all(), "the peer knows all in the end"
+
+
+@pytest.mark.benchmark(group="a run with its map, n = 1000")
+@pytest.mark.parametrize("look", ["lazy", "polygon", "cgal"])
+def test_stepping_through_a_large_scene(benchmark: object, look: str) -> None:
+    """Some steps from the middle of the path: the whole walk takes as many times longer as it has more."""
+    skip_unless_timed(benchmark, 1000)
+    if look == "cgal":
+        pytest.importorskip("peers", reason="needs pyvispoly, an optional test dependency")
+    run = LARGE[0] if LARGE else finished(1000)
+    curves = [piece.curve for piece in run.path[len(run.path) // 2 :]]
+    stepper = Stepper(run.scene, run.radius, look)
+    benchmark.pedantic(lambda: stepper.walk(curves, SOME), rounds=1)
+    steps = 100 * float(run.length) / float(run.radius)
+    whole = benchmark.stats.stats.median * steps / SOME
+    benchmark.extra_info["seconds for the whole path"] = whole
+    print(f"\n{look}: {SOME} of {steps:.0f} steps timed; {whole:.0f} s for the whole path at this rate")
+
+
+@pytest.mark.benchmark(group="one sweep event beside one view, n = 100")
+@pytest.mark.parametrize("ask", ["sweep", "view"])
+def test_sweep(benchmark: object, ask: str) -> None:
+    """The sweeps of all pieces of a run, of all obstacles in reach; and views from places on them."""
+    n = FEW if benchmark.disabled else 100
+    run = finished(n)
+    if ask == "view":
+        points = [piece.curve.point(fmpq(1, 2)) for piece in run.path[:: max(1, len(run.path) // 100)]]
+        waiting = iter(points)
+        setup = lambda: ((run.scene, next(waiting), run.radius), {})  # noqa: E731
+        benchmark.pedantic(outline, setup=setup, rounds=len(points))
+        return
+
+    def swept() -> int:
+        senses = Senses(EdgeTable(run.scene.obstacles), run.radius)
+        return sum(len(Sweep(run.scene, piece, senses).events) for piece in run.path)
+
+    events = benchmark.pedantic(swept, rounds=1)
+    assert events > len(run.path)
+    benchmark.extra_info["events"] = events
+    if not benchmark.disabled:
+        print(f"\n{events} events of the view, {1e3 * benchmark.stats.stats.median / events:.2f} ms for each")
 
 
 @cache

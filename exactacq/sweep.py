@@ -23,11 +23,12 @@ from exactacq.numerals import rational
 from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.scene import Scene
+from exactacq.trace import Piece
 from exactacq.validation import sensor_flaws
 from exactacq.vectors import dot
 from exactacq.vision.glances import Role, Side
 from exactacq.vision.knowledge import Map
-from exactacq.vision.legs import Leg, legs_of
+from exactacq.vision.legs import legs_of
 from exactacq.vision.sectors import Sector
 from exactacq.vision.sensing import Senses
 from exactacq.vision.shares import Share, Shares
@@ -123,8 +124,9 @@ class SweepCell:
 class Sweep:
     """The views along a piece of a path: ``events`` in the robot's order, and the ``cells`` between them."""
 
-    def __init__(self, scene: Scene, legs: list[Leg], senses: Senses) -> None:
+    def __init__(self, scene: Scene, piece: Piece, senses: Senses) -> None:
         self.scene = scene
+        legs = legs_of(senses.table, senses.rails, piece.obstacle, piece.curve, piece.touches)
         self._shares = [senses.shares(leg) for leg in legs]
 
     @cached_property
@@ -162,8 +164,8 @@ def sweep(scene: Scene, curve: Curve, radius: object = None, obstacle: int | Non
         raise InvalidScene(flaws)
     if obstacle is None and not isinstance(curve, Segment):
         raise ValueError("free space is crossed on straight lines: an arc needs its obstacle's number")
-    senses = Senses(EdgeTable(scene.obstacles), reach)
-    return Sweep(scene, legs_of(senses.table, senses.rails, obstacle, curve), senses)
+    kind = "straight" if obstacle is None else "boundary"
+    return Sweep(scene, Piece(kind, obstacle, curve), Senses(EdgeTable(scene.obstacles), reach))
 
 
 def _events(number: int, shares: Shares) -> list[SweepEvent]:
