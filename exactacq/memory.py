@@ -34,11 +34,12 @@ class Report:
 
 
 class Memory:
-    """What a robot has learned on its way so far. *radius* is rational and positive."""
+    """What a robot has learned on its way so far, with all ``reports``. *radius* is rational and positive."""
 
     def __init__(self, scene: Scene, radius: fmpq, table: EdgeTable | None = None) -> None:
         self.scene, self.radius = scene, radius
         self._senses = Senses(EdgeTable(scene.obstacles) if table is None else table, radius)
+        self.reports: list[Report] = []
         self._learned: list[dict[int, Cover]] = []
         self._legs: list[list[Leg]] = []
 
@@ -60,7 +61,7 @@ class Memory:
         """Look around at the start."""
         notices, learned = self._senses.look_around(start)
         self._learned.append(learned)
-        return [Report(n.kind, n.obstacle, n.place, n.note, 0, False) for n in notices]
+        return self._reported([Report(n.kind, n.obstacle, n.place, n.note, 0, False) for n in notices])
 
     def walk(self, piece: Piece) -> list[Report]:
         """Take in all that a piece of the path shows; the reports in the order in which they come."""
@@ -78,7 +79,7 @@ class Memory:
                 reports.append(Report(n.kind, n.obstacle, n.place, n.note, after, inside))
         self._learned.append(learned)
         self._legs.append(legs)
-        return reports
+        return self._reported(reports)
 
     def after(self, count: int) -> Map:
         """The map after the first *count* pieces."""
@@ -95,6 +96,10 @@ class Memory:
                 break
             covers.update(self._senses.known_after(leg, covers))
         return self._map(covers)
+
+    def _reported(self, reports: list[Report]) -> list[Report]:
+        self.reports += reports
+        return reports
 
     def _covers(self, count: int) -> dict[int, Cover]:
         covers: dict[int, Cover] = {}

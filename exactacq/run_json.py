@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Iterator
 from typing import Any
 
 from exactacq.bounds import sightseer_bounds
@@ -13,14 +14,17 @@ from exactacq.errors import ExactacqError, FormatError
 from exactacq.formats.json_scene import parse_json, scene_of, scene_to_json
 from exactacq.formats.source import one_line, read_bytes
 from exactacq.lengths import Length
+from exactacq.memory import Memory
 from exactacq.numerals import rational
 from exactacq.output import readable
 from exactacq.points import Point
 from exactacq.trace import Bound, Event, Path, Piece, Run, TreeLink
+from exactacq.vision.sensing import Kind
 
 FORMAT, VERSION = "exactacq run", 2
 DIGITS = 20
 """Decimals beside exact values are for readers: they are not read back."""
+SENSED = {kind.value for kind in Kind}
 CLOSED = 200
 """Closed forms up to so many characters are written beside the decimals."""
 
@@ -83,7 +87,11 @@ def _run(document: dict[str, Any]) -> Run:
     scene = scene_of(document["scene"])
     path = Path(_read_piece(numbers, piece) for piece in document["path"])
     links = tuple(_read_link(numbers, link) for link in document["links"])
-    events = tuple(_read_event(numbers, event, path) for event in document["events"])
+    radius, start = rational(document["radius"]), numbers.point(document["start"])
+    memory = None
+    if any(event["point"] is None for event in document["events"]):
+        memory = Memory.of(scene, radius, start, path)
+    events = tuple(_read_events(numbers, document["events"], path, memory))
     visits, unseen, unvisited = (
         tuple(int(k) for k in document[key]) for key in ("visits", "unseen", "unvisited")
     )
@@ -91,12 +99,12 @@ def _run(document: dict[str, Any]) -> Run:
     named = [*visits, *unseen, *unvisited, *(p.obstacle for p in path), *(e.obstacle for e in events)]
     if any(k is not None and not 0 <= k < count for k in named):
         raise FormatError(f"the run names an obstacle that its scene of {count} does not have")
-    radius, length = rational(document["radius"]), path.length_after(len(path))
+    length = path.length_after(len(path))
     return Run(
         scene=scene,
         radius=radius,
         strategy=str(document["strategy"]),
-        start=numbers.point(document["start"]),
+        start=start,
         path=path,
         visits=visits,
         links=links,
@@ -105,6 +113,7 @@ def _run(document: dict[str, Any]) -> Run:
         unseen=unseen,
         unvisited=unvisited,
         stack_depth=int(document["stack_depth"]),
+        record=memory,
     )
 
 
@@ -152,12 +161,20 @@ def _piece(out: Encoder, piece: Piece) -> dict[str, Any]:
     return document
 
 
+def _place(out: Encoder, point: Point) -> list[Number] | None:
+    """A point, or None for one that has no exact form: sensing finds it again (see `exactacq.zeros`)."""
+    try:
+        return _point(out, point)
+    except FormatError:
+        return None
+
+
 def _event(out: Encoder, event: Event, positions: list[str]) -> dict[str, Any]:
     return {
         "kind": event.kind,
         "obstacle": event.obstacle,
         "note": event.note,
-        "point": _point(out, event.point),
+        "point": _place(out, event.point),
         "after": event.after,
         "inside": event.inside,
         "at": event.at.decimal(DIGITS) if event.inside else positions[event.after],
@@ -208,15 +225,34 @@ def _read_link(numbers: _Points, document: dict[str, Any]) -> TreeLink:
     )
 
 
-def _read_event(numbers: _Points, document: dict[str, Any], path: Path) -> Event:
-    after = int(document["after"])
+def _read_events(
+    numbers: _Points, documents: list[dict[str, Any]], path: Path, memory: Memory | None
+) -> Iterator[Event]:
+    """The events; those without a point happened where the repeated sensing says."""
+    reports = iter(memory.reports) if memory else None
+    for document in documents:
+        kind, obstacle = str(document["kind"]), _index(document["obstacle"])
+        place: Point | None = None
+        if reports is not None and kind in SENSED:
+            report = next(reports, None)
+            if report is None or (report.kind.value, report.obstacle) != (kind, obstacle):
+                raise FormatError(f"the path does not show the {kind} of obstacle {obstacle} that it names")
+            place = report.place
+        if document["point"] is not None:
+            place = numbers.point(document["point"])
+        if place is None:
+            raise FormatError(f"an event of kind {kind} has no point")
+        yield _read_event(document, place, path)
+
+
+def _read_event(document: dict[str, Any], place: Point, path: Path) -> Event:
+    after, inside = int(document["after"]), document["inside"] is True
     if not 0 <= after <= len(path):
         raise FormatError(f"an event after piece {after} of a path of {len(path)}")
-    point, obstacle = numbers.point(document["point"]), _index(document["obstacle"])
-    inside = document["inside"] is True
     if inside and after == len(path):
         raise FormatError(f"an event inside piece {after} of a path of {len(path)}")
-    return Event(str(document["kind"]), point, obstacle, str(document["note"]), after, path, inside)
+    obstacle, note = _index(document["obstacle"]), str(document["note"])
+    return Event(str(document["kind"]), place, obstacle, note, after, path, inside)
 
 
 def _index(value: Any) -> int | None:

@@ -191,3 +191,28 @@ def test_lengths_of_links_are_algebraic() -> None:
     for link in load_run(room().to_json()).links:
         assert link.length == Length((link.hit - link.leave).norm_sq().sqrt())
         assert isinstance(link.leave, Point)
+
+
+def test_an_event_without_a_point_is_found_again() -> None:
+    # A zero of a function has no exact text: the sensing is repeated to find the place.
+    run = sightseer(gallery.scene("m11"))
+    document = run.to_json()
+    blanked = [
+        k for k, event in enumerate(document["events"]) if event["kind"] in ("sight", "lose", "acquire")
+    ]
+    for k in blanked:
+        document["events"][k]["point"] = None
+    again = load_run(document)
+    assert len(blanked) > 3
+    assert [event.point for event in again.events] == [event.point for event in run.events]
+    assert again.map.known_length() == run.map.known_length()
+
+
+@pytest.mark.parametrize("kind", ["hit", "sight"])
+def test_a_point_that_sensing_cannot_find_is_refused(kind: str) -> None:
+    document = sightseer(gallery.scene("m11")).to_json()
+    event = next(event for event in document["events"] if event["kind"] == kind)
+    event["point"] = None
+    event["obstacle"] = 2 if kind == "sight" else event["obstacle"]
+    with pytest.raises(FormatError, match="no point" if kind == "hit" else "does not show"):
+        load_run(document)

@@ -25,7 +25,11 @@ HALF = fmpq(1, 2)
 
 
 def is_free(table: EdgeTable, start: Point, end: Point) -> bool:
-    """Whether the segment between two points, neither of them inside an obstacle, is free."""
+    """Whether the segment between two points, neither of them inside an obstacle, is free.
+
+    Without a contact between its ends it is taken to be outside: from a boundary it must not lead straight
+    into the obstacle (`View.buries` tells).
+    """
     p, q = np.array(start.xy), np.array(end.xy)
     size = float(np.hypot(*(q - p)))
     edges = table.near((min(p[0], q[0]), min(p[1], q[1])), (max(p[0], q[0]), max(p[1], q[1])), 0.0)
