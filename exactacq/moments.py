@@ -24,7 +24,9 @@ class Moment:
 
     @classmethod
     def of(cls, run: Run, at: Event | object) -> Moment:
-        """The moment of an event, or after a length of the path; errors as `Run.map_at`."""
+        """The moment of an event, or after a length of the path (see `Run.near`)."""
+        if not isinstance(at, Event):
+            at = run.near(at)
         count, place = run.moment(at)
         walked = tuple(run.path[:count])
         if place is not None:

@@ -6,11 +6,12 @@ from collections.abc import Hashable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import accumulate
+from math import tan
 from typing import TYPE_CHECKING, Any
 
 from flint import fmpq
 
-from exactacq.curves import Curve, Segment
+from exactacq.curves import Arc, Curve, Segment
 from exactacq.lengths import Length
 from exactacq.points import Point
 from exactacq.scene import Scene
@@ -232,9 +233,25 @@ class Run:
                 if event.after == count and event.inside and event.beyond == rest:
                     return count, event.point
             raise ValueError(
-                f"the place after length {moment} lies inside an arc and has no event: ask for an event"
+                f"the place after length {moment} lies inside an arc and has no event: see near()"
             )
         return count, place
+
+    def near(self, length: Length | object) -> Event:
+        """A place after a length of the path, for `map_at`, `view_at` and figures: an event of kind "moment".
+
+        Most places inside an arc have no algebraic coordinates. There a rational parameter of the arc is
+        taken that is off by round-off only; the event's own ``at`` is exact. ValueError as for `map_at`.
+        """
+        count, place, rest = self.path.find(Length(length))
+        inside = place is not None or rest.sign() > 0
+        obstacle = self.path[count].obstacle if inside else None
+        if place is None:
+            if inside:
+                place = self.path[count].point(_share(self.path[count].curve, rest))
+            else:
+                place = self.path[count - 1].end if count else self.start
+        return Event("moment", place, obstacle, "", count, self.path, inside)
 
     def _repr_svg_(self) -> str:
         from exactacq.figures import svg
@@ -251,3 +268,13 @@ class Run:
         """The obstacles' names, "O" and the number from 1 where none is given."""
         for obstacle in self.scene.obstacles:
             yield obstacle.name or ("wall" if obstacle.is_enclosure else f"O{obstacle.index + 1}")
+
+
+def _share(curve: Curve, length: Length) -> fmpq:
+    """The parameter of an arc's point after about a length of it (see `Arc.point`)."""
+    assert isinstance(curve, Arc)
+    whole, turned = (float(part) / float(curve.radius) for part in (curve.length, length))
+    half = 1 if curve.full and turned > whole / 2 else 0
+    parts = 2 if curve.full else 1
+    share = tan((turned - half * whole / 2) / 4) / tan(whole / parts / 4)
+    return min(max((fmpq(*share.as_integer_ratio()) + half) / parts, fmpq(0)), fmpq(1))

@@ -305,3 +305,17 @@ def law_of_the_audit(terrain: Terrain) -> None:
     run = explored(terrain)
     if run is not None:
         xa.audit(run, samples=12)
+
+
+def test_a_moment_inside_an_arc_is_near_the_length() -> None:
+    # The point of a circle after a rational length of it is transcendental: an exact one beside it is taken.
+    run = xa.sightseer(xa.load("circles"))
+    for length in (0, 1, "7/2", 5, 12, 17, 40):
+        event = run.near(length)
+        assert abs(event.at - Length(length)) < Length("1e-12")
+        assert run.map_at(event).known_length() <= run.map.known_length()
+    assert run.near(1).at == 1
+    with pytest.raises(ValueError, match="near"):
+        run.map_at(5)
+    with pytest.raises(ValueError, match="no place"):
+        run.near(1000)
