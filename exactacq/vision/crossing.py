@@ -49,7 +49,7 @@ class Crossing:
         self,
         sightlines: Sightlines,
         leg: Leg,
-        wanted: Callable[[int], bool],
+        wanted: frozenset[int],
         view: Callable[[Point, None], Seen],
     ) -> None:
         self.sightlines, self.span, self.wanted, self.view = sightlines, leg.span, wanted, view
@@ -66,13 +66,13 @@ class Crossing:
         """All glances at wanted edges whose first side lies on the way."""
         (ax, ay), (bx, by) = self.places
         box = np.array((min(ax, bx), min(ay, by), max(ax, bx), max(ay, by)))
-        families = list(self.sightlines.near(box))
+        families = list(self.sightlines.near(box, self.wanted))
         beams = [beam for family in families for beam in family.beams]
         for k, certain in self._crossing(Sides.joined([family.sides for family in families])):
             yield from self._across(beams[k], certain)
         rays = [ray for family in families for ray in family.rays]
         for k, _ in self._crossing(Sides.joined([family.ray_sides for family in families])):
-            if self.wanted(rays[k].shown):
+            if rays[k].shown in self.wanted:
                 yield from self._along(rays[k])
         yield from self._normals()
         yield from self._own_line()
@@ -86,7 +86,7 @@ class Crossing:
     def _across(self, beam: Beam, certain: bool) -> Iterator[Glance]:
         """The glances along a beam's lines; *certain* if each of them passes between the ends of the way."""
         met = (beam.behind, beam.contact, beam.ahead)
-        if not any(side is not None and self.wanted(side.edge) for side in met):
+        if not any(side is not None and side.edge in self.wanted for side in met):
             return
         if not beam.sector.round and beam.anchor in self.touches:
             # Every line through a corner that the way touches crosses it there and shows nothing else.
@@ -120,7 +120,7 @@ class Crossing:
     def _shown(self, beam: Beam, role: Role) -> list[Side]:
         """The wanted sides that a beam shows from behind or ahead of its contact."""
         shown = (beam.contact, beam.ahead if role is Role.BEHIND else beam.behind)
-        return [side for side in shown if side is not None and self.wanted(side.edge)]
+        return [side for side in shown if side is not None and side.edge in self.wanted]
 
     def _cuts(self, beam: Beam) -> list[Cut]:
         """A beam's ends, and the parameters between them of the lines through the way's ends, in order."""
@@ -222,7 +222,7 @@ class Crossing:
                 if _certainly(span.low, u) and _certainly(u, span.high):
                     shown.append((name[1], corner))
         for e, point in shown:
-            if self.wanted(e):
+            if e in self.wanted:
                 place = self.ranges.rails[e].parameter(point)
                 near = self._within(point)
                 ends = [End(Real(0), (p, point), (u, place)) for p, u in near]
@@ -242,7 +242,7 @@ class Crossing:
             ahead = max(cx * dx + cy * dy for cx, cy in corners)
             sides = [cx * dy - cy * dx for cx, cy in corners]
             slack = self.slack * size
-            if not self.wanted(e) or ahead < -slack or min(sides) > slack or max(sides) < -slack:
+            if e not in self.wanted or ahead < -slack or min(sides) > slack or max(sides) < -slack:
                 continue
             if e in own:
                 # The line meets an edge at its end only there, unless it runs along it.
@@ -283,7 +283,7 @@ class Crossing:
             sector = Sliding(start, minus(end, start), low, high, leftward=leftward)
             sweep = pencil(self.sightlines.table, sector, (), self.sightlines.reach)
             for cell in sweep.cells:
-                if cell.ahead is not None and self.wanted(cell.ahead):
+                if cell.ahead is not None and cell.ahead in self.wanted:
                     sides = here, Side(cell.ahead, Role.AHEAD)
                     strand = Strand(sector, cell.low, cell.high, sides, passed=cell.bounds)
                     yield from self.ranges.glances(strand)

@@ -51,7 +51,7 @@ class Role(Enum):
     AHEAD = 1
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Side:
     """One end of a family of views: the edge it runs on and its role on the lines.
 
@@ -63,7 +63,7 @@ class Side:
     fixed: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class End:
     """One view of a family: line parameter, the two end points with their rail parameters.
 
@@ -80,7 +80,7 @@ class End:
         return not self.tight and distance_sq(*self.points).compare(square) < 0
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Strand:
     """The views between two sides along the lines of a sector from ``low`` to ``high``.
 
@@ -99,7 +99,7 @@ class Strand:
     anchor: Anchor | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Glance:
     """A family of free views within range, from one extreme view to the other; both ends move monotonically.
 

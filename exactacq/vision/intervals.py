@@ -10,7 +10,7 @@ from exactacq.reals import Real
 from exactacq.vision.rails import Rail
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Interval:
     """A closed interval of rail parameters with its end points; low = high is a single point."""
 

@@ -38,7 +38,7 @@ Passed: TypeAlias = "tuple[tuple[int, int, int], ...]"
 """The events at one line, each with number (a vertex, or an arc), side and sign: see `Sector.exact`."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Cell:
     """Lines from ``low`` to ``high`` of a sector that first meet edge ``behind`` and edge ``ahead``.
 
@@ -52,7 +52,7 @@ class Cell:
     bounds: tuple[Passed, Passed] = ((), ())
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Pencil:
     """The cells of one sector, from low to high, and its pinched lines."""
 

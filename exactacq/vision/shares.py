@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TypeAlias
 
-from exactacq.points import Point
+from exactacq.points import Point, distance_sq
 from exactacq.reals import Real
 from exactacq.vision.crossing import Crossing
 from exactacq.vision.glances import End, Glance, Ranges
@@ -24,7 +24,7 @@ Covers: TypeAlias = "Mapping[int, Cover]"
 """What is known of each edge, by its number; nothing is known of an edge that is missing."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Share:
     """A glance of a leg: where it is seen from, and which part of edge ``edge`` it shows."""
 
@@ -85,14 +85,16 @@ class Shares:
 
     def _glances(self) -> Iterator[tuple[Glance, int]]:
         sightlines, leg, owner, obstacles = self.sightlines, self.leg, self.owner, self.obstacles
+        x, y, right, top = leg.box
+        near = sightlines.table.near((x, y), (right, top), sightlines.reach).tolist()
+        wanted = frozenset(e for e in near if owner[e] in obstacles)
         if leg.edge is None:
-            crossing = Crossing(sightlines, leg, lambda e: owner[e] in obstacles, self.view)
+            crossing = Crossing(sightlines, leg, wanted, self.view)
             yield from ((glance, 0) for glance in crossing.glances())
             return
-        for bundle, side in sightlines.on(leg.edge):
-            if owner[bundle.edges[1 - side]] in obstacles:
-                for glance in bundle.glances(sightlines.ranges):
-                    yield glance, side
+        for bundle, side in sightlines.on(leg.edge, wanted):
+            for glance in bundle.glances(sightlines.ranges):
+                yield glance, side
 
     @cached_property
     def _ranges(self) -> Ranges:
@@ -157,7 +159,21 @@ class Shares:
         # Most often the very number was copied: no proof is needed that it is equal.
         ends.sort(key=lambda end: end[0] is not u)
         square = self.sightlines.ranges.square
+        if self._is_near(k, u, edge):
+            return True
         return any(end.is_short(square) for place, end in ends if place is u or place.compare(u) == 0)
+
+    def _is_near(self, k: int, u: Real, edge: int | None) -> bool:
+        """Whether *u* is an end of the leg from which something nearer than the range is seen."""
+        leg, square = self.leg, self.sightlines.ranges.square
+        if u is not leg.first and u is not leg.last:
+            return False
+        place = leg.start if u is leg.first else leg.end
+        return any(
+            edge in (None, e) and distance_sq(place, point).compare(square) < 0
+            for e, interval in self.view(place, leg.own(u)).of(k)
+            for point in (interval.start, interval.end)
+        )
 
     def reaching(self, e: int, u: Real, point: Point) -> Iterator[tuple[Real, Point]]:
         """Where glances show a point of edge *e*, whose parameter is *u*."""

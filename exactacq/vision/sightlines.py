@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from enum import Enum
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -33,7 +34,7 @@ from exactacq.vision.sides import Sides
 from exactacq.vision.table import EdgeTable, Floats, Ints
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Beam:
     """A cell of a pencil with what its lines meet; None where nothing is met within reach.
 
@@ -72,7 +73,7 @@ class Beam:
                 )
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Ray:
     """A single line: from ``place`` it shows edge ``shown`` from one point of a run to the other.
 
@@ -104,7 +105,7 @@ class Bundle:
 @dataclass(frozen=True)
 class Family:
     """The beams and single rays of one feature, edge or corner; ``on`` gives its bundles with a side on an
-    edge, with the number of that side."""
+    edge, with the number of that side; sides that stay at a corner are left out."""
 
     beams: tuple[Beam, ...]
     rays: tuple[Ray, ...]
@@ -119,6 +120,14 @@ class Family:
     def ray_sides(self) -> Sides:
         """The lines of the rays as `Sides`."""
         return Sides.of_lines([(ray.place, ray.run[0]) for ray in self.rays])
+
+
+class Pencils(Enum):
+    """What the lines of a family are."""
+
+    NORMALS = "normals of an edge"
+    TANGENTS = "tangents of a feature"
+    CORNER_NORMALS = "normals of the boundary at a corner"
 
 
 KEPT = 4096
@@ -149,42 +158,59 @@ class Sightlines:
         ]
         return np.array(boxes, dtype=float).reshape(-1, 4)
 
-    def on(self, edge: int) -> Iterator[tuple[Bundle, int]]:
-        """All bundles with one side on an edge, with the number of that side."""
-        for family in self.near(self.table.boxes[edge]):
-            yield from family.on.get(edge, ())
+    def on(self, edge: int, wanted: frozenset[int]) -> Iterator[tuple[Bundle, int]]:
+        """The bundles between an edge and wanted ones, with the number of its side.
 
-    def near(self, box: Floats) -> Iterator[Family]:
-        """All families of the features and edges that come within range of a box."""
-        low, high = (float(box[0]), float(box[1])), (float(box[2]), float(box[3]))
-        for e in map(int, self.table.near(low, high, self.reach)):
-            yield self._family(e, None)
-        gap = np.maximum(np.maximum(self._spots[:, :2] - box[2:], box[:2] - self._spots[:, 2:]), 0.0)
-        for k in map(int, np.flatnonzero(np.hypot(*gap.T) <= self.reach + 8 * self.table.roundoff)):
-            yield self._family(None, k)
+        Not those that start at a corner of it: what a corner sees is a view.
+        """
+        for family in self.near(self.table.boxes[edge], wanted, edge):
+            for bundle, side in family.on.get(edge, ()):
+                if bundle.edges[1 - side] in wanted:
+                    yield bundle, side
 
-    def _swept(self, edge: int | None, feature: int | None) -> Family:
-        """The family of an edge's normals, or of a feature's tangents."""
+    def near(self, box: Floats, wanted: frozenset[int], own: int | None = None) -> Iterator[Family]:
+        """The families that may show wanted edges to places in a box, which lies on edge *own* if given.
+
+        A tangent's contact lies between the two ends of a view, so both are within reach of it together.
+        """
+        edges = np.array(sorted(wanted), dtype=np.intp)
+        reach = self.reach + 8 * self.table.roundoff
+        for e in edges[_gaps(self.table.boxes[edges], box) <= reach].tolist():
+            if e != own:
+                yield self._family(Pencils.NORMALS, e)
+        if own is not None:
+            yield self._family(Pencils.NORMALS, own)
+        here = _gaps(self._spots, box)
+        close = np.flatnonzero(here <= reach)
+        there = _gaps(self.table.boxes[edges], self._spots[close, None]).min(axis=1, initial=np.inf)
+        for k in close[here[close] + there <= reach].tolist():
+            yield self._family(Pencils.TANGENTS, k)
+            if not self.features[k].round and self.features[k].edges[1] in wanted:
+                yield self._family(Pencils.CORNER_NORMALS, k)
+
+    def _swept(self, pencils: Pencils, number: int) -> Family:
+        """The family of an edge's normals, or of a feature's tangents or normals."""
         beams: list[Beam] = []
         rays: list[Ray] = []
-        if edge is not None:
-            beams += self._normals(edge)
-        if feature is not None:
-            self._add_tangents(self.features[feature], beams, rays)
-        bundles = [
-            Bundle((strand.sides[0].edge, strand.sides[1].edge), strand)
-            for beam in beams
-            for strand in beam.strands()
-        ]
+        if pencils is Pencils.NORMALS:
+            beams += self._normals(number)
+        elif pencils is Pencils.CORNER_NORMALS:
+            beams += self._corner_normals(self.features[number])
+        else:
+            self._add_tangents(self.features[number], beams, rays)
+        on: dict[int, list[tuple[Bundle, int]]] = {}
+        for strand in (strand for beam in beams for strand in beam.strands()):
+            bundle = Bundle((strand.sides[0].edge, strand.sides[1].edge), strand)
+            for k, side in enumerate(strand.sides):
+                if not side.fixed:
+                    on.setdefault(side.edge, []).append((bundle, k))
         for ray in rays:
             if ray.edge is not None:
                 ends = self.ranges.along(ray.place, self.ranges.rails[ray.edge], ray.run, ray.shown)
                 edges = ray.edge, ray.shown
-                bundles.append(Bundle(edges, [Glance(edges, *end) for end in ends]))
-        on: dict[int, list[tuple[Bundle, int]]] = {}
-        for bundle in bundles:
-            for side, e in enumerate(bundle.edges):
-                on.setdefault(e, []).append((bundle, side))
+                bundle = Bundle(edges, [Glance(edges, *end) for end in ends])
+                for k, e in enumerate(edges):
+                    on.setdefault(e, []).append((bundle, k))
         return Family(tuple(beams), tuple(rays), on)
 
     # -- the families ------------------------------------------------------------------------------
@@ -195,8 +221,6 @@ class Sightlines:
         beams += [self._beam(feature, s.sector, cell, contact) for s in sweeps for cell in s.cells]
         rays += [ray for s in sweeps for t in s.pinches for ray in self._pinched(s.sector, t, feature.edges)]
         rays += self._end_on(feature, sweeps[0], sweeps[-1])
-        if not feature.round:
-            beams += self._corner_normals(feature)
 
     def _beam(self, feature: Feature, sector: Sector, cell: Cell, contact: Side) -> Beam:
         behind = None if cell.behind is None else Side(cell.behind, Role.BEHIND)
@@ -295,6 +319,12 @@ class Sightlines:
                     near, far = (low, high) if _nearer(place, low, high) else (high, low)
                     if place != near:
                         yield Ray(place, e, (near, far), f)
+
+
+def _gaps(boxes: Floats, box: Floats) -> Floats:
+    """Distances of boxes from a box, or from each of several in a row of its own."""
+    apart = np.maximum(np.maximum(boxes[:, :2] - box[..., 2:], box[..., :2] - boxes[:, 2:]), 0.0)
+    return np.hypot(apart[..., 0], apart[..., 1])
 
 
 def normals(curve: Curve) -> Iterator[Sector]:
