@@ -11,6 +11,7 @@ from typing import TypeAlias
 
 from flint import fmpq
 
+from exactacq.generic import transcendental, turned
 from exactacq.lengths import Length
 from exactacq.numerals import rational
 from exactacq.points import Orientation, Point, distance, orientation
@@ -36,6 +37,13 @@ class Segment:
     def point(self, u: object) -> Point:
         """The point at the rational fraction *u* of the way, 0 <= u <= 1."""
         offset: Point = self.direction * _fraction(u)
+        return self.start + offset
+
+    def after(self, length: Length) -> Point:
+        """The point after a length, which is algebraic or, by Baker's theorem, transcendental."""
+        known = length == Length(length.algebraic)
+        way = length.algebraic if known else transcendental(Real, length.ball)
+        offset: Point = self.direction * (way / self.length.algebraic)
         return self.start + offset
 
     def contains(self, point: Point) -> bool:
@@ -164,6 +172,16 @@ class Arc:
         cosine, sine = self.turn
         half_cos = ((1 + cosine) / 2).sqrt() * (-1 if sine.sign() < 0 else 1)
         return ((1 - cosine) / 2).sqrt() / (1 + half_cos)
+
+    def after(self, length: Length) -> Point:
+        """The point after a length of the arc that has an algebraic part, not 0.
+
+        Its coordinates are transcendental: by Baker's theorem so is e to the power of an algebraic number
+        that is not 0, times algebraic powers of algebraic numbers. See `exactacq.generic`.
+        """
+        radial = self.start - self.center
+        vector = turned((radial.x, radial.y), 1 if self.ccw else -1, length.ball, self.radius.ball)
+        return self.center + Point(*vector)
 
     def tangent(self, point: Point) -> Point:
         """Direction of travel (not normalised) at a point of the arc."""

@@ -45,6 +45,7 @@ from exactacq.atoms import (
     square_free,
 )
 from exactacq.errors import Undecided
+from exactacq.generic import generic_in, sign_at
 from exactacq.isolation import isolated_roots
 from exactacq.numerals import (
     ball_sign,
@@ -107,7 +108,8 @@ class Real:
         return self
 
     @classmethod
-    def _atom(cls, atom: Atom) -> Real:
+    def of_atom(cls, atom: Atom) -> Real:
+        """The real that an atom stands for."""
         return cls._form({atom: ONE})
 
     @classmethod
@@ -276,8 +278,8 @@ class Real:
                 inner = atom.args[0]
                 assert isinstance(inner, Real)
                 return inner._scaled(1 / c)
-            return Real._atom(Inverse.make(Real._atom(atom)))._scaled(1 / c)
-        return Real._atom(Inverse.make(self))
+            return Real.of_atom(Inverse.make(Real.of_atom(atom)))._scaled(1 / c)
+        return Real.of_atom(Inverse.make(self))
 
     def __pow__(self, exponent: int) -> Real:
         if exponent < 0:
@@ -330,6 +332,8 @@ class Real:
             merged = _merge_surds(self._terms)
             if len(merged) < len(self._terms):
                 return Real._form(merged).sign()
+        elif (tau := generic_in(self)) is not None:
+            return sign_at(self, tau)
         elif self._field() is None:
             limit = self._separation_bits()
             zero = vanishes(self) if limit > TOWER_BITS else None
@@ -530,20 +534,20 @@ def _field_element(field: tuple[tuple[int, ...], int], polynomial: fmpq_poly) ->
 def _atom_product(a: Atom, b: Atom) -> Real:
     if isinstance(a, int) and isinstance(b, int):
         if a == 1 or b == 1:
-            return Real._atom(a * b) if a * b != 1 else Real(1)
+            return Real.of_atom(a * b) if a * b != 1 else Real(1)
         return _sqrt_rational(fmpq(fmpz(a) * b))
     if a == 1 or b == 1:
-        return Real._atom(b if a == 1 else a)
+        return Real.of_atom(b if a == 1 else a)
     if a is b and isinstance(a, Sqrt):
         square = a.args[0]
         assert isinstance(square, Real)
         return square
-    return _node_product(Real._atom(a), Real._atom(b))
+    return _node_product(Real.of_atom(a), Real.of_atom(b))
 
 
 def _node_product(a: Real, b: Real) -> Real:
     (p, first), (q, second) = _primitive(a), _primitive(b)
-    return Real._atom(Product.make(first, second))._scaled(p * q)
+    return Real.of_atom(Product.make(first, second))._scaled(p * q)
 
 
 def _primitive(x: Real) -> tuple[fmpq, Real]:
@@ -584,7 +588,7 @@ def _sqrt_node(x: Real) -> Real:
     side, rest = square_free(int(numerator * denominator))
     content = fmpq(numerator, denominator)
     inner = x._scaled(fmpq(rest) / content)
-    return Real._atom(Sqrt.make(inner))._scaled(fmpq(side, denominator))
+    return Real.of_atom(Sqrt.make(inner))._scaled(fmpq(side, denominator))
 
 
 def _merge_surds(terms: Mapping[Atom, fmpq]) -> dict[Atom, fmpq]:
@@ -631,4 +635,4 @@ def _irreducible_roots(factor: fmpz_poly) -> list[Real]:
         root = _sqrt_rational(fmpq(square))
         return [(root._scaled(s) - Real(b)) / (2 * a) for s in (ONE, -ONE)]
     key = tuple(int(c) for c in coefficients)
-    return [Real._atom(Root.make(key, k, 1)) for k in range(len(isolated_roots(key)))]
+    return [Real.of_atom(Root.make(key, k, 1)) for k in range(len(isolated_roots(key)))]

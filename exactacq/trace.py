@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from flint import fmpq
 
-from exactacq.curves import Arc, Curve, Segment
+from exactacq.curves import Arc, Curve
 from exactacq.lengths import Length
 from exactacq.points import Point
 from exactacq.scene import Scene
@@ -67,8 +67,8 @@ class Path(tuple[Piece, ...]):
     def find(self, length: Length) -> tuple[int, Point | None, Length]:
         """Where the path is after a length: number of whole pieces, place, and rest of the length.
 
-        The place is None inside an arc, and inside a straight piece if the rest is not algebraic. ValueError
-        if the path is shorter, or the length negative.
+        The place is None where the rest is 0, and inside an arc where it is a sum of angles without an
+        algebraic part. ValueError if the path is shorter, or the length negative.
         """
         guesses = list(accumulate((float(piece.length) for piece in self), initial=0.0))
         slack = 1e-6 * (guesses[-1] + 1.0)
@@ -84,10 +84,9 @@ class Path(tuple[Piece, ...]):
         if rest.sign() == 0:
             return count, None, rest
         curve = self[count].curve
-        if isinstance(curve, Segment) and rest == Length(rest.algebraic):
-            share = rest.algebraic / curve.length.algebraic
-            return count, curve.start + curve.direction * share, rest
-        return count, None, rest
+        if isinstance(curve, Arc) and not rest.algebraic.sign():
+            return count, None, rest
+        return count, curve.after(rest), rest
 
 
 @dataclass(frozen=True)
@@ -202,8 +201,9 @@ class Run:
     def map_at(self, moment: Event | Length | object) -> Map:
         """The map as it was at an event, or after a length of the path.
 
-        ValueError if the path has no such place, or if the place has no algebraic coordinates, as most
-        places on an arc have not: take an event's. Cost: that of sensing one piece.
+        Where the place has transcendental coordinates, as most places on an arc have, the map is exact too,
+        but what depends on the place has no closed form. ValueError if the path has no such place, or if it
+        lies inside an arc after a sum of angles alone: see `near`. Cost: that of sensing one piece.
         """
         count, place = self.moment(moment)
         return self.memory.after(count) if place is None else self.memory.within(count, place)
@@ -232,25 +232,23 @@ class Run:
             for event in self.events:
                 if event.after == count and event.inside and event.beyond == rest:
                     return count, event.point
-            raise ValueError(
-                f"the place after length {moment} lies inside an arc and has no event: see near()"
-            )
+            raise ValueError(f"what is left of length {moment} inside a piece has the wrong form: see near()")
         return count, place
 
     def near(self, length: Length | object) -> Event:
         """A place after a length of the path, for `map_at`, `view_at` and figures: an event of kind "moment".
 
-        Most places inside an arc have no algebraic coordinates. There a rational parameter of the arc is
-        taken that is off by round-off only; the event's own ``at`` is exact. ValueError as for `map_at`.
+        Where that is no algebraic place, a rational parameter beside it is taken: it is off by round-off
+        only, and the event's own ``at`` is exact. ValueError if the path is shorter.
         """
         count, place, rest = self.path.find(Length(length))
-        inside = place is not None or rest.sign() > 0
+        inside = rest.sign() > 0
         obstacle = self.path[count].obstacle if inside else None
-        if place is None:
-            if inside:
-                place = self.path[count].point(_share(self.path[count].curve, rest))
-            else:
-                place = self.path[count - 1].end if count else self.start
+        if not inside:
+            place = self.path[count - 1].end if count else self.start
+        elif isinstance(self.path[count].curve, Arc) or rest != Length(rest.algebraic):
+            place = self.path[count].point(_share(self.path[count].curve, rest))
+        assert place is not None
         return Event("moment", place, obstacle, "", count, self.path, inside)
 
     def _repr_svg_(self) -> str:
@@ -271,10 +269,11 @@ class Run:
 
 
 def _share(curve: Curve, length: Length) -> fmpq:
-    """The parameter of an arc's point after about a length of it (see `Arc.point`)."""
-    assert isinstance(curve, Arc)
-    whole, turned = (float(part) / float(curve.radius) for part in (curve.length, length))
-    half = 1 if curve.full and turned > whole / 2 else 0
-    parts = 2 if curve.full else 1
-    share = tan((turned - half * whole / 2) / 4) / tan(whole / parts / 4)
+    """The parameter of a curve's point after about a length of it (see `Arc.point`)."""
+    share, half, parts = float(length) / float(curve.length), 0, 1
+    if isinstance(curve, Arc):
+        whole, turned = (float(part) / float(curve.radius) for part in (curve.length, length))
+        if curve.full:
+            half, parts = int(turned > whole / 2), 2
+        share = tan((turned - half * whole / 2) / 4) / tan(whole / parts / 4)
     return min(max((fmpq(*share.as_integer_ratio()) + half) / parts, fmpq(0)), fmpq(1))

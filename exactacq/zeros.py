@@ -89,7 +89,7 @@ class Zero(Node):
         """A decimal: there is no closed form."""
         from sympy import Float
 
-        return Float(Real._atom(self).decimal(SHOWN_DIGITS), SHOWN_DIGITS)
+        return Float(Real.of_atom(self).decimal(SHOWN_DIGITS), SHOWN_DIGITS)
 
 
 def zeros_between(function: Function, low: Real, high: Real) -> list[Real]:
@@ -135,7 +135,7 @@ def _zero_in(function: Function, left: fmpq, right: fmpq, low: Real, high: Real)
         begins = low.compare(left) <= 0 or (low.compare(right) < 0 and _sign(function, low) == before)
         ends = high.compare(right) >= 0 or (high.compare(left) > 0 and _sign(function, high) == after)
         if begins and ends:
-            yield Real._atom(Zero.make(function, left, right))
+            yield Real.of_atom(Zero.make(function, left, right))
 
 
 def _sign(function: Function, t: Real) -> int:
