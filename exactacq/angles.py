@@ -8,7 +8,7 @@ angle of any such number is ``k pi/2 +- t`` for an interned angle t (or t/2). An
 from __future__ import annotations
 
 import atexit
-from collections.abc import Callable, Hashable, Iterable, Mapping
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from typing import ClassVar, NamedTuple, TypeAlias
 from weakref import WeakValueDictionary
 
@@ -197,6 +197,12 @@ class AngleSum:
 
     def __reduce__(self) -> tuple[type[AngleSum], tuple[Real, dict[Angle, Real]]]:
         return AngleSum, (self.turn, dict(self.angles))
+
+    def numbers(self) -> Iterator[Real]:
+        """All numbers that the sum is made of."""
+        yield self.turn
+        for angle, coefficient in self.angles.items():
+            yield from (coefficient, angle.cosine, angle.sine)
 
     @property
     def is_zero(self) -> bool:

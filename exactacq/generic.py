@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 Vector: TypeAlias = "tuple[Real, Real]"
 NEAR = (24, 100, 400)
 """The rationals that are tried differ from tau by less than 2 to the minus one of these."""
+FINE = 4096
+"""Precision that is tried before a proof of 0."""
 MOST_TRIALS = 1 << 12
 SHOWN_DIGITS = 30
 """Decimals that stand for a number where a closed form is asked for."""
@@ -92,7 +94,9 @@ def turned(radial: Vector, sense: int, length: Enclosing, radius: Enclosing) -> 
 
 
 def sign_at(value: Real, tau: Generic) -> int:
-    """The sign of an algebraic function of *tau*, which balls did not tell."""
+    """The sign of an algebraic function of *tau*, which balls of moderate precision did not tell."""
+    if sign := ball_sign(value.ball(FINE)):
+        return sign
     degree = prod(d for key, d in value.generators() if isinstance(key, Sqrt))
     trials = int(degree * _degree(value, {})) + 1
     trial = _Trial.beside(value, tau)

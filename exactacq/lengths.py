@@ -33,6 +33,7 @@ from flint import arb, ctx, fmpq, fmpz
 
 from exactacq.angles import HALF, Angle, AngleSum, Ends, Vector, folded
 from exactacq.errors import Undecided
+from exactacq.generic import generic_in
 from exactacq.numerals import (
     ball_sign,
     decimal_string,
@@ -201,6 +202,8 @@ class Length:
         for bits in FILTER_BITS:
             if sign := ball_sign(self.ball(bits)):
                 return sign
+        if any(generic_in(number) is not None for number in (self._algebraic, *self._angular.numbers())):
+            return self._shown_sign("a length at a place with transcendental coordinates")
         if self._algebraic.sign() != 0:
             return self._refined_sign()
         basis = reduced(self._angular)
@@ -209,11 +212,14 @@ class Length:
             return turn
         if all(angle.half_tangent is not None for angle in angles) or (len(angles) == 1 and not turn):
             return self._refined_sign()
+        return self._shown_sign(f"a sum of {len(angles)} angles")
+
+    def _shown_sign(self, what: str) -> int:
+        """The sign where no proof of 0 is known."""
         sign = self._refined_sign(UNDECIDED_BITS)
         if sign == 0:
             raise Undecided(
-                f"sign of a sum of {len(angles)} angles: it is below 2^-{UNDECIDED_BITS}, "
-                "and neither proved nor refuted to be 0"
+                f"sign of {what}: it is below 2^-{UNDECIDED_BITS}, and neither proved nor refuted to be 0"
             )
         return sign
 

@@ -179,8 +179,8 @@ class TestMoments:
 
     def test_bad_moments(self) -> None:
         run = xa.sightseer(xa.load("figure1"))
-        for moment in (-1, 1000, 12):
-            with pytest.raises(ValueError, match=r"no .*place|lies inside an arc"):
+        for moment in (-1, 1000):
+            with pytest.raises(ValueError, match="no place"):
                 run.map_at(moment)
 
     def test_a_moment_at_the_start_of_a_full_circle(self) -> None:
@@ -308,7 +308,7 @@ def law_of_the_audit(terrain: Terrain) -> None:
 
 
 def test_a_moment_inside_an_arc_is_near_the_length() -> None:
-    # The point of a circle after a rational length of it is transcendental: an exact one beside it is taken.
+    # The point of a circle after a rational length of it is transcendental: an algebraic one beside it is taken.
     run = xa.sightseer(xa.load("circles"))
     for length in (0, 1, "7/2", 5, 12, 17, 40):
         event = run.near(length)
@@ -316,6 +316,6 @@ def test_a_moment_inside_an_arc_is_near_the_length() -> None:
         assert run.map_at(event).known_length() <= run.map.known_length()
     assert run.near(1).at == 1
     with pytest.raises(ValueError, match="near"):
-        run.map_at(5)
+        run.map_at(run.near(1).at + 2 + run.scene.obstacles[0].perimeter / 5)
     with pytest.raises(ValueError, match="no place"):
         run.near(1000)
