@@ -308,7 +308,7 @@ def law_of_the_audit(terrain: Terrain) -> None:
 
 
 def test_a_moment_inside_an_arc_is_near_the_length() -> None:
-    # The point of a circle after a rational length of it is transcendental: an algebraic one beside it is taken.
+    # The point of a circle after a rational length of it is transcendental: an algebraic one is taken.
     run = xa.sightseer(xa.load("circles"))
     for length in (0, 1, "7/2", 5, 12, 17, 40):
         event = run.near(length)
