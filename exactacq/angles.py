@@ -15,12 +15,15 @@ from weakref import WeakValueDictionary
 from flint import arb, ctx, fmpq, fmpz_poly
 
 from exactacq.errors import Undecided
-from exactacq.reals import Real
+from exactacq.reals import Real, roots
 
 MAX_DENOMINATOR = 30
 """Angles p pi/q up to this q are recognised when they are made; others stay angles and compare exactly."""
 MAX_ENDS = 64
 """Most pairs of directions that an angle remembers: a bound where one arc is repeated in many poses."""
+
+MOST_HALVES, MOST_TIMES = 8, 64
+"""Fractions of angles whose directions are made: their denominator divides the one, up to the other times."""
 
 QUARTER, HALF, TWO = fmpq(1, 4), fmpq(1, 2), fmpq(2)
 
@@ -198,6 +201,27 @@ class AngleSum:
     def __reduce__(self) -> tuple[type[AngleSum], tuple[Real, dict[Angle, Real]]]:
         return AngleSum, (self.turn, dict(self.angles))
 
+    def direction(self, divisor: Real) -> Vector | None:
+        """Cosine and sine of the sum over a number; None if the parts are not seen to be simple fractions.
+
+        Of pi with denominators up to `MAX_DENOMINATOR`, of angles with a power of 2 up to `MOST_HALVES`.
+        """
+        share = (self.turn / divisor).rational
+        if share is None or share.q > MAX_DENOMINATOR:
+            return None
+        found = _cosine_of_pi(share), _cosine_of_pi(share - HALF)
+        for angle, c in self.angles.items():
+            times = (c / divisor).rational
+            if times is None or MOST_HALVES % int(times.q) or abs(times.p) > MOST_TIMES:
+                return None
+            turn = angle.cosine, angle.sine
+            for _ in range(int(times.q).bit_length() - 1):
+                turn = ((1 + turn[0]) / 2).sqrt(), ((1 - turn[0]) / 2).sqrt()
+            turn = turn if times > 0 else (turn[0], -turn[1])
+            for _ in range(abs(int(times.p))):
+                found = _product(found, turn)
+        return found
+
     def numbers(self) -> Iterator[Real]:
         """All numbers that the sum is made of."""
         yield self.turn
@@ -238,3 +262,16 @@ class AngleSum:
             for angle, c in self.angles.items():
                 ball += c.ball(bits) * angle.ball(bits)
             return ball
+
+
+def _cosine_of_pi(share: fmpq) -> Real:
+    """The cosine of a rational multiple of pi: half a root of the minimal polynomial of 2 cos(2 pi / n)."""
+    turn = share / 2
+    found = roots(fmpz_poly.cos_minpoly(int(turn.q)).coeffs())
+    with ctx.workprec(256):
+        near = 2 * (arb(share) * arb.pi()).cos()
+    return next(root / 2 for root in found if root.ball(256).overlaps(near))
+
+
+def _product(a: Vector, b: Vector) -> Vector:
+    return a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]

@@ -174,14 +174,21 @@ class Arc:
         return ((1 - cosine) / 2).sqrt() / (1 + half_cos)
 
     def after(self, length: Length) -> Point:
-        """The point after a length of the arc that has an algebraic part, not 0.
+        """The point after a length of the arc; ValueError for a sum of angles that are no simple fractions.
 
-        Its coordinates are transcendental: by Baker's theorem so is e to the power of an algebraic number
-        that is not 0, times algebraic powers of algebraic numbers. See `exactacq.generic`.
+        With an algebraic part the coordinates are transcendental: by Baker's theorem so is e to the power of
+        an algebraic number that is not 0, times algebraic powers of algebraic numbers (`exactacq.generic`).
         """
+        sense = 1 if self.ccw else -1
         radial = self.start - self.center
-        vector = turned((radial.x, radial.y), 1 if self.ccw else -1, length.ball, self.radius.ball)
-        return self.center + Point(*vector)
+        if length.algebraic.sign():
+            vector = turned((radial.x, radial.y), sense, length.ball, self.radius.ball)
+            return self.center + Point(*vector)
+        direction = length.direction(self.radius)
+        if direction is None:
+            raise ValueError(f"no coordinates are known for the place after {length} of an arc")
+        cosine, sine = direction
+        return self.center + radial * cosine + radial.left() * (sine * sense)
 
     def tangent(self, point: Point) -> Point:
         """Direction of travel (not normalised) at a point of the arc."""

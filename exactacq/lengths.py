@@ -142,6 +142,10 @@ class Length:
         """The part without pi and angles."""
         return self._algebraic
 
+    def direction(self, radius: Real) -> Vector | None:
+        """Cosine and sine of the angle that a sum of angles alone is on a circle, if seen to be algebraic."""
+        return self._angular.direction(radius)
+
     @property
     def _is_algebraic(self) -> bool:
         return self._angular.is_zero

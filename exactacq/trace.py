@@ -64,11 +64,10 @@ class Path(tuple[Piece, ...]):
         """Length of the first *count* pieces; linear in *count*."""
         return Length.sum(piece.length for piece in self[:count])
 
-    def find(self, length: Length) -> tuple[int, Point | None, Length]:
-        """Where the path is after a length: number of whole pieces, place, and rest of the length.
+    def find(self, length: Length) -> tuple[int, Length]:
+        """Where the path is after a length: number of whole pieces, and what is left of the length.
 
-        The place is None where the rest is 0, and inside an arc where it is a sum of angles without an
-        algebraic part. ValueError if the path is shorter, or the length negative.
+        ValueError if the path is shorter, or the length negative.
         """
         guesses = list(accumulate((float(piece.length) for piece in self), initial=0.0))
         slack = 1e-6 * (guesses[-1] + 1.0)
@@ -81,12 +80,7 @@ class Path(tuple[Piece, ...]):
             raise ValueError(
                 f"the path has no place after length {length}: it is {float(guesses[-1]):.6g} long"
             )
-        if rest.sign() == 0:
-            return count, None, rest
-        curve = self[count].curve
-        if isinstance(curve, Arc) and not rest.algebraic.sign():
-            return count, None, rest
-        return count, curve.after(rest), rest
+        return count, rest
 
 
 @dataclass(frozen=True)
@@ -203,7 +197,8 @@ class Run:
 
         Where the place has transcendental coordinates, as most places on an arc have, the map is exact too,
         but what depends on the place has no closed form. ValueError if the path has no such place, or if it
-        lies inside an arc after a sum of angles alone: see `near`. Cost: that of sensing one piece.
+        lies inside an arc after a sum of angles that are no simple fractions (see `near`). Cost: that of
+        sensing one piece.
         """
         count, place = self.moment(moment)
         return self.memory.after(count) if place is None else self.memory.within(count, place)
@@ -227,13 +222,16 @@ class Run:
         """The number of whole pieces before a moment, and the place in the next one if it lies inside it."""
         if isinstance(moment, Event):
             return moment.after, moment.point if moment.inside else None
-        count, place, rest = self.path.find(Length(moment))
-        if place is None and rest.sign():
+        count, rest = self.path.find(Length(moment))
+        if rest.sign() == 0:
+            return count, None
+        try:
+            return count, self.path[count].curve.after(rest)
+        except ValueError:
             for event in self.events:
                 if event.after == count and event.inside and event.beyond == rest:
                     return count, event.point
-            raise ValueError(f"what is left of length {moment} inside a piece has the wrong form: see near()")
-        return count, place
+            raise
 
     def near(self, length: Length | object) -> Event:
         """A place after a length of the path, for `map_at`, `view_at` and figures: an event of kind "moment".
@@ -241,15 +239,16 @@ class Run:
         Where that is no algebraic place, a rational parameter beside it is taken: it is off by round-off
         only, and the event's own ``at`` is exact. ValueError if the path is shorter.
         """
-        count, place, rest = self.path.find(Length(length))
-        inside = rest.sign() > 0
-        obstacle = self.path[count].obstacle if inside else None
-        if not inside:
+        count, rest = self.path.find(Length(length))
+        if rest.sign() == 0:
             place = self.path[count - 1].end if count else self.start
-        elif isinstance(self.path[count].curve, Arc) or rest != Length(rest.algebraic):
-            place = self.path[count].point(_share(self.path[count].curve, rest))
-        assert place is not None
-        return Event("moment", place, obstacle, "", count, self.path, inside)
+            return Event("moment", place, None, "", count, self.path)
+        piece = self.path[count]
+        if isinstance(piece.curve, Arc) or rest != Length(rest.algebraic):
+            place = piece.point(_share(piece.curve, rest))
+        else:
+            place = piece.curve.after(rest)
+        return Event("moment", place, piece.obstacle, "", count, self.path, inside=True)
 
     def _repr_svg_(self) -> str:
         from exactacq.figures import svg

@@ -102,3 +102,31 @@ def test_closed_form_on_a_circle() -> None:
     run = xa.sightseer(scene)
     for length in (1, 2, "7/2", 6):
         assert abs(float(run.map_at(length).known_length()) - float(Q(length))) < 1e-14
+
+
+class TestFractionsOfCircles:
+    """After a sum of angles alone the place is algebraic."""
+
+    @pytest.mark.parametrize(
+        ("part", "place"), [(2, (1, 0)), (4, (0, -1)), (3, (Q(1, 2), -Real(3).sqrt() / 2))]
+    )
+    def test_of_a_full_circle(self, part: int, place: tuple[object, object]) -> None:
+        run = xa.sightseer(xa.Scene([xa.Circle((0, 0), 1)], start=(-1, 0), radius=5))
+        _, point = run.moment(run.length / part)
+        assert point == Point(*place)
+
+    @pytest.mark.parametrize("times", [Q(1, 2), Q(3, 4), Q(1, 8), Q(2)])
+    def test_of_an_angle(self, times: Fraction) -> None:
+        long = Arc(Point(5, 0), Point(-5, 0), Point(0, 0), Q(25), ccw=True)
+        angle = long.part(long.start, Point(4, 3)).length
+        place = long.after(angle * Real(times))
+        assert place.norm_sq() == 25
+        assert long.part(long.start, place).length == angle * Real(times)
+
+    def test_others_are_refused(self) -> None:
+        arc = Arc(Point(5, 0), Point(-5, 0), Point(0, 0), Q(25), ccw=True)
+        for share in (37, 101):
+            with pytest.raises(ValueError, match="no coordinates"):
+                arc.after(arc.length / share)
+        with pytest.raises(ValueError, match="no coordinates"):
+            arc.after(arc.part(arc.start, Point(4, 3)).length / 3)
