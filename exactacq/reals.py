@@ -219,6 +219,18 @@ class Real:
             return _of(self._q * q)
         return Real._form({a: c * q for a, c in self._terms.items()} if q else {})
 
+    def affine(self, factor: fmpq, offset: fmpq) -> Real:
+        """offset + factor * self, in one step."""
+        if self._q is not None:
+            return _of(offset + factor * self._q)
+        if not factor:
+            return _of(offset)
+        terms = {atom: c * factor for atom, c in self._terms.items()}
+        terms[1] = terms.get(1, ZERO) + offset
+        if not terms[1]:
+            del terms[1]
+        return Real._form(terms)
+
     def __mul__(self, other: object) -> Real:
         right = other if type(other) is Real else _coerce(other)
         if right is None:

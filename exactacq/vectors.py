@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from typing import Any, TypeAlias
 
+from flint import fmpq
+
 from exactacq.points import Point
 from exactacq.reals import Real
 
@@ -42,6 +44,9 @@ def dot(a: Vector, b: Vector) -> Any:
 
 def advance(origin: Vector, direction: Vector, parameter: Any) -> Point:
     """origin + parameter * direction."""
+    (x, y), (dx, dy) = origin, direction
+    if type(x) is type(y) is type(dx) is type(dy) is fmpq and isinstance(parameter, Real):
+        return Point(parameter.affine(dx, x), parameter.affine(dy, y))
     return Point(origin[0] + direction[0] * parameter, origin[1] + direction[1] * parameter)
 
 

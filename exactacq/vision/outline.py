@@ -261,7 +261,8 @@ class _Outline:
         return _edge_piece(view, e, partial(self._edge, part, view.table.curves[e]))
 
     def _range(self, part: _Part) -> Curve:
-        return range_circle(self.view).part(self._resolved(part.start), self._resolved(part.end))
+        start, end = self._resolved(part.start), self._resolved(part.end)
+        return Arc(start, end, self.view.point, self.view.radius_sq, ccw=True, full=start is end)
 
     def _edge(self, part: _Part, curve: Curve) -> Curve:
         return _backwards(curve, self._resolved(part.end), self._resolved(part.start))
