@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from flint import fmpq
 
 from exactacq.points import Point
+from exactacq.reals import Real
 from exactacq.scene import Scene
 from exactacq.trace import Piece
 from exactacq.vision.intervals import Cover
@@ -40,6 +41,8 @@ class Memory:
         self.scene, self.radius = scene, radius
         self._senses = Senses(EdgeTable(scene.obstacles) if table is None else table, radius)
         self.reports: list[Report] = []
+        # The parameters of the reports' places: numbers that glances share, so that ties with them are free.
+        self._parameters: dict[tuple[int, int], tuple[Point, Real]] = {}
         self._learned: list[dict[int, Cover]] = []
         self._legs: list[list[Leg]] = []
 
@@ -72,6 +75,7 @@ class Memory:
             notices, more = self._senses.follow(leg)
             learned.update(more)
             for n in notices:
+                self._parameters[count, id(n.place)] = n.place, n.u
                 at_start = k == 0 and leg.order(n.u, leg.first) == 0
                 at_end = k == len(legs) - 1 and leg.order(n.u, leg.last) == 0
                 after = count + 1 if at_end and not at_start else count
@@ -89,7 +93,7 @@ class Memory:
         """The map when the robot is at a place inside piece number *count*."""
         covers = self._covers(count)
         for leg in self._legs[count]:
-            u = leg.rail.parameter(place)
+            _, u = self._parameters.get((count, id(place))) or (place, leg.rail.parameter(place))
             if leg.span.low.compare(u) <= 0 and leg.span.high.compare(u) >= 0:
                 if leg.order(u, leg.first) > 0:
                     covers.update(self._senses.known_after(leg.upto(u, place), covers))

@@ -17,7 +17,7 @@ from flint import fmpq
 from exactacq.curves import Arc
 from exactacq.points import Point
 from exactacq.reals import Real
-from exactacq.vision.glances import End, Glance, Pin
+from exactacq.vision.glances import End, Glance, Pin, Strand
 from exactacq.vision.intervals import Interval
 from exactacq.vision.rails import Rail
 from exactacq.vision.table import EdgeTable
@@ -59,7 +59,8 @@ class Seen:
 
     def pinned(self, end: End, glance: Glance, side: int) -> End:
         """An extreme view of a glance from this place, its other end the view's own point if it is one."""
-        for hold in self._holds(end, glance, side):
+        e, point = glance.edges[1 - side], end.points[1 - side]
+        for hold in self._holds(e, point, end.tight, glance.strand):
             pin = self._held.get(hold)
             # A full circle's start has two parameters: a glance over it keeps the one on its side.
             if pin is not None and _sign(pin[1] - end.places[1 - side]) == 0:
@@ -67,6 +68,18 @@ class Seen:
                 (p, u), (q, v) = (here, pin) if side == 0 else (pin, here)
                 return replace(end, points=(p, q), places=(u, v))
         return end
+
+    def adopt(self, e: int, pin: Pin, tight: bool, strand: Strand | None) -> None:
+        """Take a point of an edge for the end of what is seen if the same holds it: the place was made so."""
+        for hold in self._holds(e, pin[0], tight, strand):
+            known = self._held.get(hold)
+            if known is None or _sign(known[1] - pin[1]):
+                continue
+            self._held[hold] = pin
+            for k, i in enumerate(self.spans[e]):
+                low, start = (pin[1], pin[0]) if i.start is known[0] else (i.low, i.start)
+                high, end = (pin[1], pin[0]) if i.end is known[0] else (i.high, i.end)
+                self.spans[e][k] = Interval(low, start, high, end)
 
     @cached_property
     def _held(self) -> dict[Hold, Pin]:
@@ -82,11 +95,9 @@ class Seen:
                         found[e, name, side] = point, u
         return {hold: pin for hold, pin in found.items() if hold[1] != RANGE or hold[2]}
 
-    def _holds(self, end: End, glance: Glance, side: int) -> Iterator[Hold]:
-        e, point = glance.edges[1 - side], end.points[1 - side]
-        if end.tight:
+    def _holds(self, e: int, point: Point, tight: bool, strand: Strand | None) -> Iterator[Hold]:
+        if tight:
             yield e, RANGE, self._onward(e, point)
-        strand = glance.strand
         if strand is None or strand.anchor is None:
             return
         kind, number = strand.anchor
