@@ -80,6 +80,21 @@ class TestExactEvents:
         assert told == [("sight", "(-4, 0)", ""), ("lose", "(6, 0)", "range")]
         assert known(memory, 1, 0)[:1] == [(0, "(0, 3)", "(2, 3)")]
 
+    def test_lost_at_a_corner_while_both_ends_are_at_the_range(self) -> None:
+        """From the tip of a spike the wall is seen from (-4, 3) to (4, 3), R = 5; behind it nothing is."""
+        spike, wall = Polygon([(20, 0), (0, 0), (20, -1)]), Polygon([(-10, 3), (10, 3), (10, 4), (-10, 4)])
+        scene = Scene([spike, wall])
+        memory = Memory(scene, xa.Scene([], radius=5).radius)
+        memory.begin(Point(8, 0))
+        top, below, _ = scene.obstacles[0].edges
+        told = [
+            (r.kind.value, str(r.place), r.note)
+            for curve in (top.part(Point(8, 0), Point(0, 0)), below.part(Point(0, 0), Point(10, Q(-1, 2))))
+            for r in memory.walk(Piece("boundary", 0, curve))
+            if r.obstacle == 1
+        ]
+        assert told == [("lose", "(0, 0)", "occlusion")]
+
     def test_radius_equal_to_the_gap(self) -> None:
         """From y = 0 exactly one point of the wall's long side is seen at a time: all of it in the end."""
         wall = Scene([Polygon([(0, 3), (2, 3), (2, 4), (0, 4)])])

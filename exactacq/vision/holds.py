@@ -86,8 +86,12 @@ class Seen:
         """The ends of what is seen, by what holds them."""
         found: dict[Hold, Pin] = {}
         for e, intervals in self.spans.items():
+            curve = self.table.curves[e]
             for i in intervals:
                 for point, u in ((i.start, i.low), (i.end, i.high)):
+                    if point is curve.start or point is curve.end:
+                        # A line through the corner may meet the edge again: there its name is another's.
+                        continue
                     if self._view.is_at_range(point):
                         found[e, RANGE, self._onward(e, point)] = point, u
                     for number, side in self._view.touched(point):

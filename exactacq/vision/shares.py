@@ -18,6 +18,7 @@ from exactacq.vision.glances import End, Glance, Ranges, Strand
 from exactacq.vision.holds import Seen
 from exactacq.vision.intervals import EMPTY, Cover, Interval
 from exactacq.vision.legs import Leg
+from exactacq.vision.pencil import rational_between
 from exactacq.vision.sightlines import Sightlines
 
 Covers: TypeAlias = "Mapping[int, Cover]"
@@ -172,8 +173,14 @@ class Shares:
         return any(
             edge in (None, e) and distance_sq(place, point).compare(square) < 0
             for e, interval in self.view(place, leg.own(u)).of(k)
-            for point in (interval.start, interval.end)
+            for point in self._samples(e, interval)
         )
+
+    def _samples(self, e: int, interval: Interval) -> Iterator[Point]:
+        """The ends of an interval and, lest both are at the range, a place between."""
+        yield from (interval.start, interval.end)
+        if interval.low.compare(interval.high) < 0:
+            yield self._ranges.rails[e].point(rational_between(interval.low, interval.high))
 
     def reaching(self, e: int, u: Real, point: Point) -> Iterator[tuple[Real, Point, Strand | None]]:
         """Where glances show a point of edge *e*, whose parameter is *u*, and the strands that do."""
