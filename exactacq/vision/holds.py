@@ -69,18 +69,6 @@ class Seen:
                 return replace(end, points=(p, q), places=(u, v))
         return end
 
-    def adopt(self, e: int, pin: Pin, tight: bool, strand: Strand | None) -> None:
-        """Take a point of an edge for the end of what is seen if the same holds it: the place was made so."""
-        for hold in self._holds(e, pin[0], tight, strand):
-            known = self._held.get(hold)
-            if known is None or _sign(known[1] - pin[1]):
-                continue
-            self._held[hold] = pin
-            for k, i in enumerate(self.spans[e]):
-                low, start = (pin[1], pin[0]) if i.start is known[0] else (i.low, i.start)
-                high, end = (pin[1], pin[0]) if i.end is known[0] else (i.high, i.end)
-                self.spans[e][k] = Interval(low, start, high, end)
-
     @cached_property
     def _held(self) -> dict[Hold, Pin]:
         """The ends of what is seen, by what holds them."""

@@ -20,7 +20,6 @@ from exactacq.contacts import contacts
 from exactacq.curves import Arc
 from exactacq.points import Point
 from exactacq.reals import Real
-from exactacq.vision.glances import Pin, Strand
 from exactacq.vision.holds import Seen
 from exactacq.vision.intervals import EMPTY, Cover
 from exactacq.vision.legs import Leg
@@ -75,8 +74,6 @@ class Senses:
         self.acquired: set[int] = set()
         self.in_sight: set[int] = set()
         self._views: dict[int, Seen] = {}
-        # Places that were made to see a point: the edge, the point, whether at the range, or how.
-        self._met: dict[int, tuple[Point, int, Pin, bool, Strand | None]] = {}
 
     # -- moving ------------------------------------------------------------------------------------
 
@@ -147,8 +144,6 @@ class Senses:
             if len(self._views) >= VIEWS_KEPT:
                 self._views.clear()
             kept = self._views[id(place)] = Seen(self.table, self.rails, place, self.radius, own)
-            if id(place) in self._met:
-                kept.adopt(*self._met[id(place)][1:])
         return kept
 
     def _with_view(self, view: Seen, obstacles: list[int]) -> dict[int, Cover]:
@@ -191,11 +186,9 @@ class Senses:
         before = ChainMap(self._with_view(self._view(leg.start, leg.own(leg.first)), [k]), self.covers)
         if self._is_whole(before, k):
             return Notice(Kind.ACQUIRE, k, leg.first, leg.start)
-        kept = dict(self._met)
         _, around = self._closing(shares, leg, k, before, before)
         late = self._until(shares, leg.upto(around.first, around.start), k, before)
         moment, _ = self._closing(shares, around, k, late, before)
-        self._met = {key: met for key, met in self._met.items() if key in kept or key == id(moment[1])}
         return Notice(Kind.ACQUIRE, k, *moment)
 
     def _closing(
@@ -235,12 +228,8 @@ class Senses:
         for e in self.table.edges_of(k):
             for gap in known.get(e, EMPTY).gaps(self.rails[e]):
                 for u, point in ((gap.low, gap.start), (gap.high, gap.end)):
-                    for at, place, strand in shares.reaching(e, u, point):
-                        found.append((at, place))
-                        self._met[id(place)] = place, e, (point, u), False, strand
-                    for at, place in self._in_range(leg, point):
-                        found.append((at, place))
-                        self._met[id(place)] = place, e, (point, u), True, None
+                    found += shares.reaching(e, u, point)
+                    found += self._in_range(leg, point)
                     if e == leg.edge:
                         found.append((u, point))
         inside: list[tuple[Real, Point]] = [

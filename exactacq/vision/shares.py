@@ -14,7 +14,7 @@ from typing import TypeAlias
 from exactacq.points import Point, distance_sq
 from exactacq.reals import Real
 from exactacq.vision.crossing import Crossing
-from exactacq.vision.glances import End, Glance, Ranges, Strand
+from exactacq.vision.glances import End, Glance, Ranges
 from exactacq.vision.holds import Seen
 from exactacq.vision.intervals import EMPTY, Cover, Interval
 from exactacq.vision.legs import Leg
@@ -182,14 +182,14 @@ class Shares:
         if interval.low.compare(interval.high) < 0:
             yield self._ranges.rails[e].point(rational_between(interval.low, interval.high))
 
-    def reaching(self, e: int, u: Real, point: Point) -> Iterator[tuple[Real, Point, Strand | None]]:
-        """Where glances show a point of edge *e*, whose parameter is *u*, and the strands that do."""
+    def reaching(self, e: int, u: Real, point: Point) -> Iterator[tuple[Real, Point]]:
+        """Where glances show a point of edge *e*, whose parameter is *u*."""
         single = Interval(u, point, u, point)
         for share in self.of[self.owner[e]]:
             if share.edge == e:
                 glance = self._ranges.clipped(share.glance, 1 - share.side, single)
                 if glance is not None:
-                    yield glance.first.places[share.side], glance.first.points[share.side], glance.strand
+                    yield glance.first.places[share.side], glance.first.points[share.side]
 
 
 def size(interval: Interval) -> float:
