@@ -6,17 +6,18 @@ to what was learned.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from flint import fmpq
 
+from exactacq.components import Ground
 from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.scene import Scene
 from exactacq.trace import Piece
 from exactacq.vision.intervals import Cover
-from exactacq.vision.knowledge import Map
+from exactacq.vision.knowledge import Body, Map
 from exactacq.vision.legs import Leg, legs_of
 from exactacq.vision.sensing import Kind, Senses
 from exactacq.vision.table import EdgeTable
@@ -35,11 +36,23 @@ class Report:
 
 
 class Memory:
-    """What a robot has learned on its way so far, with all ``reports``. *radius* is rational and positive."""
+    """What a robot has learned on its way so far, with all ``reports``. *radius* is rational and positive.
 
-    def __init__(self, scene: Scene, radius: fmpq, table: EdgeTable | None = None) -> None:
-        self.scene, self.radius = scene, radius
-        self._senses = Senses(EdgeTable(scene.obstacles) if table is None else table, radius)
+    On a *ground* its components take the place of the scene's obstacles.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        radius: fmpq,
+        table: EdgeTable | None = None,
+        ground: Ground | None = None,
+    ) -> None:
+        self.scene, self.radius, self.ground = scene, radius, ground
+        self._table = EdgeTable(scene.obstacles) if table is None else table
+        self.bodies: Sequence[Body] = scene.obstacles if ground is None else ground.components
+        targets = None if ground is None else ground.targets(self._table)
+        self._senses = Senses(self._table, radius, targets)
         self.reports: list[Report] = []
         # The parameters of the reports' places: numbers that glances share, so that ties with them are free.
         self._parameters: dict[tuple[int, int], tuple[Point, Real]] = {}
@@ -47,9 +60,11 @@ class Memory:
         self._legs: list[list[Leg]] = []
 
     @classmethod
-    def of(cls, scene: Scene, radius: fmpq, start: Point, path: Iterable[Piece]) -> Memory:
+    def of(
+        cls, scene: Scene, radius: fmpq, start: Point, path: Iterable[Piece], ground: Ground | None = None
+    ) -> Memory:
         """The memory of a robot that walked a path."""
-        memory = cls(scene, radius)
+        memory = cls(scene, radius, ground=ground)
         memory.begin(start)
         for piece in path:
             memory.walk(piece)
@@ -68,8 +83,8 @@ class Memory:
 
     def walk(self, piece: Piece) -> list[Report]:
         """Take in all that a piece of the path shows; the reports in the order in which they come."""
-        legs = legs_of(self._senses.table, self._senses.rails, piece.obstacle, piece.curve, piece.touches)
-        count, reports = len(self._legs), []
+        legs, count = self._legs_of(piece), len(self._legs)
+        reports = []
         learned: dict[int, Cover] = {}
         for k, leg in enumerate(legs):
             notices, more = self._senses.follow(leg)
@@ -84,6 +99,12 @@ class Memory:
         self._learned.append(learned)
         self._legs.append(legs)
         return self._reported(reports)
+
+    def _legs_of(self, piece: Piece) -> list[Leg]:
+        owner = piece.obstacle
+        if owner is not None and self.ground is not None:
+            owner = self.ground.components[owner].obstacle.index
+        return legs_of(self._table, self._senses.rails, owner, piece.curve, piece.touches)
 
     def after(self, count: int) -> Map:
         """The map after the first *count* pieces."""
@@ -112,4 +133,4 @@ class Memory:
         return covers
 
     def _map(self, covers: dict[int, Cover]) -> Map:
-        return Map(self.scene, self._senses.rails, covers)
+        return Map(self.bodies, self._senses.targets, self._senses.rails, covers)

@@ -98,7 +98,7 @@ class SweepCell:
         """What the cell teaches a robot that knows nothing: all that is seen from some place of it."""
         part = self.shares.leg.between(self.begin, self.end)
         rails = self.shares.sightlines.ranges.rails
-        return Map(self.scene, rails, self.shares.cut(part).taught({}))
+        return Map(self.scene.obstacles, self.shares.targets, rails, self.shares.cut(part).taught({}))
 
     def windows(self, u: fmpq) -> list[tuple[Point, Point | None]]:
         """The windows of the view at a rational parameter: the touched point, and what is seen past it.

@@ -51,12 +51,6 @@ class Seen:
             for e, parts in self._view.seen().items()
         }
 
-    def of(self, obstacle: int) -> Iterator[tuple[int, Interval]]:
-        """What is seen of one obstacle: edges and intervals."""
-        for e in self.table.edges_of(obstacle):
-            for interval in self.spans.get(e, ()):
-                yield e, interval
-
     def pinned(self, end: End, glance: Glance, side: int) -> End:
         """An extreme view of a glance from this place, its other end the view's own point if it is one."""
         e, point = glance.edges[1 - side], end.points[1 - side]

@@ -20,6 +20,11 @@ class Interval:
     end: Point
 
     @classmethod
+    def whole(cls, rail: Rail) -> Interval:
+        """All of a rail."""
+        return cls(Real(0), rail.curve.start, rail.top, rail.curve.end)
+
+    @classmethod
     def of(cls, u: Real, p: Point, v: Real, q: Point) -> Interval:
         """The interval between two places, given in any order."""
         return cls(u, p, v, q) if u.compare(v) <= 0 else cls(v, q, u, p)
@@ -68,22 +73,21 @@ class Cover:
         """Whether a parameter is covered."""
         return any(i.low.compare(u) <= 0 and i.high.compare(u) >= 0 for i in self.intervals)
 
-    def covers(self, top: Real) -> bool:
-        """Whether all of [0, top] is covered."""
-        if len(self.intervals) != 1:
-            return False
-        (only,) = self.intervals
-        return only.low.sign() <= 0 and only.high.compare(top) >= 0
+    def covers(self, low: Real, high: Real) -> bool:
+        """Whether all of [low, high] is covered."""
+        return any(i.low.compare(low) <= 0 and i.high.compare(high) >= 0 for i in self.intervals)
 
-    def gaps(self, rail: Rail) -> Iterator[Interval]:
-        """The closures of what is left of a whole rail, from low to high."""
-        at, place = Real(0), rail.curve.start
+    def gaps(self, span: Interval) -> Iterator[Interval]:
+        """The closures of what is left of an interval, from low to high; no part of the cover juts out."""
+        at, place = span.low, span.start
         for i in self.intervals:
+            if i.low.compare(span.low) < 0 or i.high.compare(span.high) > 0:
+                continue
             if i.low.compare(at) > 0:
                 yield Interval(at, place, i.low, i.start)
             at, place = i.high, i.end
-        if at.compare(rail.top) < 0:
-            yield Interval(at, place, rail.top, rail.curve.end)
+        if at.compare(span.high) < 0:
+            yield Interval(at, place, span.high, span.end)
 
 
 EMPTY = Cover()

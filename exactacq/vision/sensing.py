@@ -13,7 +13,6 @@ from dataclasses import dataclass
 from enum import Enum
 from functools import cmp_to_key
 
-import numpy as np
 from flint import fmpq
 
 from exactacq.contacts import contacts
@@ -27,6 +26,7 @@ from exactacq.vision.pencil import rational_between
 from exactacq.vision.shares import Covers, Shares, add
 from exactacq.vision.sightlines import Sightlines
 from exactacq.vision.table import EdgeTable
+from exactacq.vision.targets import Targets
 
 VIEWS_KEPT = 64
 """Views from ends of legs that are remembered: enough for a walk along one boundary and back."""
@@ -62,13 +62,14 @@ class Notice:
 class Senses:
     """The sensor of a robot in one scene: what is known so far, and what is in sight.
 
-    *radius* is positive and rational.
+    *radius* is positive and rational. Obstacles are *targets*: by default all, with their whole boundaries.
     """
 
-    def __init__(self, table: EdgeTable, radius: fmpq) -> None:
+    def __init__(self, table: EdgeTable, radius: fmpq, targets: Targets | None = None) -> None:
         self.table, self.radius, self.square = table, radius, radius * radius
         self.sightlines = Sightlines(table, radius)
         self.rails = self.sightlines.ranges.rails
+        self.targets = Targets.whole(table, self.rails) if targets is None else targets
         self.covers: dict[int, Cover] = {}
         self.seen: set[int] = set()
         self.acquired: set[int] = set()
@@ -80,12 +81,13 @@ class Senses:
     def look_around(self, place: Point) -> tuple[list[Notice], dict[int, Cover]]:
         """Take in the view from the start of the path; as `follow`."""
         view = self._view(place)
-        seen = sorted({self.table.owners[e] for e in view.spans})
+        near = sorted(self.targets.near(view.spans))
+        seen = [k for k in near if any(self.targets.within(k, view.spans))]
         learned = self._with_view(view, seen)
         notices = []
         for k in seen:
             notices.append(Notice(Kind.SIGHT, k, Real(0), place))
-            if self._is_whole(ChainMap(learned, self.covers), k):
+            if self.targets.is_whole(k, ChainMap(learned, self.covers)):
                 notices.append(Notice(Kind.ACQUIRE, k, Real(0), place))
         return self._settle(notices, learned)
 
@@ -94,12 +96,12 @@ class Senses:
         obstacles = self._near(leg) - self.acquired
         if not obstacles:
             return [], {}
-        shares = Shares(self.sightlines, leg, obstacles, self._view)
+        shares = self._shares(leg, obstacles)
         learned = shares.taught(self.covers)
         now = ChainMap(learned, self.covers)
         notices: list[Notice] = []
         for k in sorted(obstacles):
-            whole = self._acquired(shares, k) if self._is_whole(now, k) else None
+            whole = self._acquired(shares, k) if self.targets.is_whole(k, now) else None
             for notice in self._changes(shares, k):
                 if whole is None or leg.order(notice.u, whole.u) < (1 if notice.kind is Kind.SIGHT else 0):
                     notices.append(notice)
@@ -114,7 +116,10 @@ class Senses:
 
     def shares(self, leg: Leg) -> Shares:
         """All that a leg shows, also of acquired obstacles."""
-        return Shares(self.sightlines, leg, self._near(leg), self._view)
+        return self._shares(leg, self._near(leg))
+
+    def _shares(self, leg: Leg, obstacles: set[int]) -> Shares:
+        return Shares(self.sightlines, self.targets, leg, obstacles, self._view)
 
     def _settle(
         self, notices: list[Notice], learned: dict[int, Cover]
@@ -135,7 +140,7 @@ class Senses:
         """The obstacles with an edge whose box is within reach of the leg's."""
         x, y, right, top = leg.box
         edges = self.table.near((x, y), (right, top), self.sightlines.reach)
-        return {int(k) for k in np.unique(self.table.owner[edges])}
+        return self.targets.near(edges.tolist())
 
     def _view(self, place: Point, own: tuple[int, ...] | None = None) -> Seen:
         """What is seen from a place on edges *own*, if known; the last are kept, for legs share ends."""
@@ -150,12 +155,9 @@ class Senses:
         """The covers that grow by what a view shows of some obstacles."""
         learned: dict[int, Cover] = {}
         for k in obstacles:
-            for e, interval in view.of(k):
+            for e, interval in self.targets.within(k, view.spans):
                 add(learned, self.covers, e, interval)
         return learned
-
-    def _is_whole(self, covers: Covers, k: int) -> bool:
-        return all(covers.get(e, EMPTY).covers(self.rails[e].top) for e in self.table.edges_of(k))
 
     # -- reports -----------------------------------------------------------------------------------
 
@@ -184,7 +186,7 @@ class Senses:
         """
         leg = shares.leg
         before = ChainMap(self._with_view(self._view(leg.start, leg.own(leg.first)), [k]), self.covers)
-        if self._is_whole(before, k):
+        if self.targets.is_whole(k, before):
             return Notice(Kind.ACQUIRE, k, leg.first, leg.start)
         _, around = self._closing(shares, leg, k, before, before)
         late = self._until(shares, leg.upto(around.first, around.start), k, before)
@@ -206,7 +208,7 @@ class Senses:
             one, other = moments[middle][0], moments[middle + 1][0]
             u = rational_between(*((one, other) if leg.ahead else (other, one)))
             place = leg.rail.point(u)
-            if self._is_whole(self._until(shares, leg.upto(Real(u), place), k, before), k):
+            if self.targets.is_whole(k, self._until(shares, leg.upto(Real(u), place), k, before)):
                 high, end = middle, (Real(u), place)
             else:
                 low, begin = middle + 1, (Real(u), place)
@@ -225,10 +227,10 @@ class Senses:
         for share in shares.of[k]:
             for end in (share.glance.first, share.glance.last):
                 found.append((end.places[share.side], end.points[share.side]))
-        for e in self.table.edges_of(k):
-            for gap in known.get(e, EMPTY).gaps(self.rails[e]):
+        for e, span, _ in self.targets.of[k]:
+            for gap in known.get(e, EMPTY).gaps(span):
                 for u, point in ((gap.low, gap.start), (gap.high, gap.end)):
-                    found += shares.reaching(e, u, point)
+                    found += shares.reaching(k, e, u, point)
                     found += self._in_range(leg, point)
                     if e == leg.edge:
                         found.append((u, point))

@@ -20,6 +20,7 @@ from exactacq.vision.intervals import EMPTY, Cover, Interval
 from exactacq.vision.legs import Leg
 from exactacq.vision.pencil import rational_between
 from exactacq.vision.sightlines import Sightlines
+from exactacq.vision.targets import Targets
 
 Covers: TypeAlias = "Mapping[int, Cover]"
 """What is known of each edge, by its number; nothing is known of an edge that is missing."""
@@ -54,21 +55,25 @@ class Shares:
     def __init__(
         self,
         sightlines: Sightlines,
+        targets: Targets,
         leg: Leg,
         obstacles: Collection[int],
         view: Callable[[Point, tuple[int, ...] | None], Seen],
         of: dict[int, list[Share]] | None = None,
     ) -> None:
-        self.sightlines, self.leg, self.obstacles, self.view = sightlines, leg, obstacles, view
-        self.owner = sightlines.table.owners
+        self.sightlines, self.targets, self.leg = sightlines, targets, leg
+        self.obstacles, self.view = obstacles, view
         self.of = self._found() if of is None else of
 
     def _found(self) -> dict[int, list[Share]]:
         found: dict[int, list[Share]] = {k: [] for k in self.obstacles}
         for glance, side in self._glances():
-            share = self._share(glance, side, self.leg)
-            if share is not None:
-                found[self.owner[share.edge]].append(share)
+            for k, target in self.targets.on(glance.edges[1 - side]):
+                if k in found:
+                    part = self._ranges.clipped(glance, 1 - side, target.span)
+                    share = None if part is None else self._share(part, side, self.leg)
+                    if share is not None:
+                        found[k].append(share)
         return found
 
     def _share(self, glance: Glance, side: int, leg: Leg) -> Share | None:
@@ -85,10 +90,10 @@ class Shares:
         return end if place is None else self.view(place, leg.own(u)).pinned(end, glance, side)
 
     def _glances(self) -> Iterator[tuple[Glance, int]]:
-        sightlines, leg, owner, obstacles = self.sightlines, self.leg, self.owner, self.obstacles
+        sightlines, leg, obstacles = self.sightlines, self.leg, self.obstacles
         x, y, right, top = leg.box
         near = sightlines.table.near((x, y), (right, top), sightlines.reach).tolist()
-        wanted = frozenset(e for e in near if owner[e] in obstacles)
+        wanted = frozenset(e for e in near if any(k in obstacles for k, _ in self.targets.on(e)))
         if leg.edge is None:
             crossing = Crossing(sightlines, leg, wanted, self.view)
             yield from ((glance, 0) for glance in crossing.glances())
@@ -111,7 +116,7 @@ class Shares:
             ]
             for k in obstacles
         }
-        return Shares(self.sightlines, leg, obstacles, self.view, of)
+        return Shares(self.sightlines, self.targets, leg, obstacles, self.view, of)
 
     def at(self, share: Share, u: Real, place: Point) -> Share | None:
         """The one view of a share from a place of the leg, if it has one."""
@@ -128,23 +133,31 @@ class Shares:
         for u, place in ((leg.first, leg.start), (leg.last, leg.end)):
             view = self.view(place, leg.own(u))
             for k in self.obstacles:
-                for e, interval in view.of(k):
+                for e, interval in self.targets.within(k, view.spans):
                     add(learned, covers, e, interval)
-        if leg.edge is not None and self.owner[leg.edge] in self.obstacles:
-            add(learned, covers, leg.edge, leg.span)
+        for k in self.obstacles:
+            if self._is_along(k):
+                assert leg.edge is not None
+                add(learned, covers, leg.edge, leg.span)
         return learned
+
+    def _is_along(self, k: int) -> bool:
+        """Whether the leg is on the boundary of an obstacle."""
+        return self.leg.edge is not None and any(
+            owner == k and target.contains(self.leg.span) for owner, target in self.targets.on(self.leg.edge)
+        )
 
     def times(self, k: int, edge: int | None = None) -> Cover:
         """When an obstacle, or only one edge of it, is in sight, as a cover of the leg's rail."""
         span = self.leg.span
-        edges = self.sightlines.table.edges_of(k) if edge is None else (edge,)
-        if self.leg.edge in edges:
+        if self._is_along(k) and edge in (None, self.leg.edge):
             return Cover((span,))
         times = Cover()
         for u, place in ((span.low, span.start), (span.high, span.end)):
-            if any(e in edges for e in self.view(place, self.leg.own(u)).spans):
+            seen = self.targets.within(k, self.view(place, self.leg.own(u)).spans)
+            if any(edge in (None, e) for e, _ in seen):
                 times = times.added(Interval(u, place, u, place))
-        sources = (share.source for share in self.of[k] if share.edge in edges)
+        sources = (share.source for share in self.of[k] if edge in (None, share.edge))
         for interval in sorted(sources, key=size, reverse=True):
             times = times.added(interval)
         return times
@@ -172,7 +185,7 @@ class Shares:
         place = leg.start if u is leg.first else leg.end
         return any(
             edge in (None, e) and distance_sq(place, point).compare(square) < 0
-            for e, interval in self.view(place, leg.own(u)).of(k)
+            for e, interval in self.targets.within(k, self.view(place, leg.own(u)).spans)
             for point in self._samples(e, interval)
         )
 
@@ -182,10 +195,10 @@ class Shares:
         if interval.low.compare(interval.high) < 0:
             yield self._ranges.rails[e].point(rational_between(interval.low, interval.high))
 
-    def reaching(self, e: int, u: Real, point: Point) -> Iterator[tuple[Real, Point]]:
-        """Where glances show a point of edge *e*, whose parameter is *u*."""
+    def reaching(self, k: int, e: int, u: Real, point: Point) -> Iterator[tuple[Real, Point]]:
+        """Where glances show a point of edge *e* of an obstacle, whose parameter is *u*."""
         single = Interval(u, point, u, point)
-        for share in self.of[self.owner[e]]:
+        for share in self.of[k]:
             if share.edge == e:
                 glance = self._ranges.clipped(share.glance, 1 - share.side, single)
                 if glance is not None:

@@ -1,0 +1,80 @@
+"""What there is to learn: obstacles by number, each the edges, or the parts of edges, that count for it.
+
+Most often an obstacle counts with its whole boundary. Where a terrain's border cuts obstacles, only what the
+robot can walk along counts, and one edge may belong to several.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+from exactacq.vision.intervals import EMPTY, Cover, Interval
+from exactacq.vision.rails import Rail
+from exactacq.vision.table import EdgeTable
+
+
+class Target(NamedTuple):
+    """A part of an edge that counts for an obstacle; ``whole`` if it is all of the edge."""
+
+    edge: int
+    span: Interval
+    whole: bool
+
+    def clip(self, interval: Interval) -> Interval | None:
+        """What of an interval of the edge lies in the part; ends are copied."""
+        if self.whole:
+            return interval
+        span = self.span
+        low, start = (span.low, span.start) if interval.low < span.low else (interval.low, interval.start)
+        high, end = (span.high, span.end) if interval.high > span.high else (interval.high, interval.end)
+        return Interval(low, start, high, end) if low <= high else None
+
+    def contains(self, interval: Interval) -> bool:
+        """Whether the part contains an interval of the edge."""
+        return self.whole or (self.span.low <= interval.low and self.span.high >= interval.high)
+
+    def is_in(self, cover: Cover) -> bool:
+        """Whether a cover of the edge contains all of the part."""
+        return cover.covers(self.span.low, self.span.high)
+
+
+class Targets:
+    """The targets of every obstacle, in the order of its boundary."""
+
+    def __init__(self, of: Sequence[tuple[Target, ...]]) -> None:
+        self.of = tuple(of)
+        self._on: dict[int, list[tuple[int, Target]]] = {}
+        for k, targets in enumerate(self.of):
+            for target in targets:
+                self._on.setdefault(target.edge, []).append((k, target))
+
+    @classmethod
+    def whole(cls, table: EdgeTable, rails: Sequence[Rail]) -> Targets:
+        """All obstacles of a scene with their whole boundaries."""
+        return cls(
+            [
+                tuple(Target(e, Interval.whole(rails[e]), True) for e in table.edges_of(k))
+                for k in range(len(table.obstacles))
+            ]
+        )
+
+    def on(self, edge: int) -> Sequence[tuple[int, Target]]:
+        """The obstacles that an edge counts for."""
+        return self._on.get(edge, ())
+
+    def near(self, edges: Iterable[int]) -> set[int]:
+        """The obstacles that some of the edges count for."""
+        return {k for e in edges for k, _ in self.on(e)}
+
+    def within(self, k: int, spans: Mapping[int, Iterable[Interval]]) -> Iterator[tuple[int, Interval]]:
+        """What intervals of edges, by their numbers, contain of an obstacle."""
+        for target in self.of[k]:
+            for interval in spans.get(target.edge, ()):
+                part = target.clip(interval)
+                if part is not None:
+                    yield target.edge, part
+
+    def is_whole(self, k: int, covers: Mapping[int, Cover]) -> bool:
+        """Whether covers of the edges contain all of an obstacle."""
+        return all(target.is_in(covers.get(target.edge, EMPTY)) for target in self.of[k])
