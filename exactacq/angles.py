@@ -266,11 +266,15 @@ class AngleSum:
 
 def _cosine_of_pi(share: fmpq) -> Real:
     """The cosine of a rational multiple of pi: half a root of the minimal polynomial of 2 cos(2 pi / n)."""
-    turn = share / 2
+    turn, bits = share / 2, 64
     found = roots(fmpz_poly.cos_minpoly(int(turn.q)).coeffs())
-    with ctx.workprec(256):
-        near = 2 * (arb(share) * arb.pi()).cos()
-    return next(root / 2 for root in found if root.ball(256).overlaps(near))
+    # The root that is meant overlaps at every precision, each other one only up to some precision.
+    while len(found) > 1:
+        with ctx.workprec(bits):
+            near = 2 * arb.cos_pi_fmpq(share)
+        found = [root for root in found if root.ball(bits).overlaps(near)]
+        bits *= 2
+    return found[0] / 2
 
 
 def _product(a: Vector, b: Vector) -> Vector:

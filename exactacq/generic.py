@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import arb, ctx, fmpq
 
-from exactacq.atoms import Generators, Inverse, Node, Product, Sqrt
+from exactacq.atoms import Atom, Generators, Inverse, Node, Product, Sqrt, atom_ball
 from exactacq.errors import Undecided
 from exactacq.numerals import Enclosing, ball_sign, enclose
 
@@ -99,9 +99,10 @@ def sign_at(value: Real, tau: Generic) -> int:
         return sign
     degree = prod(d for key, d in value.generators() if isinstance(key, Sqrt))
     trials = int(degree * _degree(value, {})) + 1
-    trial = _Trial.beside(value, tau)
+    low, high = _beside(value, tau)
     for k in range(min(trials, MOST_TRIALS)):
-        if trial.at(value, k).sign():
+        place = type(value)(low + (high - low) * fmpq(k + 1, k + 2))
+        if _evaluated(value, {tau: place}, type(value).of_atom).sign():
             return _refined(value)
     if trials > MOST_TRIALS:
         raise Undecided(f"a number that vanishes at {MOST_TRIALS} of {trials} places")
@@ -115,94 +116,54 @@ def _refined(value: Real) -> int:
     return sign
 
 
-def _degree(value: Real, known: dict[Node, float]) -> float:
-    """The height of a real as a function of the transcendental number: its degree over its radicals'."""
-    return sum(_node_degree(atom, known) for atom in value.terms if isinstance(atom, Node))
+def _beside(value: Real, tau: Generic) -> tuple[fmpq, fmpq]:
+    """Rationals around tau between which no radical and no divisor passes 0.
 
-
-def _node_degree(node: Node, known: dict[Node, float]) -> float:
-    if node not in known:
-        if isinstance(node, Generic):
-            known[node] = 1.0
-        else:
-            below = [_degree(arg, known) for arg in _arguments(node)]
-            known[node] = sum(below) / (2 if isinstance(node, Sqrt) else 1)
-    return known[node]
-
-
-def _arguments(node: Node) -> tuple[Real, ...]:
-    return node.args if isinstance(node, Sqrt | Product | Inverse) else ()  # type: ignore[return-value]
-
-
-class _Trial:
-    """Rationals beside a transcendental number; between *low* and *high* no radical passes 0."""
-
-    def __init__(self, real: type[Real], tau: Generic, bits: int) -> None:
-        self.real, self.tau = real, tau
+    As far apart as the value allows: short rationals are decided soon.
+    """
+    for bits in NEAR:
         with ctx.workprec(4 * bits):
-            self.low, self.high = enclose(real.of_atom(tau).ball, bits)
-            middle, radius = (self.low + self.high) / 2, (self.high - self.low) / 2
-            self.around: dict[Node, arb] = {tau: arb(middle, radius)}
+            low, high = enclose(type(value).of_atom(tau).ball, bits)
+            around = arb((low + high) / 2, (high - low) / 2)
+            if _evaluated(value, {tau: around}, lambda atom: atom_ball(atom, ctx.prec)).is_finite():
+                return low, high
+    raise Undecided("a radical may pass 0 beside a transcendental number")
 
-    @classmethod
-    def beside(cls, value: Real, tau: Generic) -> _Trial:
-        """As wide as a real allows: short rationals are decided soon."""
-        for bits in NEAR:
-            trial = cls(type(value), tau, bits)
-            with ctx.workprec(4 * bits):
-                if trial._enclosed(value).is_finite():
-                    return trial
-        raise Undecided("a radical may pass 0 beside a transcendental number")
 
-    def at(self, value: Real, k: int) -> Real:
-        """The value of the function at rational number *k*."""
-        q = self.low + (self.high - self.low) * fmpq(k + 1, k + 2)
-        return _Substitution({self.tau: self.real(q)}).of(value)
+def _evaluated(value: Real, known: dict[Atom, Any], leaf: Callable[[Atom], Any]) -> Any:
+    """The value of an expression where some atoms are *known* to be other numbers, Reals or balls.
 
-    def _enclosed(self, value: Real) -> arb:
-        """A ball around all values between low and high; not finite if a radical or a divisor may be 0."""
-        total = arb(0)
-        for atom, c in value.terms.items():
-            total += arb(c) * (self._around(atom) if isinstance(atom, Node) else arb(atom).sqrt())
-        return total
-
-    def _around(self, node: Node) -> arb:
-        if node not in self.around:
-            args = [self._enclosed(arg) for arg in _arguments(node)]
-            if isinstance(node, Sqrt):
-                self.around[node] = args[0].sqrt() if args[0] > 0 else arb.nan()
-            elif isinstance(node, Product):
-                self.around[node] = args[0] * args[1]
-            elif isinstance(node, Inverse):
-                self.around[node] = 1 / args[0]
+    *leaf* gives other atoms that are made of no reals; what is made of them becomes known.
+    """
+    total = 0
+    for atom, c in value.terms.items():
+        if atom not in known:
+            args = [_evaluated(arg, known, leaf) for arg in _arguments(atom)]
+            if isinstance(atom, Sqrt):
+                known[atom] = _root(args[0])
+            elif isinstance(atom, Product):
+                known[atom] = args[0] * args[1]
+            elif isinstance(atom, Inverse):
+                known[atom] = 1 / args[0]
             else:
-                self.around[node] = node.ball(ctx.prec)
-        return self.around[node]
+                known[atom] = leaf(atom)
+        total += known[atom] * c
+    return total
 
 
-class _Substitution:
-    """Reals with other numbers in place of some nodes."""
+def _root(square: Any) -> Any:
+    """The square root; not finite for a ball that may hold 0."""
+    return arb.nan() if isinstance(square, arb) and not square > 0 else square.sqrt()
 
-    def __init__(self, known: dict[Node, Real]) -> None:
-        self.known = known
 
-    def of(self, value: Real) -> Real:
-        """The value of the expression."""
-        real = type(value)
-        return real.sum(
-            (self._node(atom, real) if isinstance(atom, Node) else real.of_atom(atom)) * c
-            for atom, c in value.terms.items()
-        )
+def _degree(value: Real, known: dict[Atom, float]) -> float:
+    """The height of a real as a function of the transcendental number: its degree over its radicals'."""
+    for atom in value.terms:
+        if atom not in known:
+            below = sum(_degree(arg, known) for arg in _arguments(atom))
+            known[atom] = 1.0 if isinstance(atom, Generic) else below / 2 if isinstance(atom, Sqrt) else below
+    return sum(known[atom] for atom in value.terms)
 
-    def _node(self, node: Node, real: type[Real]) -> Real:
-        if node not in self.known:
-            args = [self.of(arg) for arg in _arguments(node)]
-            if isinstance(node, Sqrt):
-                self.known[node] = args[0].sqrt()
-            elif isinstance(node, Product):
-                self.known[node] = args[0] * args[1]
-            elif isinstance(node, Inverse):
-                self.known[node] = 1 / args[0]
-            else:
-                self.known[node] = real.of_atom(node)
-        return self.known[node]
+
+def _arguments(atom: Atom) -> tuple[Real, ...]:
+    return atom.args if isinstance(atom, Sqrt | Product | Inverse) else ()  # type: ignore[return-value]

@@ -35,18 +35,27 @@ from exactacq.atoms import (
     Generators,
     Inverse,
     Product,
-    Root,
     Sqrt,
     atom_ball,
     atom_generators,
     atom_height,
     atom_sympy,
-    rational_sqrt,
     square_free,
 )
 from exactacq.errors import Undecided
+from exactacq.forms import (
+    content,
+    denested,
+    field_element,
+    field_of,
+    irreducible_roots,
+    is_surd,
+    merged,
+    plus,
+    polynomial,
+    square_root,
+)
 from exactacq.generic import generic_in, sign_at
-from exactacq.isolation import isolated_roots
 from exactacq.numerals import (
     ball_sign,
     decimal_string,
@@ -149,28 +158,6 @@ class Real:
         """Equal keys mean equal values (not conversely): the structural identity."""
         return self._q if self._q is not None else frozenset(self._terms.items())
 
-    @property
-    def _is_surd(self) -> bool:
-        return all(type(atom) is int for atom in self._terms)
-
-    def _field(self) -> tuple[tuple[int, ...], int] | None:
-        """Polynomial and index of the one root in whose field the form lies, if it needs no other atoms."""
-        field = None
-        for atom in self._terms:
-            if isinstance(atom, Root):
-                if field is None:
-                    field = atom.args[:2]
-                elif field != atom.args[:2]:
-                    return None
-            elif atom != 1:
-                return None
-        return field
-
-    def _polynomial(self) -> fmpq_poly:
-        """The form as a polynomial in its one root."""
-        powers = {0 if isinstance(atom, int) else atom.args[2]: c for atom, c in self._terms.items()}
-        return fmpq_poly([powers.get(k, 0) for k in range(max(powers) + 1)])
-
     # -- arithmetic --------------------------------------------------------------------------
 
     def __add__(self, other: object) -> Real:
@@ -179,7 +166,7 @@ class Real:
             return NotImplemented
         if self._q is not None and right._q is not None:
             return _of(self._q + right._q)
-        return self._plus(right, ONE)
+        return Real._form(plus(self._terms, right._terms, ONE))
 
     __radd__ = __add__
 
@@ -198,21 +185,11 @@ class Real:
             return NotImplemented
         if self._q is not None and right._q is not None:
             return _of(self._q - right._q)
-        return self._plus(right, -ONE)
+        return Real._form(plus(self._terms, right._terms, -ONE))
 
     def __rsub__(self, other: object) -> Real:
         left = _coerce(other)
         return NotImplemented if left is None else left - self
-
-    def _plus(self, other: Real, factor: fmpq) -> Real:
-        terms = dict(self._terms)
-        for atom, c in other._terms.items():
-            total = terms.get(atom, ZERO) + c * factor
-            if total:
-                terms[atom] = total
-            else:
-                terms.pop(atom, None)
-        return Real._form(terms)
 
     def _scaled(self, q: fmpq) -> Real:
         if self._q is not None:
@@ -239,12 +216,12 @@ class Real:
             return self._scaled(right._q)
         if self._q is not None:
             return right._scaled(self._q)
-        field = self._field()
-        if field is not None and field == right._field():
-            modulus = fmpq_poly(list(field[0]))
-            return _field_element(field, self._polynomial() * right._polynomial() % modulus)
+        field = field_of(self._terms)
+        if field is not None and field == field_of(right._terms):
+            product = polynomial(self._terms) * polynomial(right._terms)
+            return Real._form(field_element(field, product % fmpq_poly(list(field[0]))))
         few = len(self._terms) == 1 or len(right._terms) == 1
-        surds = self._is_surd and right._is_surd
+        surds = is_surd(self._terms) and is_surd(right._terms)
         if len(self._terms) * len(right._terms) <= EXPAND_TERMS and (few or surds):
             return Real.sum(
                 _atom_product(a, b)._scaled(p * q)
@@ -274,16 +251,16 @@ class Real:
     def _inverse(self) -> Real:
         if self.sign() == 0:
             raise ZeroDivisionError("division of an exact real by zero")
-        if len(self._terms) <= 2 and self._is_surd:
+        if len(self._terms) <= 2 and is_surd(self._terms):
             (a, p), (b, q) = (*self._terms.items(), (1, ZERO))[:2]
             conjugate = Real._form({a: p, b: -q} if q else {a: p})
             norm = p * p * a - q * q * b
             if norm:  # 0 if a and b are one radical, with a square factor that trial division missed
                 return conjugate._scaled(1 / norm)
-        field = self._field()
+        field = field_of(self._terms)
         if field is not None:
-            _, inverse, _ = self._polynomial().xgcd(fmpq_poly(list(field[0])))
-            return _field_element(field, inverse)
+            _, inverse, _ = polynomial(self._terms).xgcd(fmpq_poly(list(field[0])))
+            return Real._form(field_element(field, inverse))
         if len(self._terms) == 1:
             ((atom, c),) = self._terms.items()
             if isinstance(atom, Inverse):
@@ -311,8 +288,9 @@ class Real:
         if sign == 0:
             return Real(0)
         if self._q is not None:
-            return _sqrt_rational(self._q)
-        return _denested(self) or _sqrt_node(self)
+            return Real._form(square_root(self._q))
+        plain = denested(self._terms)
+        return _sqrt_node(self) if plain is None else Real._form(plain)
 
     def rational_ratio(self, other: Real) -> fmpq | None:
         """The rational q with self = q * other if the forms show it, else None (also where other is 0)."""
@@ -340,13 +318,13 @@ class Real:
         for bits in FILTER_BITS:
             if sign := ball_sign(self.ball(bits)):
                 return sign
-        if self._is_surd:
-            merged = _merge_surds(self._terms)
-            if len(merged) < len(self._terms):
-                return Real._form(merged).sign()
+        if is_surd(self._terms):
+            fewer = merged(self._terms)
+            if len(fewer) < len(self._terms):
+                return Real._form(fewer).sign()
         elif (tau := generic_in(self)) is not None:
             return sign_at(self, tau)
-        elif self._field() is None:
+        elif field_of(self._terms) is None:
             limit = self._separation_bits()
             zero = vanishes(self) if limit > TOWER_BITS else None
             if zero:
@@ -535,19 +513,11 @@ def _coerce(value: object) -> Real | None:
     return None
 
 
-def _field_element(field: tuple[tuple[int, ...], int], polynomial: fmpq_poly) -> Real:
-    """A polynomial of degree below the field's, evaluated at its root."""
-    coefficients, index = field
-    return Real._form(
-        {Root.make(coefficients, index, k) if k else 1: c for k, c in enumerate(polynomial.coeffs()) if c}
-    )
-
-
 def _atom_product(a: Atom, b: Atom) -> Real:
     if isinstance(a, int) and isinstance(b, int):
         if a == 1 or b == 1:
             return Real.of_atom(a * b) if a * b != 1 else Real(1)
-        return _sqrt_rational(fmpq(fmpz(a) * b))
+        return Real._form(square_root(fmpq(fmpz(a) * b)))
     if a == 1 or b == 1:
         return Real.of_atom(b if a == 1 else a)
     if a is b and isinstance(a, Sqrt):
@@ -564,57 +534,18 @@ def _node_product(a: Real, b: Real) -> Real:
 
 def _primitive(x: Real) -> tuple[fmpq, Real]:
     """(c, y) with x = c y, the same y for all rational multiples of x."""
-    numerator, denominator = fmpz(0), fmpz(1)
-    for c in x._terms.values():
-        numerator, denominator = numerator.gcd(c.p), denominator.lcm(c.q)
-    content = fmpq(numerator, denominator)
+    divisor = content(x._terms)
     if x._terms[min(x._terms, key=hash)] < 0:
-        content = -content
-    return content, x._scaled(1 / content)
-
-
-def _sqrt_rational(q: fmpq) -> Real:
-    side, radicand = square_free(int(q.p * q.q))
-    coefficient = fmpq(side) / q.q
-    return _of(coefficient) if radicand == 1 else Real._form({radicand: coefficient})
-
-
-def _denested(x: Real) -> Real | None:
-    """sqrt(p + q sqrt(d)) as a sum of two square roots, where p^2 - q^2 d is a square."""
-    if len(x._terms) != 2 or not x._is_surd or 1 not in x._terms:
-        return None
-    p = x._terms[1]
-    ((d, q),) = ((a, c) for a, c in x._terms.items() if a != 1)
-    norm = rational_sqrt(p * p - q * q * d)
-    if norm is None or p < 0:
-        return None
-    large, small = _sqrt_rational((p + norm) / 2), _sqrt_rational((p - norm) / 2)
-    return large + small if q > 0 else large - small
+        divisor = -divisor
+    return divisor, x._scaled(1 / divisor)
 
 
 def _sqrt_node(x: Real) -> Real:
     """sqrt of a form, its rational content taken out as far as it is a square."""
-    numerator, denominator = fmpz(0), fmpz(1)
-    for c in x._terms.values():
-        numerator, denominator = numerator.gcd(c.p), denominator.lcm(c.q)
-    side, rest = square_free(int(numerator * denominator))
-    content = fmpq(numerator, denominator)
-    inner = x._scaled(fmpq(rest) / content)
-    return Real.of_atom(Sqrt.make(inner))._scaled(fmpq(side, denominator))
-
-
-def _merge_surds(terms: Mapping[Atom, fmpq]) -> dict[Atom, fmpq]:
-    """Collect radicals that differ by a square factor which trial division did not find."""
-    merged: dict[Atom, fmpq] = {}
-    for d, c in terms.items():
-        for e in merged:
-            ratio = rational_sqrt(fmpq(d, e))
-            if ratio is not None:
-                merged[e] += c * ratio
-                break
-        else:
-            merged[d] = c
-    return {a: c for a, c in merged.items() if c}
+    divisor = content(x._terms)
+    side, rest = square_free(int(divisor.p * divisor.q))
+    inner = x._scaled(fmpq(rest) / divisor)
+    return Real.of_atom(Sqrt.make(inner))._scaled(fmpq(side) / divisor.q)
 
 
 def roots(coefficients: Iterable[object]) -> list[Real]:
@@ -626,25 +557,7 @@ def roots(coefficients: Iterable[object]) -> list[Real]:
     common = fmpz(1)
     for c in values:
         common = common.lcm(c.q)
-    polynomial = fmpz_poly([(c * common).p for c in values])
-    if polynomial.degree() < 0:
+    whole = fmpz_poly([(c * common).p for c in values])
+    if whole.degree() < 0:
         raise ValueError("every number is a root of the zero polynomial")
-    found: list[Real] = []
-    for factor, _ in polynomial.factor()[1]:
-        found += _irreducible_roots(factor)
-    return sorted(found)
-
-
-def _irreducible_roots(factor: fmpz_poly) -> list[Real]:
-    coefficients = tuple(factor.coeffs())
-    if len(coefficients) == 2:
-        return [_of(fmpq(-coefficients[0], coefficients[1]))]
-    if len(coefficients) == 3:
-        c, b, a = coefficients
-        square = b * b - 4 * a * c
-        if square < 0:
-            return []
-        root = _sqrt_rational(fmpq(square))
-        return [(root._scaled(s) - Real(b)) / (2 * a) for s in (ONE, -ONE)]
-    key = tuple(int(c) for c in coefficients)
-    return [Real.of_atom(Root.make(key, k, 1)) for k in range(len(isolated_roots(key)))]
+    return sorted(Real._form(root) for factor, _ in whole.factor()[1] for root in irreducible_roots(factor))

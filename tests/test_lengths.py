@@ -15,6 +15,7 @@ from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from exactacq.angles import _cosine_of_pi
 from exactacq.curves import Arc
 from exactacq.errors import FormatError, Undecided
 from exactacq.lengths import Length
@@ -571,3 +572,9 @@ def test_numbers_that_are_not_finite() -> None:
             length < True  # noqa: B015
     with pytest.raises(OverflowError, match="range of floats"):
         float(Length.turns(10**400))
+
+
+def test_cosines_of_many_turns() -> None:
+    """Once the root of a polynomial was picked with balls too wide to tell roots apart."""
+    share = fmpq(7, 30) + 1
+    assert _cosine_of_pi(share + 2 * 10**80).compare(_cosine_of_pi(share)) == 0

@@ -14,6 +14,7 @@ passes a point or touches a circle come twice: as float guesses with proven marg
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -35,7 +36,7 @@ ZERO, ONE = fmpq(0), fmpq(1)
 
 
 @dataclass(frozen=True)
-class Sector:
+class Sector(ABC):
     """A family of lines: t runs from low to high, at most a quarter turn where lines turn."""
 
     center: Vector
@@ -66,33 +67,33 @@ class Sector:
         """How far from the centre contacts lie at most."""
         return 0.0
 
+    @abstractmethod
     def touch(self, t: Real) -> tuple[Point, Point]:
         """Contact point and direction of the line at *t*."""
-        raise NotImplementedError
 
+    @abstractmethod
     def through(self, point: Point) -> list[Real]:
         """The parameters, in the sector or not, of the lines through a point."""
-        raise NotImplementedError
 
+    @abstractmethod
     def lines(self, t: Floats) -> tuple[Floats, Floats]:
         """Contacts, relative to the centre, and unit directions in floats, one row for each parameter."""
-        raise NotImplementedError
 
+    @abstractmethod
     def past_points(self, offsets: Floats, slack: float) -> Iterator[Guess]:
         """Where lines pass points, given relative to the centre with an error below *slack*."""
-        raise NotImplementedError
 
+    @abstractmethod
     def past_circles(self, offsets: Floats, radii: Floats, slack: float) -> Iterator[Guess]:
         """Where lines touch circles."""
-        raise NotImplementedError
 
+    @abstractmethod
     def exact(self, center: Vector, radius_sq: fmpq, side: int, sign: int) -> Real | None:
         """The parameter of an event, or None if the line that floats proposed does not exist.
 
         ``side`` is 0 for a point, 1 or -1 for a circle to the left or the right of the line where that
         matters; ``sign`` tells the solutions apart.
         """
-        raise NotImplementedError
 
     def _frame(self, center: Vector) -> tuple[Vector, Any, Any]:
         """Offset of a point from the centre, and its components along and across the base vector."""

@@ -16,6 +16,7 @@ the product of those of their generators, and height at most 80 times the sum of
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Hashable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -36,7 +37,7 @@ SPREAD = 240
 
 
 @dataclass(frozen=True, eq=False)
-class _Side:
+class _Side(ABC):
     """One side of a view: the carrier of its curve, by the numbers that define it."""
 
     numbers: tuple[Real, ...]
@@ -46,9 +47,9 @@ class _Side:
         """Structural identity."""
         return type(self), tuple(number.key for number in self.numbers)
 
+    @abstractmethod
     def place(self, numbers: tuple[Any, ...], t: Any, contact: Vector, direction: Vector) -> Any:
         """The s of the module's docstring, in the arithmetic of t, which *numbers* have been brought to."""
-        raise NotImplementedError
 
 
 class _Straight(_Side):
