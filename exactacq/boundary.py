@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property
 
 from exactacq.curves import Arc, Curve
 from exactacq.lengths import Length
 from exactacq.points import Point
-from exactacq.scene import Obstacle
 
 
 class Boundary:
     """The boundary of one obstacle as a closed line that starts and ends at its first vertex.
 
     Positions grow in the stored direction, which keeps the obstacle on the left: counterclockwise, and
-    clockwise inside an enclosure. Points given must lie on the boundary.
+    clockwise inside an enclosure. Points given must lie on the boundary. If it is not *closed* it is a line
+    with two ends, and there is one way from any point to another.
     """
 
-    def __init__(self, obstacle: Obstacle) -> None:
-        self.edges = obstacle.edges
-        self.perimeter = obstacle.perimeter
+    def __init__(self, edges: Sequence[Curve], perimeter: Length, closed: bool = True) -> None:
+        self.edges, self.perimeter, self.closed = edges, perimeter, closed
 
     @cached_property
     def _starts(self) -> list[Length]:
@@ -58,6 +58,8 @@ class Boundary:
     def way(self, start: Point, end: Point) -> tuple[Length, bool]:
         """Length and sense of the shorter walk; True is the stored direction, which wins a tie."""
         forward = self.position(end) - self.position(start)
+        if not self.closed:
+            return (forward, True) if forward.sign() >= 0 else (-forward, False)
         if forward.sign() < 0:
             forward = forward + self.perimeter
         backward = self.perimeter - forward
@@ -72,8 +74,11 @@ class Boundary:
         return self._onward(start, end)
 
     def loop(self, start: Point) -> list[Curve]:
-        """The pieces of one full turn in the stored direction."""
-        return self._onward(start, start)
+        """The pieces of one full turn in the stored direction, or of a walk to the last end and to the first."""
+        if self.closed:
+            return self._onward(start, start)
+        first, last = self.edges[0].start, self.edges[-1].end
+        return self.walk(start, last, True) + self.walk(last, first, False)
 
     def _onward(self, start: Point, end: Point) -> list[Curve]:
         first, last = self.edge_at(start), self.edge_at(end)

@@ -6,7 +6,7 @@ to what was learned.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Sequence, Set
 from dataclasses import dataclass
 
 from flint import fmpq
@@ -19,7 +19,7 @@ from exactacq.trace import Piece
 from exactacq.vision.intervals import Cover
 from exactacq.vision.knowledge import Body, Map
 from exactacq.vision.legs import Leg, legs_of
-from exactacq.vision.sensing import Kind, Senses
+from exactacq.vision.sensing import Kind, Notice, Senses
 from exactacq.vision.table import EdgeTable
 
 
@@ -105,6 +105,33 @@ class Memory:
         if owner is not None and self.ground is not None:
             owner = self.ground.components[owner].obstacle.index
         return legs_of(self._table, self._senses.rails, owner, piece.curve, piece.touches)
+
+    def ahead(self, piece: Piece) -> tuple[Leg, list[Notice]]:
+        """What a straight piece will tell when it is walked next."""
+        (leg,) = self._legs_of(piece)
+        return leg, self._senses.ahead(leg)[0]
+
+    def on_the_way(self, leg: Leg, u: Real, place: Point) -> Map:
+        """The map as it will be at a place of a leg that is walked next."""
+        covers = dict(self._senses.covers)
+        if leg.order(u, leg.first) > 0:
+            covers.update(self._senses.known_after(leg.upto(u, place), covers))
+        return self._map(covers)
+
+    @property
+    def now(self) -> Map:
+        """The map as it is."""
+        return self._map(dict(self._senses.covers))
+
+    @property
+    def in_sight(self) -> Set[int]:
+        """The obstacles in sight, acquired ones aside."""
+        return self._senses.in_sight
+
+    @property
+    def acquired(self) -> Set[int]:
+        """The obstacles that are wholly known."""
+        return self._senses.acquired
 
     def after(self, count: int) -> Map:
         """The map after the first *count* pieces."""

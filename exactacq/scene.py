@@ -27,7 +27,7 @@ class Obstacle:
 
     def __init__(self, index: int, shape: Shape, edges: Sequence[Curve], is_enclosure: bool = False) -> None:
         self.index, self.shape, self.is_enclosure = index, shape, is_enclosure
-        self.name = shape.name
+        self.name, self.closed = shape.name, True
         self.edges = tuple(edges)
 
     @classmethod

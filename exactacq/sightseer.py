@@ -12,8 +12,8 @@ from exactacq.errors import InvalidScene
 from exactacq.lengths import Length
 from exactacq.links import START, Link, Node, lexicographic
 from exactacq.points import Point
-from exactacq.robot import Robot
 from exactacq.scene import Scene
+from exactacq.scout import Scout
 from exactacq.trace import Run, TreeLink
 from exactacq.validation import sensor_flaws
 
@@ -45,14 +45,14 @@ def sightseer(
         rule = "meets the terrain's border: the Sightseer needs its obstacles inside"
         raise InvalidScene([f"obstacle {k} {rule}" for k in border])
     try:
-        robot = Robot(scene, scene.radius if radius is None else radius, place)
+        robot = Scout(scene, scene.radius if radius is None else radius, place)
     except ValueError as error:
         raise InvalidScene([str(error)]) from None
     return _Sightseer(robot, progress, len(scene.obstacles)).run(scene)
 
 
 class _Sightseer:
-    def __init__(self, robot: Robot, progress: Progress | None, total: int) -> None:
+    def __init__(self, robot: Scout, progress: Progress | None, total: int) -> None:
         self.robot, self.progress, self.total = robot, progress, total
         self.stack: list[tuple[Node, Point, Point]] = []
         self.tree: dict[int, TreeLink] = {}

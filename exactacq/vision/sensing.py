@@ -93,6 +93,10 @@ class Senses:
 
     def follow(self, leg: Leg) -> tuple[list[Notice], dict[int, Cover]]:
         """Move along a leg: the reports in the order in which they come, and the covers that grew."""
+        return self._settle(*self.ahead(leg))
+
+    def ahead(self, leg: Leg) -> tuple[list[Notice], dict[int, Cover]]:
+        """What `follow` would tell, without moving."""
         obstacles = self._near(leg) - self.acquired
         if not obstacles:
             return [], {}
@@ -108,7 +112,7 @@ class Senses:
             if whole is not None:
                 notices.append(whole)
         notices.sort(key=cmp_to_key(lambda a, b: leg.order(a.u, b.u) or ORDER[a.kind] - ORDER[b.kind]))
-        return self._settle(notices, learned)
+        return notices, learned
 
     def known_after(self, leg: Leg, covers: Covers) -> dict[int, Cover]:
         """The covers that grow along a leg, if *covers* are known before it."""

@@ -1,0 +1,96 @@
+"""The M-line of the Seed Spreader Strategy: lines from south to north, joined along the border.
+
+Strips are w = min(R, B) wide, the last one perhaps narrower; lines lie at x_j = min(j w, B), j = 0..r with
+r = ceil(B / R), and are walked north for even j and south for odd j.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from itertools import pairwise
+from typing import NamedTuple
+
+from flint import fmpq
+
+from exactacq.blocking import Blocking, Stop
+from exactacq.components import Component
+from exactacq.curves import Segment
+from exactacq.points import Point
+from exactacq.reals import Real
+from exactacq.shapes import Terrain
+
+
+class Crossing(NamedTuple):
+    """A crossing point: an end of a blocked stretch of the M-line.
+
+    ``stop`` is where on straight piece number ``piece`` it lies; ``ends`` is True where the stretch ends.
+    """
+
+    component: Component
+    piece: int
+    stop: Stop
+    ends: bool
+
+
+class MLine:
+    """The straight pieces of the M-line, from S to T; every other one is a line, those between are joints."""
+
+    def __init__(self, terrain: Terrain, radius: fmpq) -> None:
+        b, a = terrain.width, terrain.height
+        self.terrain, self.width = terrain, min(radius, b)
+        self.strips = int((b / radius).ceil())
+        self.lines = [min(j * self.width, b) for j in range(self.strips + 1)]
+        corners = [Point(x, a if (j + k) % 2 else 0) for j, x in enumerate(self.lines) for k in (0, 1)]
+        self.pieces = [Segment(p, q) for p, q in pairwise(corners)]
+
+    @property
+    def length(self) -> fmpq:
+        """(r + 1) A + B."""
+        return (self.strips + 1) * self.terrain.height + self.terrain.width
+
+    @staticmethod
+    def line(piece: int) -> int | None:
+        """The number j of the line that a piece is; None for a joint."""
+        return None if piece % 2 else piece // 2
+
+    def position(self, piece: int, u: Real) -> Real:
+        """The length of the M-line from S to a place."""
+        return self._starts[piece] + u * self.pieces[piece].length.algebraic
+
+    @cached_property
+    def _starts(self) -> list[Real]:
+        starts = [Real(0)]
+        for piece in self.pieces:
+            starts.append(starts[-1] + piece.length.algebraic)
+        return starts
+
+    def crossings(self, blocking: Blocking) -> list[Crossing]:
+        """All crossing points of all components, in the order of the M-line.
+
+        A stretch goes on over a corner of the M-line that is itself blocked. One that reaches T has no end.
+        """
+        found: list[Crossing] = []
+        for k, piece in enumerate(self.pieces):
+            for gap in blocking.gaps(piece):
+                begins = Crossing(gap.component, k, gap.begin, False)
+                if found and self._goes_on(found[-1], begins, blocking):
+                    found.pop()
+                else:
+                    found.append(begins)
+                found.append(Crossing(gap.component, k, gap.end, True))
+        if found and found[-1].piece == len(self.pieces) - 1 and found[-1].stop.u.rational == 1:
+            last = found[-1]
+            if not blocking.is_free(last.component.obstacle, last.stop.point):
+                found.pop()
+        return found
+
+    @staticmethod
+    def _goes_on(end: Crossing, begin: Crossing, blocking: Blocking) -> bool:
+        """Whether a stretch that ends at the end of a piece goes on in the next one."""
+        return (
+            end.piece + 1 == begin.piece
+            and end.stop.u.rational == 1
+            and begin.stop.u.rational == 0
+            and end.component is begin.component
+            and not blocking.is_free(end.component.obstacle, end.stop.point)
+        )
