@@ -108,6 +108,14 @@ def test_a_circle_within_range_for_a_while() -> None:
     assert [str(event.place.x) for event in swept.events] == ["5 - 2*sqrt(6)", "2*sqrt(6) + 5"]
 
 
+def test_a_way_tangent_to_a_circle() -> None:
+    """The way is itself one of the tangents that sweep over it; the other ones cross it near the contact."""
+    swept = sweep(Scene([Circle((5, 1), 1)]), Segment(Point(6, 6), Point(6, -6)), 2)
+    places = [str(e.place) for e in swept.events]
+    assert places == ["(6, 1 + 2*sqrt(2))", "(6, 3)", "(6, -1)", "(6, 1 - 2*sqrt(2))"]
+    assert [str(known.start) for known in swept.cells[2].map.known(0)] == ["(6, 1)", "(22/5, 1/5)"]
+
+
 def test_events_come_as_the_robot_passes_them() -> None:
     scene = Scene([Polygon([(4, 1), (6, 1), (6, 3), (4, 3)])])
     there = sweep(scene, Segment(Point(0, 0), Point(10, 0)), 5)

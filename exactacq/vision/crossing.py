@@ -172,11 +172,15 @@ class Crossing:
         contact, direction = beam.sector.touch(t)
         if any(name in self.touches for name, _ in names):
             return contact, self.rail.parameter(contact)
+        on_line = []
         for point, place in pins:
             offset = direction.cross(point - contact)
             if offset.ball(OVERLAP_BITS).contains(0) and offset.sign() == 0:
-                return point, place
-        return None
+                on_line.append((point, place))
+        if len(on_line) == 2:
+            # The line is the way's own. All others of the beam near it cross the way near the contact.
+            return contact, self.rail.parameter(contact)
+        return on_line[0] if on_line else None
 
     def _role(self, beam: Beam, t: fmpq) -> Role | None:
         """On which side of the contact the line crosses the way within its free part, if it does."""

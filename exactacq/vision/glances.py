@@ -290,7 +290,8 @@ class Ranges:
             if t.compare(glance.first.t) < 0 or t.compare(glance.last.t) > 0:
                 continue
             contact, direction = strand.sector.touch(t)
-            if role == 0 or (point - contact).dot(direction).sign() == role:
+            # 0: the two sides meet there, as where a way touches a circle.
+            if role == 0 or (point - contact).dot(direction).sign() in (0, role):
                 other = self._point(strand.sector, strand.sides[1 - side], contact, direction)
                 points = (point, other) if side == 0 else (other, point)
                 places = [self.rails[s.edge].parameter(p) for s, p in zip(strand.sides, points, strict=True)]
