@@ -10,6 +10,7 @@ from exactacq.loading import load
 from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.scene import Scene
+from exactacq.seed_spreader import seed_spreader
 from exactacq.shapes import Circle, Outline, Polygon, Terrain
 from exactacq.sightseer import sightseer
 from exactacq.sweep import sweep
@@ -40,6 +41,7 @@ __all__ = [
     "isovist",
     "load",
     "load_run",
+    "seed_spreader",
     "sightseer",
     "sweep",
     "visibility_graph",

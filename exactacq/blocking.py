@@ -29,9 +29,13 @@ class Stop(NamedTuple):
 
 
 class Gap(NamedTuple):
-    """A maximal blocked stretch of a way, without its ends, and the component that blocks it."""
+    """A maximal blocked stretch of a way, without its ends, and what blocks it.
 
-    component: Component
+    The component is not told if both ends of the stretch are blocked themselves, at the ends of the way.
+    """
+
+    obstacle: Obstacle
+    component: Component | None
     begin: Stop
     end: Stop
 
@@ -66,7 +70,7 @@ class Blocking:
                     found[-1] = found[-1][0], other
                 else:
                     found.append((one, other))
-        return [Gap(self._owner(obstacle, begin, end), begin, end) for begin, end in found]
+        return [Gap(obstacle, self._owner(obstacle, begin, end), begin, end) for begin, end in found]
 
     def _is_blocked(self, way: Segment, obstacle: Obstacle, place: Point) -> bool:
         """Whether a place of a way is blocked that is no contact point."""
@@ -84,10 +88,9 @@ class Blocking:
         """Whether a point of an obstacle's boundary is one of a component's, so has free points beside it."""
         return any(c.is_bounded_by(point) for c in self.ground.of(obstacle.index))
 
-    def _owner(self, obstacle: Obstacle, begin: Stop, end: Stop) -> Component:
-        """The component that blocks a stretch: one end at least is on its boundary."""
+    def _owner(self, obstacle: Obstacle, begin: Stop, end: Stop) -> Component | None:
         for stop in (begin, end):
             for component in self.ground.of(obstacle.index):
                 if component.is_bounded_by(stop.point):
                     return component
-        raise AssertionError("a blocked stretch ends at its component")
+        return None

@@ -74,11 +74,15 @@ class Boundary:
         return self._onward(start, end)
 
     def loop(self, start: Point) -> list[Curve]:
-        """The pieces of one full turn in the stored direction, or of a walk to the last end and to the first."""
+        """The pieces of a full turn in the stored direction, or of a walk to the last end and to the first.
+
+        From one end it is the walk to the other.
+        """
         if self.closed:
             return self._onward(start, start)
         first, last = self.edges[0].start, self.edges[-1].end
-        return self.walk(start, last, True) + self.walk(last, first, False)
+        back = [] if start == first else self.walk(last, first, False)
+        return self.walk(start, last, True) + back
 
     def _onward(self, start: Point, end: Point) -> list[Curve]:
         first, last = self.edge_at(start), self.edge_at(end)

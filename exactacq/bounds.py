@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 
 import numpy as np
 from flint import fmpq
 
+from exactacq.blocking import Blocking
+from exactacq.components import Ground
 from exactacq.contacts import nearest_points
 from exactacq.lengths import Length
 from exactacq.links import START, pair_bounds
+from exactacq.mline import MLine
 from exactacq.reals import Real
 from exactacq.scene import Scene
-from exactacq.trace import Bound, TreeLink
+from exactacq.trace import Bound, Sweeping, TreeLink
 from exactacq.vision.table import EdgeTable
 
 HALF = fmpq(1, 2)
@@ -50,6 +54,48 @@ def sightseer_bounds(
         _bound("(2)", "Theorem 1 for d_max >= R, as printed", wide, length),
         _bound("T1 corrected", "(1) with v_max, S-S1 and 2n - 3", corrected, length),
         _bound("(2) + S-S1", "(2) with the way from a free start", wide + approach, length),
+    )
+
+
+def spreader_bounds(ground: Ground, radius: fmpq, sweeping: Sweeping, length: Length) -> tuple[Bound, ...]:
+    """Bounds (4)-(6) and (8)-(11) as printed, and the forms of Lemma 3 and Theorem 2 that hold.
+
+    n counts the components that can be reached, p is what the robot can walk of a boundary. n_j are the
+    components wholly inside strip j, n_0 those that cross the M-line. Corrected forms charge every time that
+    an acquired obstacle was met again on the M-line. (4) bounds the number of visits, not a length.
+    """
+    components, mline = ground.components, MLine(ground.terrain, radius)
+    crossings = mline.crossings(Blocking(ground, EdgeTable(ground.obstacles)))
+    crossing = {c.component.index for c in crossings if c.component.shore}
+    n = len(components)
+    strips = Counter(mline.strip(c) for c in components if c.index not in crossing)
+    strips[0] = len(crossing)
+    perimeters = [c.perimeter for c in components]
+    total, largest = Length.sum(perimeters), max(perimeters, default=Length(0))
+    pairs = sum(count * (count - 1) for count in strips.values())
+    a, b, r, w = ground.terrain.height, ground.terrain.width, mline.strips, mline.width
+    sweep = Length(a + b + r * a)
+    hops = largest * (2 * n * len(crossing) + pairs)
+    wide = sweep + Length(2 * n * radius)
+    clear = all(c.closed for c in components)
+    met = Length.sum(perimeters[k] for k in sweeping.again)
+    share = HALF if clear else fmpq(1)
+    corrected = wide + total * (3 * share) + hops * share + met * share
+    values = [
+        ("(5)", "Theorem 2, as printed", Length(a + r * (w + a) + 2 * n * w) + total * 3 + hops),
+        ("(6)", "Theorem 2 for rw = B, w = R, as printed", wide + total * 3 + hops),
+        ("(8)", "Case 1: no crossing, no diversion", sweep),
+        ("(9)", "Case 2: (6) without its last terms", wide + total * 3),
+        ("(10)", "Case 3: clear of the border, as printed", wide + total * fmpq(3, 2) + hops * HALF),
+        ("(11)", "Cases 2 and 3, as printed", wide + total * fmpq(3, 2)),
+        ("T2 corrected", "(6) or (10), plus what is met again", corrected),
+    ]
+    visits = Length(len(sweeping.encounters))
+    most = Length(n + n * len(crossing) + pairs * HALF)
+    return (
+        _bound("(4)", "Lemma 3, visits, as printed", most, visits),
+        _bound("L3 corrected", "(4), plus what is met again", most + Length(len(sweeping.again)), visits),
+        *(_bound(name, source, value, length) for name, source, value in values),
     )
 
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 import json
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from enum import StrEnum
 from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated, Any
 
 import typer
+from flint import fmpq
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
@@ -21,13 +22,12 @@ from exactacq.errors import ExactacqError, FormatError, InvalidScene
 from exactacq.loading import load
 from exactacq.numerals import rational
 from exactacq.output import FIGURES, PAGES, TRACES, check_output, write_whole
-from exactacq.report import console, run_report, scene_list, scene_report
+from exactacq.report import comparison, console, run_report, scene_list, scene_report
 from exactacq.scene import Scene
+from exactacq.seed_spreader import seed_spreader
+from exactacq.shapes import Terrain
 from exactacq.sightseer import sightseer
 from exactacq.trace import Run
-
-if TYPE_CHECKING:
-    from flint import fmpq
 
 REFUSED, INTERNAL, INTERRUPTED = 2, 1, 130
 """Exit statuses: bad input or a file that cannot be written; a fault of exactacq itself; control-C."""
@@ -44,6 +44,13 @@ class Strategy(StrEnum):
     SEED_SPREADER = "seed-spreader"
 
 
+class Aim(StrEnum):
+    """Among which points of an obstacle that is about to be lost the Seed Spreader picks its target."""
+
+    KNOWN = "known"
+    VISIBLE = "visible"
+
+
 class Outer(StrEnum):
     """What becomes of the outermost loop around the start."""
 
@@ -53,6 +60,10 @@ class Outer(StrEnum):
 
 SceneName = Annotated[str, typer.Argument(metavar="SCENE", help="A .json or .dxf file, or a gallery name.")]
 Start = Annotated[str | None, typer.Option(metavar="X,Y", help="Start point; required for drawings.")]
+TerrainSize = Annotated[
+    str | None,
+    typer.Option(metavar="B,A", help="Terrain B wide and A high; default: the scene's own."),
+]
 Layers = Annotated[str | None, typer.Option(metavar="A,B", help="Layers of a drawing to read; default: all.")]
 Outermost = Annotated[Outer, typer.Option(help="The outermost loop of a drawing around the start.")]
 Tolerance = Annotated[
@@ -93,6 +104,11 @@ def explore(
     strategy: Annotated[Strategy, typer.Option(help="How to explore.")] = Strategy.SIGHTSEER,
     radius: Radius = None,
     start: Start = None,
+    terrain: TerrainSize = None,
+    lookahead: Annotated[
+        bool, typer.Option(help="Seed Spreader: look ahead on the map before a diversion.")
+    ] = True,
+    target: Annotated[Aim, typer.Option(help="Seed Spreader: what a diversion aims at.")] = Aim.KNOWN,
     figure: FigureFile = None,
     at: Annotated[
         str | None, typer.Option(metavar="L", help="Draw the figure after this length of the path.")
@@ -113,11 +129,7 @@ def explore(
     union: Union = False,
 ) -> None:
     """Explore a scene; print a summary, or write the figure and the exact trace."""
-    if strategy is Strategy.SEED_SPREADER:
-        raise FormatError("--strategy seed-spreader: not available in this version; use sightseer")
-    range_ = None if radius is None else _number("--radius", radius)
-    if range_ is not None and range_ <= 0:
-        raise FormatError(f"--radius: must be positive, not {radius}")
+    range_ = _range(radius)
     if at is not None and figure is None:
         raise FormatError("--at: names a moment of a figure; give the figure with --figure F")
     length = None if at is None else _number("--at", at)
@@ -125,10 +137,10 @@ def explore(
     outputs = [check_output(f, s) for f, s in wanted if f is not None]
     if any(_same_file(path, scene) for path in outputs):
         raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
-    world = _scene(scene, start, layers, outer, tolerance, union)
+    world = _scene(scene, start, layers, outer, tolerance, union, terrain)
     if range_ is None and world.radius is None:
         raise FormatError(f"{scene}: the scene has no radius of vision: give one with --radius R")
-    run = _explored(world, range_)
+    run = _explored(world, range_, strategy, lookahead, target)
     if figure is not None:
         from exactacq.figures import save  # matplotlib takes long to import
 
@@ -159,6 +171,31 @@ def explore(
 
 
 @app.command()
+def compare(
+    scene: SceneName,
+    radius: Radius = None,
+    start: Start = None,
+    terrain: TerrainSize = None,
+    layers: Layers = None,
+    outer: Outermost = Outer.WALL,
+    tolerance: Tolerance = None,
+    union: Union = False,
+) -> None:
+    """Explore a scene by both strategies, and set what they do side by side.
+
+    Both start in the SW corner of the terrain.
+    """
+    range_ = _range(radius)
+    world = _scene(scene, start, layers, outer, tolerance, union, terrain)
+    if range_ is None and world.radius is None:
+        raise FormatError(f"{scene}: the scene has no radius of vision: give one with --radius R")
+    corner = _scene_with(world, start=(fmpq(0), fmpq(0)))
+    spread = _explored(world, range_, Strategy.SEED_SPREADER)
+    seen = _explored(corner, range_, Strategy.SIGHTSEER)
+    console().print(comparison(seen, spread))
+
+
+@app.command()
 def check(
     scene: SceneName,
     start: Start = None,
@@ -179,7 +216,10 @@ def gallery(
         str | None, typer.Option(metavar="DIR", help="Explore every scene, and write DIR/NAME.svg.")
     ] = None,
 ) -> None:
-    """List the gallery; draw one scene of it (--figure), or the runs on all of them (--out)."""
+    """List the gallery; draw one scene of it (--figure), or the runs on all of them (--out).
+
+    The Seed Spreader runs on the scenes that are there for it.
+    """
     if name is None and figure is not None:
         raise FormatError(
             "--figure: name the scene to be drawn, as in: exactacq gallery figure2 --figure F.svg"
@@ -205,16 +245,26 @@ def _draw_gallery(folder: Path) -> None:
     folder.mkdir(exist_ok=True)
     for name in scenes.names():
         path = folder / f"{name}.svg"
-        save(_explored(scenes.scene(name), None), check_output(path, FIGURES))
+        world = scenes.scene(name)
+        strategy = Strategy.SEED_SPREADER if scenes.is_swept(name) else Strategy.SIGHTSEER
+        save(_explored(world, None, strategy), check_output(path, FIGURES))
         print(f"figure written to {path}")
 
 
 def _scene(
-    name: str, start: str | None, layers: str | None, outer: Outer, tolerance: str | None, union: bool
+    name: str,
+    start: str | None,
+    layers: str | None,
+    outer: Outer,
+    tolerance: str | None,
+    union: bool,
+    terrain: str | None = None,
 ) -> Scene:
     """The scene in the file, or else of the gallery, of that name; an error names it too."""
+    size = None if terrain is None else Terrain(*_pair("--terrain", terrain))
     try:
-        return _loaded(name, start, layers, outer, tolerance, union)
+        scene = _loaded(name, start, layers, outer, tolerance, union)
+        return scene if size is None else _scene_with(scene, terrain=size)
     except InvalidScene as error:
         first, *others = error.violations
         raise InvalidScene([f"{name}: {first}", *others]) from None
@@ -235,23 +285,46 @@ def _loaded(
         return load(name, **options)
     if name not in scenes.names() or os.path.lexists(name):
         return load(name, start=place, **options)
-    scene = load(name, **options)
-    return Scene(
-        scene.shapes, place, terrain=scene.terrain, enclosure=scene.enclosure, radius=scene.radius,
-        name=scene.name, notes=scene.notes,
-    )  # fmt: skip
+    return _scene_with(load(name, **options), start=place)
 
 
-def _explored(scene: Scene, radius: fmpq | None) -> Run:
+def _scene_with(scene: Scene, **changed: Any) -> Scene:
+    """A scene with another start or terrain."""
+    parts: dict[str, Any] = {
+        "start": scene.start, "terrain": scene.terrain, "enclosure": scene.enclosure, "radius": scene.radius,
+        "name": scene.name, "notes": scene.notes,
+    }  # fmt: skip
+    return Scene(scene.shapes, **{**parts, **changed})
+
+
+def _explored(
+    scene: Scene,
+    radius: fmpq | None,
+    strategy: Strategy,
+    lookahead: bool = True,
+    target: Aim = Aim.KNOWN,
+) -> Run:
     """The run; with a progress bar if it is long and a terminal watches."""
+
+    def run(progress: Callable[[int, int], None] | None) -> Run:
+        if strategy is Strategy.SIGHTSEER:
+            return sightseer(scene, radius, progress=progress)
+        return seed_spreader(scene, radius, lookahead, target.value, progress)
+
     if not sys.stderr.isatty():
-        return sightseer(scene, radius)
+        return run(None)
     columns = (TextColumn("exploring"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("", total=len(scene.obstacles))
-        return sightseer(
-            scene, radius, progress=lambda done, total: bar.update(task, completed=done, total=total)
-        )
+        return run(lambda done, total: bar.update(task, completed=done, total=total))
+
+
+def _range(radius: str | None) -> fmpq | None:
+    """The radius of an option, if it is given."""
+    range_ = None if radius is None else _number("--radius", radius)
+    if range_ is not None and range_ <= 0:
+        raise FormatError(f"--radius: must be positive, not {radius}")
+    return range_
 
 
 def _number(option: str, text: str) -> fmpq:

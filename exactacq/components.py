@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
 from itertools import pairwise
+from string import ascii_lowercase
 from typing import NamedTuple
 
 from exactacq.boxes import box
@@ -21,7 +22,7 @@ from exactacq.curves import Curve, Segment
 from exactacq.lengths import Length
 from exactacq.points import Point
 from exactacq.reals import Real
-from exactacq.scene import Obstacle
+from exactacq.scene import Obstacle, Scene
 from exactacq.shapes import Terrain
 from exactacq.vision.intervals import Interval
 from exactacq.vision.pencil import rational_between
@@ -57,11 +58,17 @@ class Component:
     shore: Shore
     hidden: tuple[Shore, ...]
     closed: bool
+    letter: str = ""
 
     @property
     def name(self) -> str | None:
         """The obstacle's name."""
         return self.obstacle.name
+
+    @property
+    def label(self) -> str:
+        """What the obstacle is called, with a letter if it has several components in reach."""
+        return self.obstacle.label + self.letter
 
     @property
     def edges(self) -> tuple[Curve, ...]:
@@ -85,7 +92,7 @@ class Ground:
     """
 
     def __init__(self, obstacles: Sequence[Obstacle], terrain: Terrain) -> None:
-        self.terrain = terrain
+        self.obstacles, self.terrain = obstacles, terrain
         loops: list[tuple[Obstacle, Shore]] = []
         arcs: list[tuple[Obstacle, Shore]] = []
         for obstacle in obstacles:
@@ -102,11 +109,17 @@ class Ground:
             hidden = tuple(arcs[k][1] for k in sorted(numbers - set(reached)))
             found.append((arcs[group[0]][0], shore, hidden, False, bool(reached)))
         found.sort(key=lambda f: (f[0].index, min(p.edge for s in (f[1], *f[2]) for p in s)))
-        reached_ones = [f[:4] for f in found if f[4]]
-        self.components = tuple(Component(k, *f) for k, f in enumerate(reached_ones))
+        inside = [f[:4] for f in found if f[4]]
+        owners = [f[0].index for f in inside]
+        self.components = tuple(
+            Component(k, *f, _letter(owners, k) if owners.count(owners[k]) > 1 else "")
+            for k, f in enumerate(inside)
+        )
         self.unreached = tuple(
-            Component(k, f[0], (), (f[1], *f[2]) if f[3] else f[2], f[3])
-            for k, f in enumerate((f for f in found if not f[4]), len(reached_ones))
+            Component(k, obstacle, (), (shore, *hidden) if closed else hidden, closed)
+            for k, (obstacle, shore, hidden, closed, _) in enumerate(
+                (f for f in found if not f[4]), len(inside)
+            )
         )
 
     def targets(self, table: EdgeTable) -> Targets:
@@ -133,6 +146,12 @@ class Ground:
         return found
 
 
+def ground_of(scene: Scene) -> Ground:
+    """The components of a scene with a terrain."""
+    assert scene.terrain is not None
+    return Ground(scene.obstacles, scene.terrain)
+
+
 class _Where(Enum):
     INSIDE = 1
     BORDER = 0
@@ -144,6 +163,15 @@ def sides(terrain: Terrain) -> list[Segment]:
     b, a = terrain.width, terrain.height
     corners = [Point(0, 0), Point(b, 0), Point(b, a), Point(0, a)]
     return [Segment(p, q) for p, q in zip(corners, [*corners[1:], corners[0]], strict=True)]
+
+
+def _letter(owners: Sequence[int], k: int) -> str:
+    """a, b, ..., z, aa, ... by the place of the k-th component among those of its obstacle."""
+    count, letters = owners[:k].count(owners[k]) + 1, ""
+    while count:
+        count, digit = divmod(count - 1, 26)
+        letters = ascii_lowercase[digit] + letters
+    return letters
 
 
 def _shores(obstacle: Obstacle, terrain: Terrain) -> Iterator[tuple[Shore, bool]]:
@@ -256,8 +284,13 @@ class _Border:
         if not self.arcs:
             return True
         part = shore[0]
-        place = Rail(part.curve).point(rational_between(part.span.low, part.span.high))
-        return bool(winding(self._outline, place))
+        rail, u = Rail(part.curve), part.span.high
+        turns = None
+        while turns is None:
+            # A loop touches the border, and so the outline, in a few points at most.
+            u = Real(rational_between(part.span.low, u))
+            turns = winding(self._outline, rail.point(u.rational))
+        return bool(turns)
 
     @cached_property
     def _outline(self) -> list[Curve]:

@@ -20,8 +20,23 @@ _SCENES = {
     "m8": "the link between two obstacles is longer than their distance, for a bar stands between them",
     "m9": "ten crumbs in the slots of a block, seen from across a wide place only: bound (1) fails",
     "m11": "Figure 1 with right angles: a C, a square in its mouth, and a bar that only the square sees",
+    "figure3": "the terrain of figure2 swept by the Seed Spreader: three of the eleven are circled",
+    "figure4": "the paper's Figure 4: forced directions, ignored crossings, a reversal, a short cut",
+    "case1": "a sweep that neither meets nor diverts: its length is A + B + rA, bound (8)",
+    "case2": "obstacles inside the strips, one of them at the border: diversions only, bound (9)",
+    "case3": "obstacles clear of the border: crossings and diversions, bound (10)",
+    "e3": "a wall across the terrain: the next crossing point (eq. 3) lies where the robot cannot walk",
+    "m14": "two obstacles become known from the lines and hide a third for good: the sweep misses it",
+    "m15": "an obstacle goes out of reach while it is hidden: acquired by a diversion, rule (ii)",
+    "m18": "one long obstacle hides two others in turn: how many diversions does that take?",
+    "m20-3": "a thin bar across three lines, met again on each: bound (11) fails",
+    "m20-6": "the same across six lines: bound (10) fails",
+    "m20-8": "the same across eight lines: bound (9) fails",
+    "m20-16": "the same across sixteen lines: bound (6) fails",
+    "m25": "an obstacle that is hidden for a while: a look ahead on the map spares the diversion",
     "plate": "a real part, as a room: the outline is the wall, its fourteen holes are obstacles",
 }
+_SWEPT = {"figure3", "figure4", "case1", "case2", "case3", "e3"}
 _PLATE = "issue42.dxf"
 _PLATE_START, _PLATE_RADIUS = (-30, -60), 60
 
@@ -29,6 +44,11 @@ _PLATE_START, _PLATE_RADIUS = (-30, -60), 60
 def names() -> dict[str, str]:
     """The scenes' names, each with one line on what it shows."""
     return dict(_SCENES)
+
+
+def is_swept(name: str) -> bool:
+    """Whether a scene is there for the Seed Spreader."""
+    return name in _SWEPT or name.startswith(("m14", "m15", "m18", "m20", "m25"))
 
 
 def scene(name: str) -> Scene:

@@ -12,14 +12,15 @@ from dataclasses import dataclass
 from flint import fmpq
 
 from exactacq.components import Ground
+from exactacq.curves import Curve, Segment
 from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.scene import Scene
 from exactacq.trace import Piece
 from exactacq.vision.intervals import Cover
 from exactacq.vision.knowledge import Body, Map
-from exactacq.vision.legs import Leg, legs_of
-from exactacq.vision.sensing import Kind, Notice, Senses
+from exactacq.vision.legs import Leg, along_edges, legs_of
+from exactacq.vision.sensing import Ahead, Kind, Senses
 from exactacq.vision.table import EdgeTable
 
 
@@ -54,8 +55,10 @@ class Memory:
         targets = None if ground is None else ground.targets(self._table)
         self._senses = Senses(self._table, radius, targets)
         self.reports: list[Report] = []
-        # The parameters of the reports' places: numbers that glances share, so that ties with them are free.
-        self._parameters: dict[tuple[int, int], tuple[Point, Real]] = {}
+        # The parameters of the reports' places, and on which leg of the piece they are: numbers that glances
+        # share, so that ties with them are free.
+        self._parameters: dict[tuple[int, int], tuple[Point, Real, int]] = {}
+        self._looked: tuple[Piece | None, Ahead | None] = None, None
         self._learned: list[dict[int, Cover]] = []
         self._legs: list[list[Leg]] = []
 
@@ -83,14 +86,16 @@ class Memory:
 
     def walk(self, piece: Piece) -> list[Report]:
         """Take in all that a piece of the path shows; the reports in the order in which they come."""
-        legs, count = self._legs_of(piece), len(self._legs)
-        reports = []
+        known, ahead = self._looked
+        legs = [ahead.leg] if ahead is not None and known is piece else self._legs_of(piece)
+        count, reports = len(self._legs), []
         learned: dict[int, Cover] = {}
         for k, leg in enumerate(legs):
-            notices, more = self._senses.follow(leg)
+            took = ahead if ahead is not None and leg is ahead.leg else self._senses.ahead(leg)
+            notices, more = self._senses.follow(took)
             learned.update(more)
             for n in notices:
-                self._parameters[count, id(n.place)] = n.place, n.u
+                self._parameters[count, id(n.place)] = n.place, n.u, k
                 at_start = k == 0 and leg.order(n.u, leg.first) == 0
                 at_end = k == len(legs) - 1 and leg.order(n.u, leg.last) == 0
                 after = count + 1 if at_end and not at_start else count
@@ -106,17 +111,27 @@ class Memory:
             owner = self.ground.components[owner].obstacle.index
         return legs_of(self._table, self._senses.rails, owner, piece.curve, piece.touches)
 
-    def ahead(self, piece: Piece) -> tuple[Leg, list[Notice]]:
+    def parts(self, way: Segment) -> list[Segment]:
+        """The parts of a straight way of which each is one leg (see `ahead`)."""
+        return [part for _, part in along_edges(self._table, way)]
+
+    def ahead(self, piece: Piece) -> Ahead:
         """What a straight piece will tell when it is walked next."""
         (leg,) = self._legs_of(piece)
-        return leg, self._senses.ahead(leg)[0]
+        self._looked = piece, self._senses.ahead(leg)
+        return self._looked[1]
 
-    def on_the_way(self, leg: Leg, u: Real, place: Point) -> Map:
-        """The map as it will be at a place of a leg that is walked next."""
-        covers = dict(self._senses.covers)
-        if leg.order(u, leg.first) > 0:
-            covers.update(self._senses.known_after(leg.upto(u, place), covers))
-        return self._map(covers)
+    def map_ahead(self, ahead: Ahead, u: Real, place: Point) -> Map:
+        """The map as it will be at a place of a piece that was looked along."""
+        return self._map(ahead.covers(u, place))
+
+    def visible(self, place: Point, obstacle: int) -> list[Curve]:
+        """What is in sight of an obstacle from a place; a single point is a piece without length."""
+        rails = self._senses.rails
+        return [
+            Segment(i.start, i.start) if i.low.compare(i.high) == 0 else rails[e].curve.part(i.start, i.end)
+            for e, i in self._senses.visible(place, obstacle)
+        ]
 
     @property
     def now(self) -> Map:
@@ -140,8 +155,12 @@ class Memory:
     def within(self, count: int, place: Point) -> Map:
         """The map when the robot is at a place inside piece number *count*."""
         covers = self._covers(count)
-        for leg in self._legs[count]:
-            _, u = self._parameters.get((count, id(place))) or (place, leg.rail.parameter(place))
+        reported = self._parameters.get((count, id(place)))
+        for k, leg in enumerate(self._legs[count]):
+            if reported is not None and k < reported[2]:
+                covers.update(self._senses.known_after(leg, covers))
+                continue
+            u = leg.rail.parameter(place) if reported is None else reported[1]
             if leg.span.low.compare(u) <= 0 and leg.span.high.compare(u) >= 0:
                 if leg.order(u, leg.first) > 0:
                     covers.update(self._senses.known_after(leg.upto(u, place), covers))

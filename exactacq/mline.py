@@ -16,6 +16,7 @@ from exactacq.blocking import Blocking, Stop
 from exactacq.components import Component
 from exactacq.curves import Segment
 from exactacq.points import Point
+from exactacq.reach import leftmost
 from exactacq.reals import Real
 from exactacq.shapes import Terrain
 
@@ -48,6 +49,11 @@ class MLine:
         """(r + 1) A + B."""
         return (self.strips + 1) * self.terrain.height + self.terrain.width
 
+    def strip(self, component: Component) -> int:
+        """The number j = 1..r of the strip that a component lies in that does not cross the M-line."""
+        left = min((leftmost(curve) for curve in component.edges), default=Real(0))
+        return sum(left.compare(x) >= 0 for x in self.lines[:-1])
+
     @staticmethod
     def line(piece: int) -> int | None:
         """The number j of the line that a piece is; None for a joint."""
@@ -72,25 +78,16 @@ class MLine:
         found: list[Crossing] = []
         for k, piece in enumerate(self.pieces):
             for gap in blocking.gaps(piece):
-                begins = Crossing(gap.component, k, gap.begin, False)
-                if found and self._goes_on(found[-1], begins, blocking):
-                    found.pop()
+                component = gap.component
+                if gap.begin.u.rational == 0 and not blocking.is_free(gap.obstacle, gap.begin.point):
+                    component = found.pop().component
                 else:
-                    found.append(begins)
-                found.append(Crossing(gap.component, k, gap.end, True))
-        if found and found[-1].piece == len(self.pieces) - 1 and found[-1].stop.u.rational == 1:
+                    assert component is not None, "a stretch begins at its component"
+                    found.append(Crossing(component, k, gap.begin, False))
+                found.append(Crossing(component, k, gap.end, True))
+        if found:
             last = found[-1]
-            if not blocking.is_free(last.component.obstacle, last.stop.point):
+            at_end = last.piece == len(self.pieces) - 1 and last.stop.u.rational == 1
+            if at_end and not blocking.is_free(last.component.obstacle, last.stop.point):
                 found.pop()
         return found
-
-    @staticmethod
-    def _goes_on(end: Crossing, begin: Crossing, blocking: Blocking) -> bool:
-        """Whether a stretch that ends at the end of a piece goes on in the next one."""
-        return (
-            end.piece + 1 == begin.piece
-            and end.stop.u.rational == 1
-            and begin.stop.u.rational == 0
-            and end.component is begin.component
-            and not blocking.is_free(end.component.obstacle, end.stop.point)
-        )

@@ -16,10 +16,11 @@ from exactacq.output import readable
 from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.scene import Scene
-from exactacq.trace import Run
+from exactacq.trace import Run, Sweeping
 
 CLOSED_FORM = 60
 """Closed forms of at most this many characters are shown; longer ones are in the trace."""
+STRATEGIES = {"sightseer": "Sightseer Strategy", "seed-spreader": "Seed Spreader Strategy"}
 ROWS = 60
 """Most rows of a table, and most names of a list; a trace has them all."""
 
@@ -33,19 +34,45 @@ def console() -> Console:
 def run_report(run: Run) -> RenderableType:
     """What a run did, in the order: visits and links, length, bounds, what was missed, import notes."""
     names = list(run.names())
-    count = len(run.scene.obstacles)
     parts: list[RenderableType] = [
-        Text(f"Sightseer Strategy on {run.scene.name or 'a scene'}", style="bold"),
-        f"S = {_place(run.start)}, R = {_rational(run.radius)}, {_counted(count, 'obstacle')}",
+        Text(f"{STRATEGIES[run.strategy]} on {run.scene.name or 'a scene'}", style="bold"),
+        f"S = {_place(run.start)}, R = {_rational(run.radius)}, {_counted(len(run.obstacles), 'obstacle')}",
         "",
     ]
+    if run.sweeping is not None:
+        parts += _sweep(run, run.sweeping, names)
     if run.visits:
-        parts += [_links(run, names), ""]
+        parts += [_links(run, names), ""] if run.links else []
         parts.append(_listed("order of visits", (names[k] for k in run.visits), " → "))
     parts.append(Text.assemble("length  ", ("  ".join(readable(run.length, CLOSED_FORM, 20)), "bold")))
     if run.bounds:
         parts += ["", _bounds(run)]
     return Group(*parts, *_missed(run, names), *_notes(run.scene))
+
+
+def comparison(first: Run, second: Run) -> RenderableType:
+    """Two runs on one scene side by side: how long, whom they visited and know, and how near the bounds."""
+    runs = (first, second)
+    table = _table("", *(STRATEGIES[run.strategy] for run in runs))
+    ratio = float(second.length) / float(first.length) if first.length.sign() else float("nan")
+    counts = [(len(run.visits), len(run.map.acquired), len(run.obstacles)) for run in runs]
+    rows: dict[str, list[str]] = {
+        "length": ["\n".join(readable(run.length, CLOSED_FORM // 2, 12)) for run in runs],
+        "visits": [f"{visits} of {count}" for visits, _, count in counts],
+        "acquired": [f"{known} of {count}" for _, known, count in counts],
+        "never seen": [str(len(run.unseen)) for run in runs],
+        "diversions": ["-" if run.sweeping is None else str(len(run.sweeping.diversions)) for run in runs],
+    }
+    for name, cells in rows.items():
+        table.add_row(name, *cells)
+    for number in range(max(len(run.bounds) for run in runs)):
+        bounds = [run.bounds[number] if number < len(run.bounds) else None for run in runs]
+        table.add_row(
+            "bounds" if number == 0 else "",
+            *("" if b is None else f"{b.name}: {b.ratio:.4f}{'' if b.holds else ' BROKEN'}" for b in bounds),
+        )
+    title = Text(f"Both strategies on {first.scene.name or 'a scene'}", style="bold")
+    return Group(title, "", table, "", f"Seed Spreader / Sightseer  {ratio:.6f}")
 
 
 def scene_report(scene: Scene) -> RenderableType:
@@ -77,6 +104,26 @@ def scene_list(scenes: dict[str, str]) -> RenderableType:
     return table
 
 
+def _sweep(run: Run, sweeping: Sweeping, names: list[str]) -> Iterator[RenderableType]:
+    """How the Seed Spreader ended, its diversions, and what it met."""
+    yield f"ended because {run.events[-1].note}"
+    yield (
+        _listed("met", (names[k] for k in sweeping.encounters), " → ")
+        if sweeping.encounters
+        else "met nothing"
+    )
+    if sweeping.again:
+        yield _listed("met again on the M-line", (names[k] for k in sweeping.again), ", ")
+    if sweeping.unreached:
+        yield _listed("cannot be reached, parts of obstacles", map(str, sweeping.unreached), ", ")
+    if sweeping.diversions:
+        table = _table("diversion", "obstacle", "from D", "to Q", "because")
+        for order, d in enumerate(sweeping.diversions[:ROWS], 1):
+            table.add_row(str(order), names[d.obstacle], _place(d.leave), _place(d.hit), d.reason)
+        yield table
+    yield ""
+
+
 def _links(run: Run, names: list[str]) -> Table:
     table = _table("visit", "obstacle", "from", "leave", "hit", "link", "walked")
     for order, link in enumerate(run.links[:ROWS], 1):
@@ -103,9 +150,12 @@ def _missed(run: Run, names: list[str]) -> Iterator[RenderableType]:
     if run.complete:
         return
     yield ""
-    for which, what in ((run.unseen, "never seen"), (run.unvisited, "seen, but never visited")):
+    left = "seen, but never visited" if run.sweeping is None else "not wholly known"
+    for which, what in ((run.unseen, "never seen"), (run.unvisited, left)):
         if which:
             yield Text(_listed(what, (names[k] for k in which), ", "), style="bold red")
+    if run.sweeping is not None:
+        return
     yield (
         f"So this scene does not satisfy the paper's model (a) for R = {_rational(run.radius)}: "
         "no chain of links of at most R leads from S to every obstacle."

@@ -14,6 +14,7 @@ from exactacq.memory import Memory, Report
 from exactacq.points import Point
 from exactacq.trace import Event, Path, Piece
 
+
 class Robot:
     """A point robot at *start* whose sensing goes into a fresh memory."""
 
@@ -27,6 +28,11 @@ class Robot:
         self.visited: list[int] = []
         self.mark("start", None, "")
         self._write(memory.begin(start))
+
+    @property
+    def count(self) -> int:
+        """The number of pieces of the path so far."""
+        return len(self._pieces)
 
     # -- motion ------------------------------------------------------------------------------------
 
@@ -43,8 +49,8 @@ class Robot:
     def circumnavigate(self) -> None:
         """Walk the whole present boundary and mark the obstacle visited.
 
-        The robot comes back to where it is; on a boundary with two ends it walks to the last one, then to the
-        first one, and stays there.
+        The robot comes back to where it is. On a boundary with two ends it walks to the last one, then, unless
+        it began there, to the first one, and stays there.
         """
         assert isinstance(self.at, int)
         curves = self._boundary().loop(self.position)

@@ -7,7 +7,8 @@ import os
 from collections.abc import Iterator
 from typing import Any
 
-from exactacq.bounds import sightseer_bounds
+from exactacq.bounds import sightseer_bounds, spreader_bounds
+from exactacq.components import ground_of
 from exactacq.curves import Arc, Curve, Segment
 from exactacq.encoding import Decoder, Encoder, Number, is_place
 from exactacq.errors import ExactacqError, FormatError
@@ -18,7 +19,7 @@ from exactacq.memory import Memory
 from exactacq.numerals import rational
 from exactacq.output import readable
 from exactacq.points import Point
-from exactacq.trace import Bound, Event, Path, Piece, Run, TreeLink
+from exactacq.trace import Bound, Diversion, Event, Path, Piece, Run, Sweeping, TreeLink
 from exactacq.vision.sensing import Kind
 
 FORMAT, VERSION = "exactacq run", 2
@@ -47,6 +48,7 @@ def run_to_json(run: Run) -> dict[str, Any]:
         "unseen": list(run.unseen),
         "unvisited": list(run.unvisited),
         "stack_depth": run.stack_depth,
+        **({} if run.sweeping is None else {"sweeping": _sweeping(out, run.sweeping)}),
         "bounds": [_bound(bound) for bound in run.bounds],
         "links": [_link(out, link) for link in run.links],
         "path": [_piece(out, piece) for piece in run.path],
@@ -88,18 +90,26 @@ def _run(document: dict[str, Any]) -> Run:
     path = Path(_read_piece(numbers, piece) for piece in document["path"])
     links = tuple(_read_link(numbers, link) for link in document["links"])
     radius, start = rational(document["radius"]), numbers.point(document["start"])
+    sweeping = _read_sweeping(numbers, document["sweeping"]) if "sweeping" in document else None
+    if sweeping is not None and scene.terrain is None:
+        raise FormatError("a run of the Seed Spreader needs a scene with a terrain")
+    ground = None if sweeping is None else ground_of(scene)
     memory = None
     if any(event["point"] is None for event in document["events"]):
-        memory = Memory.of(scene, radius, start, path)
+        memory = Memory.of(scene, radius, start, path, ground)
     events = tuple(_read_events(numbers, document["events"], path, memory))
     visits, unseen, unvisited = (
         tuple(int(k) for k in document[key]) for key in ("visits", "unseen", "unvisited")
     )
-    count = len(scene.obstacles)
+    count = len(scene.obstacles if ground is None else ground.components)
     named = [*visits, *unseen, *unvisited, *(p.obstacle for p in path), *(e.obstacle for e in events)]
     if any(k is not None and not 0 <= k < count for k in named):
         raise FormatError(f"the run names an obstacle that its scene of {count} does not have")
     length = path.length_after(len(path))
+    if ground is None or sweeping is None:
+        bounds = sightseer_bounds(scene, radius, length, links, visits)
+    else:
+        bounds = spreader_bounds(ground, radius, sweeping, length)
     return Run(
         scene=scene,
         radius=radius,
@@ -109,11 +119,12 @@ def _run(document: dict[str, Any]) -> Run:
         visits=visits,
         links=links,
         events=events,
-        bounds=sightseer_bounds(scene, radius, length, links, visits),
+        bounds=bounds,
         unseen=unseen,
         unvisited=unvisited,
         stack_depth=int(document["stack_depth"]),
         record=memory,
+        sweeping=sweeping,
     )
 
 
@@ -142,6 +153,27 @@ def _link(out: Encoder, link: TreeLink) -> dict[str, Any]:
         "hit": _point(out, link.hit),
         "length": out.number(link.length.algebraic),
         "traversals": link.traversals,
+    }
+
+
+def _sweeping(out: Encoder, sweeping: Sweeping) -> dict[str, Any]:
+    return {
+        "lookahead": sweeping.lookahead,
+        "target": sweeping.target,
+        "diversions": [
+            {
+                "obstacle": d.obstacle,
+                "leave": _point(out, d.leave),
+                "hit": _point(out, d.hit),
+                "reason": d.reason,
+                "first": d.first,
+                "last": d.last,
+            }
+            for d in sweeping.diversions
+        ],
+        "encounters": list(sweeping.encounters),
+        "again": list(sweeping.again),
+        "unreached": list(sweeping.unreached),
     }
 
 
@@ -222,6 +254,27 @@ def _read_link(numbers: _Points, document: dict[str, Any]) -> TreeLink:
         hit=numbers.point(document["hit"]),
         length=Length(numbers.numbers.number(document["length"])),
         traversals=int(document["traversals"]),
+    )
+
+
+def _read_sweeping(numbers: _Points, document: dict[str, Any]) -> Sweeping:
+    return Sweeping(
+        bool(document["lookahead"]),
+        str(document["target"]),
+        tuple(
+            Diversion(
+                int(d["obstacle"]),
+                numbers.point(d["leave"]),
+                numbers.point(d["hit"]),
+                str(d["reason"]),
+                int(d["first"]),
+                int(d["last"]),
+            )
+            for d in document["diversions"]
+        ),
+        tuple(int(k) for k in document["encounters"]),
+        tuple(int(k) for k in document["again"]),
+        tuple(int(k) for k in document["unreached"]),
     )
 
 

@@ -42,6 +42,11 @@ class Obstacle:
         edges = tuple(edge.reversed() for edge in reversed(self.edges))
         return Obstacle(self.index, self.shape, edges, self.is_enclosure)
 
+    @property
+    def label(self) -> str:
+        """The name, or "O" and the number from 1."""
+        return self.name or ("wall" if self.is_enclosure else f"O{self.index + 1}")
+
     @cached_property
     def perimeter(self) -> Length:
         """Length of the boundary."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator
+from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import accumulate
@@ -17,9 +17,10 @@ from exactacq.points import Point
 from exactacq.scene import Scene
 
 if TYPE_CHECKING:
+    from exactacq.components import Ground
     from exactacq.memory import Memory
     from exactacq.vision.isovist import Isovist
-    from exactacq.vision.knowledge import Map
+    from exactacq.vision.knowledge import Body, Map
 
 
 @dataclass(frozen=True)
@@ -87,7 +88,8 @@ class Path(tuple[Piece, ...]):
 class Event:
     """Something that happened after the first ``after`` pieces of the path, or ``inside`` the next one.
 
-    Kinds: start, stop; hit, leave, backtrack (the strategy's moves); sight, acquire, lose, regain (see
+    Kinds: start, stop; hit, leave, backtrack (the Sightseer's moves); hit, cross (an acquired obstacle blocks
+    the M-line), leave, divert, return (the Seed Spreader's); sight, acquire, lose, regain (see
     `exactacq.vision.sensing`). Events are in the order in which they happened.
     """
 
@@ -127,6 +129,38 @@ class TreeLink:
 
 
 @dataclass(frozen=True)
+class Diversion:
+    """A diversion of the Seed Spreader from ``leave`` (D) on the M-line to ``hit`` (Q), and back.
+
+    The pieces of the path from number ``first`` to ``last``, the latter excluded, belong to it.
+    """
+
+    obstacle: int
+    leave: Point
+    hit: Point
+    reason: str
+    first: int
+    last: int
+
+
+@dataclass(frozen=True)
+class Sweeping:
+    """What only a run of the Seed Spreader has: its options, and what it met.
+
+    ``encounters`` are the obstacles that were met on the M-line or on the way out on a diversion, in order;
+    ``again`` those that blocked the M-line and were acquired before. ``unreached`` are the obstacles of the
+    scene of which the terrain has a component that the robot cannot reach from the SW corner.
+    """
+
+    lookahead: bool
+    target: str
+    diversions: tuple[Diversion, ...]
+    encounters: tuple[int, ...]
+    again: tuple[int, ...]
+    unreached: tuple[int, ...]
+
+
+@dataclass(frozen=True)
 class Bound:
     """An upper bound of the path's length, evaluated exactly.
 
@@ -144,9 +178,10 @@ class Bound:
 class Run:
     """A finished exploration. See the fields' types for what each entry holds.
 
-    ``unseen`` obstacles never came on the map and ``unvisited`` ones did without being reached: both are
-    empty where the paper's model (a) holds for the radius. A run that was read from a file has no
-    ``record``: its sensing is repeated when it is first asked for.
+    ``unseen`` obstacles never came on the map. ``unvisited`` ones did without being reached, or, for the Seed
+    Spreader, without becoming wholly known. Both are empty where the paper's model (a) holds for the
+    radius of the Sightseer. A run that was read from a file has no ``record``: its sensing is repeated
+    when it is first asked for.
     """
 
     scene: Scene
@@ -162,6 +197,7 @@ class Run:
     unvisited: tuple[int, ...]
     stack_depth: int
     record: Memory | None = field(default=None, repr=False, compare=False)
+    sweeping: Sweeping | None = None
 
     @cached_property
     def length(self) -> Length:
@@ -170,7 +206,7 @@ class Run:
 
     @property
     def complete(self) -> bool:
-        """Whether every obstacle was visited."""
+        """Whether every obstacle was visited, or, for the Seed Spreader, is wholly known."""
         return not self.unseen and not self.unvisited
 
     @cached_property
@@ -180,7 +216,24 @@ class Run:
             return self.record
         from exactacq.memory import Memory
 
-        return Memory.of(self.scene, self.radius, self.start, self.path)
+        return Memory.of(self.scene, self.radius, self.start, self.path, self.ground)
+
+    @cached_property
+    def ground(self) -> Ground | None:
+        """What the terrain leaves of the scene's obstacles; None for the Sightseer."""
+        if self.sweeping is None:
+            return None
+        from exactacq.components import ground_of
+
+        return ground_of(self.scene) if self.record is None else self.record.ground
+
+    @property
+    def obstacles(self) -> Sequence[Body]:
+        """What the numbers of obstacles in this run mean.
+
+        The scene's obstacles; for the Seed Spreader the components that its terrain leaves of them.
+        """
+        return self.scene.obstacles if self.ground is None else self.ground.components
 
     @cached_property
     def map(self) -> Map:
@@ -262,9 +315,8 @@ class Run:
         return run_to_json(self)
 
     def names(self) -> Iterator[str]:
-        """The obstacles' names, "O" and the number from 1 where none is given."""
-        for obstacle in self.scene.obstacles:
-            yield obstacle.name or ("wall" if obstacle.is_enclosure else f"O{obstacle.index + 1}")
+        """What the obstacles are called: by their names, or "O" and the number from 1."""
+        return (body.label for body in self.obstacles)
 
 
 def _share(curve: Curve, length: Length) -> fmpq:

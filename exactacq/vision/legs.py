@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Hashable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+import numpy as np
+
 from exactacq.boxes import box
+from exactacq.contacts import ContactKind, contacts
 from exactacq.curves import Arc, Curve, Segment
 from exactacq.points import Point
 from exactacq.reals import Real
@@ -93,18 +97,22 @@ def legs_of(
 ) -> list[Leg]:
     """The legs of a path piece, on the boundary of an obstacle or straight through free space if None.
 
-    One leg; two if the piece passes the start of a full circle. *touches* is what a straight piece touches.
+    One leg; two if the piece passes the start of a full circle. A straight piece that runs along edges has a
+    leg on each, and between them. *touches* is what a straight piece touches.
     """
     if obstacle is None:
         assert isinstance(curve, Segment), "free space is crossed on straight lines"
-        return [_through_space(curve, touches)]
+        return [
+            _through_space(part, touches) if e is None else _on_edge(rails[e], e, part)
+            for e, part in along_edges(table, curve)
+        ]
     e = next(e for e in table.edges_of(obstacle) if _carries(table.curves[e], curve))
     rail, start, end = rails[e], curve.start, curve.end
+    if isinstance(curve, Segment):
+        return [_on_edge(rail, e, curve)]
     low, high = rail.parameter(start), rail.parameter(end)
-    if isinstance(curve, Arc) and isinstance(rail.curve, Arc):
-        ahead = curve.ccw == rail.curve.ccw
-    else:
-        ahead = low.compare(high) < 0
+    assert isinstance(rail.curve, Arc)
+    ahead = curve.ccw == rail.curve.ccw
     if not ahead:
         start, end, low, high = end, start, high, low
     if low.compare(high) < 0:
@@ -113,6 +121,43 @@ def legs_of(
     spans = [Interval(low, start, rail.top, seam), Interval(Real(0), seam, high, end)]
     legs = [Leg(rail, e, span, ahead) for span in spans if span.low.compare(span.high) < 0]
     return legs if ahead else legs[::-1]
+
+
+def along_edges(table: EdgeTable, way: Segment) -> list[tuple[int | None, Segment]]:
+    """A straight way in parts: along edges, with their numbers, and free ones with None between."""
+    left, bottom, right, top = box(way)
+    dx, dy = (float(d.ball(64).mid()) for d in way.direction)
+    near = [e for e in table.near((left, bottom), (right, top), 0.0).tolist() if not table.kind[e]]
+    edges, length = table.end[near] - table.start[near], math.hypot(dx, dy)
+    sizes, slack = np.hypot(*edges.T), 16 * table.roundoff
+    slopes = np.abs(edges[:, 0] * dy - edges[:, 1] * dx)
+    parallel = slopes <= (1e-9 * sizes + slack) * (length + slack)
+    found = [
+        (e, contact)
+        for e, is_parallel in zip(near, parallel, strict=True)
+        if is_parallel
+        for contact in contacts(way, table.curves[e])
+        if contact.kind is ContactKind.OVERLAP
+    ]
+    found.sort(key=lambda f: (f[1].start - way.start).dot(way.direction))
+    parts: list[tuple[int | None, Segment]] = []
+    at = way.start
+    for e, contact in found:
+        if at != contact.start:
+            parts.append((None, Segment(at, contact.start)))
+        parts.append((e, Segment(contact.start, contact.end)))
+        at = contact.end
+    if at != way.end or not parts:
+        parts.append((None, Segment(at, way.end) if parts else way))
+    return parts
+
+
+def _on_edge(rail: Rail, e: int, piece: Segment) -> Leg:
+    start, end = piece.start, piece.end
+    low, high = rail.parameter(start), rail.parameter(end)
+    if low.compare(high) < 0:
+        return Leg(rail, e, Interval(low, start, high, end), True)
+    return Leg(rail, e, Interval(high, end, low, start), False)
 
 
 def _through_space(piece: Segment, touches: tuple[Hashable, ...]) -> Leg:

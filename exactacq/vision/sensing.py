@@ -20,7 +20,7 @@ from exactacq.curves import Arc
 from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.vision.holds import Seen
-from exactacq.vision.intervals import EMPTY, Cover
+from exactacq.vision.intervals import EMPTY, Cover, Interval
 from exactacq.vision.legs import Leg
 from exactacq.vision.pencil import rational_between
 from exactacq.vision.shares import Covers, Shares, add
@@ -59,6 +59,24 @@ class Notice:
     note: str = ""
 
 
+@dataclass(frozen=True)
+class Ahead:
+    """What a leg will tell: its reports in order, the covers that will grow, and those ``before`` it."""
+
+    leg: Leg
+    notices: list[Notice]
+    learned: dict[int, Cover]
+    shares: Shares | None
+    before: dict[int, Cover]
+
+    def covers(self, u: Real, place: Point) -> dict[int, Cover]:
+        """What will be known at a place of the leg."""
+        covers = dict(self.before)
+        if self.shares is not None and self.leg.order(u, self.leg.first) > 0:
+            covers.update(self.shares.cut(self.leg.upto(u, place)).taught(covers))
+        return covers
+
+
 class Senses:
     """The sensor of a robot in one scene: what is known so far, and what is in sight.
 
@@ -78,6 +96,10 @@ class Senses:
 
     # -- moving ------------------------------------------------------------------------------------
 
+    def visible(self, place: Point, k: int) -> list[tuple[int, Interval]]:
+        """What is seen of an obstacle from a place: edges and intervals."""
+        return list(self.targets.within(k, self._view(place).spans))
+
     def look_around(self, place: Point) -> tuple[list[Notice], dict[int, Cover]]:
         """Take in the view from the start of the path; as `follow`."""
         view = self._view(place)
@@ -91,20 +113,22 @@ class Senses:
                 notices.append(Notice(Kind.ACQUIRE, k, Real(0), place))
         return self._settle(notices, learned)
 
-    def follow(self, leg: Leg) -> tuple[list[Notice], dict[int, Cover]]:
-        """Move along a leg: the reports in the order in which they come, and the covers that grew."""
-        return self._settle(*self.ahead(leg))
+    def follow(self, ahead: Ahead) -> tuple[list[Notice], dict[int, Cover]]:
+        """Move along the leg that was looked along last; returns its reports and the covers that grew."""
+        return self._settle(ahead.notices, ahead.learned)
 
-    def ahead(self, leg: Leg) -> tuple[list[Notice], dict[int, Cover]]:
-        """What `follow` would tell, without moving."""
+    def ahead(self, leg: Leg) -> Ahead:
+        """What moving along a leg will tell."""
         obstacles = self._near(leg) - self.acquired
-        if not obstacles:
-            return [], {}
-        shares = self._shares(leg, obstacles)
+        shares = self._shares(leg, obstacles) if obstacles else None
+        return Ahead(leg, *([], {}) if shares is None else self._told(shares), shares, dict(self.covers))
+
+    def _told(self, shares: Shares) -> tuple[list[Notice], dict[int, Cover]]:
+        leg = shares.leg
         learned = shares.taught(self.covers)
         now = ChainMap(learned, self.covers)
         notices: list[Notice] = []
-        for k in sorted(obstacles):
+        for k in sorted(shares.obstacles):
             whole = self._acquired(shares, k) if self.targets.is_whole(k, now) else None
             for notice in self._changes(shares, k):
                 if whole is None or leg.order(notice.u, whole.u) < (1 if notice.kind is Kind.SIGHT else 0):

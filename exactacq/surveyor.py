@@ -1,0 +1,171 @@
+"""The Seed Spreader's robot: it follows the M-line, and goes straight to known points.
+
+A strategy sees where the robot is, the map, what is in sight, and the crossing points of boundaries that are
+on the map. It learns what is in the way by meeting it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Set
+from typing import NamedTuple
+
+from flint import fmpq
+
+from exactacq.blocking import Blocking
+from exactacq.components import Component, Ground
+from exactacq.curves import Curve, Segment
+from exactacq.memory import Memory
+from exactacq.mline import Crossing, MLine
+from exactacq.points import Point
+from exactacq.reals import Real
+from exactacq.robot import Robot
+from exactacq.scene import Scene
+from exactacq.trace import Piece
+from exactacq.vision.knowledge import Map
+from exactacq.vision.sensing import Ahead
+from exactacq.vision.table import EdgeTable
+
+
+class Hit(NamedTuple):
+    """What stopped the robot: an obstacle, and where on the M-line it begins to block, if it was followed."""
+
+    obstacle: int
+    crossing: Crossing | None
+
+
+Watch = Callable[[Ahead], Point | None]
+"""Is shown what the next way will tell, and answers where the robot is to stop, if anywhere."""
+
+
+class Surveyor(Robot):
+    """A point robot in the SW corner of a terrain, with a vision sensor of limited *radius* (rational).
+
+    The corner must be free.
+    """
+
+    def __init__(self, scene: Scene, ground: Ground, radius: fmpq) -> None:
+        table = EdgeTable(scene.obstacles)
+        self.radius, self._ground = radius, ground
+        self.mline = MLine(ground.terrain, radius)
+        self._blocking = Blocking(ground, table)
+        self._crossings = self.mline.crossings(self._blocking)
+        self._next = self.piece = 0
+        super().__init__(Point(0, 0), Memory(scene, radius, table, ground))
+
+    # -- the map -----------------------------------------------------------------------------------
+
+    @property
+    def map(self) -> Map:
+        """What is known now."""
+        return self._memory.now
+
+    @property
+    def in_sight(self) -> Set[int]:
+        """The obstacles in sight that are not acquired."""
+        return self._memory.in_sight
+
+    def is_acquired(self, obstacle: int) -> bool:
+        """Whether all of an obstacle is known."""
+        return obstacle in self._memory.acquired
+
+    def map_ahead(self, ahead: Ahead, u: Real, place: Point) -> Map:
+        """What will be known at a place of a way that was looked along."""
+        return self._memory.map_ahead(ahead, u, place)
+
+    def visible(self, obstacle: int) -> list[Curve]:
+        """The pieces of an obstacle in sight from here; a single point is a piece without length."""
+        return self._memory.visible(self.position, obstacle)
+
+    def blocks_ahead(self, obstacle: int, chart: Map) -> bool:
+        """Whether a crossing point of an obstacle on the rest of the M-line is on a map."""
+        return any(
+            crossing.component.index == obstacle and self._is_known(crossing, chart)
+            for crossing in self._crossings[self._next :]
+        )
+
+    def _is_known(self, crossing: Crossing, chart: Map) -> bool:
+        component, point = crossing.component, crossing.stop.point
+        return _is_ashore(component, point) and chart.knows(component.index, point)
+
+    def leave_point(self, hit: Hit) -> Crossing | None:
+        """Where the M-line goes on after an obstacle that was walked around; None if it traps S or T."""
+        for crossing in self._crossings[self._next :]:
+            component = crossing.component
+            if (
+                component.index == hit.obstacle
+                and crossing.ends
+                and _is_ashore(component, crossing.stop.point)
+            ):
+                return crossing
+        return None
+
+    def nearest_crossing(self, obstacle: int, way: Segment) -> Point | None:
+        """The crossing point of an acquired obstacle with a way that is nearest to the way's end."""
+        found = [
+            gap.end
+            for gap in self._blocking.gaps(way)
+            if gap.component is not None
+            and gap.component.index == obstacle
+            and _is_ashore(gap.component, gap.end.point)
+        ]
+        return found[-1].point if found else None
+
+    # -- motion ------------------------------------------------------------------------------------
+
+    def follow(self, watch: Watch | None = None) -> Hit | None:
+        """Follow the M-line to the end of its straight piece, unless an obstacle blocks or *watch* stops."""
+        way = self.mline.pieces[self.piece]
+        crossing = self._crossings[self._next] if self._next < len(self._crossings) else None
+        is_blocked = crossing is not None and crossing.piece == self.piece
+        target = crossing.stop.point if crossing is not None and is_blocked else way.end
+        if not self._walk_straight(target, watch) or crossing is None or not is_blocked:
+            return None
+        self.at = crossing.component.index
+        return Hit(self.at, crossing)
+
+    @property
+    def is_at_end(self) -> bool:
+        """Whether the robot is at the end of a straight piece of the M-line."""
+        return self.position == self.mline.pieces[self.piece].end
+
+    def turn(self) -> bool:
+        """Take up the next piece of the M-line; False at T."""
+        self.piece += 1
+        return self.piece < len(self.mline.pieces)
+
+    def resume(self, crossing: Crossing) -> None:
+        """Take up the M-line at a leave point, to which the robot has walked."""
+        self.piece, self._next = crossing.piece, self._crossings.index(crossing) + 1
+
+    def go(self, target: Point) -> Hit | None:
+        """Go straight to a point unless an obstacle blocks the way."""
+        if self.position == target:
+            return None
+        gaps = self._blocking.gaps(Segment(self.position, target))
+        self._walk_straight(gaps[0].begin.point if gaps else target, None)
+        if not gaps:
+            return None
+        component = gaps[0].component
+        assert component is not None, "a way between free points is blocked between them"
+        self.at = component.index
+        return Hit(component.index, None)
+
+    def _walk_straight(self, target: Point, watch: Watch | None) -> bool:
+        """Walk to a point that can be reached; False if *watch* stopped the robot before."""
+        if self.position == target:
+            return True
+        for part in self._memory.parts(Segment(self.position, target)):
+            piece = Piece("straight", None, part)
+            stop = None if watch is None else watch(self._memory.ahead(piece))
+            if stop is not None and stop != part.end:
+                piece = Piece("straight", None, Segment(self.position, stop))
+            if stop is None or stop != self.position:
+                self._move(piece)
+                self.position = piece.end
+            if stop is not None:
+                return False
+        return True
+
+
+def _is_ashore(component: Component, point: Point) -> bool:
+    return any(part.curve.passes(point) for part in component.shore)
