@@ -49,8 +49,8 @@ class Robot:
     def circumnavigate(self) -> None:
         """Walk the whole present boundary and mark the obstacle visited.
 
-        The robot comes back to where it is. On a boundary with two ends it walks to the last one, then, unless
-        it began there, to the first one, and stays there.
+        The robot comes back to where it is. On a boundary with two ends it walks to the last one and, unless
+        it began there, to the first one, where it stays.
         """
         assert isinstance(self.at, int)
         curves = self._boundary().loop(self.position)
