@@ -11,9 +11,12 @@ from sweeps import rectangle, swept_scene
 
 import exactacq as xa
 from exactacq import Circle, Length, Polygon, Scene, Terrain
+from exactacq.blocking import Blocking
 from exactacq.errors import InvalidScene
+from exactacq.mline import MLine
 from exactacq.numerals import rational
 from exactacq.trace import Run
+from exactacq.vision.table import EdgeTable
 
 
 def labels(run: Run, numbers: object) -> list[str]:
@@ -147,7 +150,24 @@ def law_of_sweeps(run: Run) -> None:
             strips = -(-Q(str(terrain.width)) // Q(str(run.radius)))
             sweep = Q(str(terrain.height)) * (strips + 1) + Q(str(terrain.width))
             assert run.length == Length(rational(sweep))
+    law_of_leave_points(run)
     law_of_acquisitions(run)
+
+
+def law_of_leave_points(run: Run) -> None:
+    """The M-line is met at ever later crossing points, and left, clear of the border, at the next one (3)."""
+    line = MLine(run.scene.terrain, run.radius)
+    crossings = line.crossings(Blocking(run.ground, EdgeTable(run.scene.obstacles)))
+    at = before = -1
+    for event in run.events:
+        if event.note != "on the M-line":
+            continue
+        later = [k for k in range(at + 1, len(crossings)) if crossings[k].stop.point == event.point]
+        at = next(k for k in later if crossings[k].ends == (event.kind == "leave"))
+        body = run.obstacles[event.obstacle]
+        if event.kind == "leave" and body.closed:
+            assert at == before + 1
+        before = at
 
 
 def law_of_acquisitions(run: Run) -> None:
