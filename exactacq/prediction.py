@@ -16,19 +16,22 @@ there the lengths are bounded between neighbouring lines through two features, w
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
+from itertools import pairwise
 
 import numpy as np
 from flint import fmpq
 
-from exactacq.contacts import ContactKind, contacts, line_contacts
+from exactacq.contacts import contacts, line_contacts
 from exactacq.curves import Arc, Curve, Segment
 from exactacq.errors import Undecided
 from exactacq.points import Point, distance_sq
-from exactacq.prediction_candidates import Cell, Feature, Lines, Proposals, features_of
+from exactacq.prediction_candidates import Proposals
+from exactacq.prediction_features import Cell, Feature, Lines, features_of
 from exactacq.prediction_pieces import ANGLE, Pieces, cross
+from exactacq.prediction_sight import Sights, Walk, hull, overlap, unique
 from exactacq.reach import nearest_point, thresholds
 from exactacq.reals import Real, rational
+from exactacq.vision.pencil import rational_between
 from exactacq.vision.rails import Rail
 
 UP = Point(0, 1)
@@ -58,155 +61,15 @@ def sees_later(
     """
     if Real(stop).compare(start) == 0:
         return False
-    walk = _Walk(x, start, stop, radius)
-    goals = [curve for curve in targets if walk.may_reach(_hull(curve))]
+    walk = Walk(x, start, stop, radius)
+    goals = [curve for curve in targets if walk.may_reach(hull(curve))]
     dots = [point for point in points if walk.may_reach((*point.xy, *point.xy))]
     if not goals and not dots:
         return False
-    hulls = [_hull(curve) for curve in goals] + [(*point.xy, *point.xy) for point in dots]
+    hulls = [hull(curve) for curve in goals] + [(*point.xy, *point.xy) for point in dots]
     field = walk.field(hulls)
-    known = list(_unique([*goals, *(c for c in blockers if _overlap(_hull(c), field))]))
-    return _Search(walk, known, len(list(_unique(goals))), dots, field).run()
-
-
-class _Walk:
-    """The part of the vertical line, and the range."""
-
-    def __init__(self, x: fmpq, start: Real, stop: fmpq, radius: fmpq) -> None:
-        self.x, self.start, self.stop, self.radius = x, start, stop, radius
-        self.sense = Real(stop).compare(start)
-        self.reach = float(radius) * (1 + 1e-9)
-        self.low, self.high = sorted((float(start), float(stop)))
-
-    def passes(self, y: Real) -> bool:
-        """Whether an ordinate lies beyond the start, and not beyond the stop."""
-        return y.compare(self.start) == self.sense and y.compare(self.stop) != self.sense
-
-    def may_reach(self, hull: tuple[float, ...]) -> bool:
-        """Whether a box may be within range."""
-        x, r = float(self.x), self.reach
-        return _overlap(hull, (x - r, self.low - r, x + r, self.high + r))
-
-    def field(self, hulls: Sequence[tuple[float, ...]]) -> tuple[float, float, float, float]:
-        """A box around all lines of sight to boxes."""
-        x, r = float(self.x), self.reach
-        a, b, c, d = (f(h[k] for h in hulls) for k, f in enumerate((min, min, max, max)))
-        low, high = max(self.low, b - r), min(self.high, d + r)
-        left, right = max(min(x, a), x - r), min(max(x, c), x + r)
-        pad = 1e-9 * (r + abs(x) + abs(low) + abs(high))
-        bottom, top = min(low, max(b, low - r)), max(high, min(d, high + r))
-        return left - pad, bottom - pad, right + pad, top + pad
-
-
-def _hull(curve: Curve) -> tuple[float, ...]:
-    if isinstance(curve, Segment):
-        (a, b), (c, d) = curve.start.xy, curve.end.xy
-        return min(a, c), min(b, d), max(a, c), max(b, d)
-    (x, y), r = curve.center.xy, float(curve.radius) * (1 + 1e-12)
-    return x - r, y - r, x + r, y + r
-
-
-def _overlap(a: Sequence[float], b: Sequence[float]) -> bool:
-    return a[0] <= b[2] and b[0] <= a[2] and a[1] <= b[3] and b[1] <= a[3]
-
-
-def _unique(curves: Sequence[Curve]) -> Iterator[Curve]:
-    """Each curve once."""
-    seen = set()
-    for curve in curves:
-        sense = curve.ccw if isinstance(curve, Arc) else None
-        size = (curve.center.key, curve.radius_sq) if isinstance(curve, Arc) else None
-        key = curve.start.key, curve.end.key, sense, size
-        if key not in seen:
-            seen.add(key)
-            yield curve
-
-
-# -- one line of sight -----------------------------------------------------------------------------
-
-
-class _Germ(NamedTuple):
-    """A curve that leaves a point: its direction and its curvature, or a number of the same order."""
-
-    way: Point
-    bend: fmpq
-
-
-def _enters(leave: _Germ, back: _Germ, way: Point) -> bool:
-    """Whether a ray leaves a point strictly between two curves, counterclockwise from leave to back."""
-    ray = _Germ(way, fmpq(0))
-    to_ray, to_back = _turn(leave, ray), _turn(leave, back)
-    if not to_ray or to_ray > to_back:
-        return False
-    return to_ray < to_back or _turn(ray, back) in {1, 2}
-
-
-def _turn(a: _Germ, b: _Germ) -> int:
-    """How far b lies counterclockwise of a: 0 nowhere, 1 by its bend, 2 to 4 below, by and above a half turn,
-    5 a full turn less a bend."""
-    side = a.way.cross(b.way).sign()
-    if side:
-        return 3 - side
-    if a.way.dot(b.way).sign() < 0:
-        return 3
-    return 0 if a.bend == b.bend else 1 if b.bend > a.bend else 5
-
-
-def _germ(curve: Curve, at: Point) -> _Germ:
-    """A curve as it runs on from one of its points."""
-    if isinstance(curve, Segment):
-        return _Germ(curve.direction, fmpq(0))
-    return _Germ(curve.tangent(at), (1 if curve.ccw else -1) / curve.radius_sq)
-
-
-def _reversed(germ: _Germ) -> _Germ:
-    return _Germ(-germ.way, -germ.bend)
-
-
-class _Sights:
-    """Decides lines of sight among known pieces."""
-
-    def __init__(self, pieces: Pieces) -> None:
-        self.pieces = pieces
-
-    def is_free(self, p: Point, q: Point) -> bool:
-        """Whether the segment from a place p to a point q of a boundary nowhere enters the blocked side."""
-        if p == q:
-            return True
-        sight = Segment(p, q)
-        near = self.pieces.possible(np.array(p.xy), np.array(q.xy))
-        return all(self._passes(sight, int(k)) for k in near)
-
-    def _passes(self, sight: Segment, k: int) -> bool:
-        found = contacts(sight, self.pieces.curves[k])
-        if any(contact.kind is ContactKind.CROSSING for contact in found):
-            return False
-        places = (z for c in found for z in ((c.start,) if c.start is c.end else (c.start, c.end)))
-        return all(self._may_pass(sight, k, z) for z in places)
-
-    def _may_pass(self, sight: Segment, k: int, z: Point) -> bool:
-        """Whether a sight that touches a piece at a point does not enter the blocked side there."""
-        curves, curve = self.pieces.curves, self.pieces.curves[k]
-        at_end, at_begin = z == sight.end, z == sight.start
-        leave, back = None, None
-        if z == curve.start:
-            leave, other = _germ(curve, z), int(self.pieces.before[k])
-            back = None if other < 0 else _reversed(_germ(curves[other], z))
-        elif z == curve.end:
-            back, other = _reversed(_germ(curve, z)), int(self.pieces.after[k])
-            leave = None if other < 0 else _germ(curves[other], z)
-        else:
-            leave = _germ(curve, z)
-            back = _reversed(leave)
-        if (leave is None or back is None) and not (at_begin or at_end):
-            return True
-        # At a lone end the boundary is taken to go straight on.
-        leave = _Germ(-back.way, fmpq(0)) if leave is None and back is not None else leave
-        assert leave is not None
-        back = _Germ(-leave.way, fmpq(0)) if back is None else back
-        ways = [] if at_end else [sight.direction]
-        ways += [] if at_begin else [-sight.direction]
-        return not any(_enters(leave, back, way) for way in ways)
+    known = list(unique([*goals, *(c for c in blockers if overlap(hull(c), field))]))
+    return _Search(walk, known, len(list(unique(goals))), dots, field).run()
 
 
 # -- the search ------------------------------------------------------------------------------------
@@ -216,14 +79,14 @@ class _Search:
     """All candidates; the first *count* of the known pieces are targets."""
 
     def __init__(
-        self, walk: _Walk, known: Sequence[Curve], count: int, dots: Sequence[Point], field: Sequence[float]
+        self, walk: Walk, known: Sequence[Curve], count: int, dots: Sequence[Point], field: Sequence[float]
     ) -> None:
         self.walk, self.known, self.dots = walk, known, dots
         self.targets = known[:count]
         size = max(walk.reach, *(abs(value) for value in field))
-        far = max((abs(v) for c in known for v in _hull(c)), default=0.0)
+        far = max((abs(v) for c in known for v in hull(c)), default=0.0)
         self.pieces = Pieces(known, max(size, far))
-        self.sights = _Sights(self.pieces)
+        self.sights = Sights(self.pieces)
         self.low, self.high = max(walk.low, field[1]), min(walk.high, field[3])
 
     def run(self) -> bool:
@@ -274,7 +137,7 @@ class _Search:
             return None
         origin = Point(walk.x, 0)
         for k, curve in enumerate(self.known):
-            low, _, high, _ = _hull(curve)
+            low, _, high, _ = hull(curve)
             if not low - pieces.slack <= float(walk.x) <= high + pieces.slack:
                 continue
             ys = line_contacts(origin, UP, curve)
@@ -347,7 +210,7 @@ class _Search:
                 if square.sign() >= 0:
                     for rise in (square.sqrt(), -square.sqrt()):
                         p = Point(walk.x, curve.center.y + rise)
-                        yield from ((p, p + way) for way in _tangents(p, curve))
+                        yield from ((p, q) for q in _tangent_points(p, curve) if curve.contains(q))
             for stand in stands:
                 assert isinstance(stand.shape, Point)
                 p = stand.shape
@@ -367,13 +230,12 @@ def _inner(rail: Rail) -> Iterator[fmpq]:
         yield u
 
 
-def _tangents(p: Point, arc: Arc) -> Iterator[Point]:
-    """The vectors from a place to where its tangents touch a convex arc."""
+def _tangent_points(p: Point, arc: Arc) -> Iterator[Point]:
+    """Where the tangents from a place touch an arc's circle."""
     for side in (1, -1):
         way = _way(p, Real(0), arc.center, arc.radius * side)
         if way is not None:
-            d = arc.center - p
-            yield way * (way.dot(d) / way.norm_sq())
+            yield p + way * (way.dot(arc.center - p) / way.norm_sq())
 
 
 def _way(a: Point, turn: Real, b: Point, other: Real) -> Point | None:
@@ -480,8 +342,8 @@ class _Lines:
 
     def _sees_in(self, cell: Cell, lines: Lines) -> bool | None:
         """Whether a line of sight of a cell is free; None if that is not decided."""
-        if cell.high - cell.low < 10 * self.search.pieces.slack:
-            return False if self._is_empty(cell, lines) else None
+        if not cell.above:
+            return self._sees_in_run(cell, lines)
         y = (cell.low + cell.high) / 2 if cell.sample is None else cell.sample
         sight = self._about(cell, Real(rational(y)))
         if sight is None or not self.search.sights.is_free(*sight):
@@ -503,10 +365,29 @@ class _Lines:
         t = found[-1] if cell.branch or len(found) == 1 else found[0]
         return p, p + way * t
 
-    def _is_empty(self, cell: Cell, lines: Lines) -> bool:
-        """Whether both bounds of a cell are one ordinate."""
-        low, high = (self._ordinate(mark, lines) for mark in cell.marks)
-        return low is not None and high is not None and low.compare(high) == 0
+    def _sees_in_run(self, cell: Cell, lines: Lines) -> bool | None:
+        """The same for the cells between ordinates that floats cannot part."""
+        answer: bool | None = False
+        for low, high in pairwise(sorted(self._ordinates(cell.below, lines))):
+            if low.compare(high) == 0:
+                continue
+            y = Real(rational_between(low, high))
+            sight = self._about(cell, y)
+            if sight is None or not self.walk.passes(y) or not self.search.sights.is_free(*sight):
+                continue
+            if any(self._is_short(cell, z) for z in (low, y, high)):
+                return True
+            answer = None
+        return answer
+
+    def _is_short(self, cell: Cell, y: Real) -> bool:
+        """Whether a line of a cell is shorter than the range."""
+        sight = self._about(cell, y)
+        return sight is not None and distance_sq(*sight).compare(self.walk.radius**2) < 0
+
+    def _ordinates(self, marks: Sequence[int], lines: Lines) -> list[Real]:
+        found = (self._ordinate(mark, lines) for mark in marks)
+        return [y for y in found if y is not None]
 
     def _ordinate(self, mark: int, lines: Lines) -> Real | None:
         if mark < 0:
@@ -521,8 +402,8 @@ class _Lines:
         and the lines grow from there on, the others are longer.
         """
         inward = 1 if part[0] - cell.low < cell.high - part[1] else -1
-        begin, mark = (cell.low, cell.marks[0]) if inward > 0 else (cell.high, cell.marks[1])
-        bound = self._ordinate(mark, lines)
+        begin, marks = (cell.low, cell.below) if inward > 0 else (cell.high, cell.above)
+        bound = (max if inward > 0 else min)(self._ordinates(marks, lines), default=None)
         sight = None if bound is None else self._about(cell, bound)
         if sight is None or max(abs(end - begin) for end in part) > NEAR * self.search.pieces.slack:
             return None

@@ -9,13 +9,13 @@ is nearly degenerate stays and is left to exact arithmetic.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from exactacq.curves import Arc
-from exactacq.points import Point
+from exactacq.prediction_features import Cell, Feature, Gaps, Lines, Sight, enters
 from exactacq.prediction_pieces import (
     ANGLE,
     MARGIN,
@@ -30,110 +30,6 @@ from exactacq.prediction_pieces import (
     norm,
     unit,
 )
-
-
-@dataclass(frozen=True)
-class Feature:
-    """A point or a convex arc that a line of sight can touch.
-
-    At a point ``leave`` and ``back`` are the unit directions along the boundary from there, the blocked side
-    being counterclockwise from leave to back; zero if nothing is known there. ``joined``: two pieces meet.
-    """
-
-    shape: Point | Arc
-    leave: tuple[float, float] = (0.0, 0.0)
-    back: tuple[float, float] = (0.0, 0.0)
-    joined: bool = False
-    pivot: bool = False
-    """A line of sight can turn about it."""
-    goal: bool = False
-    """It belongs to the obstacle looked for."""
-    stand: bool = False
-    """It is a place of the walk."""
-    on: tuple[int, ...] = ()
-    """The pieces it lies on."""
-
-
-def features_of(pieces: Pieces, goals: set[int]) -> list[Feature]:
-    """Corners, lone ends and convex arcs; *goals* are the pieces looked for."""
-    found = []
-    everything = np.arange(len(pieces.curves))
-    first = pieces.tangents(everything, pieces.start).tolist()
-    last = pieces.tangents(everything, pieces.end).tolist()
-    for k, curve in enumerate(pieces.curves):
-        i, j = int(pieces.before[k]), int(pieces.after[k])
-        x, y = first[k]
-        if i < 0:
-            found.append(Feature(curve.start, (x, y), (-x, -y), pivot=True, goal=k in goals, on=(k,)))
-        else:
-            u, v = last[i]
-            pivot = x * -v + y * u > -ANGLE
-            goal = k in goals or i in goals
-            found.append(Feature(curve.start, (x, y), (-u, -v), True, pivot, goal, on=(i, k)))
-        if j < 0:
-            u, v = last[k]
-            found.append(Feature(curve.end, (u, v), (-u, -v), pivot=True, goal=k in goals, on=(k,)))
-        if isinstance(curve, Arc) and curve.ccw:
-            found.append(Feature(curve, pivot=True, goal=k in goals, on=(k,)))
-    return found
-
-
-def enters(leave: Floats, back: Floats, way: Floats, margin: Floats) -> Flags:
-    """Whether directions certainly lead strictly into the blocked side at points."""
-    one, two = cross(leave, way) > margin, cross(way, back) > margin
-    reflex = cross(leave, back) < -margin
-    return np.asarray(one & two | reflex & (one | two))
-
-
-# -- lines -----------------------------------------------------------------------------------------
-
-
-@dataclass
-class Lines:
-    """Lines through two features, numbers i and j of the list of touches; j is -1 for the tangent, at a point
-    i, of a ``piece``. They meet the walk at ``y``, with that error; ``bend`` is the error
-    of the unit direction ``way``."""
-
-    i: Ints
-    j: Ints
-    piece: Ints
-    y: Floats
-    error: Floats
-    way: Floats
-    bend: Floats
-
-    def __getitem__(self, part: Any) -> Lines:
-        return Lines(*(getattr(self, name)[part] for name in self.__dataclass_fields__))
-
-
-@dataclass(frozen=True)
-class Sight:
-    """A proposed line of sight: along a line to a target, or to a feature (target -1), or of any line."""
-
-    i: int
-    j: int
-    piece: int
-    goal: int
-    target: int
-    y: float
-
-
-@dataclass(frozen=True)
-class Cell:
-    """Lines that touch one feature, with ordinates from low to high, and meet one target in one branch.
-
-    The marks tell the bounds: a number of a line, or -1 - k for the k-th fixed ordinate. ``sample`` is an
-    ordinate with a line certainly within range; ``tight`` where the range is not decided.
-    """
-
-    touch: int
-    target: int
-    branch: int
-    low: float
-    high: float
-    marks: tuple[int, int]
-    sample: float | None
-    tight: tuple[tuple[float, float], ...]
 
 
 class Proposals:
@@ -217,6 +113,8 @@ class Proposals:
 
     def _may_touch(self, k: Ints, normal: Floats, bend: Floats) -> Flags:
         """Whether lines may touch arcs k (rather than what is missing of their circles)."""
+        if not len(self.pieces.curves):
+            return np.ones(len(k), dtype=bool)
         arc = np.array([f.on[0] if isinstance(f.shape, Arc) else -1 for f in self.features])[self.feature[k]]
         pieces = self.pieces
         touch = self.center[k] + self.turn[k, None] * normal
@@ -404,24 +302,23 @@ class Proposals:
 
         Between two neighbouring lines through two features all lines about a feature are blocked or none is.
         """
-        touch, low, high, marks = self._gaps(lines)
-        middle = (low + high) / 2
-        p = self._places(middle)
+        gaps = self._gaps(lines)
+        touch, low, high = gaps.touch, gaps.low, gaps.high
+        p = self._places((low + high) / 2)
         way, bend, along, real = self._about(touch, p)
-        tiny = high - low < 10 * self.slack
-        base = self.slack / 1000 + bend * self.radius + np.where(tiny, high - low, 0.0)
-        hit, blur = self._hits(p, way, base)
         real &= self._may_touch(touch, left(way), bend)
+        shake = np.where(gaps.tiny, high - low + 10 * self.slack, 0.0)
+        base = self.slack / 1000 + bend * self.radius
+        base = np.minimum(base + shake * (1 + self.radius / np.maximum(np.abs(along), TINY)), self.radius)
+        hit, blur = self._hits(p, way, base)
         ok = real[:, None, None] & (hit > along[:, None, None] - blur - self.slack)
-        own = self.on[touch][:, self.targets] & (
-            (self.turn[touch] != 0)[:, None] | (self.pieces.sense == 0)[self.targets]
-        )
-        ok &= ~own[..., None]
+        straight = self.pieces.sense[self.targets] == 0
+        ok &= ~(self.on[touch][:, self.targets] & ((self.turn[touch] != 0)[:, None] | straight))[..., None]
         row, target, branch = np.nonzero(ok)
         least = self._least(touch[row], low[row], high[row], target, branch)
-        near = least <= self.radius + self.slack
+        near = np.where(gaps.tiny[row], hit[ok] - 2 * blur[ok], least) <= self.radius + self.slack
         row, target, branch = row[near], target[near], branch[near]
-        t, error = hit[row, target, branch], (blur[row, target, branch] + base[row])
+        t, error = hit[row, target, branch], blur[row, target, branch] + base[row]
         q = p[row] + t[:, None] * way[row]
         leave, back = self._arrivals(target, q)
         margin = ANGLE + 4 * error / np.maximum(t, TINY)
@@ -431,41 +328,27 @@ class Proposals:
         for v in (way[row], -way[row]):
             free &= ~(passed & enters(self.leave[k], self.back[k], v, margin))
         free[free] = ~self.pieces.block(p[row[free]], q[free], error[free])
-        return self._by_range(
-            [
-                Cell(int(touch[r]), int(k), int(b), float(low[r]), float(high[r]), marks[r], None, ())
-                for r, k, b in zip(row[free], target[free], branch[free], strict=True)
-            ]
-        )
+        found = [
+            gaps.cell(r, int(k), int(b))
+            for r, k, b in zip(row[free], target[free], branch[free], strict=True)
+        ]
+        return [c for c in found if not c.above] + self._by_range([c for c in found if c.above])
 
-    def _gaps(self, lines: Lines) -> tuple[Ints, Floats, Floats, list[tuple[int, int]]]:
-        """The stretches of the walk between neighbouring lines about each feature, with their marks."""
-        pivots = np.flatnonzero(self.pivot & self.near)
-        numbers = np.arange(len(lines.y))
+    def _gaps(self, lines: Lines) -> Gaps:
+        """The stretches of the walk between neighbouring lines about each feature."""
         two = lines.j >= 0
         i, j = self.feature[lines.i], self.feature[np.maximum(lines.j, 0)]
         j[~two] = [self.round.get(int(k), -1) for k in lines.piece[~two]]
-        feature, y, mark = (
-            np.concatenate((i, j)),
-            np.concatenate((lines.y,) * 2),
-            np.concatenate((numbers,) * 2),
-        )
-        touches, lows, highs = [], [], []
-        marks: list[tuple[int, int]] = []
+        feature = np.concatenate((i, j))
         fixed = -1 - np.arange(len(self.fixed))
-        for g in pivots:
-            own = feature == self.feature[g]
-            ys, ids = np.concatenate((y[own], self.fixed)), np.concatenate((mark[own], fixed))
-            order = np.argsort(ys, kind="stable")
-            ys, ids = np.clip(ys[order], self.low, self.high), ids[order]
-            wide = np.flatnonzero(ys[1:] > ys[:-1])
-            touches.append(np.full(len(wide), g))
-            lows.append(ys[wide])
-            highs.append(ys[wide + 1])
-            marks += zip(ids[wide].tolist(), ids[wide + 1].tolist(), strict=True)
-        if not touches:
-            return np.empty(0, dtype=np.intp), np.empty(0), np.empty(0), []
-        return np.concatenate(touches), np.concatenate(lows), np.concatenate(highs), marks
+        gaps = Gaps()
+        for g in np.flatnonzero(self.pivot & self.near):
+            own = np.flatnonzero(feature == self.feature[g]) % len(i)
+            y = np.clip(np.concatenate((lines.y[own], self.fixed)), self.low, self.high)
+            error = np.concatenate((lines.error[own], np.zeros(len(fixed)))) + self.slack
+            order = np.argsort(y, kind="stable")
+            gaps.add(int(g), y[order], error[order], np.concatenate((own, fixed))[order])
+        return gaps.closed()
 
     def _about(self, touch: Ints, p: Floats) -> tuple[Floats, Floats, Floats, Flags]:
         """The lines from places about features: direction, its error, length of the tangent, existence."""
