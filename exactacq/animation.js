@@ -66,23 +66,31 @@
     return places.map(([x, y]) => `A${radius} ${radius} 0 0 ${turn > 0 ? 1 : 0} ${x} ${y}`).join("");
   }
 
-  const chunks = [];
-  for (let k = 0; k < pieces.length; k += CHUNK) {
-    const whole = pieces.slice(k, k + CHUNK).map((piece) => drawn(piece, 1)).join("");
-    chunks.push(add($("walked"), "path", { d: `M${pieces[k].x0} ${pieces[k].y0}${whole}`, visibility: "hidden" }));
-  }
+  /** The pieces at which a chunk begins; a chunk is no diversion, or a part of one. */
+  const isAway = pieces.map((_, k) => data.diversions.some(([from, to]) => from <= k && k < to));
+  const starts = [];
+  pieces.forEach((_, k) => {
+    if (!k || isAway[k] !== isAway[k - 1] || k - starts.at(-1) === CHUNK) starts.push(k);
+  });
+  const look = (k) => (isAway[k] ? "away" : "");
+  const chunks = starts.map((k, c) => {
+    const whole = pieces.slice(k, starts[c + 1]).map((piece) => drawn(piece, 1)).join("");
+    const d = `M${pieces[k].x0} ${pieces[k].y0}${whole}`;
+    return add($("walked"), "path", { d, visibility: "hidden", class: look(k) });
+  });
   const tail = add($("walked"), "path");
 
   /** Draws the path up to a length; returns the robot's place. */
   function walk(length) {
     if (!pieces.length) return data.start;
     const k = last(pieces, (piece) => piece.from, length);
-    const first = k - (k % CHUNK);
-    chunks.forEach((chunk, c) => set(chunk, { visibility: c < first / CHUNK ? "visible" : "hidden" }));
+    const now = last(starts, (start) => start, k);
+    const first = starts[now];
+    chunks.forEach((chunk, c) => set(chunk, { visibility: c < now ? "visible" : "hidden" }));
     const piece = pieces[k];
     const u = clamp((length - piece.from) / (piece.end - piece.from || 1), 0, 1);
     const whole = pieces.slice(first, k).map((before) => drawn(before, 1)).join("");
-    set(tail, { d: `M${pieces[first].x0} ${pieces[first].y0}${whole}${drawn(piece, u)}` });
+    set(tail, { d: `M${pieces[first].x0} ${pieces[first].y0}${whole}${drawn(piece, u)}`, class: look(k) });
     return along(piece, u);
   }
 
@@ -299,6 +307,11 @@
   if (data.terrain) {
     const [x, y, across, down] = data.terrain;
     set($("terrain"), { x, y, width: across, height: down });
+  }
+  if (data.mline) {
+    set($("mline"), { d: data.mline });
+    set($("beyond"), { d: data.beyond });
+    for (const entry of document.querySelectorAll(".swept")) entry.hidden = false;
   }
   set($("start").firstElementChild, { cx: data.start[0], cy: data.start[1] });
   set($("start").lastElementChild, { x: data.start[0], y: data.start[1] });

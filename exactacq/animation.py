@@ -27,10 +27,11 @@ import numpy as np
 
 from exactacq.curves import Curve, Segment
 from exactacq.errors import FormatError
+from exactacq.figures_sweep import Sweep, window
 from exactacq.lengths import Length
 from exactacq.output import readable
 from exactacq.points import Point
-from exactacq.scene import Obstacle, Scene
+from exactacq.scene import Scene
 from exactacq.strokes import Region, Stroke
 from exactacq.trace import Event, Run
 
@@ -52,6 +53,8 @@ CLOSED_FORM = 40
 """Closed forms of at most this many characters are shown, the decimal value of others."""
 PASSING = {"lose", "regain"}
 """Kinds of events that are the first to be left out."""
+NUMBERED = re.compile(r"(^from |^to |^back to |\b(?=obstacle ))(?:obstacle )?(\d+)\b")
+"""An obstacle's number in a note, and what is kept of the words before."""
 STRATEGIES = {"sightseer": "Sightseer Strategy", "seed-spreader": "Seed Spreader Strategy"}
 
 
@@ -136,7 +139,7 @@ def frames_of(run: Run, limit: int = LIMIT) -> Iterator[Frame]:
         at = walked + stop.events[-1].beyond if stop.events else walked
         moment = stop.events[-1] if stop.events else walked
         learnt, view = run.map_at(moment), run.view_at(moment)
-        known = {i: run.scene.obstacles[i].edges for i in learnt.acquired} | {
+        known = {i: run.obstacles[i].edges for i in learnt.acquired} | {
             i: [part.curve or Segment(part.start, part.end) for part in learnt.known(i)]
             for i in learnt.incomplete
         }
@@ -169,7 +172,8 @@ def _hash(text: str) -> str:
 
 def _data(run: Run, frames: Iterable[Frame]) -> dict[str, Any]:
     """What the script shows, as JSON data; `animation.js` reads it."""
-    paper, names = Paper.of(run.scene, run.start, float(run.radius)), list(run.names())
+    sweep, names = Sweep.of(run), list(run.names())
+    paper = Paper.of(run.scene, run.start, float(run.radius), sweep is not None)
     numbers = {id(event): number for number, event in enumerate(run.events, 1)}
     known, shown, events = Changes(paper), [], []
     acquired: dict[int, int] = {}
@@ -203,9 +207,10 @@ def _data(run: Run, frames: Iterable[Frame]) -> dict[str, Any]:
         "box": paper.box,
         "terrain": None if terrain is None else paper.rectangle(float(terrain.width), float(terrain.height)),
         "obstacles": [
-            _obstacle(paper, obstacle, names[obstacle.index], acquired.get(obstacle.index))
-            for obstacle in run.scene.obstacles
+            _obstacle(paper, run, number, region, acquired.get(number))
+            for number, region in enumerate(_regions(run, sweep))
         ],
+        **_sweep(paper, sweep),
         "start": paper.point(run.start.xy),
         "path": list(_path(paper, run)),
         "frames": shown,
@@ -214,19 +219,36 @@ def _data(run: Run, frames: Iterable[Frame]) -> dict[str, Any]:
     }
 
 
-def _obstacle(paper: Paper, obstacle: Obstacle, name: str, acquired: int | None) -> dict[str, Any]:
-    region = Region.of(obstacle)
-    heart, depth = region.heart()
+def _regions(run: Run, sweep: Sweep | None) -> list[Region]:
+    """The regions of the run's obstacles."""
+    return [Region.of(obstacle) for obstacle in run.scene.obstacles] if sweep is None else sweep.regions
+
+
+def _obstacle(paper: Paper, run: Run, number: int, region: Region, acquired: int | None) -> dict[str, Any]:
+    body, heart, depth = run.obstacles[number], *region.heart()
     (left, _), (right, top) = region.box
+    is_wall = run.sweeping is None and run.scene.obstacles[number].is_enclosure
     # The enclosure blocks what lies beyond its outline, off the paper too: the window may be wider.
-    beyond = f"M{-FAR} {-FAR}H{FAR}V{FAR}H{-FAR}Z" if obstacle.is_enclosure else ""
+    beyond = f"M{-FAR} {-FAR}H{FAR}V{FAR}H{-FAR}Z" if is_wall else ""
     return {
-        "name": name,
-        "outline": paper.outline(obstacle.edges) + beyond,
-        "perimeter": paper.length(float(obstacle.perimeter)),
-        "heart": None if obstacle.is_enclosure else [*paper.point(heart), paper.length(depth)],
+        "name": body.label,
+        "outline": paper.loop(region.strokes) + beyond,
+        "perimeter": paper.length(float(body.perimeter)),
+        "heart": None if is_wall else [*paper.point(heart), paper.length(depth)],
         "above": paper.point((float(left + right) / 2, float(top))),
         "acquired": acquired,
+    }
+
+
+def _sweep(paper: Paper, sweep: Sweep | None) -> dict[str, Any]:
+    """The M-line, the obstacles that are partly out of reach, and the diversions as runs of path pieces."""
+    if sweep is None:
+        return {"mline": "", "beyond": "", "diversions": []}
+    beyond = [o for o in sweep.ground.obstacles if not sweep.is_whole(o.index)]
+    return {
+        "mline": paper.line(sweep.line),
+        "beyond": "".join(paper.outline(obstacle.edges) for obstacle in beyond),
+        "diversions": [[detour.pieces.start, detour.pieces.stop] for detour in sweep.detours],
     }
 
 
@@ -244,8 +266,12 @@ def _path(paper: Paper, run: Run) -> Iterator[list[float]]:
 
 def _named(note: str, names: Sequence[str]) -> str:
     """A note in which an obstacle is called by its name, not by its index."""
-    found = re.fullmatch(r"(from|to|back to) (\d+)", note)
-    return f"{found[1]} {names[int(found[2])]}" if found and int(found[2]) < len(names) else note
+
+    def called(found: re.Match[str]) -> str:
+        number = int(found[2])
+        return f"{found[1]}{names[number]}" if number < len(names) else found[0]
+
+    return NUMBERED.sub(called, note)
 
 
 @dataclass(frozen=True)
@@ -257,11 +283,13 @@ class Paper:
     box: list[float]
 
     @classmethod
-    def of(cls, scene: Scene, start: Point, radius: float) -> Paper:
-        """Paper that shows the obstacles, the terrain and the start."""
+    def of(cls, scene: Scene, start: Point, radius: float, swept: bool = False) -> Paper:
+        """Paper that shows the obstacles, the terrain and the start; little beyond it if *swept*."""
         corners = [corner for obstacle in scene.obstacles for corner in Region.of(obstacle).box]
         corners.append(np.array(start.xy))
-        if scene.terrain is not None:
+        if scene.terrain is not None and swept:
+            corners = window(scene.terrain, corners)
+        elif scene.terrain is not None:
             corners += [np.zeros(2), np.array([float(scene.terrain.width), float(scene.terrain.height)])]
         low, high = np.min(corners, axis=0), np.max(corners, axis=0)
         if not (high - low).any():
@@ -290,9 +318,11 @@ class Paper:
 
     def line(self, curves: Iterable[Curve]) -> str:
         """SVG path data of curves; those that meet are drawn in one go."""
+        return self._chain(map(Stroke.of, curves))
+
+    def _chain(self, strokes: Iterable[Stroke]) -> str:
         data, last = "", ""
-        for curve in curves:
-            stroke = Stroke.of(curve)
+        for stroke in strokes:
             start, end = (" ".join(map(str, self.point(p))) for p in (stroke.start, stroke.end))
             if start != last:
                 data += f"M{start}"
@@ -301,7 +331,11 @@ class Paper:
 
     def outline(self, curves: Iterable[Curve]) -> str:
         """SVG path data of a closed loop; empty if there are no curves."""
-        data = self.line(curves)
+        return self.loop(map(Stroke.of, curves))
+
+    def loop(self, strokes: Iterable[Stroke]) -> str:
+        """SVG path data of a closed loop of strokes; empty if there are none."""
+        data = self._chain(strokes)
         return data and data + "Z"
 
     def _onward(self, stroke: Stroke, end: str) -> str:

@@ -176,6 +176,7 @@ def compare(
     radius: Radius = None,
     start: Start = None,
     terrain: TerrainSize = None,
+    figure: FigureFile = None,
     layers: Layers = None,
     outer: Outermost = Outer.WALL,
     tolerance: Tolerance = None,
@@ -183,16 +184,23 @@ def compare(
 ) -> None:
     """Explore a scene by both strategies, and set what they do side by side.
 
-    Both start in the SW corner of the terrain.
+    The Seed Spreader starts in the SW corner of the terrain, the Sightseer there if no other start is given.
     """
     range_ = _range(radius)
+    if figure is not None and _same_file(check_output(figure, FIGURES), scene):
+        raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
     world = _scene(scene, start, layers, outer, tolerance, union, terrain)
     if range_ is None and world.radius is None:
         raise FormatError(f"{scene}: the scene has no radius of vision: give one with --radius R")
     corner = _scene_with(world, start=(fmpq(0), fmpq(0)))
-    spread = _explored(world, range_, Strategy.SEED_SPREADER)
-    seen = _explored(corner, range_, Strategy.SIGHTSEER)
+    seen = _explored(corner if world.start is None else world, range_, Strategy.SIGHTSEER)
+    spread = _explored(corner, range_, Strategy.SEED_SPREADER)
     console().print(comparison(seen, spread))
+    if figure is not None:
+        from exactacq.figures import save_pair
+
+        save_pair(seen, spread, figure)
+        print(f"figure written to {figure}")
 
 
 @app.command()

@@ -68,7 +68,8 @@ class Component:
     @property
     def label(self) -> str:
         """What the obstacle is called, with a letter if it has several components in reach."""
-        return self.obstacle.label + self.letter
+        space = " " if self.letter and self.name else ""
+        return f"{self.obstacle.label}{space}{self.letter}"
 
     @property
     def edges(self) -> tuple[Curve, ...]:

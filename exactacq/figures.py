@@ -9,8 +9,8 @@ from __future__ import annotations
 import io
 import math
 import os
-from collections import Counter, defaultdict
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -31,11 +31,12 @@ from matplotlib.patheffects import withStroke
 from matplotlib.transforms import Affine2D
 
 from exactacq.errors import FormatError
+from exactacq.figures_sweep import Sweep, window
 from exactacq.lengths import Length
 from exactacq.moments import Moment
 from exactacq.output import FIGURES, check_output, readable, write_whole
-from exactacq.scene import Obstacle, Scene
-from exactacq.strokes import Region, Stroke, clearance, closed
+from exactacq.scene import Scene
+from exactacq.strokes import Region, Room, Steps, Stroke, clearance, closed
 from exactacq.trace import Event, Run
 from exactacq.vision.table import Floats
 
@@ -50,19 +51,26 @@ COLOURS = 160
 """Steps of the colour scale along the path."""
 CROWDED = 300
 """Among more obstacles than this, labels that do not fit into their obstacle are left out."""
+NAMED = 9
+"""At most this many diversions have their ends named in the picture."""
 DOTS = 200
 """Resolution of PNG files in dots per inch."""
+
+STRATEGIES = {"sightseer": "Sightseer Strategy", "seed-spreader": "Seed Spreader Strategy"}
 
 INK, SOFT, PAPER = "#22262b", "#70767d", "#ffffff"
 FILL, EDGE = "#dcd7cd", "#8a8377"
 VIEW, TREE, HIT = "#3b7dd8", "#f6b64b", "#d6273d"
+AWAY, AWAY_AGAIN = "#e8590c", "#ffc9a3"
 ARROWHEAD = Outline([(-0.75, -0.62), (1, 0), (-0.75, 0.62), (-0.4, 0), (-0.75, -0.62)], closed=True)
 STYLES: dict[str, dict[str, Any]] = {
     "obstacle": {"facecolor": FILL, "edgecolor": EDGE, "linewidth": 0.8},
     "seen, never visited": {
         "facecolor": "#f4e3dc", "edgecolor": "#b3502e", "linewidth": 0.8, "linestyle": "--", "hatch": "////",
     },
+    "seen in part": {"facecolor": "#f4e3dc", "edgecolor": "#b3502e", "linewidth": 0.8, "linestyle": "--"},
     "never seen": {"facecolor": PAPER, "edgecolor": "#b3502e", "linewidth": 0.9, "linestyle": ":"},
+    "out of reach": {"facecolor": "#f5f3ef", "edgecolor": "#d3cec4", "linewidth": 0.6},
 }  # fmt: skip
 
 
@@ -76,14 +84,22 @@ def figure(subject: Run | Scene, at: Event | Length | object = None) -> Figure:
 
     Shows obstacles with the order of visits (in a scene alone: their names or numbers), the path coloured
     by its length so far, hit and leave points, tree links, start S, end T, and the radius of vision R once.
+    Of a sweep by the Seed Spreader: the M-line and its crossing points, diversions and where they leave the
+    M-line (D) and reach an obstacle (Q); faint what lies beyond the border, or cannot be reached.
+
     Raises `FormatError` for a scene that is `FINEST` times its distance from the origin or less.
     """
-    return _Drawing(subject, at).figure()
+    return _page([_Drawing(subject, at)])
+
+
+def pair(first: Run, second: Run) -> Figure:
+    """The figures of two runs side by side."""
+    return _page([_Drawing(first), _Drawing(second)])
 
 
 def svg(subject: Run | Scene) -> str:
     """The figure as SVG text; the same subject always gives the same text."""
-    return _rendered(subject, ".svg").decode()
+    return _rendered(lambda: figure(subject), ".svg").decode()
 
 
 def save(subject: Run | Scene, path: str | os.PathLike[str], at: Event | Length | object = None) -> None:
@@ -92,11 +108,17 @@ def save(subject: Run | Scene, path: str | os.PathLike[str], at: Event | Length 
     Raises `FormatError` for another suffix or a place that cannot be written, before anything is drawn.
     """
     target = check_output(path, FIGURES)
-    write_whole(target, _rendered(subject, target.suffix.lower(), at))
+    write_whole(target, _rendered(lambda: figure(subject, at), target.suffix.lower()))
 
 
-def _rendered(subject: Run | Scene, suffix: str, at: Event | Length | object = None) -> bytes:
-    """The figure as a file's content, without dates, random names or the user's own settings of matplotlib:
+def save_pair(first: Run, second: Run, path: str | os.PathLike[str]) -> None:
+    """Write the figures of two runs side by side to one file; as `save`."""
+    target = check_output(path, FIGURES)
+    write_whole(target, _rendered(lambda: pair(first, second), target.suffix.lower()))
+
+
+def _rendered(draw: Callable[[], Figure], suffix: str) -> bytes:
+    """A figure as a file's content, without dates, random names or the user's own settings of matplotlib:
     equal subjects give equal bytes."""
     maker: dict[str, str | None] = {"Creator": "exactacq"}
     metadata = {
@@ -106,12 +128,28 @@ def _rendered(subject: Run | Scene, suffix: str, at: Event | Length | object = N
     }
     out = io.BytesIO()
     with style.context(["default", {"svg.hashsalt": "exactacq", "hatch.linewidth": 0.5}]):
-        figure(subject, at).savefig(out, format=suffix[1:], metadata=metadata[suffix], dpi=DOTS)
+        draw().savefig(out, format=suffix[1:], metadata=metadata[suffix], dpi=DOTS)
     return out.getvalue()
 
 
 def _counted(count: int) -> str:
     return f"{count} obstacle" + "s" * (count != 1)
+
+
+def _page(drawings: Sequence[_Drawing]) -> Figure:
+    """Drawings side by side, their axes on one level."""
+    page = Figure()
+    FigureCanvasAgg(page)
+    for drawing in drawings:
+        drawing.draw(page)
+    below, above = (max(getattr(d, side) for d in drawings) for side in ("below", "above"))
+    high = below + max(d.height * d.scale for d in drawings) + above
+    page.set_size_inches(sum(d.full for d in drawings), high)
+    left = 0.0
+    for drawing in drawings:
+        drawing.lay_out(page, left, below - drawing.below)
+        left += drawing.full
+    return page
 
 
 class _Drawing:
@@ -122,16 +160,19 @@ class _Drawing:
         self.scene = scene = subject.scene if isinstance(subject, Run) else subject
         start = self.run.start if self.run is not None else scene.start
         radius = self.run.radius if self.run is not None else scene.radius
+        self.sweep = None if self.run is None else Sweep.of(self.run)
         self.regions = [Region.of(o) for o in scene.obstacles]
+        self.bodies = self.regions if self.sweep is None else self.sweep.regions
+        self.count = len(scene.obstacles if self.run is None else self.run.obstacles)
         self.moment = None if self.run is None or at is None else Moment.of(self.run, at)
         walked = self.moment.walked if self.moment is not None else self.run.path if self.run else ()
+        self.walked = len(walked) if self.moment is None else self.moment.count
         self.strokes = [Stroke.of(p.curve) for p in walked]
         self.pieces = walked
         self.start = None if start is None else start.xy
         self.radius = None if radius is None else float(radius)
         self.low, self.high = self._view()
         self.scale = min(WIDEST / self.width, TALLEST / self.height)
-        self.labels: list[tuple[float, float]] = []
         self.legend: dict[str, Any] = {}
 
     # -- layout ------------------------------------------------------------------------------------
@@ -140,7 +181,9 @@ class _Drawing:
         """The drawn rectangle: everything there is, a margin, and no side shorter than NARROWEST inches."""
         corners = [corner for region in self.regions for corner in region.box]
         corners += [np.array(self.start)] if self.start is not None else []
-        if (terrain := self.scene.terrain) is not None:
+        if self.sweep is not None:
+            corners = window(self.sweep.terrain, corners)
+        elif (terrain := self.scene.terrain) is not None:
             corners += [np.zeros(2), np.array([float(terrain.width), float(terrain.height)])]
         corners = corners or [np.zeros(2)]
         low, high = np.min(corners, axis=0), np.max(corners, axis=0)
@@ -169,56 +212,82 @@ class _Drawing:
         """A length of the scene in typographic points."""
         return length * self.scale * 72
 
-    def figure(self) -> Figure:
-        """The finished figure."""
-        wide, high = self.width * self.scale, self.height * self.scale
-        full = max(wide + 1.1, 6.2)
-        columns = max(1, int((full - 0.4) / 1.62))
-        figure = Figure()
-        FigureCanvasAgg(figure)
-        self.axes = axes = figure.add_axes((0, 0, 1, 1))
+    @property
+    def full(self) -> float:
+        """Width in inches of all that is drawn."""
+        return max(self.width * self.scale + 1.1, 6.2)
+
+    @property
+    def columns(self) -> int:
+        """Most entries of the legend in a row."""
+        return max(1, int((self.full - 0.4) / 1.62))
+
+    @property
+    def foot(self) -> float:
+        """Inches for the legend and the colour bar, once all is drawn."""
+        rows = math.ceil(len(self.legend) / self.columns)
+        return 0.12 + 0.19 * rows + (0.58 if self.colours is not None else 0.0)
+
+    @property
+    def below(self) -> float:
+        """Inches below the axes."""
+        return self.foot + 0.3
+
+    @property
+    def above(self) -> float:
+        """Inches above the axes."""
+        return 0.22 + 0.24 * len(self.title)
+
+    def draw(self, page: Figure) -> None:
+        """Draw everything that lies in the axes, which are laid out later."""
+        self.axes = axes = page.add_axes((0, 0, 1, 1))
         axes.set_xlim(self.low[0], self.high[0])
         axes.set_ylim(self.low[1], self.high[1])
         self._ground()
         self._view_then()
         self._obstacles()
         self._knowledge()
-        collection = self._path()
+        self.colours = self._path()
         self._marks()
+        self._sweeping()
         self._numbers()
         self._ends()
         self._range()
-        rows = math.ceil(len(self.legend) / columns)
-        below = 0.12 + 0.19 * rows + (0.58 if collection is not None else 0.0)
-        title = self._title()
-        bottom, top = below + 0.3, 0.22 + 0.24 * len(title)
-        total = bottom + high + top
-        figure.set_size_inches(full, total)
-        left = (full - wide) / 2 + (0.12 if wide + 1.1 >= full else 0)
-        axes.set_position((left / full, bottom / total, wide / full, high / total))
-        self._dress(axes)
-        for k, line in enumerate(title):
+        self.title = self._title()
+
+    def lay_out(self, page: Figure, x: float, y: float) -> None:
+        """Place axes, title, colour bar and legend with their lower left corner at (x, y), in inches."""
+        wide, high = self.width * self.scale, self.height * self.scale
+        full, total = (float(side) for side in page.get_size_inches())
+        left = x + (self.full - wide) / 2 + (0.12 if wide + 1.1 >= self.full else 0)
+        bottom = y + self.below
+        self.axes.set_position((left / full, bottom / total, wide / full, high / total))
+        self._dress(self.axes)
+        middle, top = (x + self.full / 2) / full, 1 - (total - (bottom + high + self.above)) / total
+        for k, line in enumerate(self.title):
             size, colour = ((12, INK), (9.5, SOFT), (9.5, "#b3502e"))[k]
-            place = 1 - (0.24 + 0.24 * k) / total
-            figure.text(0.5, place, line, ha="center", va="center", size=size, color=colour, parse_math=False)
-        if collection is not None:
-            length = min(full - 1.2, 5.0)
-            spot = ((full - length) / 2 / full, (below - 0.12) / total, length / full, 0.09 / total)
-            bar = figure.colorbar(collection, cax=figure.add_axes(spot), orientation="horizontal")
+            place = top - (0.24 + 0.24 * k) / total
+            page.text(
+                middle, place, line, ha="center", va="center", size=size, color=colour, parse_math=False
+            )
+        if self.colours is not None:
+            length = min(self.full - 1.2, 5.0)
+            corner = x + (self.full - length) / 2, y + self.foot - 0.12
+            spot = (corner[0] / full, corner[1] / total, length / full, 0.09 / total)
+            bar = page.colorbar(self.colours, cax=page.add_axes(spot), orientation="horizontal")
             bar.set_label("path length", size=8, color=SOFT, labelpad=1)
             bar.ax.tick_params(labelsize=7.5, colors=SOFT, length=2, width=0.6)
             bar.outline.set_visible(False)
             if bar.solids is not None:  # Curves and text apart, the bar should be sharp at any zoom, too.
                 bar.solids.set_rasterized(False)
         if self.legend:
-            figure.legend(
+            page.legend(
                 self.legend.values(), self.legend.keys(),
-                loc="lower center", bbox_to_anchor=(0.5, 0.06 / total),
-                ncol=min(columns, len(self.legend)), frameon=False, fontsize=8, labelcolor=INK, borderpad=0,
-                borderaxespad=0, handlelength=1.8, columnspacing=1.5, labelspacing=0.4,
+                loc="lower center", bbox_to_anchor=(middle, (y + 0.06) / total),
+                ncol=min(self.columns, len(self.legend)), frameon=False, fontsize=8, labelcolor=INK,
+                borderpad=0, borderaxespad=0, handlelength=1.8, columnspacing=1.5, labelspacing=0.4,
                 handler_map={tuple: HandlerTuple(ndivide=1)},
             )  # fmt: skip
-        return figure
 
     @staticmethod
     def _dress(axes: Any) -> None:
@@ -234,18 +303,22 @@ class _Drawing:
             count = sum(not o.is_enclosure for o in self.scene.obstacles)
             room = " in an enclosure" if self.scene.enclosure is not None else ""
             return [name or "Scene", f"{_counted(count)}{room}"]
-        strategy = {"sightseer": "Sightseer Strategy"}.get(run.strategy, run.strategy)
+        strategy = STRATEGIES.get(run.strategy, run.strategy)
         length = " ".join(readable(run.length, CLOSED_FORM, digits=8))
         if self.moment is not None:
             so_far = " ".join(readable(self.moment.at, CLOSED_FORM, digits=8))
-            seen = f"{len(self.moment.map.acquired)} of {_counted(len(self.scene.obstacles))} acquired"
+            seen = f"{len(self.moment.map.acquired)} of {_counted(self.count)} acquired"
             return [f"{strategy}: {name}" if name else strategy, f"after {so_far} of {length},  {seen}"]
-        visited = f"{len(run.visits)} of {_counted(len(self.scene.obstacles))} visited"
-        lines = [f"{strategy}: {name}" if name else strategy, f"length {length},  {visited}"]
-        missed = ((run.unseen, "never seen"), (run.unvisited, "seen but never visited"))
-        if not run.complete:
-            lines.append(", ".join(f"{len(which)} {what}" for which, what in missed if which))
-        return lines
+        done, part = f"{len(run.visits)} of {_counted(self.count)} visited", "seen but never visited"
+        if self.sweep is not None:
+            done, part = f"{len(run.map.acquired)} of {_counted(self.count)} acquired", "seen in part"
+        missed = [(len(run.unseen), "never seen"), (len(run.unvisited), part)]
+        if run.sweeping is not None:
+            missed.append((len(run.sweeping.unreached), "out of reach"))
+        words = [f"{number} {what}" for number, what in missed if number]
+        words += ["ended before T"] if self.sweep is not None and not self.sweep.arrives else []
+        lines = [f"{strategy}: {name}" if name else strategy, f"length {length},  {done}", ", ".join(words)]
+        return [line for line in lines if line]
 
     # -- the scene ---------------------------------------------------------------------------------
 
@@ -258,19 +331,28 @@ class _Drawing:
 
     def _obstacles(self) -> None:
         for obstacle, region in zip(self.scene.obstacles, self.regions, strict=True):
-            look = STYLES[self._kind(obstacle)]
             outline = region.outline
             if obstacle.is_enclosure:
                 outline = Outline.make_compound_path(self._frame(), outline)
-            self.axes.add_patch(PathPatch(outline, zorder=1, joinstyle="round", **look))
-            if look is not STYLES["obstacle"]:
-                self.legend.setdefault(self._kind(obstacle), Patch(**look))
+            if self.sweep is None:
+                self._fill(outline, self._kind(obstacle.index), 1)
+            elif not self.sweep.is_whole(obstacle.index):
+                self._fill(outline, "out of reach", 0.9)
+        for index, region in enumerate(self.bodies if self.sweep is not None else ()):
+            self._fill(region.outline, self._kind(index), 1)
 
-    def _kind(self, obstacle: Obstacle) -> str:
-        if self.run is not None and obstacle.index in self.run.unseen:
+    def _fill(self, outline: Outline, kind: str, level: float) -> None:
+        look = STYLES[kind]
+        self.axes.add_patch(PathPatch(outline, zorder=level, joinstyle="round", **look))
+        if look is not STYLES["obstacle"]:
+            self.legend.setdefault(kind, Patch(**look))
+
+    def _kind(self, index: int) -> str:
+        """How much of an obstacle was seen, by its number in the run."""
+        if self.run is not None and index in self.run.unseen:
             return "never seen"
-        if self.run is not None and obstacle.index in self.run.unvisited:
-            return "seen, never visited"
+        if self.run is not None and index in self.run.unvisited:
+            return "seen, never visited" if self.sweep is None else "seen in part"
         return "obstacle"
 
     def _frame(self) -> Outline:
@@ -293,7 +375,7 @@ class _Drawing:
         if self.run is None:
             return
         known = self.run.map if self.moment is None else self.moment.map
-        if self.moment is None and len(known.acquired) == len(self.scene.obstacles):
+        if self.moment is None and len(known.acquired) == self.count:
             return
         curves = [p.curve for i in known.seen for p in known.known(i) if p.curve is not None]
         paths = [Stroke.of(curve).part(0.0, 1.0) for curve in curves]
@@ -316,34 +398,33 @@ class _Drawing:
     @cached_property
     def line(self) -> float:
         """Width in points of a piece walked for the first time; less where obstacles are small."""
-        sizes = [self.points(float(np.max(high - low))) for low, high in (r.box for r in self.regions)]
-        return float(np.clip(0.09 * np.median(sizes), 1.2, 3.6)) if sizes else 3.0
+        sizes = [self.points(float(np.max(high - low))) for low, high in (r.box for r in self.bodies)]
+        width = float(np.clip(0.09 * np.median(sizes), 1.2, 3.6)) if sizes else 3.0
+        return width if self.sweep is None else min(width, 0.12 * self.points(self.sweep.width))
+
+    @cached_property
+    def away(self) -> set[int]:
+        """The numbers of the pieces of the path that belong to diversions."""
+        return set() if self.sweep is None else self.sweep.away
 
     def _path(self) -> PathCollection | None:
         """The path in steps of one colour, later traversals narrower and above; None if there is none."""
         total = sum(stroke.length for stroke in self.strokes)
         if total == 0:
             return None
-        pieces, times, mids, headings, owners = [], [], [], [], []
-        done = 0.0
-        for number, stroke in enumerate(self.strokes):
-            count = max(1, round(stroke.length / total * COLOURS)) if stroke.length else 0
-            for k in range(count):
-                pieces.append(stroke.part(k / count, (k + 1) / count))
-                middle = (k + 0.5) / count
-                times.append(done + middle * stroke.length)
-                mids.append(stroke.at(middle))
-                headings.append(stroke.heading(middle))
-                owners.append(number)
-            done += stroke.length
-        ranks = self._ranks(np.array(mids), np.array(headings), np.array(owners))
+        steps = Steps.of(self.strokes, COLOURS)
+        tolerance = 1e-7 * max(self.width, self.height)
+        ranks = steps.ranks(self.strokes, [piece.obstacle for piece in self.pieces], tolerance)
         widths = self.line * np.array([1.0, 0.5, 0.25])[np.minimum(ranks, 2)]
-        colours = ListedColormap(mpl.colormaps["viridis"](np.linspace(0.0, 0.94, 128)))
+        shades = mpl.colormaps["viridis"](np.linspace(0.0, 0.94, 128))
+        colours = ListedColormap(shades).with_extremes(under=AWAY, over=AWAY_AGAIN)
         collection = PathCollection(
-            pieces, facecolors="none", linewidths=widths, cmap=colours, norm=Normalize(0, total), zorder=3,
-            capstyle="round", joinstyle="round",
+            steps.pieces, facecolors="none", linewidths=widths, cmap=colours, norm=Normalize(0, total),
+            zorder=3, capstyle="round", joinstyle="round",
         )  # fmt: skip
-        collection.set_array(np.array(times))
+        # Steps of diversions are off the scale of lengths, which gives them the colours beyond its ends.
+        away = np.isin(steps.owners, list(self.away))
+        collection.set_array(np.where(away, np.where(ranks > 0, 2 * total, -total), steps.times))
         self.axes.add_collection(collection, autolim=False)
         self._arrows(collection)
         if ranks.any():
@@ -351,31 +432,16 @@ class _Drawing:
             self.legend["walked again (inner line)"] = lines
         return collection
 
-    def _ranks(self, mids: Floats, headings: Floats, owners: Any) -> Any:
-        """How often each step's middle was passed before: by earlier pieces along the same curve."""
-        assert self.run is not None
-        groups: dict[int | None, list[int]] = defaultdict(list)
-        for number, piece in enumerate(self.pieces):
-            groups[piece.obstacle].append(number)
-        ranks = np.zeros(len(owners), dtype=int)
-        tolerance = 1e-7 * max(self.width, self.height)
-        for members in groups.values():
-            steps = np.flatnonzero(np.isin(owners, members))
-            for number in members:
-                later = steps[owners[steps] > number]
-                if len(later):
-                    ranks[later] += self.strokes[number].covers(mids[later], headings[later], tolerance)
-        return ranks
-
     def _arrows(self, collection: PathCollection) -> None:
         """Arrowheads on the straight pieces that are long enough; two ways of one link keep apart."""
         assert self.run is not None
         size, done = self.line + 4.6, 0.0
         ways = Counter(frozenset((stroke.start, stroke.end)) for stroke in self.strokes)
-        for piece, stroke in zip(self.pieces, self.strokes, strict=True):
+        for number, (piece, stroke) in enumerate(zip(self.pieces, self.strokes, strict=True)):
             twice = ways[frozenset((stroke.start, stroke.end))] > 1
             if piece.kind == "straight" and self.points(stroke.length) > (5 if twice else 3) * size:
-                colour = collection.to_rgba(np.array(done + stroke.length / 2))
+                time = -1 if number in self.away else done + stroke.length / 2
+                colour = collection.to_rgba(np.array(time))
                 shape = MarkerStyle(ARROWHEAD, transform=Affine2D().rotate(stroke.heading(0)))
                 self.axes.plot(
                     *stroke.at(0.62 if twice else 0.5), marker=shape, markersize=size, linestyle="",
@@ -400,6 +466,27 @@ class _Drawing:
         self._dots("leave point", leaves, ms=size + 3, mfc=PAPER, mec=INK, mew=0.9, zorder=4.6)
         self._dots("hit point", [hit for _, hit in links], ms=size, mfc=HIT, mec=PAPER, mew=0.5, zorder=5)
 
+    def _sweeping(self) -> None:
+        """The M-line, its crossing points, and the ends of diversions: D on the M-line, Q where they hit."""
+        if self.sweep is None:
+            return
+        line: dict[str, Any] = {"color": SOFT, "linewidth": 0.7, "linestyle": (0, (4, 3))}
+        self.axes.plot(*zip(*self.sweep.corners, strict=True), zorder=1.5, **line)
+        self.legend["M-line"] = Line2D([], [], **line)
+        size, spots = max(self.line, 1.8), self.sweep.crossings
+        self._dots("crossing point", spots, ms=size + 1, mfc=INK, mec=PAPER, mew=0.5, zorder=4.4)
+        detours = [d for d in self.sweep.detours if d.pieces.start <= self.walked]
+        if not detours:
+            return
+        self.legend["diversion"] = Line2D([], [], color=AWAY, linewidth=3)
+        hits = [detour.hit for detour in detours if detour.hit is not None]
+        leaves = [detour.leave for detour in detours]
+        for name, spots, fill, edge in (("D", leaves, PAPER, AWAY), ("Q", hits, AWAY, PAPER)):
+            self._dots(name, spots, ms=size + 3, mfc=fill, mec=edge, mew=1, zorder=4.7)
+            for number, spot in enumerate(spots if len(detours) <= NAMED else (), 1):
+                word = f"{name}{number}" if len(self.sweep.detours) > 1 else name
+                self._write(self._beside(spot, 7 + size), word, size=8.5, color=AWAY)
+
     def _dots(self, name: str, spots: Sequence[tuple[float, float]], marker: str = "o", **style: Any) -> None:
         """Marks of one kind, and their entry in the legend."""
         if spots:
@@ -410,17 +497,19 @@ class _Drawing:
     # -- labels ------------------------------------------------------------------------------------
 
     @cached_property
-    def ink(self) -> tuple[Floats, Floats]:
-        """Starts and ends of all that labels should keep clear of: boundaries and straight pieces."""
+    def room(self) -> Room:
+        """Where labels fit: clear of boundaries and straight pieces, and rather not in an obstacle."""
         starts = [region.points for region in self.regions]
         ends = [np.roll(region.points, -1, axis=0) for region in self.regions]
         straight = [stroke for stroke in self.strokes if stroke.center is None]
         starts += [np.array([stroke.start for stroke in straight]).reshape(-1, 2)]
         ends += [np.array([stroke.end for stroke in straight]).reshape(-1, 2)]
-        return np.concatenate(starts), np.concatenate(ends)
+        inner = zip(self.scene.obstacles, self.regions, strict=True)
+        blocks = [region for obstacle, region in inner if not obstacle.is_enclosure]
+        return Room(self.low, self.high, np.concatenate(starts), np.concatenate(ends), blocks)
 
     def _write(self, place: tuple[float, float], text: str, **style: Any) -> None:
-        self.labels.append(place)
+        self.room.labels.append(place)
         settings = {"size": 9, "color": INK, "weight": "bold", "zorder": 6, **style}
         self.axes.text(
             *place, text, ha="center", va="center_baseline", parse_math=False, clip_on=True,
@@ -428,41 +517,8 @@ class _Drawing:
         )  # fmt: skip
 
     def _beside(self, place: tuple[float, float], away: float) -> tuple[float, float]:
-        """The clearest spot about *away* points from a place.
-
-        Clear of lines, other labels and the border; rather in the open than inside an obstacle.
-        """
-        reach = away / 72 / self.scale
-        turns = np.arange(16) * math.pi / 8
-        rays = np.stack((np.cos(turns), np.sin(turns)), 1)
-        spots = np.concatenate([np.array(place) + rays * reach * k for k in (1, 1.3)])
-        starts, ends = self.ink
-        nearest = np.clip(place, np.minimum(starts, ends), np.maximum(starts, ends))
-        near = np.hypot(*(nearest - place).T) < 4 * reach
-        room = clearance(spots, starts[near], ends[near])
-        room = np.minimum(room, 0.6 * self._apart(spots))
-        border = np.minimum(spots - self.low, self.high - spots).min(axis=1)
-        room = np.minimum(np.minimum(room, 1.2 * border), 1.5 * reach)
-        room -= 0.02 * reach * np.repeat((0, 1), len(turns)) + 0.6 * reach * self._blocked(spots)
-        best = spots[int(np.argmax(room))]
-        return float(best[0]), float(best[1])
-
-    def _apart(self, spots: Floats) -> Any:
-        """Distance of each spot to the nearest label so far."""
-        if not self.labels:
-            return np.full(len(spots), np.inf)
-        gaps = spots[:, None] - np.array(self.labels)
-        return np.hypot(gaps[..., 0], gaps[..., 1]).min(axis=1)
-
-    def _blocked(self, spots: Floats) -> Any:
-        """Which spots lie in an obstacle."""
-        blocked = np.zeros(len(spots), dtype=bool)
-        low, high = spots.min(axis=0), spots.max(axis=0)
-        for obstacle, region in zip(self.scene.obstacles, self.regions, strict=True):
-            least, most = region.box
-            if not obstacle.is_enclosure and (most > low).all() and (least < high).all():
-                blocked |= Outline(region.points).contains_points(spots)
-        return blocked
+        """The clearest spot about *away* points from a place."""
+        return self.room.beside(place, away / 72 / self.scale)
 
     def _numbers(self) -> None:
         """The order of visits, or the names in a scene alone: inside where there is room, else beside.
@@ -470,17 +526,17 @@ class _Drawing:
         A label that would cover another one is left out.
         """
         for index, text in self._texts():
-            if self.scene.obstacles[index].is_enclosure:
+            if self.sweep is None and self.scene.obstacles[index].is_enclosure:
                 self._write(self._wall_spot(index), text, size=10)
                 continue
-            place, depth = self.regions[index].heart()
+            place, depth = self.bodies[index].heart()
             room = self.points(depth) - self.line / 2
             size = min(10.0, 1.4 * room / (0.35 + 0.4 * max(1.6, len(text))))
             if size < 5.5 and len(self.regions) > CROWDED:
                 continue
             if size < 5.5:
                 place, size = self._beside(place, self.points(depth) + self.line / 2 + 6), 8.0
-            if self.points(float(self._apart(np.array([place]))[0])) > size:
+            if self.points(float(self.room.apart(np.array([place]))[0])) > size:
                 self._write(place, text, size=size)
 
     def _texts(self) -> Iterator[tuple[int, str]]:
@@ -505,6 +561,10 @@ class _Drawing:
         if self.moment is not None:
             size = max(self.line + 4, 6.5)
             self._dots("robot", [self.moment.place.xy], ms=size, mfc=VIEW, mec=PAPER, zorder=5.2)
+        elif self.sweep is not None and not self.sweep.arrives:
+            self._end(self.sweep.corners[-1], "T", "D")
+            if self.strokes:
+                self._dots("stop", [self.strokes[-1].end], "X", ms=8, mfc=HIT, mec=PAPER, mew=0.6, zorder=5.2)
         elif self.run is not None and self.strokes:
             self._end(self.strokes[-1].end, "T", "D")
 
@@ -533,8 +593,7 @@ class _Drawing:
             return
         self.axes.add_patch(Disc(self.start, self.radius, fill=False, alpha=0.75, zorder=0.8, **line))
         self.axes.add_patch(Disc(self.start, self.radius, color=VIEW, alpha=0.045, linewidth=0, zorder=0.5))
-        starts, ends = self.ink
-        room = np.minimum(clearance(ring, starts, ends), border * 0.8)
-        room = np.minimum(room, self._apart(ring))
+        room = np.minimum(clearance(ring, self.room.starts, self.room.ends), border * 0.8)
+        room = np.minimum(room, self.room.apart(ring))
         best = ring[int(np.argmax(np.minimum(room, 30 / 72 / self.scale)))]
         self._write((float(best[0]), float(best[1])), label, size=8.5, color=VIEW, weight="normal")

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections import defaultdict
+from collections.abc import Hashable, Iterable, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -120,9 +121,10 @@ class Stroke:
 
 @dataclass(frozen=True, slots=True)
 class Region:
-    """An obstacle's outline in floats: ``outline`` closes on itself, ``points`` run along it, ``box`` (lower
-    left, upper right) holds it."""
+    """An obstacle's outline in floats: ``outline`` of ``strokes`` closes on itself, ``points`` run along it,
+    ``box`` (lower left, upper right) holds it."""
 
+    strokes: Sequence[Stroke]
     outline: Outline
     points: Floats
     box: tuple[Floats, Floats]
@@ -130,11 +132,15 @@ class Region:
     @classmethod
     def of(cls, obstacle: Obstacle) -> Region:
         """The region that an obstacle's boundary runs around."""
-        strokes = [Stroke.of(edge) for edge in obstacle.edges]
+        return cls.around([Stroke.of(edge) for edge in obstacle.edges])
+
+    @classmethod
+    def around(cls, strokes: Sequence[Stroke]) -> Region:
+        """The region that a loop of strokes runs around."""
         outline = closed(strokes)
         extents = outline.get_extents()
         box = np.array(extents.min, dtype=float), np.array(extents.max, dtype=float)
-        return cls(outline, np.concatenate([s.points()[:-1] for s in strokes]), box)
+        return cls(strokes, outline, np.concatenate([s.points()[:-1] for s in strokes]), box)
 
     def heart(self) -> tuple[tuple[float, float], float]:
         """A point well inside, and its distance to the boundary: the best of a grid."""
@@ -151,6 +157,100 @@ class Region:
         off_centre = np.hypot(*((grid - (low + high) / 2) / np.maximum(high - low, 1e-300)).T)
         best = int(np.argmax(depth * (1 - 0.1 * off_centre)))
         return (float(grid[best, 0]), float(grid[best, 1])), float(depth[best])
+
+
+@dataclass(frozen=True, slots=True)
+class Steps:
+    """A path in short steps: of each the drawable piece, the path length, place and heading at its middle,
+    and the number of its stroke."""
+
+    pieces: list[Outline]
+    times: Floats
+    mids: Floats
+    headings: Floats
+    owners: Floats
+
+    @classmethod
+    def of(cls, strokes: Sequence[Stroke], count: int) -> Steps:
+        """About *count* steps of a path that has a length."""
+        total = sum(stroke.length for stroke in strokes)
+        pieces, times, mids, headings, owners = [], [], [], [], []
+        done = 0.0
+        for number, stroke in enumerate(strokes):
+            parts = max(1, round(stroke.length / total * count)) if stroke.length else 0
+            for k in range(parts):
+                pieces.append(stroke.part(k / parts, (k + 1) / parts))
+                middle = (k + 0.5) / parts
+                times.append(done + middle * stroke.length)
+                mids.append(stroke.at(middle))
+                headings.append(stroke.heading(middle))
+                owners.append(number)
+            done += stroke.length
+        return cls(pieces, np.array(times), np.array(mids), np.array(headings), np.array(owners))
+
+    def ranks(self, strokes: Sequence[Stroke], places: Sequence[Hashable], tolerance: float) -> Any:
+        """How often each step's middle was passed before, by earlier strokes along the same curve.
+
+        Only strokes at the same of the *places* are compared.
+        """
+        groups: dict[Hashable, list[int]] = defaultdict(list)
+        for number, place in enumerate(places):
+            groups[place].append(number)
+        ranks = np.zeros(len(self.owners), dtype=int)
+        for members in groups.values():
+            steps = np.flatnonzero(np.isin(self.owners, members))
+            for number in members:
+                later = steps[self.owners[steps] > number]
+                if len(later):
+                    ranks[later] += strokes[number].covers(self.mids[later], self.headings[later], tolerance)
+        return ranks
+
+
+@dataclass(slots=True)
+class Room:
+    """Where labels fit into a rectangle: clear of segments and of other labels, rather not in a block."""
+
+    low: Floats
+    high: Floats
+    starts: Floats
+    ends: Floats
+    blocks: Sequence[Region]
+    labels: list[tuple[float, float]] = field(default_factory=list)
+
+    def beside(self, place: tuple[float, float], reach: float) -> tuple[float, float]:
+        """The clearest spot at about a distance from a place.
+
+        Clear of lines, other labels and the border; rather in the open than inside an obstacle.
+        """
+        turns = np.arange(16) * math.pi / 8
+        rays = np.stack((np.cos(turns), np.sin(turns)), 1)
+        spots = np.concatenate([np.array(place) + rays * reach * k for k in (1, 1.3)])
+        nearest = np.clip(place, np.minimum(self.starts, self.ends), np.maximum(self.starts, self.ends))
+        near = np.hypot(*(nearest - place).T) < 4 * reach
+        room = clearance(spots, self.starts[near], self.ends[near])
+        room = np.minimum(room, 0.6 * self.apart(spots))
+        border = np.minimum(spots - self.low, self.high - spots).min(axis=1)
+        room = np.minimum(np.minimum(room, 1.2 * border), 1.5 * reach)
+        room -= 0.02 * reach * np.repeat((0, 1), len(turns)) + 0.6 * reach * self._blocked(spots)
+        best = spots[int(np.argmax(room))]
+        return float(best[0]), float(best[1])
+
+    def apart(self, spots: Floats) -> Any:
+        """Distance of each spot to the nearest label so far."""
+        if not self.labels:
+            return np.full(len(spots), np.inf)
+        gaps = spots[:, None] - np.array(self.labels)
+        return np.hypot(gaps[..., 0], gaps[..., 1]).min(axis=1)
+
+    def _blocked(self, spots: Floats) -> Any:
+        """Which spots lie in a block."""
+        blocked = np.zeros(len(spots), dtype=bool)
+        low, high = spots.min(axis=0), spots.max(axis=0)
+        for region in self.blocks:
+            least, most = region.box
+            if (most > low).all() and (least < high).all():
+                blocked |= Outline(region.points).contains_points(spots)
+        return blocked
 
 
 def closed(strokes: Iterable[Stroke]) -> Outline:

@@ -25,7 +25,8 @@ from exactacq.lengths import Length
 from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.scene import Scene
-from exactacq.shapes import Circle, Outline, Polygon
+from exactacq.seed_spreader import seed_spreader
+from exactacq.shapes import Circle, Outline, Polygon, Terrain
 from exactacq.sightseer import sightseer
 from exactacq.trace import Event, Run
 
@@ -61,6 +62,12 @@ def room() -> Run:
     shapes = [Polygon([(2, 2), (4, 2), (4, 5)], name=HOSTILE[0]), Circle((8, 4), 1, name=HOSTILE[1])]
     walls = Outline([(0, 0), (10, 0), (10, 6, "1/3"), (8, 8), (0, 8)], name="\ud800 \u202ewall")
     return sightseer(Scene(shapes, (1, 1), enclosure=walls, radius=12, name=HOSTILE[0]))
+
+
+@pytest.fixture(scope="module")
+def swept() -> Run:
+    """A sweep that diverts twice; one obstacle lies over the border."""
+    return seed_spreader(gallery.scene("case2"))
 
 
 # -- stops and frames ------------------------------------------------------------------------------
@@ -303,6 +310,46 @@ def test_an_enclosure_blocks_all_the_rest_and_nothing_to_do_is_fine(room: Run) -
     assert empty["box"] == pytest.approx([1.12 * SIZE] * 2)
 
 
+def test_a_sweep_has_its_line_its_diversions_and_components(swept: Run) -> None:
+    data = encoded(swept)
+    paper = Paper.of(swept.scene, swept.start, 8.0, swept=True)
+    assert data["title"] == "Seed Spreader Strategy: case2"
+    assert len(data["obstacles"]) == len(swept.obstacles)
+    assert [o["perimeter"] for o in data["obstacles"]] == [
+        paper.length(float(body.perimeter)) for body in swept.obstacles
+    ]
+    assert data["diversions"] == [[d.first, d.last] for d in swept.sweeping.diversions]  # type: ignore[union-attr]
+    corners = [(0, 0), (0, 20), (8, 20), (8, 0), (16, 0), (16, 20)]
+    places = [" ".join(map(str, paper.point(corner))) for corner in corners]
+    assert data["mline"] == "M" + "L".join(places)
+    assert data["beyond"].count("M") == 1
+    assert {"divert", "return", "hit", "leave"} <= {event[1] for event in data["events"]}
+    assert data["frames"][-1]["place"] == places_of(paper, swept)[-1]
+    assert all(o["acquired"] is not None for o in data["obstacles"])
+    left, top, width, height = data["terrain"]
+    x, y, depth = data["obstacles"][0]["heart"]
+    assert left < x < left + width
+    assert top < y < top + height
+    assert depth > 0
+
+
+def places_of(paper: Paper, run: Run) -> list[list[float]]:
+    return [paper.point(stop.place.xy) for stop in stops(run)]
+
+
+def test_the_sightseer_has_no_line(circles: Run) -> None:
+    data = encoded(circles)
+    assert (data["mline"], data["beyond"], data["diversions"]) == ("", "", [])
+
+
+def test_notes_call_obstacles_by_their_names() -> None:
+    wall = Polygon([(-1, 4), (9, 4), (9, 5), (-1, 5)], name="wall")
+    data = encoded(seed_spreader(Scene([Circle((4, 2), 1), wall], terrain=Terrain(9, 8), radius=5)))
+    notes = [event[3] for event in data["events"]]
+    assert notes[-1].endswith("trapped in wall")
+    assert "on the M-line" in notes
+
+
 # -- the page as text ------------------------------------------------------------------------------
 
 
@@ -355,7 +402,13 @@ def test_colours_are_those_of_the_figures_and_can_be_told_apart() -> None:
     assert colours | own | {"robot": figures.HIT} == colours
     for text, ground in (("ink", "paper"), ("soft", "paper"), ("ink", "fill"), ("ink", "ground")):
         assert contrast(colours[text], colours[ground]) >= 4.5
-    for mark, ground in (("path", "ground"), ("path", "ink"), ("frontier", "ground"), ("robot", "ground")):
+    for mark, ground in (
+        ("path", "ground"),
+        ("path", "ink"),
+        ("frontier", "ground"),
+        ("robot", "ground"),
+        ("away", "ground"),
+    ):
         assert contrast(colours[mark], colours[ground]) >= 3
     assert contrast(colours["soft"], "#e3edfb") >= 4.5  # in the list's current entry
 
@@ -372,11 +425,19 @@ def browser() -> Iterator[Chromium]:
 
 
 @pytest.fixture(scope="module")
-def pages(circles: Run, eleven: Run, room: Run, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+def pages(
+    circles: Run, eleven: Run, room: Run, swept: Run, tmp_path_factory: pytest.TempPathFactory
+) -> dict[str, Path]:
     folder = tmp_path_factory.mktemp("pages")
     found = {}
     still = sightseer(Scene([Circle((9, 0), 1)], (0, 0), radius=1))
-    for name, run in {"circles": circles, "room": room, "m11": eleven, "still": still}.items():
+    for name, run in {
+        "circles": circles,
+        "room": room,
+        "m11": eleven,
+        "still": still,
+        "swept": swept,
+    }.items():
         found[name] = folder / f"{name}.html"
         found[name].write_text(page(run, frames_of(run)), "utf-8")
     return found
@@ -404,7 +465,7 @@ def texts(browser: Chromium, selector: str) -> list[str]:
     return browser.run(f"[...document.querySelectorAll({json.dumps(selector)})].map((e) => e.textContent)")
 
 
-@pytest.mark.parametrize("name", ["circles", "room", "m11", "still"])
+@pytest.mark.parametrize("name", ["circles", "room", "m11", "still", "swept"])
 def test_it_loads_in_silence_and_asks_the_network_for_nothing(
     browser: Chromium, pages: dict[str, Path], name: str
 ) -> None:
@@ -557,6 +618,25 @@ def test_it_plays_pauses_and_ends(browser: Chromium, pages: dict[str, Path]) -> 
     assert texts(browser, "#verb") == ["Play"]
 
 
+def test_diversions_are_drawn_apart(browser: Chromium, pages: dict[str, Path], swept: Run) -> None:
+    """As far as the robot has come; together, diversions and the rest are the whole path."""
+    data = encoded(swept)
+    visible = "p.getAttribute('visibility') !== 'hidden' && p.classList.contains('away') === %s"
+    paths = f"[...document.querySelectorAll('#walked path')].filter((p) => {visible})"
+    shown = paths + ".reduce((sum, p) => sum + p.getTotalLength(), 0)"
+    browser.open(pages["swept"])
+    assert browser.run("document.querySelector('#mline').getAttribute('d')") == data["mline"]
+    assert browser.run("[...document.querySelectorAll('.swept')].every((e) => !e.hidden)") is True
+    (first, last), *_ = data["diversions"]
+    start, end = data["path"][first - 1][0], data["path"][last - 1][0]
+    for length, away in ((start - 1, 0), ((start + end) / 2, (end - start) / 2), (end + 1, end - start)):
+        slide(browser, length)
+        assert browser.run(shown % "true") == pytest.approx(away, rel=1e-3)
+        assert browser.run(shown % "false") == pytest.approx(length - away, rel=1e-3)
+    browser.open(pages["circles"])
+    assert browser.run("[...document.querySelectorAll('.swept')].every((e) => e.hidden)") is True
+
+
 def test_who_wants_no_motion_sees_one_event_after_the_other(
     browser: Chromium, pages: dict[str, Path], circles: Run
 ) -> None:
@@ -602,7 +682,7 @@ def test_hostile_names_are_text(browser: Chromium, pages: dict[str, Path]) -> No
 
 
 @pytest.mark.parametrize("size", [(1280, 800), (820, 600), (400, 800), (320, 568)])
-@pytest.mark.parametrize("name", ["circles", "room", "m11"])
+@pytest.mark.parametrize("name", ["circles", "room", "m11", "swept"])
 def test_nothing_overlaps_or_overflows(
     browser: Chromium, pages: dict[str, Path], name: str, size: tuple[int, int]
 ) -> None:

@@ -92,6 +92,26 @@ def test_what_was_missed_is_said(capsys: pytest.CaptureFixture[str], tmp_path: P
     assert "seen, but never visited  O3" in answered(capsys, "explore", "m4")
 
 
+def test_a_sweep_says_what_it_met_and_why_it_turned_aside(capsys: pytest.CaptureFixture[str]) -> None:
+    out = answered(capsys, "explore", "figure4", "--strategy", "seed-spreader")
+    assert "Seed Spreader Strategy on figure4" in out
+    assert "met  O1 → O1 → O6" in out
+    assert re.search(r"^1 +O3 +\(16, 16\) +\(57/4, 57/4\) +the line ends", out, re.M)
+    assert re.search(r"^T2 corrected .* yes ", out, re.M)
+    hasty = answered(capsys, "explore", "m25", "--strategy", "seed-spreader", "--no-lookahead")
+    assert "out of sight" in hasty
+    assert "never seen  X" in answered(capsys, "explore", "m14", "--strategy", "seed-spreader")
+
+
+def test_both_strategies_side_by_side(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    target = tmp_path / "pair.svg"
+    out = answered(capsys, "compare", "m14", "--start", "0,40", "--figure", str(target))
+    assert re.search(r"^acquired +3 of 3 +2 of 3", out, re.M)
+    assert re.search(r"^Seed Spreader / Sightseer +\d", out, re.M)
+    assert target.read_text(encoding="utf-8").startswith("<?xml")
+    assert "meets the terrain's border" in refused(capsys, "compare", "figure4")
+
+
 def test_numbers_are_exact(capsys: pytest.CaptureFixture[str]) -> None:
     out = answered(capsys, "explore", "circles", "--radius", "61/3", "--start", "0.1,-1/3")
     assert "S = (1/10, -1/3), R = 61/3" in out
@@ -189,7 +209,10 @@ def test_version_and_help(capsys: pytest.CaptureFixture[str]) -> None:
         (["--start", "x,0"], "--start: not a number"),
         (["--start", "nan,0"], "--start: not a number"),
         (["--start", "5,0"], "start"),
-        (["--strategy", "seed-spreader"], "not available in this version"),
+        (["--strategy", "seed-spreader"], "needs a terrain"),
+        (["--strategy", "seed-spreader", "--terrain", "9"], "--terrain: not two numbers"),
+        (["--strategy", "seed-spreader", "--terrain", "1/9,1/9"], "outside the terrain"),
+        (["--strategy", "seed-spreader", "--target", "far"], "--target"),
         (["--strategy", "random"], "--strategy"),
         (["--outer", "roof"], "--outer"),
         (["--tolerance", "wide"], "--tolerance: not a number"),

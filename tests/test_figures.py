@@ -9,20 +9,26 @@ import sys
 import xml.etree.ElementTree as ET
 from itertools import pairwise
 from pathlib import Path
+from random import Random
 
 import matplotlib as mpl
 import numpy as np
 import pytest
+import shapely
 from matplotlib.collections import PathCollection
 from matplotlib.path import Path as Outline
+from sweeps import swept_scene
 
 from exactacq import FormatError, InvalidScene, gallery
+from exactacq.components import ground_of
 from exactacq.curves import Arc, Segment
-from exactacq.figures import figure, save, svg
+from exactacq.figures import AWAY, figure, pair, save, save_pair, svg
+from exactacq.figures_sweep import Sweep, component_region
 from exactacq.points import Point
 from exactacq.reals import fmpq
 from exactacq.scene import Scene
-from exactacq.shapes import Circle, Polygon
+from exactacq.seed_spreader import seed_spreader
+from exactacq.shapes import Circle, Polygon, Terrain
 from exactacq.sightseer import sightseer
 from exactacq.strokes import Region, Stroke
 from exactacq.trace import Run
@@ -42,6 +48,19 @@ def circles() -> Run:
 @pytest.fixture(scope="module")
 def eleven() -> Run:
     return sightseer(gallery.scene("figure2"))
+
+
+@pytest.fixture(scope="module")
+def crossing() -> Run:
+    """A sweep among obstacles over the border, one of them in two components."""
+    corners = [(8, 3), (13, 3), (13, 6), (8, 6), (8, 5), (12, 5), (12, 4), (8, 4)]
+    shapes = [square(3, 4, 1), Circle((4, 10), 2), Polygon(corners, name="fork")]
+    return seed_spreader(Scene(shapes, terrain=Terrain(11, 10), radius=6, name="over the border"))
+
+
+@pytest.fixture(scope="module")
+def diverted() -> Run:
+    return seed_spreader(gallery.scene("m15"))
 
 
 def texts(run: Run | Scene) -> list[str]:
@@ -163,12 +182,15 @@ def test_radius_beyond_the_view_is_said_in_the_legend(circles: Run) -> None:
         Scene([square(0, 10 * k) for k in range(1, 12)], start=(0, 0), radius=10, name="a column"),
         Scene([square(3, 3)], start=(1, 1), radius=3, enclosure=square(0, 0, 9)),
         Scene(start=(0, 0), radius=3),
+        gallery.scene("m18"),
+        gallery.scene("e3"),
+        gallery.scene("case2"),
     ],
-    ids=["figure2", "row", "column", "room", "empty"],
+    ids=["figure2", "row", "column", "room", "empty", "m18", "e3", "case2"],
 )
 def test_layout_keeps_everything_apart_and_true(scene: Scene) -> None:
     """Drawing, colour bar, legend and titles do not overlap nor leave the page; both axes have one scale."""
-    drawn = figure(sightseer(scene))
+    drawn = figure(sightseer(scene) if scene.terrain is None else seed_spreader(scene))
     drawn.canvas.draw()
     axes = drawn.axes[0]
     boxes = [a.get_tightbbox() for a in drawn.axes] + [x.get_window_extent() for x in drawn.legends]
@@ -247,6 +269,148 @@ def test_scenes_alone_are_drawn_with_names() -> None:
     scene = Scene([Polygon([(0, 0), (9, 0), (9, 9), (0, 9)], name="A1"), Circle((20, 0), 5)])
     assert sorted(texts(scene)) == ["2", "A1"]
     ET.fromstring(svg(scene))
+
+
+# -- sweeps ----------------------------------------------------------------------------------------
+
+
+def area(region: Region) -> float:
+    x, y = region.points.T
+    return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
+
+
+def test_components_are_closed_along_the_border(crossing: Run) -> None:
+    """The half disc, the two tines of a fork whose handle lies outside, and what lies inside as it is."""
+    sweep = Sweep.of(crossing)
+    assert sweep is not None
+    assert [body.label for body in crossing.obstacles] == ["O1", "O2", "forka", "forkb"]
+    found = [area(region) for region in sweep.regions]
+    assert found == pytest.approx([1, 2 * math.pi, 3, 3], rel=1e-2)
+    for body, region in zip(crossing.obstacles, sweep.regions, strict=True):
+        low, high = region.box
+        assert (low >= 0).all()
+        assert (high <= (11, 10)).all()
+        (x, y), depth = region.heart()
+        assert depth > 0
+        assert body.obstacle.locate(Point(x, y)) == 1  # type: ignore[attr-defined]
+
+
+def inside(shape: Polygon, width: int, height: int) -> float:
+    """The area of a polygon within a terrain, by shapely."""
+    outline = shapely.Polygon([(float(x), float(y)) for x, y, _ in shape.vertices])
+    return float(outline.intersection(shapely.box(0, 0, width, height)).area)
+
+
+@pytest.mark.parametrize(
+    "corners",
+    [
+        [(5, -1), (9, -1), (9, 9), (-1, 9), (-1, 5), (4, 4)],  # over three corners
+        [(-1, 2), (9, 2), (9, 3), (-1, 3)],  # across: the far side is out of reach
+        [(7, 7), (9, 7), (9, 9), (7, 9)],
+        [(9, 1), (9, 7), (2, 7), (8, 4), (2, 2), (8, 1)],  # touches the border from inside itself
+        [(2, 8), (8, 2), (9, 2), (9, 9), (2, 9)],  # its ends are on two sides
+        [(2, 1), (3, 1), (3, 9), (-1, 9), (-1, 5), (2, 5)],
+    ],
+)
+def test_components_over_corners(corners: list[tuple[int, int]]) -> None:
+    shape = Polygon(corners)
+    ground = ground_of(Scene([shape], terrain=Terrain(8, 8)))
+    regions = [component_region(c, ground.terrain) for c in ground.components]
+    assert sum(map(area, regions)) == pytest.approx(inside(shape, 8, 8))
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_components_fill_what_the_terrain_leaves(seed: int) -> None:
+    scene = swept_scene(Random(seed), arcs=False)
+    ground = ground_of(scene)
+    width, height = int(ground.terrain.width), int(ground.terrain.height)
+    for obstacle, shape in zip(scene.obstacles, scene.shapes, strict=True):
+        parts = [component_region(c, ground.terrain) for c in ground.of(obstacle.index)]
+        assert all(area(part) > 0 for part in parts)
+        assert sum(map(area, parts)) == pytest.approx(inside(shape, width, height))  # type: ignore[arg-type]
+
+
+def test_a_sweep_names_all_that_it_shows(crossing: Run, diverted: Run) -> None:
+    assert {"M-line", "crossing point", "out of reach", "start S", "end T"} <= set(legend(crossing))
+    assert {"M-line", "diversion", "D", "Q"} <= set(legend(diverted))
+    assert {"out of reach", "crossing point"}.isdisjoint(legend(diverted))
+    assert {"D", "Q", "1", "S", "T", "R = 20"} == set(texts(diverted))
+    titles = [t.get_text() for t in figure(diverted).texts]
+    assert titles[0] == "Seed Spreader Strategy: m15"
+    assert titles[1].endswith("2 of 2 obstacles acquired")
+    assert len(titles) == 2
+
+
+def test_labels_lie_in_the_components_that_were_circled(crossing: Run) -> None:
+    shown = {t.get_text(): t.get_position() for t in figure(crossing).axes[0].texts}
+    for order, number in enumerate(crossing.visits, 1):
+        place = Point(*shown[str(order)])
+        assert crossing.obstacles[number].obstacle.locate(place) == 1  # type: ignore[attr-defined]
+
+
+def test_what_is_missed_by_a_sweep_is_said() -> None:
+    missed = figure(seed_spreader(gallery.scene("m14")))
+    assert [t.get_text() for t in missed.texts][2:] == ["1 never seen"]
+    ended = seed_spreader(gallery.scene("e3"))
+    assert [t.get_text() for t in figure(ended).texts][2:] == ["ended before T"]
+    assert "stop" in legend(ended)
+    wall = Polygon([(-1, 4), (9, 4), (9, 5), (-1, 5)])
+    behind = seed_spreader(Scene([wall, square(3, 6, 1)], terrain=Terrain(8, 8)), 8)
+    assert "1 out of reach" in [t.get_text() for t in figure(behind).texts][2]
+
+
+def path_colours(run: Run) -> set[str]:
+    drawn = figure(run).axes[0]
+    (path,) = (c for c in drawn.collections if c.get_zorder() == 3)
+    path.update_scalarmappable()
+    return {mpl.colors.to_hex(colour) for colour in path.get_edgecolors()}
+
+
+def test_diversions_have_their_own_colour(crossing: Run, diverted: Run) -> None:
+    assert AWAY in path_colours(diverted)
+    assert AWAY not in path_colours(crossing)
+
+
+def test_a_moment_of_a_sweep(diverted: Run) -> None:
+    """Before the diversion nothing of it is shown; at its start D and Q are; then its path."""
+    (diversion,) = diverted.sweeping.diversions  # type: ignore[union-attr]
+    leaves = next(event for event in diverted.events if event.kind == "divert")
+    before = [t.get_text() for t in figure(diverted, at=100).legends[0].get_texts()]
+    assert "D" not in before
+    assert {"M-line", "robot", "what the robot sees"} <= set(before)
+    then = figure(diverted, at=leaves)
+    assert {"D", "Q"} <= {t.get_text() for t in then.axes[0].texts}
+    assert "after" in then.texts[1].get_text()
+    assert diversion.first == leaves.after
+
+
+def test_two_runs_side_by_side(tmp_path: Path) -> None:
+    shapes = [Circle((3, 9), 1), Circle((8, 3), 1), square(4, 4)]
+    scene = Scene(shapes, (0, 0), terrain=Terrain(12, 11), radius=7, name="three")
+    seen, swept = sightseer(scene), seed_spreader(scene)
+    drawn = pair(seen, swept)
+    drawn.canvas.draw()
+    titles = [t.get_text() for t in drawn.texts]
+    assert {"Sightseer Strategy: three", "Seed Spreader Strategy: three"} <= set(titles)
+    boxes = [a.get_tightbbox() for a in drawn.axes] + [x.get_window_extent() for x in drawn.legends]
+    boxes += [t.get_window_extent() for t in drawn.texts]
+    for k, box in enumerate(boxes):
+        assert min(box.x0, box.y0) >= 0
+        assert box.x1 <= drawn.bbox.x1
+        assert box.y1 <= drawn.bbox.y1
+        assert not any(box.overlaps(other) for other in boxes[:k])
+    left, right = drawn.axes[0], drawn.axes[1]
+    assert left.bbox.y0 == pytest.approx(right.bbox.y0)
+    assert left.bbox.height == pytest.approx(right.bbox.height)
+    for suffix, magic in ((".svg", b"<?xml"), (".pdf", b"%PDF"), (".png", b"\x89PNG")):
+        paths = [tmp_path / f"{name}{suffix}" for name in "ab"]
+        for path in paths:
+            save_pair(seen, swept, path)
+        first, second = (path.read_bytes() for path in paths)
+        assert first.startswith(magic)
+        assert first == second
+    with pytest.raises(FormatError, match="must end in"):
+        save_pair(seen, swept, tmp_path / "pair.gif")
 
 
 def test_far_and_tiny_scenes_are_refused_in_words() -> None:
