@@ -15,9 +15,9 @@ from typing import NamedTuple
 from flint import fmpq
 
 from exactacq.curves import Curve, Segment
-from exactacq.points import Point
+from exactacq.points import Point, distance_sq
 from exactacq.prediction import sees_later
-from exactacq.reach import first_out_of_reach, last_in_reach, leftmost
+from exactacq.reach import first_out_of_reach, last_in_reach, leftmost, nearest_point
 from exactacq.reals import Real
 from exactacq.surveyor import Surveyor
 from exactacq.vision.knowledge import Map
@@ -141,11 +141,14 @@ class Line:
 
     def _is_visible_later(self, obstacle: int, chart: Map, y: Real) -> bool:
         """Whether by the map a known point of an obstacle can be seen from the rest of the line after *y*."""
+        return self._sees(obstacle, chart, y, Real(self.last))
+
+    def _sees(self, obstacle: int, chart: Map, start: Real, stop: Real, including: bool = False) -> bool:
         blockers = [curve for k in chart.seen for curve in known(chart, k) if _is_long(curve)]
         pieces = known(chart, obstacle)
         points = [curve.start for curve in pieces if not _is_long(curve)]
         targets = [curve for curve in pieces if _is_long(curve)]
-        return sees_later(self.x, y, self.last, targets, blockers, self.robot.radius, points)
+        return sees_later(self.x, start, stop, targets, blockers, self.robot.radius, points, including)
 
     # -- at a stop ---------------------------------------------------------------------------------
 
@@ -163,20 +166,25 @@ class Line:
                 continue
             if leave is None:
                 found.append(Loss(k, Reason.LINE_ENDS))
-            elif self._is_out_of_reach(k, chart, leave.y):
+            elif self._is_out_of_reach(k, chart, leave):
                 found.append(Loss(k, Reason.REACH))
-            elif k in robot.in_sight and self._is_hidden_from(k, chart, leave.y):
+            elif k in robot.in_sight and not self._is_visible_from(k, chart, leave):
                 found.append(Loss(k, Reason.SIGHT))
         return found
 
-    def _is_out_of_reach(self, obstacle: int, chart: Map, y: Real) -> bool:
-        curves = known(chart, obstacle)
-        last = last_in_reach(self.x, self.upward, curves, self.robot.radius)
-        return last is None or self._order(last, y) < 0
+    def _is_out_of_reach(self, obstacle: int, chart: Map, leave: Point) -> bool:
+        """Whether no known point is in reach from a leave point on or, without a look ahead, from there."""
+        curves, robot = known(chart, obstacle), self.robot
+        if not self.lookahead:
+            near = (distance_sq(leave, nearest_point(curve, leave)) for curve in curves)
+            return all(distance.compare(robot.radius * robot.radius) > 0 for distance in near)
+        last = last_in_reach(self.x, self.upward, curves, robot.radius)
+        return last is None or self._order(last, leave.y) < 0
 
-    def _is_hidden_from(self, obstacle: int, chart: Map, y: Real) -> bool:
-        """Whether by the map an obstacle cannot be seen from the line from *y* on."""
-        return not self._is_visible_later(obstacle, chart, y)
+    def _is_visible_from(self, obstacle: int, chart: Map, leave: Point) -> bool:
+        """Whether by the map an obstacle is seen from a leave point on or, without a look ahead, there."""
+        stop = Real(self.last) if self.lookahead else leave.y
+        return self._sees(obstacle, chart, leave.y, stop, including=True)
 
 
 def known(chart: Map, obstacle: int) -> list[Curve]:

@@ -46,22 +46,25 @@ TRIES = 6
 def sees_later(
     x: fmpq,
     start: Real,
-    stop: fmpq,
+    stop: Real | fmpq,
     targets: Sequence[Curve],
     blockers: Sequence[Curve],
     radius: fmpq,
     points: Sequence[Point] = (),
+    including: bool = False,
 ) -> bool:
-    """Whether from a place (x, y), y from *start* (excluded) to *stop*, a point of a target can be seen.
+    """Whether from a place (x, y), y from *start* to *stop*, a point of a target can be seen.
+
+    The start is excluded, unless *including*; the stop belongs to the walk.
 
     *blockers* are the known pieces of boundaries, the blocked side on their left; the targets are some of
     them, *points* single known points of the same obstacle. A point is seen within the radius if the segment
     to it nowhere enters the known blocked side; it may touch. Raises `Undecided` where a line of sight that
     touches one feature and is exactly as long as the range can be neither found nor excluded.
     """
-    if Real(stop).compare(start) == 0:
+    if not including and Real(stop).compare(start) == 0:
         return False
-    walk = Walk(x, start, stop, radius)
+    walk = Walk(x, start, stop, radius, including)
     goals = [curve for curve in targets if walk.may_reach(hull(curve))]
     dots = [point for point in points if walk.may_reach((*point.xy, *point.xy))]
     if not goals and not dots:

@@ -18,15 +18,20 @@ from exactacq.reals import Real
 class Walk:
     """The part of the vertical line, and the range."""
 
-    def __init__(self, x: fmpq, start: Real, stop: fmpq, radius: fmpq) -> None:
+    def __init__(self, x: fmpq, start: Real, stop: Real | fmpq, radius: fmpq, including: bool) -> None:
         self.x, self.start, self.stop, self.radius = x, start, stop, radius
-        self.sense = Real(stop).compare(start)
+        self.including = including
+        # A walk of one place goes either way.
+        self.sense = Real(stop).compare(start) or 1
         self.reach = float(radius) * (1 + 1e-9)
         self.low, self.high = sorted((float(start), float(stop)))
 
     def passes(self, y: Real) -> bool:
-        """Whether an ordinate lies beyond the start, and not beyond the stop."""
-        return y.compare(self.start) == self.sense and y.compare(self.stop) != self.sense
+        """Whether an ordinate lies beyond the start, or there if *including*, and not beyond the stop."""
+        order = y.compare(self.start)
+        return (
+            order in (self.sense, 0 if self.including else self.sense) and y.compare(self.stop) != self.sense
+        )
 
     def may_reach(self, place: tuple[float, ...]) -> bool:
         """Whether a box may be within range."""

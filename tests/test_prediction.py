@@ -83,6 +83,17 @@ def test_the_start_is_excluded() -> None:
     assert not sees(SCREEN, [], start=7, stop=7)
 
 
+def test_the_start_can_be_included() -> None:
+    """Of the slit's one line, from its one place, and from a walk that is no longer than that place."""
+    known = [*SCREEN, *SLIT]
+    for stop in (50, 0):
+        assert sees_later(fmpq(0), Real(0), fmpq(stop), SCREEN, known, fmpq(60), including=True)
+        assert not sees_later(fmpq(0), Real(0), fmpq(stop), SCREEN, known, fmpq(60))
+    root = Real(2).sqrt()
+    assert not sees_later(fmpq(0), root, root, SCREEN, known, fmpq(60), including=True)
+    assert sees_later(fmpq(0), root, root, SCREEN, SCREEN, fmpq(60), including=True)
+
+
 def test_the_range_counts() -> None:
     target = [wall(3, -1, 1)]
     assert sees(target, [], radius=3)
