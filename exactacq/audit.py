@@ -1,8 +1,10 @@
 """The audit: a finished run checked again by other means than the code that made it.
 
 Lengths are re-added in balls, pieces are located among all edges, events are replayed, bounds are computed
-again from the paper's formulas, and knowledge is decided from the target's side (`exactacq.audit_views`).
-Nothing of the strategy, the robot, the links or the sweep is used.
+again from the paper's formulas, and knowledge is decided from the target's side (`exactacq.audit_views`). For
+the Seed Spreader the components, the M-line and what blocks it are found again (`exactacq.audit_sweep`), and
+its rules are replayed (`exactacq.audit_moves`). Nothing of the strategies, the robot, the links or the
+sensing is used.
 
 Places that are not rational are compared with the path and with each other at `DIGITS` digits: there a
 deviation beyond them is not found. Everything else is exact, or a ball proves the flaw.
@@ -11,30 +13,39 @@ deviation beyond them is not found. Everything else is exact, or a ball proves t
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Collection, Iterator, Sequence
 from itertools import pairwise
 from random import Random
+from typing import Any
 
-from exactacq.audit_bounds import check_bounds, check_links, link_name
+from flint import ctx
+
+from exactacq.audit_bounds import check_bounds, check_links, link_name, sightseer_values, spreader_values
 from exactacq.audit_knowledge import MOMENTS, Knowledge
 from exactacq.audit_measure import (
+    BITS,
     DIGITS,
     SIGHTS,
+    Body,
     Track,
     Tracks,
     agrees,
     ball_sum,
     event_name,
     event_position,
+    is_part,
     passes,
     place_text,
     same,
 )
+from exactacq.audit_moves import MOVES as SWEEP_MOVES
+from exactacq.audit_moves import Replay
+from exactacq.audit_sweep import Field, check_components
 from exactacq.audit_views import World
-from exactacq.curves import Arc, Curve, Segment
+from exactacq.curves import Arc, Curve
 from exactacq.errors import AuditError
 from exactacq.lengths import Length
 from exactacq.points import Point
-from exactacq.scene import Obstacle
 from exactacq.trace import Event, Run
 
 MOVES = {
@@ -48,31 +59,49 @@ MOVES = {
 
 
 def audit(run: Run, samples: int = 64, seed: int = 0) -> None:
-    """Check a finished Sightseer run; `AuditError` names the first flaw, None is praise.
+    """Check a finished run; `AuditError` names the first flaw, None is praise.
 
     *samples* is the number of random targets, of targets beside ends of known parts, and of places on the
-    path: what is known is checked on a sample, all else completely. The same *seed* takes the same sample.
-    ValueError for runs of another strategy, `Undecided` where an exact comparison is beyond its limits. Cost:
-    about ten milliseconds a sample at ten obstacles in range, less than one a piece and an event, and that of
-    `MOMENTS` maps.
+    path: what is known, and what a sweep was about to lose, is checked on a sample, all else completely. The
+    same *seed* takes the same sample. ValueError for runs of another strategy, `Undecided` where an exact
+    comparison is beyond its limits. Cost: about ten milliseconds a sample at ten obstacles in range, less
+    than one a piece and an event, and that of `MOMENTS` maps; of a sweep that of a map for each piece on its
+    lines besides.
     """
-    if run.strategy != "sightseer":
+    if (run.strategy, run.sweeping is None) not in (("sightseer", True), ("seed-spreader", False)):
         raise ValueError(f"no audit for runs of the strategy {run.strategy!r}")
     rng = Random(seed)
     world = World(run.scene)
+    field = None if run.sweeping is None else Field(run, world)
+    if field is not None:
+        check_components(run, field)
+    bodies = list(_bodies(run, world))
     _check_continuity(run)
-    tracks = _check_pieces(run, world)
+    tracks = _check_pieces(run, world, bodies, field)
     _check_length(run)
-    _check_events(run, rng)
-    _check_moves(run, tracks)
-    check_links(run)
+    _check_events(run, rng, MOVES if field is None else SWEEP_MOVES)
+    if field is None:
+        _check_moves(run, tracks)
+        check_links(run)
+    else:
+        Replay(run, field, bodies, tracks, rng).check()
     _check_sights(run)
-    check_bounds(run, world)
+    check_bounds(run, sightseer_values(run, world) if field is None else spreader_values(run, field))
     _check_accounts(run)
-    knowledge = Knowledge(run, world, tracks, rng)
+    knowledge = Knowledge(run, world, bodies, tracks, rng)
     knowledge.check_maps()
     knowledge.check_targets(samples)
     knowledge.check_in_sight(samples)
+
+
+def _bodies(run: Run, world: World) -> Iterator[Body]:
+    """What the numbers of obstacles in a run mean: obstacles of the scene, or shores of components."""
+    for k, obstacle in enumerate(run.obstacles):
+        body: Any = obstacle
+        owner = k if run.sweeping is None else body.obstacle.index
+        first, parts = world.first[owner], range(len(body.edges))
+        edges = parts if run.sweeping is None else [part.edge for part in body.shore]
+        yield Body(k, owner, body.edges, [first + e for e in edges], body.closed)
 
 
 # -- the path --------------------------------------------------------------------------------------
@@ -89,8 +118,11 @@ def _check_continuity(run: Run) -> None:
         here = piece.end
 
 
-def _check_pieces(run: Run, world: World) -> Tracks:
-    """Straight pieces stay out of interiors, boundary pieces keep to one edge, which is returned."""
+def _check_pieces(run: Run, world: World, bodies: Sequence[Body], field: Field | None) -> Tracks:
+    """Straight pieces stay out of interiors, boundary pieces keep to one edge, which is returned.
+
+    Of a sweep both stay in the terrain: boundaries are shores, and it is enough that ends do.
+    """
     tracks: Tracks = []
     for k, piece in enumerate(run.path):
         i = piece.obstacle
@@ -99,12 +131,14 @@ def _check_pieces(run: Run, world: World) -> Tracks:
         track = None
         if i is None:
             _check_straight(world, k, piece.curve)
-        elif i not in range(len(run.scene.obstacles)):
+        elif i not in range(len(bodies)):
             raise AuditError(f"piece {k} is along obstacle {i}, which the scene does not have")
         else:
-            track = _track(world, run.scene.obstacles[i], piece.curve)
+            track = _track(bodies[i], piece.curve)
             if track is None:
                 raise AuditError(f"piece {k} does not lie on an edge of obstacle {i}")
+        if field is not None and not (field.contains(piece.start) and field.contains(piece.end)):
+            raise AuditError(f"piece {k} leaves the terrain")
         tracks.append(track)
     return tracks
 
@@ -118,33 +152,13 @@ def _check_straight(world: World, k: int, curve: Curve) -> None:
         raise AuditError(f"piece {k} passes through the interior of obstacle {inside} at {place_text(point)}")
 
 
-def _track(world: World, obstacle: Obstacle, curve: Curve) -> Track | None:
-    first = world.first[obstacle.index]
+def _track(body: Body, curve: Curve) -> Track | None:
     for forward in (True, False):
         walked = curve if forward else curve.reversed()
-        for k, edge in enumerate(obstacle.edges):
-            if _is_part(walked, edge):
-                return Track(first + k, forward)
+        for number, edge in zip(body.edges, body.curves, strict=True):
+            if is_part(walked, edge):
+                return Track(number, forward)
     return None
-
-
-def _is_part(curve: Curve, edge: Curve) -> bool:
-    """Whether a curve is a part of an edge, longer than a point, in the edge's sense."""
-    if isinstance(curve, Segment) and isinstance(edge, Segment):
-        ends_match = all(edge.may_pass(p, 64) and edge.passes(p) for p in (curve.start, curve.end))
-        return ends_match and curve.direction.dot(edge.direction).sign() > 0
-    if isinstance(curve, Segment) or isinstance(edge, Segment):
-        return False
-    if (curve.ccw, curve.radius_sq) != (edge.ccw, edge.radius_sq) or not same(curve.center, edge.center):
-        return False
-    if same(curve.start, edge.start) and same(curve.end, edge.end):
-        return curve.full == edge.full
-    if curve.full or not all(edge.may_pass(p, 64) and edge.passes(p) for p in (curve.start, curve.end)):
-        return edge.full and edge.on_circle(curve.start)
-    if edge.full or same(curve.start, edge.start) or same(curve.end, edge.end):
-        return True
-    reverse = same(curve.start, edge.end) or same(curve.end, edge.start)
-    return not reverse and edge.part(edge.start, curve.end).contains(curve.start)
 
 
 def _check_length(run: Run) -> None:
@@ -165,14 +179,14 @@ def _place(run: Run, after: int) -> Point:
     return run.path[after - 1].end if after else run.start
 
 
-def _check_events(run: Run, rng: Random) -> None:
+def _check_events(run: Run, rng: Random, moves: Collection[str]) -> None:
     """Events lie on the path where they say, in its order, from the start to the stop."""
     kinds = [event.kind for event in run.events]
     if kinds[:1] != ["start"] or kinds[-1:] != ["stop"] or not {"start", "stop"}.isdisjoint(kinds[1:-1]):
         raise AuditError("events begin with one start and end with one stop")
     places = []
     for event in run.events:
-        if event.kind not in MOVES and event.kind not in SIGHTS:
+        if event.kind not in moves and event.kind not in SIGHTS:
             raise AuditError(f"{event_name(run, event)} is of no known kind")
         if not _is_at(run, event):
             raise AuditError(f"{event_name(run, event)} is not on the path: {place_text(event.point)}")
@@ -186,7 +200,9 @@ def _check_events(run: Run, rng: Random) -> None:
         raise AuditError("the stop is not at the end of the path")
     for event in rng.sample(run.events, min(MOMENTS, len(run.events))):
         done = ball_sum([piece.curve for piece in run.path[: event.after]])
-        if not agrees(event.at, done + event_position(run, event)[1]):
+        with ctx.workprec(BITS):
+            here = done + event_position(run, event)[1]
+        if not agrees(event.at, here):
             raise AuditError(
                 f"{event_name(run, event)} says that it is at {event.at.decimal(20)}... of the path"
             )
@@ -298,11 +314,15 @@ def _check_sights(run: Run) -> None:
 
 
 def _check_accounts(run: Run) -> None:
-    """Unseen and unvisited obstacles, and the events of sight, agree with the map."""
+    """Unseen and unvisited obstacles, and the events of sight, agree with the map.
+
+    A sweep that comes to its end has acquired what it has seen; what it has not is unvisited.
+    """
     seen, acquired, visits = set(run.map.seen), set(run.map.acquired), set(run.visits)
+    left = seen - (visits if run.sweeping is None else acquired)
     for name, claimed, expected in (
-        ("unseen", run.unseen, set(range(len(run.scene.obstacles))) - seen),
-        ("unvisited", run.unvisited, seen - visits),
+        ("unseen", run.unseen, set(range(len(run.obstacles))) - seen),
+        ("unvisited", run.unvisited, left),
         ("sighted in events", _obstacles(run, "sight"), seen),
         ("acquired in events", _obstacles(run, "acquire"), acquired),
     ):
@@ -312,6 +332,10 @@ def _check_accounts(run: Run) -> None:
         raise AuditError(
             f"obstacles {sorted(visits - acquired)} were visited, but the map lacks parts of them"
         )
+    if run.sweeping is not None and left and "trapped" not in run.events[-1].note:
+        raise AuditError(f"obstacles {sorted(left)} were seen, but not acquired when T was reached")
+    if run.sweeping is not None and (run.links or run.stack_depth):
+        raise AuditError("a sweep has no links and no stack")
 
 
 def _obstacles(run: Run, kind: str) -> list[int]:

@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from flint import arb, ctx
 
 from exactacq.audit_measure import BITS, agrees, ball_sum
+from exactacq.audit_sweep import Field
 from exactacq.audit_views import World
 from exactacq.contacts import nearest_points
-from exactacq.curves import Segment
+from exactacq.curves import Arc, Segment
 from exactacq.errors import AuditError
 from exactacq.lengths import Length
+from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.trace import Run, TreeLink
+
+VISITS = ("(4)", "L3 corrected")
+"""Bounds of the number of visits, not of a length."""
 
 
 def link_name(link: TreeLink) -> str:
@@ -35,19 +42,22 @@ def check_links(run: Run) -> None:
         raise AuditError(f"the links walked add up to {total.decimal(20)}..., the straight pieces do not")
 
 
-def check_bounds(run: Run, world: World) -> None:
+def check_bounds(run: Run, values: Mapping[str, arb]) -> None:
     """Each bound has the value of its formula, and holds if and only if it says so."""
     names = [bound.name for bound in run.bounds]
-    values = _bound_values(run, world)
     if names != list(values):
         raise AuditError(f"the bounds are {names}, not {list(values)}")
-    length = ball_sum([piece.curve for piece in run.path])
+    way = ball_sum([piece.curve for piece in run.path])
+    visits = 0 if run.sweeping is None else len(run.sweeping.encounters)
     for bound in run.bounds:
         value = values[bound.name]
+        of_visits = bound.name in VISITS
+        length = arb(visits) if of_visits else way
         if not agrees(bound.value, value):
             raise AuditError(f"bound {bound.name} is {bound.value.decimal(20)}..., not {value.str(20)}")
         # Where balls cannot tell the two apart they may be equal, which only exact lengths decide.
-        holds = True if length < value else False if length > value else run.length <= bound.value
+        exact = Length(visits) if of_visits else run.length
+        holds = True if length < value else False if length > value else exact <= bound.value
         if bound.holds is not holds:
             raise AuditError(f"bound {bound.name} says {bound.holds}, but holds is {holds}")
         with ctx.workprec(BITS):
@@ -56,7 +66,7 @@ def check_bounds(run: Run, world: World) -> None:
             raise AuditError(f"bound {bound.name} has the ratio {bound.ratio}, not {ratio.str(17)}")
 
 
-def _bound_values(run: Run, world: World) -> dict[str, arb]:
+def sightseer_values(run: Run, world: World) -> dict[str, arb]:
     """The paper's (1) and (2), and the forms that hold; S-S1 is the way from a free start, v a link.
 
     (1)  2 (n - 1) min(R, d_max) + 3/2 sum p + (n - 2)/2 p_max;  (2)  the same with R for the minimum;
@@ -83,6 +93,58 @@ def _bound_values(run: Run, world: World) -> dict[str, arb]:
             "T1 corrected": corrected,
             "(2) + S-S1": wide + approach,
         }
+
+
+def spreader_values(run: Run, field: Field) -> dict[str, arb]:
+    """The paper's (4)-(6) and (8)-(11), and the forms of Lemma 3 and Theorem 2 that hold.
+
+    (4)  n + n n_0 + 1/2 sum n_j (n_j - 1);
+    (5)  A + r (w + A) + 2 n w + 3 sum p + 2 n n_0 p_max + p_max sum n_j (n_j - 1);
+    (6)  the same with A + B + r A + 2 n R for the first terms;  (8)  A + B + r A;
+    (9)  (6) without the terms with p_max;  (10)  half of what (6) has of p;  (11)  both;
+    L3 corrected  (4) + re, the number of times that known obstacles blocked the M-line;
+    T2 corrected  (6) + the p of those, or (10) + half of it where no obstacle meets the border.
+    """
+    assert run.sweeping is not None
+    a, b, reach, n = field.height, field.width, run.radius, len(run.obstacles)
+    r, w = len(field.lines) - 1, min(run.radius, field.width)
+    crossing = {mark.owner for mark in field.marks if mark.owner is not None}
+    counts = Counter(_strip(field, k) for k in range(n) if k not in crossing)
+    counts[0] = len(crossing)
+    pairs = sum(count * (count - 1) for count in counts.values())
+    with ctx.workprec(BITS):
+        perimeters = [ball_sum(body.edges) for body in run.obstacles]
+        total, largest = sum(perimeters, arb(0)), _greatest([*perimeters, arb(0)])
+        hops = largest * (2 * n * len(crossing) + pairs)
+        again = sum((perimeters[k] for k in run.sweeping.again), arb(0))
+        visits = arb(n + n * len(crossing)) + arb(pairs) / 2
+        sweep = arb(a + b + r * a)
+        wide = sweep + arb(2 * n * reach)
+        part = arb(1) / 2 if all(body.closed for body in run.obstacles) else arb(1)
+        return {
+            "(4)": visits,
+            "L3 corrected": visits + len(run.sweeping.again),
+            "(5)": arb(a + r * (w + a) + 2 * n * w) + 3 * total + hops,
+            "(6)": wide + 3 * total + hops,
+            "(8)": sweep,
+            "(9)": wide + 3 * total,
+            "(10)": wide + total * 3 / 2 + hops / 2,
+            "(11)": wide + total * 3 / 2,
+            "T2 corrected": wide + 3 * part * total + part * hops + part * again,
+        }
+
+
+def _strip(field: Field, k: int) -> int:
+    """The strip that a component lies in that does not cross the M-line: the first that reaches its east."""
+    component: Any = field.run.obstacles[k]
+    curves = [part.curve for shore in (component.shore, *component.hidden) for part in shore]
+    points = [end for curve in curves for end in (curve.start, curve.end)]
+    for curve in curves:
+        if isinstance(curve, Arc):
+            east = Point(curve.center.x + curve.radius, curve.center.y)
+            points += [east] if curve.contains(east) else []
+    far = max(point.x for point in points)
+    return next(j for j, x in enumerate(field.lines) if far <= x)
 
 
 def _greatest(balls: Sequence[arb]) -> arb:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from random import Random
 from typing import Any, NamedTuple
 
-from flint import arb, fmpq
+from flint import arb, ctx, fmpq
 
 from exactacq.audit_measure import (
+    BITS,
     SIGHTS,
+    Body,
     Tracks,
     agrees,
     ball_of,
@@ -18,14 +20,15 @@ from exactacq.audit_measure import (
     event_position,
     passes,
     place_text,
+    rational_on,
     refined,
     same,
 )
 from exactacq.audit_views import Lookout, World, point_at, point_near, visible
 from exactacq.curves import Arc, Curve, Segment
 from exactacq.errors import AuditError
+from exactacq.numerals import rational
 from exactacq.points import Point
-from exactacq.scene import Obstacle
 from exactacq.trace import Event, Run
 
 MOMENTS = 6
@@ -46,8 +49,9 @@ class _Moment(NamedTuple):
 class Knowledge:
     """The maps of a run, checked in themselves and against what the path sees."""
 
-    def __init__(self, run: Run, world: World, tracks: Tracks, rng: Random) -> None:
+    def __init__(self, run: Run, world: World, bodies: Sequence[Body], tracks: Tracks, rng: Random) -> None:
         self.run, self.world, self.tracks, self.rng = run, world, tracks, rng
+        self.bodies = bodies
         self.on = [None if track is None else track.edge for track in tracks]
         self.lookout = Lookout(world, run.radius, [piece.curve for piece in run.path], self.on)
         self.events = {(e.kind, e.obstacle): e for e in run.events if e.kind in ("sight", "acquire")}
@@ -63,7 +67,7 @@ class Knowledge:
     def check_maps(self) -> None:
         """Each map's parts are in order, and its lists and lengths are what they add up to."""
         for name, _, _, chart in self.moments:
-            states = [self._check_parts(name, chart, obstacle) for obstacle in self.run.scene.obstacles]
+            states = [self._check_parts(name, chart, body) for body in self.bodies]
             for kind, claimed in (("acquired", chart.acquired), ("incomplete", chart.incomplete)):
                 expected = [i for i, state in enumerate(states) if state == kind]
                 if list(claimed) != expected:
@@ -73,15 +77,15 @@ class Knowledge:
             if sorted(chart.seen) != sorted((*chart.acquired, *chart.incomplete)):
                 raise AuditError(f"{name}: seen obstacles are {list(chart.seen)}")
 
-    def _check_parts(self, name: str, chart: Any, obstacle: Obstacle) -> str:
+    def _check_parts(self, name: str, chart: Any, body: Body) -> str:
         """Parts of one obstacle are on their edges, in order and apart; returns what they make of it."""
         total, before = arb(0), (-1, arb(0))
-        parts = chart.known(obstacle.index)
+        i, parts = body.number, chart.known(body.number)
         ends = []
         for part in parts:
-            edge = obstacle.edges[part.edge]
+            edge = body.curves[part.edge]
             ends_text = f"from {place_text(part.start)} to {place_text(part.end)}"
-            where = f"{name}: the part of obstacle {obstacle.index} {ends_text}"
+            where = f"{name}: the part of obstacle {i} {ends_text}"
             if not (passes(edge, part.start) and passes(edge, part.end)):
                 raise AuditError(f"{where} is not on edge {part.edge}")
             low, high = span(edge, part)
@@ -89,21 +93,18 @@ class Knowledge:
                 raise AuditError(f"{where} runs against edge {part.edge}")
             if part.edge < before[0] or (part.edge == before[0] and not before[1] < low):
                 raise AuditError(f"{where} is not beyond the one before")
-            before, total = (part.edge, high), total + high - low
+            with ctx.workprec(BITS):
+                before, total = (part.edge, high), total + high - low
             ends += [p for p in (part.start, part.end) if not (same(p, edge.start) or same(p, edge.end))]
-        if not agrees(chart.known_length(obstacle.index), total):
-            raise AuditError(
-                f"{name}: the known length of obstacle {obstacle.index} is not that of its parts"
-            )
-        whole = [is_whole(obstacle.edges[part.edge], part) for part in parts]
-        if len(whole) == len(obstacle.edges) and all(whole):
+        if not agrees(chart.known_length(i), total):
+            raise AuditError(f"{name}: the known length of obstacle {i} is not that of its parts")
+        whole = [is_whole(body.curves[part.edge], part) for part in parts]
+        if len(whole) == len(body.curves) and all(whole):
             return "acquired"
-        frontier = [point for i, point in chart.frontier if i == obstacle.index]
+        frontier = [point for k, point in chart.frontier if k == i]
         for end in ends:
             if not any(same(end, point) for point in frontier):
-                raise AuditError(
-                    f"{name}: {place_text(end)} of obstacle {obstacle.index} is missing in the frontier"
-                )
+                raise AuditError(f"{name}: {place_text(end)} of obstacle {i} is missing in the frontier")
         return "incomplete" if parts else "unseen"
 
     # -- maps against the path ---------------------------------------------------------------------
@@ -162,13 +163,13 @@ class Knowledge:
 
     def _targets(self, samples: int) -> Iterator[tuple[int, Point]]:
         """Obstacles with rational points of their boundaries: anywhere, and beside ends of known parts."""
-        obstacles = self.run.scene.obstacles
-        for _ in range(samples if obstacles else 0):
-            obstacle = self.rng.choice(obstacles)
-            edge = self.rng.choice(obstacle.edges)
-            place = point_at(edge, fmpq(self.rng.randrange(1 << 10), 1 << 10))
+        for _ in range(samples if self.bodies else 0):
+            body = self.rng.choice(self.bodies)
+            k = self.rng.randrange(len(body.curves))
+            edge, share = self.world.edges[body.edges[k]], fmpq(self.rng.randrange(1 << 10), 1 << 10)
+            place = point_on(edge, body.curves[k], share)
             if place is not None:
-                yield obstacle.index, place
+                yield body.number, place
         ends = [
             (i, part.edge, end)
             for moment in self.moments
@@ -177,9 +178,10 @@ class Knowledge:
             for end in (part.start, part.end)
         ]
         for i, k, end in self.rng.sample(ends, min(samples // 2, len(ends))):
-            beside = [point_near(obstacles[i].edges[k], end, shift) for shift in (-ASIDE, ASIDE)]
+            edge, curve = self.world.edges[self.bodies[i].edges[k]], self.bodies[i].curves[k]
+            beside = [point_near(edge, end, shift) for shift in (-ASIDE, ASIDE)]
             for place in (*beside, end if end.rational else None):
-                if place is not None:
+                if place is not None and curve.contains(place):
                     yield i, place
 
     def check_in_sight(self, samples: int) -> None:
@@ -192,9 +194,10 @@ class Knowledge:
             k, point = place
             states = self._states(k, point)
             for i in self.rng.sample(sorted(states), min(3, len(states))):
-                numbers = self.world.edges_of(i)
-                edges = [self.world.edges[e] for e in numbers]
-                lookout = lookouts.setdefault(i, Lookout(self.world, self.run.radius, edges, numbers))
+                body = self.bodies[i]
+                lookout = lookouts.setdefault(
+                    i, Lookout(self.world, self.run.radius, body.curves, body.edges)
+                )
                 if (lookout.first(point) is not None) != states[i]:
                     claim = "in sight" if states[i] else "out of sight"
                     raise AuditError(
@@ -209,8 +212,8 @@ class Knowledge:
         curve, track = self.run.path[k].curve, self.tracks[k]
         share = fmpq(self.rng.randrange(1, 1 << 10), 1 << 10)
         if isinstance(curve, Segment):
-            point = curve.point(share)
-            return None if point.rational is None else (k, point)
+            point = rational_on(curve, share)
+            return None if point is None else (k, point)
         assert track is not None
         place = point_at(self.world.edges[track.edge], share)
         return None if place is None or not curve.contains(place) else (k, place)
@@ -219,7 +222,7 @@ class Knowledge:
         """Whether each obstacle, but for acquired ones, is in sight at a place; empty at an event's place."""
         curve = self.run.path[k].curve
         here = refined(lambda bits: ball_to(curve, point, bits))
-        states: dict[int, bool | None] = dict.fromkeys(range(len(self.run.scene.obstacles)), False)
+        states: dict[int, bool | None] = dict.fromkeys(range(len(self.bodies)), False)
         for event in self.run.events:
             if event.kind not in SIGHTS or event.after > k:
                 continue
@@ -238,6 +241,14 @@ class Knowledge:
 
 def _inside(event: Event) -> Point | None:
     return event.point if event.inside else None
+
+
+def point_on(edge: Curve, part: Curve, share: fmpq) -> Point | None:
+    """A rational point at about a share of a part of an edge of the scene, None if there is none at hand."""
+    if part is edge:
+        return point_at(edge, share)
+    place = point_near(edge, part.start, rational(float(ball_of(part, BITS))) * share)
+    return place if place is not None and part.contains(place) else None
 
 
 def is_whole(edge: Curve, part: Any) -> bool:

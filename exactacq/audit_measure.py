@@ -8,10 +8,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import NamedTuple, TypeAlias
 
-from flint import arb, ctx
+from flint import arb, ctx, fmpq
 
 from exactacq.curves import Arc, Curve, Segment
 from exactacq.lengths import Length
+from exactacq.numerals import rational
 from exactacq.points import Point
 from exactacq.trace import Event, Run
 
@@ -31,6 +32,19 @@ class Track(NamedTuple):
 
 
 Tracks: TypeAlias = "list[Track | None]"
+
+
+class Body(NamedTuple):
+    """A boundary that the robot can walk, number ``number`` of a run: ``curves``, a loop if ``closed``.
+
+    ``edges`` are the numbers of the scene's edges on which the curves lie, all of obstacle ``obstacle``.
+    """
+
+    number: int
+    obstacle: int
+    curves: Sequence[Curve]
+    edges: Sequence[int]
+    closed: bool
 
 
 def refined(compute: Callable[[int], arb]) -> arb:
@@ -80,6 +94,11 @@ def agrees(length: Length, ball: arb) -> bool:
         return not (arb(high) < ball or arb(low) > ball)
 
 
+def is_close(a: arb, b: arb) -> bool:
+    """Whether two balls do not exclude that they are equal."""
+    return not (a < b or a > b)
+
+
 def same(a: Point, b: Point) -> bool:
     """Whether two points are equal: by their form if that shows it, else decided."""
     return a is b or a.key == b.key or a == b
@@ -109,3 +128,37 @@ def event_position(run: Run, event: Event) -> tuple[int, arb]:
         return event.after, arb(0)
     curve = run.path[event.after].curve
     return event.after, refined(lambda bits: ball_to(curve, event.point, bits))
+
+
+def is_part(curve: Curve, edge: Curve) -> bool:
+    """Whether a curve is a part of an edge, longer than a point, in the edge's sense."""
+    if isinstance(curve, Segment) and isinstance(edge, Segment):
+        ends_match = all(edge.may_pass(p, 64) and edge.passes(p) for p in (curve.start, curve.end))
+        return ends_match and curve.direction.dot(edge.direction).sign() > 0
+    if isinstance(curve, Segment) or isinstance(edge, Segment):
+        return False
+    if (curve.ccw, curve.radius_sq) != (edge.ccw, edge.radius_sq) or not same(curve.center, edge.center):
+        return False
+    if same(curve.start, edge.start) and same(curve.end, edge.end):
+        return curve.full == edge.full
+    if curve.full or not all(edge.may_pass(p, 64) and edge.passes(p) for p in (curve.start, curve.end)):
+        return edge.full and edge.on_circle(curve.start)
+    if edge.full or same(curve.start, edge.start) or same(curve.end, edge.end):
+        return True
+    reverse = same(curve.start, edge.end) or same(curve.end, edge.start)
+    return not reverse and edge.part(edge.start, curve.end).contains(curve.start)
+
+
+def rational_on(segment: Segment, share: fmpq) -> Point | None:
+    """A rational point at about a share of a segment with rational ends or along an axis, else None."""
+    place = segment.point(share)
+    if place.rational is not None:
+        return place
+    x, y = (c.rational for c in segment.start)
+    if x is not None and segment.direction.x.rational == 0:
+        place = Point(x, rational(float(place.y)))
+    elif y is not None and segment.direction.y.rational == 0:
+        place = Point(rational(float(place.x)), y)
+    else:
+        return None
+    return place if segment.contains(place) else None

@@ -90,7 +90,7 @@ class World:
         cuts.sort()
         for a, b in pairwise([*cuts, end]):
             if a != b:
-                middle = origin + direction * _between(a, b)
+                middle = origin + direction * between(a, b)
                 for k in sorted(owners):
                     if self.obstacles[k].locate(middle) is Location.INSIDE:
                         return k, middle
@@ -194,7 +194,7 @@ def _identity(curve: Curve) -> object:
     return a, b, curve.center.key, curve.radius_sq, curve.full
 
 
-def _between(a: Real, b: Real) -> object:
+def between(a: Real, b: Real) -> object:
     """A number strictly between, rational if floats can tell the two apart."""
     low, high = float(a), float(b)
     middle = (low + high) / 2

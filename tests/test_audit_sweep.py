@@ -1,0 +1,600 @@
+"""The audit of sweeps finds planted flaws of every kind by name, and nothing in good runs.
+
+Paths are planted whole: the sensing of the planted path is repeated, so its maps fit, and what is wrong is
+the move alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import fields, replace
+from fractions import Fraction as Q
+from functools import cache
+from itertools import pairwise
+from random import Random
+from typing import Any
+
+import pytest
+from sweeps import rectangle, swept_scene
+
+import exactacq as xa
+from exactacq import Polygon, Scene, Terrain
+from exactacq.audit import audit
+from exactacq.curves import Curve, Segment
+from exactacq.errors import AuditError
+from exactacq.lengths import Length
+from exactacq.points import Point
+from exactacq.trace import Event, Path, Piece, Run
+
+SWEPT = (
+    "case1", "case2", "case3", "e3", "figure3", "figure4", "m14", "m15", "m18", "m20-3", "m20-6", "m20-8",
+    "m20-16", "m25",
+)  # fmt: skip
+
+
+def refused(run: Run, *words: str, samples: int = 8) -> None:
+    """The audit names the flaw in these words."""
+    with pytest.raises(AuditError) as caught:
+        audit(run, samples=samples)
+    for word in words:
+        assert word in str(caught.value)
+
+
+class TestGoodRuns:
+    @pytest.mark.parametrize("name", SWEPT)
+    def test_gallery(self, name: str) -> None:
+        audit(xa.seed_spreader(xa.load(name)), samples=24)
+
+    @pytest.mark.parametrize("name", ["m15", "m18", "m25"])
+    def test_options(self, name: str) -> None:
+        audit(xa.seed_spreader(xa.load(name), lookahead=False), samples=16)
+        audit(xa.seed_spreader(xa.load(name), target="visible"), samples=16)
+
+    @pytest.mark.parametrize("seed", range(36))
+    def test_random_scenes(self, seed: int) -> None:
+        scene = swept_scene(Random(seed), arcs=seed % 2 == 1, clear=seed % 5 == 0)
+        target = "visible" if seed % 7 == 0 else "known"
+        audit(xa.seed_spreader(scene, lookahead=seed % 3 != 0, target=target), samples=16)
+
+    def test_empty_terrain(self) -> None:
+        audit(xa.seed_spreader(Scene([], terrain=Terrain(10, 4)), 3))
+        audit(xa.seed_spreader(Scene([], terrain=Terrain(Q(7, 3), 1)), 9))
+
+    def test_what_cannot_be_reached(self) -> None:
+        """A wall from border to border, an obstacle behind it, and a pocket."""
+        wall, behind, before = (
+            rectangle(-1, 2, 5, 3),
+            rectangle(1, Q(7, 2), 2, 5),
+            rectangle(1, 1, 2, Q(3, 2)),
+        )
+        audit(xa.seed_spreader(Scene([wall, behind, before], terrain=Terrain(4, 4)), 1))
+        hook = Polygon([(2, 5), (2, 1), (6, 1), (6, 2), (3, 2), (3, 5)])
+        audit(xa.seed_spreader(Scene([hook, rectangle(4, 3, 5, 4)], terrain=Terrain(6, 5)), 2))
+        notch = Polygon([(1, 5), (1, 2), (2, 2), (Q(5, 2), 4), (3, 2), (4, 2), (4, 5)])
+        audit(xa.seed_spreader(Scene([notch], terrain=Terrain(8, 4)), 3))
+
+    def test_trapped(self) -> None:
+        audit(xa.seed_spreader(Scene([xa.Circle((9, 0), 1)], terrain=Terrain(9, 4)), 3))
+
+
+class TestSensing:
+    """What the sensor gets wrong, found by the audit in random scenes: `xfail` until it is mended there."""
+
+    @pytest.mark.xfail(
+        raises=AuditError, reason="the only point in sight is put on the edge along the border"
+    )
+    def test_a_corner_seen_alone(self) -> None:
+        """From S the corner (5, 0) is at distance 5, and one of its edges lies on the border."""
+        audit(xa.seed_spreader(Scene([Polygon([(5, 0), (7, 0), (7, 3)])], terrain=Terrain(8, 8)), 5))
+
+    @pytest.mark.xfail(
+        raises=AuditError, reason="views of an edge across the way end where the way touches it"
+    )
+    def test_past_the_end_of_an_edge_across_the_way(self) -> None:
+        """The line x = 7 passes the corner (7, 2), whose edge to the east is in range from y = 3 on."""
+        scene = Scene([Polygon([(9, 1), (9, 2), (7, 2)])], terrain=Terrain(10, 8))
+        audit(xa.seed_spreader(scene, 1), samples=200)
+
+    @pytest.mark.xfail(
+        raises=AuditError, reason="a tangency ahead on the way itself is not seen past a corner"
+    )
+    def test_a_tangency_ahead(self) -> None:
+        """Past the corner (0, 4) only the point (0, 11/2) of the circle is in sight, from y = 5/2 on."""
+        shapes = [xa.Circle((Q(1, 2), Q(11, 2)), Q(1, 2)), Polygon([(1, 2), (1, 4), (0, 4)])]
+        audit(xa.seed_spreader(Scene(shapes, terrain=Terrain(6, 10)), 3), samples=200)
+
+    @pytest.mark.xfail(
+        raises=AuditError, reason="where range meets the end of a part of an edge goes unnoticed"
+    )
+    def test_range_at_a_cut(self) -> None:
+        """From x = 5 the cut end (22/3, 6) is in range from y = 5.1 on, not from 5.75 on."""
+        scene = Scene([Polygon([(8, 5), (8, 8), (6, 8)])], terrain=Terrain(14, 6))
+        audit(xa.seed_spreader(scene, Q(5, 2)), samples=200)
+
+
+# -- planting --------------------------------------------------------------------------------------
+
+
+@cache
+def block() -> Run:
+    """A square in the way of the second line, hit at (3, 4) and left at (3, 2).
+
+    Pieces: 0, 1 to (3, 8); 2 down to (3, 4); 3 to 7 around by (2, 4), (2, 2), (4, 2), (4, 4); 8 to 10 by
+    (2, 4) and (2, 2) to (3, 2); then down and on.
+    """
+    return xa.seed_spreader(Scene([rectangle(2, 2, 4, 4)], terrain=Terrain(6, 8)), 3)
+
+
+@cache
+def shelf() -> Run:
+    """An obstacle at the western border, hit at (0, 4) and left at (0, 6): its shore has two ends."""
+    return xa.seed_spreader(Scene([rectangle(0, 4, 1, 6)], terrain=Terrain(6, 8)), 3)
+
+
+@cache
+def hanging() -> Run:
+    """An obstacle that hangs from the northern border between two lines, on the first joint."""
+    return xa.seed_spreader(Scene([rectangle(1, 6, 2, 8)], terrain=Terrain(6, 8)), 3)
+
+
+@cache
+def hasty() -> Run:
+    """M25 without lookahead: from D = (20, 52) along the top of E to Q = (9, 52) of W, around, and back."""
+    return xa.seed_spreader(xa.load("m25"), lookahead=False)
+
+
+@cache
+def around() -> Run:
+    """M15: a diversion to W that passes E, which is known by then, on its way out and back."""
+    return xa.seed_spreader(xa.load("m15"))
+
+
+@cache
+def ladder() -> Run:
+    """M20(3): one bar hit on the second line and met again on the next two."""
+    return xa.seed_spreader(xa.load("m20-3"))
+
+
+MOVES = ("start", "hit", "cross", "leave", "divert", "return", "stop")
+
+
+def moves(run: Run) -> list[Event]:
+    return [event for event in run.events if event.kind in MOVES]
+
+
+def resewn(run: Run, first: int, last: int, *pieces: Piece) -> Run:
+    """The run with pieces first to last of its path, the latter excluded, replaced: with the moves alone.
+
+    What follows is moved along; moves within the old pieces are dropped.
+    """
+    path = Path((*run.path[:first], *pieces, *run.path[last:]))
+    shift = len(path) - len(run.path)
+    kept = [event for event in moves(run) if event.after <= first or event.after >= last]
+    events = tuple(
+        replace(event, path=path, after=event.after + (shift if event.after >= last else 0)) for event in kept
+    )
+    fresh = {field.name: getattr(run, field.name) for field in fields(run)}
+    fresh |= {"path": path, "events": events, "record": None}
+    return with_sights(Run(**fresh))
+
+
+def with_sights(run: Run) -> Run:
+    """The run with the events of sight that its path makes, ahead of the moves at the same place."""
+    places = [
+        (Event(r.kind.value, r.place, r.obstacle, r.note, r.after, run.path, r.inside), n)
+        for n, r in enumerate(run.memory.reports)
+    ]
+    lengths = {id(event): (event.after, float(event.beyond)) for event, _ in places}
+    events = [event for event, _ in places]
+    for move in moves(run):
+        at = sum(lengths[id(event)] <= (move.after, 0.0) for event, _ in places)
+        before = 0 if move.kind == "start" else at
+        spot = events.index(places[before][0]) if before < len(places) else len(events)
+        events.insert(spot, move)
+    return replace(run, events=tuple(events))
+
+
+def boundary(obstacle: int, *corners: Sequence[object]) -> list[Piece]:
+    return [Piece("boundary", obstacle, curve) for curve in chain(*corners)]
+
+
+def straight(*corners: Sequence[object]) -> list[Piece]:
+    return [Piece("straight", None, curve) for curve in chain(*corners)]
+
+
+def chain(*corners: Sequence[object]) -> list[Curve]:
+    points = [Point(*corner) for corner in corners]
+    return [Segment(a, b) for a, b in pairwise(points)]
+
+
+def with_event(run: Run, which: str, /, **changes: object) -> Run:
+    """The run with its first event of a kind changed."""
+    k = next(k for k, event in enumerate(run.events) if event.kind == which)
+    return replace(run, events=(*run.events[:k], replace(run.events[k], **changes), *run.events[k + 1 :]))
+
+
+def without(run: Run, kind: str) -> Run:
+    k = next(k for k, event in enumerate(run.events) if event.kind == kind)
+    return replace(run, events=run.events[:k] + run.events[k + 1 :])
+
+
+def told(run: Run, **changes: object) -> Run:
+    """The run with other words about its sweep."""
+    return replace(run, sweeping=replace(run.sweeping, **changes))
+
+
+def diverted(run: Run, **changes: object) -> Run:
+    """The run with another account of its diversion."""
+    (diversion,) = run.sweeping.diversions
+    return told(run, diversions=(replace(diversion, **changes),))
+
+
+class TestPlanting:
+    @pytest.mark.parametrize("make", [block, shelf, hanging, hasty, around, ladder])
+    def test_nothing(self, make: Callable[[], Run]) -> None:
+        """To replace nothing leaves a good run."""
+        audit(resewn(make(), 0, 0), samples=8)
+
+    def test_other_kinds_of_runs(self) -> None:
+        with pytest.raises(ValueError, match="seed-spreader"):
+            audit(replace(block(), sweeping=None))
+        with pytest.raises(ValueError, match="sightseer"):
+            audit(replace(block(), strategy="sightseer"))
+
+
+# -- flaws -----------------------------------------------------------------------------------------
+
+
+class TestMLine:
+    def test_start_elsewhere(self) -> None:
+        path = Path((*straight((0, 1), (0, 8)), *block().path[1:]))
+        events = [replace(event, path=path) for event in moves(block())]
+        events[0] = replace(events[0], point=Point(0, 1))
+        run = replace(block(), start=Point(0, 1), path=path, events=tuple(events), record=None)
+        refused(with_sights(run), "the run starts at (0, 1), not in the SW corner")
+
+    def test_off_the_line(self) -> None:
+        for x in (1, Q(1, 10**300)):
+            run = resewn(block(), 0, 1, *straight((0, 0), (x, 4), (0, 8)))
+            refused(run, "piece 0 does not advance on the M-line")
+
+    def test_to_and_fro(self) -> None:
+        run = resewn(block(), 0, 1, *straight((0, 0), (0, 5), (0, 4), (0, 8)))
+        refused(run, "piece 1 does not advance on the M-line")
+
+    def test_outside(self) -> None:
+        run = resewn(block(), 0, 1, *straight((0, 0), (-1, 4), (0, 8)))
+        refused(run, "piece 0 leaves the terrain")
+
+    def test_under_an_obstacle_at_the_border(self) -> None:
+        """Along the border no interior is entered, but on its side of it is none but the obstacle's."""
+        run = resewn(hanging(), 1, 6, *straight((0, 8), (3, 8)))
+        refused(run, "piece 1 follows the M-line where it is blocked, at (1, 8)")
+
+    def test_through(self) -> None:
+        run = resewn(block(), 3, 11, *straight((3, 4), (3, 2)))
+        refused(run, "piece 3 passes through the interior of obstacle 0")
+
+    def test_stops_early(self) -> None:
+        run = with_event(resewn(block(), 13, 14), "stop", point=Point(6, 0))
+        refused(run, "(stop) comes before the end of the M-line")
+
+    def test_goes_on(self) -> None:
+        run = with_event(resewn(block(), 14, 14, *straight((6, 8), (6, 0))), "stop", point=Point(6, 0))
+        refused(run, "piece 14 goes on from the end of the M-line")
+
+
+class TestHits:
+    def test_not_hit(self) -> None:
+        """A walk around without a word."""
+        run = without(without(block(), "hit"), "leave")
+        refused(run, "piece 3 does not advance on the M-line")
+
+    def test_another_obstacle(self) -> None:
+        scene = Scene([rectangle(2, 2, 4, 4), rectangle(5, 5, Q(11, 2), 6)], terrain=Terrain(6, 8))
+        run = xa.seed_spreader(scene, 3)
+        refused(with_event(run, "hit", obstacle=1), "(hit of obstacle 1) is not where", "begins to block")
+
+    def test_known_or_not(self) -> None:
+        refused(with_event(block(), "hit", kind="cross"), "(cross of obstacle 0)", "hit of obstacle 0 is due")
+        refused(
+            with_event(ladder(), "cross", kind="hit"), "(hit of obstacle 0)", "cross of obstacle 0 is due"
+        )
+
+    def test_clockwise(self) -> None:
+        loop = boundary(0, (3, 4), (4, 4), (4, 2), (2, 2), (2, 4), (3, 4))
+        refused(resewn(block(), 3, 8, *loop), "obstacle 0 was not walked all around after", "(hit of")
+
+    def test_no_loop(self) -> None:
+        refused(resewn(block(), 3, 8), "obstacle 0 was not walked all around")
+
+    def test_a_needless_loop(self) -> None:
+        """The third line meets the bar again, and walks around it again."""
+        run = ladder()
+        left, right, low, top = Q(1, 10), Q(39, 10), 2, Q(201, 100)
+        loop = boundary(0, (2, low), (right, low), (right, top), (left, top), (left, low), (2, low))
+        refused(
+            resewn(run, 14, 15, *loop, run.path[14]), "(leave of obstacle 0) is not reached the shorter way"
+        )
+
+    def test_one_end_only(self) -> None:
+        """From (3, 3), on top of an obstacle at the southern border, only to the end where it is left."""
+        run = xa.seed_spreader(Scene([rectangle(2, -1, 4, 3)], terrain=Terrain(6, 8)), 3)
+        ends = ["(2, 3)", "(2, 0)", "(2, 3)", "(4, 3)", "(4, 0)"]
+        assert [str(piece.end) for piece in run.path[3:8]] == ends
+        refused(
+            resewn(run, 3, 8, *boundary(0, (3, 3), (4, 3), (4, 0))),
+            "obstacle 0 was not walked all around after",
+        )
+
+    def test_unequal_ways(self) -> None:
+        """From (3, 4) by the east to (3, 2) it is as far as by the west, which comes first."""
+        east = boundary(0, (3, 4), (4, 4), (4, 2), (3, 2))
+        refused(resewn(block(), 8, 11, *east), "(leave of obstacle 0) is not reached the shorter way")
+
+    def test_the_longer_way(self) -> None:
+        run = xa.seed_spreader(Scene([rectangle(2, 2, 5, 4)], terrain=Terrain(6, 8)), 3)
+        k = next(k for k, event in enumerate(run.events) if event.kind == "leave")
+        last = run.events[k].after
+        first = next(e.after for e in run.events if e.kind == "hit") + 5
+        east = boundary(0, (3, 4), (5, 4), (5, 2), (3, 2))
+        refused(resewn(run, first, last, *east), "(leave of obstacle 0) is not reached the shorter way")
+
+    def test_leaves_elsewhere(self) -> None:
+        """At the corner (2, 2), and from there aside of the line."""
+        run = resewn(block(), 10, 11, *straight((2, 2), (3, 2)))
+        run = with_event(run, "leave", after=10, point=Point(2, 2))
+        refused(run, "(leave of obstacle 0)")
+
+    def test_leaves_in_silence(self) -> None:
+        refused(without(block(), "leave"), "(stop)", "is not")
+
+    def test_trapped(self) -> None:
+        run = xa.seed_spreader(Scene([xa.Circle((9, 0), 1)], terrain=Terrain(9, 4)), 3)
+        refused(with_event(run, "stop", note="tired"), "(stop", "'tired'")
+        refused(with_event(block(), "stop", note="trapped"), "(stop)", "trapped is False")
+
+    @pytest.mark.parametrize(
+        ("change", "words"),
+        [
+            (lambda run: replace(run, visits=()), "visits are []"),
+            (lambda run: replace(run, visits=(0, 0)), "visits are [0, 0]"),
+            (lambda run: told(run, encounters=(0,)), "encounters are [0], but the moves make [0, 0, 0]"),
+            (lambda run: told(run, again=(0,)), "encounters of known obstacles are [0]"),
+            (lambda run: replace(run, unseen=(0,)), "obstacles unseen are [0], by the map []"),
+            (lambda run: replace(run, unvisited=(0,)), "obstacles unvisited are [0], by the map []"),
+            (lambda run: replace(run, stack_depth=1), "no stack"),
+            (lambda run: told(run, unreached=(0,)), "obstacles out of reach are [0], not []"),
+        ],
+    )
+    def test_accounts(self, change: Callable[[Run], Run], words: str) -> None:
+        refused(change(ladder()), words)
+
+
+class TestDiversions:
+    @pytest.mark.parametrize(
+        ("changes", "words"),
+        [
+            ({"obstacle": 1}, "divert of obstacle 1 is due"),
+            ({"leave": Point(20, 51)}, "(divert of obstacle 0) is not diversion 0"),
+            ({"hit": Point(9, 51)}, "(divert of obstacle 0) does not aim at the nearest known point"),
+            ({"hit": Point(10, 52)}, "diversion 0 did not reach (10, 52)"),
+            ({"reason": "out of reach"}, "(divert of obstacle 0) is not diversion 0"),
+            ({"first": 0}, "(divert of obstacle 0) is not diversion 0"),
+            ({"last": 12}, "(return of obstacle 0) is not the end of diversion 0"),
+        ],
+    )
+    def test_accounts(self, changes: dict[str, Any], words: str) -> None:
+        refused(diverted(hasty(), **changes), words)
+
+    def test_lists(self) -> None:
+        run = hasty()
+        refused(told(run, diversions=()), "is in no list of diversions")
+        refused(told(run, diversions=run.sweeping.diversions * 2), "diversions are 2, the moves make 1")
+
+    @pytest.mark.parametrize("reason", ["out of reach", "overdue", "the line ends", "a whim"])
+    def test_other_reasons(self, reason: str) -> None:
+        run = diverted(
+            with_event(with_event(hasty(), "divert", note=reason), "return", note=reason), reason=reason
+        )
+        refused(run, f"(divert of obstacle 0) is due to '{reason}', which is not so")
+
+    def test_needless(self) -> None:
+        """With a look ahead W is seen again, beyond E."""
+        refused(
+            told(hasty(), lookahead=True), "(divert of obstacle 0) is needless: by the map", "is seen from"
+        )
+
+    def test_missing_out_of_sight(self) -> None:
+        refused(
+            told(xa.seed_spreader(xa.load("m25")), lookahead=False), "(lose of obstacle 0) is not followed by"
+        )
+
+    def test_missing_out_of_reach(self) -> None:
+        run = around()
+        (diversion,) = run.sweeping.diversions
+        sewn = resewn(run, diversion.first, diversion.last)
+        events = tuple(event for event in sewn.events if event.kind not in ("divert", "return"))
+        refused(
+            replace(told(sewn, diversions=()), events=events),
+            "obstacle 0 is out of reach",
+            "without a diversion",
+        )
+
+    def test_missing_at_the_end_of_a_line(self) -> None:
+        run = xa.seed_spreader(swept_scene(Random(94), True, clear=True), lookahead=False)
+        (diversion,) = run.sweeping.diversions
+        sewn = resewn(run, diversion.first, diversion.last)
+        events = tuple(event for event in sewn.events if event.kind not in ("divert", "return"))
+        refused(replace(told(sewn, diversions=()), events=events), f"obstacle {diversion.obstacle} is lost")
+
+    def test_aims_at_another_point(self) -> None:
+        """On to (8.5, 52), along the top of W, and around from there."""
+        run, corners = hasty(), ((9, 52), (Q(17, 2), 52), (Q(17, 2), 48), (9, 48))
+        out, back = run.path[3:5], run.path[11:13]
+        loop = boundary(0, corners[1], corners[2], corners[3], corners[0], corners[1])
+        pieces = [*out, *straight((11, 52), corners[1]), *loop, *straight(corners[1], (11, 52)), *back]
+        path = Path((*run.path[:3], *pieces, *run.path[13:]))
+        assert len(path) == len(run.path)
+        run = replace(run, path=path, record=None)
+        run = replace(run, events=tuple(replace(event, path=path) for event in run.events))
+        run = with_event(run, "hit", point=Point(*corners[1]))
+        run = with_event(run, "leave", point=Point(*corners[1]))
+        run = with_sights(replace(run, events=tuple(moves(run))))
+        refused(diverted(run, hit=Point(*corners[1])), "does not aim at the nearest known point")
+
+    def test_aims_at_a_hidden_point(self) -> None:
+        """From D = (8, 4) the nearest known point is hidden, another one is in sight."""
+        scene = swept_scene(Random(89), True, clear=True)
+        run = xa.seed_spreader(scene, lookahead=False)
+        seen = xa.seed_spreader(scene, lookahead=False, target="visible")
+        audit(seen, samples=8)
+        refused(told(run, target="visible"), "does not aim at a visible point")
+        refused(told(seen, target="known"), "does not aim at the nearest known point")
+
+    def test_not_around(self) -> None:
+        refused(
+            resewn(hasty(), 6, 10), "obstacle 0 was not walked all around after", "(divert of obstacle 0)"
+        )
+
+    def test_does_not_return(self) -> None:
+        """To (20, 51) in place of (20, 52)."""
+        path = Path((*hasty().path[:12], *straight((Q(23, 2), 52), (20, 51), (20, 0))))
+        events = tuple(replace(event, path=path) for event in moves(hasty()))
+        run = with_event(
+            replace(hasty(), path=path, events=events, record=None), "return", point=Point(20, 51)
+        )
+        refused(with_sights(run), "piece 12 is not on the way to (20, 52)")
+
+    def test_blocker_on_the_way(self) -> None:
+        """E is passed the longer way."""
+        run = around()
+        hit = next(event for event in run.events if event.kind == "hit")
+        a, b = run.path[hit.after].start, run.path[hit.after + 1].end
+        corners = [Point(12, 45), Point(12, 55), Point(11, 55)]
+        pieces = [Segment(p, q) for p, q in zip([a, *corners], [*corners, b], strict=True)]
+        run = resewn(run, hit.after, hit.after + 2, *(Piece("boundary", 1, piece) for piece in pieces))
+        refused(diverted(run, last=run.sweeping.diversions[0].last + 2), "is not reached the shorter way")
+
+    def test_silent_blocker(self) -> None:
+        run = around()
+        refused(without(without(run, "hit"), "leave"), "piece 4 is not on the way to (11.63")
+
+
+class TestComponents:
+    """Components as `exactacq.components` does not make them."""
+
+    @staticmethod
+    def _with(run: Run, change: Callable[[list[Any]], Sequence[Any]]) -> Run:
+        planted = replace(run)
+        ground = run.ground
+
+        class Ground:
+            components = tuple(change(list(ground.components)))
+            unreached = ground.unreached
+
+        planted.__dict__["ground"] = Ground()
+        return planted
+
+    @staticmethod
+    @cache
+    def run() -> Run:
+        """A wall across, one end of a beam beyond it, and one obstacle before it."""
+        shapes = [rectangle(-1, 4, 7, 5), rectangle(1, 1, 2, 2), rectangle(3, -1, 4, 1)]
+        return xa.seed_spreader(Scene(shapes, terrain=Terrain(6, 8)), 3)
+
+    def test_good(self) -> None:
+        audit(self._with(self.run(), lambda parts: parts))
+
+    @pytest.mark.parametrize(
+        ("change", "words"),
+        [
+            (lambda c: c[:2], "is part of 0 components, not of 1"),
+            (lambda c: [c[0], c[2], c[1]], "not in their order"),
+            (lambda c: [c[0], c[1], replace(c[2], obstacle=c[1].obstacle)], "is not on edge"),
+            (lambda c: [*c[:2], replace(c[2], shore=c[2].shore[:-1])], "is part of 0 components"),
+            (
+                lambda c: [*c[:2], replace(c[2], shore=(*c[2].shore, c[2].shore[0]))],
+                "is part of 2 components",
+            ),
+            (lambda c: [*c[:2], replace(c[2], closed=True)], "whether it is a loop"),
+            (lambda c: [c[0], replace(c[1], closed=False), c[2]], "whether it is a loop"),
+            (lambda c: [replace(c[0], shore=c[0].hidden[0], hidden=(c[0].shore,)), *c[1:]], "be reached"),
+            (lambda c: [replace(c[0], hidden=()), *c[1:]], "is part of 0 components, not of 1"),
+            (lambda c: [*c[:2], replace(c[2], shore=c[2].shore[::-1])], "is not in one piece"),
+            (lambda c: [c[0], replace(c[1], shore=c[1].shore[:2]), c[2]], "is part of 0 components"),
+            (lambda c: [*c, c[2]], "is part of 2 components"),
+        ],
+    )
+    def test_flaws(self, change: Callable[[list[Any]], Sequence[Any]], words: str) -> None:
+        refused(self._with(self.run(), change), words)
+
+    def test_merged(self) -> None:
+        comb = Polygon([(1, 5), (1, 2), (2, 2), (2, 4), (3, 4), (3, 1), (4, 1), (4, 5)])
+        run = xa.seed_spreader(Scene([comb], terrain=Terrain(6, Q(7, 2))), 9)
+        assert len(run.obstacles) == 2
+        merged = self._with(run, lambda c: [replace(c[0], shore=(*c[0].shore, *c[1].shore))])
+        refused(merged, "components [0, 0] are in reach")
+
+    def test_a_hair_too_short(self) -> None:
+        def cut(components: list[Any]) -> list[Any]:
+            part = components[2].shore[0]
+            end = part.curve.start + part.curve.direction * Q(999999, 10**6)
+            shorter = part._replace(curve=Segment(part.curve.start, end))
+            return [*components[:2], replace(components[2], shore=(shorter, *components[2].shore[1:]))]
+
+        refused(self._with(self.run(), cut), "component 2 has")
+
+
+class TestKnowledge:
+    """Maps of another moment than the asked one, and events of sight that do not fit."""
+
+    @pytest.mark.parametrize(("step", "word"), [(-1, "lacks the point"), (1, "knows the point")])
+    def test_off_by_a_piece(self, step: int, word: str) -> None:
+        class Shifted(Run):
+            def map_at(self, event: object) -> object:
+                if event.kind == "moment":
+                    return super().map_at(event)
+                return self.memory.after(min(max(event.after + step, 0), len(self.path)))
+
+        run = xa.seed_spreader(xa.load("case1"))
+        shifted = Shifted(**{field.name: getattr(run, field.name) for field in fields(run)})
+        refused(shifted, "the map at event", word, samples=200)
+
+    def test_acquired_too_early(self) -> None:
+        """Said to be known at the hit, the square would have to be passed."""
+        run = block()
+        acquire = next(event for event in run.events if event.kind == "acquire")
+        hit = next(event for event in run.events if event.kind == "hit")
+        events = [event for event in run.events if event is not acquire]
+        at = events.index(hit)
+        early = replace(acquire, point=hit.point, after=hit.after, inside=False)
+        refused(replace(run, events=(*events[:at], early, *events[at:])), "cross of obstacle 0 is due")
+
+    def test_seen_but_not_acquired(self) -> None:
+        run = ladder()
+        k = next(k for k, event in enumerate(run.events) if event.kind == "acquire")
+        events = run.events[:k] + run.events[k + 1 :]
+        refused(replace(run, events=events), "(cross of obstacle 0)", "hit of obstacle 0 is due")
+
+    def test_unknown_kind(self) -> None:
+        refused(
+            with_event(block(), "leave", kind="backtrack"), "(backtrack of obstacle 0) is of no known kind"
+        )
+
+
+class TestBounds:
+    @pytest.mark.parametrize("k", range(9))
+    @pytest.mark.parametrize("make", [ladder, shelf])
+    def test_values(self, k: int, make: Callable[[], Run]) -> None:
+        run = make()
+        bound = run.bounds[k]
+        flaws = [
+            ({"value": bound.value + Length(Q(1, 10**400))}, bound.name),
+            ({"holds": not bound.holds}, "holds"),
+        ]
+        if k in (0, 5):
+            flaws += [({"ratio": bound.ratio * (1 + 1e-9)}, "ratio"), ({"name": "(3)"}, "the bounds are")]
+        for changes, word in flaws:
+            bounds = (*run.bounds[:k], replace(bound, **changes), *run.bounds[k + 1 :])
+            refused(replace(run, bounds=bounds), "bound", word)
