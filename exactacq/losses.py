@@ -15,9 +15,9 @@ from typing import NamedTuple
 from flint import fmpq
 
 from exactacq.curves import Curve, Segment
-from exactacq.points import Point, distance_sq
+from exactacq.points import Point
 from exactacq.prediction import sees_later
-from exactacq.reach import first_out_of_reach, last_in_reach, leftmost, nearest_point
+from exactacq.reach import first_out_of_reach, is_in_reach, last_in_reach, leftmost
 from exactacq.reals import Real
 from exactacq.surveyor import Surveyor
 from exactacq.vision.knowledge import Map
@@ -166,18 +166,19 @@ class Line:
                 continue
             if leave is None:
                 found.append(Loss(k, Reason.LINE_ENDS))
-            elif self._is_out_of_reach(k, chart, leave):
+            elif self._goes_out_of_reach(k, chart, leave):
                 found.append(Loss(k, Reason.REACH))
             elif k in robot.in_sight and not self._is_visible_from(k, chart, leave):
                 found.append(Loss(k, Reason.SIGHT))
         return found
 
-    def _is_out_of_reach(self, obstacle: int, chart: Map, leave: Point) -> bool:
-        """Whether no known point is in reach from a leave point on or, without a look ahead, from there."""
+    def _goes_out_of_reach(self, obstacle: int, chart: Map, leave: Point) -> bool:
+        """Whether it is in reach here, and not from a leave point on or, without a look ahead, from there."""
         curves, robot = known(chart, obstacle), self.robot
+        if not is_in_reach(robot.position, curves, robot.radius):
+            return False
         if not self.lookahead:
-            near = (distance_sq(leave, nearest_point(curve, leave)) for curve in curves)
-            return all(distance.compare(robot.radius * robot.radius) > 0 for distance in near)
+            return not is_in_reach(leave, curves, robot.radius)
         last = last_in_reach(self.x, self.upward, curves, robot.radius)
         return last is None or self._order(last, leave.y) < 0
 

@@ -39,6 +39,12 @@ def nearest_of(points: Sequence[Point], place: Point) -> Point:
     return min(points, key=cmp_to_key(order))
 
 
+def is_in_reach(place: Point, curves: Sequence[Curve], radius: fmpq) -> bool:
+    """Whether some curve comes within the radius of a place."""
+    near = (distance_sq(place, nearest_point(curve, place)) for curve in curves)
+    return any(distance.compare(radius * radius) <= 0 for distance in near)
+
+
 def thresholds(x: fmpq, curve: Curve, radius: fmpq) -> Iterator[Real]:
     """Ordinates at which a place with abscissa *x* is as far as the radius from a point of a curve.
 
@@ -87,19 +93,15 @@ def first_out_of_reach(
     x: fmpq, upward: bool, begin: Real, curves: Sequence[Curve], radius: fmpq
 ) -> Real | None:
     """The first ordinate from *begin* on, as one walks, with a curve in reach and none just after."""
-
-    def is_in_reach(y: object) -> bool:
-        place = Point(x, y)
-        near = (distance_sq(place, nearest_point(curve, place)) for curve in curves)
-        return any(distance.compare(radius * radius) <= 0 for distance in near)
-
     sense = 1 if upward else -1
-    found = [begin] if is_in_reach(begin) else []
+    found = [begin] if is_in_reach(Point(x, begin), curves, radius) else []
     found += [y for curve in curves for y in thresholds(x, curve, radius) if y.compare(begin) == sense]
     found.sort(reverse=not upward)
     for y, after in pairwise(found):
-        if y.compare(after) and not is_in_reach(rational_between(min(y, after), max(y, after))):
-            return y
+        if y.compare(after):
+            middle = Point(x, rational_between(min(y, after), max(y, after)))
+            if not is_in_reach(middle, curves, radius):
+                return y
     return found[-1] if found else None
 
 
