@@ -52,7 +52,7 @@ class Memory:
         self.scene, self.radius, self.ground = scene, radius, ground
         self._table = EdgeTable(scene.obstacles) if table is None else table
         self.bodies: Sequence[Body] = scene.obstacles if ground is None else ground.components
-        targets = None if ground is None else ground.targets(self._table)
+        targets = None if ground is None else ground.targets(self._table, radius)
         self._senses = Senses(self._table, radius, targets)
         self.reports: list[Report] = []
         # The parameters of the reports' places, and on which leg of the piece they are: numbers that glances

@@ -78,34 +78,22 @@ class TestGoodRuns:
 
 
 class TestSensing:
-    """What the sensor gets wrong, found by the audit in random scenes: `xfail` until it is mended there."""
+    """What the sensor once got wrong, as audits of random scenes showed."""
 
-    @pytest.mark.xfail(
-        raises=AuditError, reason="the only point in sight is put on the edge along the border"
-    )
     def test_a_corner_seen_alone(self) -> None:
         """From S the corner (5, 0) is at distance 5, and one of its edges lies on the border."""
         audit(xa.seed_spreader(Scene([Polygon([(5, 0), (7, 0), (7, 3)])], terrain=Terrain(8, 8)), 5))
 
-    @pytest.mark.xfail(
-        raises=AuditError, reason="views of an edge across the way end where the way touches it"
-    )
     def test_past_the_end_of_an_edge_across_the_way(self) -> None:
         """The line x = 7 passes the corner (7, 2), whose edge to the east is in range from y = 3 on."""
         scene = Scene([Polygon([(9, 1), (9, 2), (7, 2)])], terrain=Terrain(10, 8))
         audit(xa.seed_spreader(scene, 1), samples=200)
 
-    @pytest.mark.xfail(
-        raises=AuditError, reason="a tangency ahead on the way itself is not seen past a corner"
-    )
     def test_a_tangency_ahead(self) -> None:
         """Past the corner (0, 4) only the point (0, 11/2) of the circle is in sight, from y = 5/2 on."""
         shapes = [xa.Circle((Q(1, 2), Q(11, 2)), Q(1, 2)), Polygon([(1, 2), (1, 4), (0, 4)])]
         audit(xa.seed_spreader(Scene(shapes, terrain=Terrain(6, 10)), 3), samples=200)
 
-    @pytest.mark.xfail(
-        raises=AuditError, reason="where range meets the end of a part of an edge goes unnoticed"
-    )
     def test_range_at_a_cut(self) -> None:
         """From x = 5 the cut end (22/3, 6) is in range from y = 5.1 on, not from 5.75 on."""
         scene = Scene([Polygon([(8, 5), (8, 8), (6, 8)])], terrain=Terrain(14, 6))

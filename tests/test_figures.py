@@ -283,7 +283,7 @@ def test_components_are_closed_along_the_border(crossing: Run) -> None:
     """The half disc, the two tines of a fork whose handle lies outside, and what lies inside as it is."""
     sweep = Sweep.of(crossing)
     assert sweep is not None
-    assert [body.label for body in crossing.obstacles] == ["O1", "O2", "forka", "forkb"]
+    assert [body.label for body in crossing.obstacles] == ["O1", "O2", "fork a", "fork b"]
     found = [area(region) for region in sweep.regions]
     assert found == pytest.approx([1, 2 * math.pi, 3, 3], rel=1e-2)
     for body, region in zip(crossing.obstacles, sweep.regions, strict=True):

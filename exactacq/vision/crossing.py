@@ -17,7 +17,7 @@ import numpy as np
 from flint import fmpq
 
 from exactacq.contacts import line_contacts
-from exactacq.curves import Segment
+from exactacq.curves import Arc, Segment
 from exactacq.points import Point, distance_sq
 from exactacq.reals import Real
 from exactacq.vectors import minus, raw
@@ -218,13 +218,11 @@ class Crossing:
         shown = [(e, p) for p in (span.start, span.end) for e in _edges_near(table, p)]
         along = self.line.end - self.line.start
         shown += [*self._beyond(span.end, along), *self._beyond(span.start, -along)]
-        for name in self.touches:
-            if name[0] == "corner":
-                # Its line may touch corners beyond its ends too; those at an end are there already.
-                corner = table.curves[name[1]].start
-                u = self.rail.parameter(corner)
-                if _certainly(span.low, u) and _certainly(u, span.high):
-                    shown.append((name[1], corner))
+        for e, point in self._touched():
+            # Its line may touch things beyond its ends too; those at an end are there already.
+            u = self.rail.parameter(point)
+            if _certainly(span.low, u) and _certainly(u, span.high):
+                shown.append((e, point))
         for e, point in shown:
             if e in self.wanted:
                 place = self.ranges.rails[e].parameter(point)
@@ -232,6 +230,30 @@ class Crossing:
                 ends = [End(Real(0), (p, point), (u, place)) for p, u in near]
                 if ends:
                     yield Glance((self.way, e), ends[0], ends[-1])
+
+    def _touched(self) -> Iterator[tuple[int, Point]]:
+        """The corners and the tangent points of wanted edges on the way's line, named or not."""
+        table, start = self.sightlines.table, self.line.start
+        along = self.line.end - start
+        (x, y), (dx, dy) = rough(start), rough(along)
+        slack = self.slack * hypot(dx, dy)
+        for e in self.wanted:
+            left, bottom, right, top = table.boxes[e]
+            sides = [(cx - x) * dy - (cy - y) * dx for cx in (left, right) for cy in (bottom, top)]
+            if min(sides) > slack or max(sides) < -slack:
+                continue
+            curve = table.curves[e]
+            for number, corner in ((e, curve.start), (int(table.next[e]), curve.end)):
+                if ("corner", number) in self.touches or _vanishes(along.cross(corner - start)):
+                    yield e, corner
+            if isinstance(curve, Arc):
+                to_center = curve.center - start
+                height, size = along.cross(to_center), along.norm_sq()
+                named = ("circle", table.circles[e]) in self.touches
+                if named or _vanishes(height * height - size * curve.radius_sq):
+                    foot = start + along * (to_center.dot(along) / size)
+                    if curve.contains(foot):
+                        yield e, foot
 
     def _beyond(self, end: Point, onward: Point) -> Iterator[tuple[int, Point]]:
         """What the way's line meets beyond an end, as far as it is seen from there."""
@@ -302,6 +324,10 @@ def _edges_near(table: EdgeTable, point: Point) -> list[int]:
 
 def _by_parameter(a: tuple[Real, Pin], b: tuple[Real, Pin]) -> int:
     return a[0].compare(b[0])
+
+
+def _vanishes(value: Real) -> bool:
+    return bool(value.ball(OVERLAP_BITS).contains(0)) and value.sign() == 0
 
 
 def _certainly(low: Real, high: Real) -> bool:

@@ -29,6 +29,12 @@ class Interval:
         """The interval between two places, given in any order."""
         return cls(u, p, v, q) if u.compare(v) <= 0 else cls(v, q, u, p)
 
+    def within(self, span: Interval) -> Interval | None:
+        """What of it lies in another one; ends are copied."""
+        low, start = (span.low, span.start) if self.low < span.low else (self.low, self.start)
+        high, end = (span.high, span.end) if self.high > span.high else (self.high, self.end)
+        return Interval(low, start, high, end) if low <= high else None
+
     @classmethod
     def between(cls, rail: Rail, start: Point, end: Point) -> list[Interval]:
         """The part of a rail from start to end, in two pieces if it passes the start of a full circle."""

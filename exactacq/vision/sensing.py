@@ -98,13 +98,14 @@ class Senses:
 
     def visible(self, place: Point, k: int) -> list[tuple[int, Interval]]:
         """What is seen of an obstacle from a place: edges and intervals."""
-        return list(self.targets.within(k, self._view(place).spans))
+        ends = [(end.edge, end.pin) for end in self.targets.lookouts.get(k, ()) if end.sees(place)]
+        return [*self.targets.within(k, self._view(place).spans), *ends]
 
     def look_around(self, place: Point) -> tuple[list[Notice], dict[int, Cover]]:
         """Take in the view from the start of the path; as `follow`."""
         view = self._view(place)
-        near = sorted(self.targets.near(view.spans))
-        seen = [k for k in near if any(self.targets.within(k, view.spans))]
+        near = sorted({*self.targets.near(view.spans), *self.targets.lookouts})
+        seen = [k for k in near if self.visible(place, k)]
         learned = self._with_view(view, seen)
         notices = []
         for k in seen:
@@ -183,7 +184,7 @@ class Senses:
         """The covers that grow by what a view shows of some obstacles."""
         learned: dict[int, Cover] = {}
         for k in obstacles:
-            for e, interval in self.targets.within(k, view.spans):
+            for e, interval in self.visible(view.place, k):
                 add(learned, self.covers, e, interval)
         return learned
 
@@ -255,6 +256,8 @@ class Senses:
         for share in shares.of[k]:
             for end in (share.glance.first, share.glance.last):
                 found.append((end.places[share.side], end.points[share.side]))
+        for _, part in shares.ends.get(k, ()):
+            found += [(part.low, part.start), (part.high, part.end)]
         for e, span, _ in self.targets.of[k]:
             for gap in known.get(e, EMPTY).gaps(span):
                 for u, point in ((gap.low, gap.start), (gap.high, gap.end)):

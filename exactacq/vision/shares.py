@@ -18,6 +18,7 @@ from exactacq.vision.glances import End, Glance, Ranges
 from exactacq.vision.holds import Seen
 from exactacq.vision.intervals import EMPTY, Cover, Interval
 from exactacq.vision.legs import Leg
+from exactacq.vision.lookouts import Lookout
 from exactacq.vision.pencil import rational_between
 from exactacq.vision.sightlines import Sightlines
 from exactacq.vision.targets import Targets
@@ -60,10 +61,12 @@ class Shares:
         obstacles: Collection[int],
         view: Callable[[Point, tuple[int, ...] | None], Seen],
         of: dict[int, list[Share]] | None = None,
+        ends: dict[int, list[tuple[Lookout, Interval]]] | None = None,
     ) -> None:
         self.sightlines, self.targets, self.leg = sightlines, targets, leg
         self.obstacles, self.view = obstacles, view
         self.of = self._found() if of is None else of
+        self.ends = self._seen_ends() if ends is None else ends
 
     def _found(self) -> dict[int, list[Share]]:
         found: dict[int, list[Share]] = {k: [] for k in self.obstacles}
@@ -75,6 +78,15 @@ class Shares:
                     if share is not None:
                         found[k].append(share)
         return found
+
+    def _seen_ends(self) -> dict[int, list[tuple[Lookout, Interval]]]:
+        """From where the ends of obstacles are seen that are cut by a border."""
+        lookouts = self.targets.lookouts
+        return {
+            k: [(end, part) for end in lookouts[k] for part in end.along(self.leg)]
+            for k in self.obstacles
+            if k in lookouts
+        }
 
     def _share(self, glance: Glance, side: int, leg: Leg) -> Share | None:
         """The part of a glance that is seen from a leg; views from its ends share their points."""
@@ -116,7 +128,12 @@ class Shares:
             ]
             for k in obstacles
         }
-        return Shares(self.sightlines, self.targets, leg, obstacles, self.view, of)
+        ends = {
+            k: [(end, part) for end, whole in self.ends[k] if (part := whole.within(leg.span)) is not None]
+            for k in obstacles
+            if k in self.ends
+        }
+        return Shares(self.sightlines, self.targets, leg, obstacles, self.view, of, ends)
 
     def at(self, share: Share, u: Real, place: Point) -> Share | None:
         """The one view of a share from a place of the leg, if it has one."""
@@ -135,6 +152,9 @@ class Shares:
             for k in self.obstacles:
                 for e, interval in self.targets.within(k, view.spans):
                     add(learned, covers, e, interval)
+        for seen in self.ends.values():
+            for end, _ in seen:
+                add(learned, covers, end.edge, end.pin)
         for k in self.obstacles:
             if self._is_along(k):
                 assert leg.edge is not None
@@ -157,7 +177,8 @@ class Shares:
             seen = self.targets.within(k, self.view(place, self.leg.own(u)).spans)
             if any(edge in (None, e) for e, _ in seen):
                 times = times.added(Interval(u, place, u, place))
-        sources = (share.source for share in self.of[k] if edge in (None, share.edge))
+        sources = [share.source for share in self.of[k] if edge in (None, share.edge)]
+        sources += [part for end, part in self.ends.get(k, ()) if edge in (None, end.edge)]
         for interval in sorted(sources, key=size, reverse=True):
             times = times.added(interval)
         return times
@@ -173,9 +194,18 @@ class Shares:
         # Most often the very number was copied: no proof is needed that it is equal.
         ends.sort(key=lambda end: end[0] is not u)
         square = self.sightlines.ranges.square
-        if self._is_near(k, u, edge):
+        if self._is_near(k, u, edge) or self._is_end_near(k, u):
             return True
         return any(end.is_short(square) for place, end in ends if place is u or place.compare(u) == 0)
+
+    def _is_end_near(self, k: int, u: Real) -> bool:
+        """Whether a cut end is seen last or first from *u*, nearer than the range."""
+        square = self.sightlines.ranges.square
+        return any(
+            (v is u or v.compare(u) == 0) and distance_sq(place, end.point).compare(square) < 0
+            for end, part in self.ends.get(k, ())
+            for v, place in ((part.low, part.start), (part.high, part.end))
+        )
 
     def _is_near(self, k: int, u: Real, edge: int | None) -> bool:
         """Whether *u* is an end of the leg from which something nearer than the range is seen."""

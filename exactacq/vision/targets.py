@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from exactacq.vision.intervals import EMPTY, Cover, Interval
+from exactacq.vision.lookouts import Lookout
 from exactacq.vision.rails import Rail
 from exactacq.vision.table import EdgeTable
 
@@ -23,12 +24,7 @@ class Target(NamedTuple):
 
     def clip(self, interval: Interval) -> Interval | None:
         """What of an interval of the edge lies in the part; ends are copied."""
-        if self.whole:
-            return interval
-        span = self.span
-        low, start = (span.low, span.start) if interval.low < span.low else (interval.low, interval.start)
-        high, end = (span.high, span.end) if interval.high > span.high else (interval.high, interval.end)
-        return Interval(low, start, high, end) if low <= high else None
+        return interval if self.whole else interval.within(self.span)
 
     def contains(self, interval: Interval) -> bool:
         """Whether the part contains an interval of the edge."""
@@ -40,10 +36,15 @@ class Target(NamedTuple):
 
 
 class Targets:
-    """The targets of every obstacle, in the order of its boundary."""
+    """The targets of every obstacle, in the order of its boundary.
 
-    def __init__(self, of: Sequence[tuple[Target, ...]]) -> None:
-        self.of = tuple(of)
+    ``lookouts`` are the ends of those that do not count with their whole boundary, by obstacle.
+    """
+
+    def __init__(
+        self, of: Sequence[tuple[Target, ...]], lookouts: Mapping[int, Sequence[Lookout]] | None = None
+    ) -> None:
+        self.of, self.lookouts = tuple(of), lookouts or {}
         self._on: dict[int, list[tuple[int, Target]]] = {}
         for k, targets in enumerate(self.of):
             for target in targets:

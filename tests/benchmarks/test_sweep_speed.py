@@ -1,7 +1,7 @@
 """Timings of sweeps, reported and not asserted.
 
-``pytest tests/benchmarks/test_sweep_speed.py --benchmark-enable -s`` shows how the time of a run grows with the
-length of the M-line at constant density; without that option the small terrain is swept once.
+``pytest tests/benchmarks/test_sweep_speed.py --benchmark-enable -s`` shows how the time of a run grows with
+the length of the M-line at constant density; without that option the small terrain is swept once.
 """
 
 from __future__ import annotations
