@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from flint import fmpq
@@ -57,6 +58,38 @@ def sightseer_bounds(
     )
 
 
+@dataclass(frozen=True)
+class Census:
+    """Where the components of a terrain lie, strip by strip from the west.
+
+    ``inside`` are n_1..n_r, those wholly inside a strip; ``crossing`` are n_01..n_0r, those that cross the
+    boundary of a strip and of none to its west. They add up to n_0.
+    """
+
+    inside: tuple[int, ...]
+    crossing: tuple[int, ...]
+
+    @property
+    def pairs(self) -> int:
+        """The sum of n_j (n_j - 1) over j = 0..r."""
+        return sum(count * (count - 1) for count in (*self.inside, sum(self.crossing)))
+
+
+def census(ground: Ground, radius: fmpq) -> Census:
+    """Count the components that can be reached by strips."""
+    mline = MLine(ground.terrain, radius)
+    first: dict[int, int] = {}
+    for crossing in mline.crossings(Blocking(ground, EdgeTable(ground.obstacles))):
+        # Line j bounds strips j and j + 1, the joint after it only the latter; the first line bounds strip 1.
+        strip = max(1, (crossing.piece + 1) // 2)
+        if crossing.component.shore:
+            first[crossing.component.index] = min(strip, first.get(crossing.component.index, strip))
+    inside = Counter(mline.strip(c) for c in ground.components if c.index not in first)
+    crossing_ones = Counter(first.values())
+    strips = range(1, mline.strips + 1)
+    return Census(tuple(inside[j] for j in strips), tuple(crossing_ones[j] for j in strips))
+
+
 def spreader_bounds(ground: Ground, radius: fmpq, sweeping: Sweeping, length: Length) -> tuple[Bound, ...]:
     """Bounds (4)-(6) and (8)-(11) as printed, and the forms of Lemma 3 and Theorem 2 that hold.
 
@@ -65,17 +98,13 @@ def spreader_bounds(ground: Ground, radius: fmpq, sweeping: Sweeping, length: Le
     an acquired obstacle was met again on the M-line. (4) bounds the number of visits, not a length.
     """
     components, mline = ground.components, MLine(ground.terrain, radius)
-    crossings = mline.crossings(Blocking(ground, EdgeTable(ground.obstacles)))
-    crossing = {c.component.index for c in crossings if c.component.shore}
-    n = len(components)
-    strips = Counter(mline.strip(c) for c in components if c.index not in crossing)
-    strips[0] = len(crossing)
+    counts = census(ground, radius)
+    n, crossing, pairs = len(components), sum(counts.crossing), counts.pairs
     perimeters = [c.perimeter for c in components]
     total, largest = Length.sum(perimeters), max(perimeters, default=Length(0))
-    pairs = sum(count * (count - 1) for count in strips.values())
     a, b, r, w = ground.terrain.height, ground.terrain.width, mline.strips, mline.width
     sweep = Length(a + b + r * a)
-    hops = largest * (2 * n * len(crossing) + pairs)
+    hops = largest * (2 * n * crossing + pairs)
     wide = sweep + Length(2 * n * radius)
     clear = all(c.closed for c in components)
     met = Length.sum(perimeters[k] for k in sweeping.again)
@@ -91,7 +120,7 @@ def spreader_bounds(ground: Ground, radius: fmpq, sweeping: Sweeping, length: Le
         ("T2 corrected", "(6) or (10), plus what is met again", corrected),
     ]
     visits = Length(len(sweeping.encounters))
-    most = Length(n + n * len(crossing) + pairs * HALF)
+    most = Length(n + n * crossing + pairs * HALF)
     return (
         _bound("(4)", "Lemma 3, visits, as printed", most, visits),
         _bound("L3 corrected", "(4), plus what is met again", most + Length(len(sweeping.again)), visits),

@@ -10,6 +10,7 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
+from exactacq.bounds import census
 from exactacq.curves import Arc
 from exactacq.lengths import Length
 from exactacq.output import readable
@@ -107,6 +108,10 @@ def scene_list(scenes: dict[str, str]) -> RenderableType:
 def _sweep(run: Run, sweeping: Sweeping, names: list[str]) -> Iterator[RenderableType]:
     """How the Seed Spreader ended, its diversions, and what it met."""
     yield f"ended because {run.events[-1].note}"
+    if run.ground is not None:
+        counts = census(run.ground, run.radius)
+        for what, numbers in (("inside strips", counts.inside), ("crossing the M-line", counts.crossing)):
+            yield f"{what}  {sum(numbers)}: by strip {', '.join(map(str, numbers))}"
     yield (
         _listed("met", (names[k] for k in sweeping.encounters), " → ")
         if sweeping.encounters

@@ -45,7 +45,7 @@ class Surveyor(Robot):
 
     def __init__(self, scene: Scene, ground: Ground, radius: fmpq) -> None:
         table = EdgeTable(scene.obstacles)
-        self.radius, self._ground = radius, ground
+        self.radius = radius
         self.mline = MLine(ground.terrain, radius)
         self._blocking = Blocking(ground, table)
         self._crossings = self.mline.crossings(self._blocking)

@@ -12,6 +12,7 @@ from sweeps import rectangle, swept_scene
 import exactacq as xa
 from exactacq import Circle, Length, Polygon, Scene, Terrain
 from exactacq.blocking import Blocking
+from exactacq.bounds import census
 from exactacq.errors import InvalidScene
 from exactacq.mline import MLine
 from exactacq.numerals import rational
@@ -96,6 +97,14 @@ class TestKnownScenes:
         assert "trapped" in run.events[-1].note
         assert run.complete
         assert run.length == Length(20)
+
+    def test_census(self) -> None:
+        """Figure 4: O1 and O6 cross strip 1 first, O2 and O4 strip 2, O5 strip 3; O3 lies inside."""
+        run = xa.seed_spreader(xa.load("figure4"))
+        counts = census(run.ground, run.radius)
+        assert counts.inside == (0, 1, 0)
+        assert counts.crossing == (2, 2, 1)
+        assert counts.pairs == 5 * 4
 
     def test_figure_3(self) -> None:
         run = xa.seed_spreader(xa.load("figure3"))
