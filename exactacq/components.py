@@ -21,8 +21,9 @@ from flint import fmpq
 from exactacq.boxes import box
 from exactacq.contacts import contacts, winding
 from exactacq.curves import Curve, Segment
+from exactacq.errors import InvalidScene
 from exactacq.lengths import Length
-from exactacq.points import Point
+from exactacq.points import Location, Point
 from exactacq.reals import Real
 from exactacq.scene import Obstacle, Scene
 from exactacq.shapes import Terrain
@@ -158,9 +159,27 @@ class Ground:
 
 
 def ground_of(scene: Scene) -> Ground:
-    """The components of a scene with a terrain."""
-    assert scene.terrain is not None
-    return Ground(scene.obstacles, scene.terrain)
+    """The components that a scene's terrain leaves of its obstacles.
+
+    Raises `InvalidScene` if there is no terrain or an enclosure, if the SW corner is not free, or if an
+    obstacle lies outside the terrain.
+    """
+    if scene.terrain is None:
+        raise InvalidScene(["the Seed Spreader needs a terrain: a rectangle with width and height"])
+    flaws = [
+        f"obstacle {obstacle.index} covers the SW corner (0, 0), where the Seed Spreader starts"
+        for obstacle in scene.obstacles
+        if not obstacle.is_enclosure and obstacle.locate(Point(0, 0)) is not Location.OUTSIDE
+    ]
+    if scene.enclosure is not None:
+        flaws.append("the Seed Spreader's terrain is a rectangle: an enclosure cannot be explored")
+    if flaws:
+        raise InvalidScene(flaws)
+    ground = Ground(scene.obstacles, scene.terrain)
+    outside = [o.index for o in scene.obstacles if not ground.of(o.index)]
+    if outside:
+        raise InvalidScene([f"obstacle {k} lies outside the terrain" for k in outside])
+    return ground
 
 
 class _Where(Enum):

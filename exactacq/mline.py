@@ -15,10 +15,14 @@ from flint import fmpq
 from exactacq.blocking import Blocking, Stop
 from exactacq.components import Component
 from exactacq.curves import Segment
+from exactacq.errors import InvalidScene
 from exactacq.points import Point
 from exactacq.reach import leftmost
 from exactacq.reals import Real
 from exactacq.shapes import Terrain
+
+MOST_STRIPS = 100_000
+"""More would take days; a radius that small is most likely a slip."""
 
 
 class Crossing(NamedTuple):
@@ -34,10 +38,15 @@ class Crossing(NamedTuple):
 
 
 class MLine:
-    """The straight pieces of the M-line, from S to T; every other one is a line, those between are joints."""
+    """The straight pieces of the M-line, from S to T; every other one is a line, those between are joints.
+
+    Raises `InvalidScene` for more than `MOST_STRIPS` strips.
+    """
 
     def __init__(self, terrain: Terrain, radius: fmpq) -> None:
         b, a = terrain.width, terrain.height
+        if b / radius > MOST_STRIPS:
+            raise InvalidScene([f"the terrain is more than {MOST_STRIPS} times as wide as the radius"])
         self.terrain, self.width = terrain, min(radius, b)
         self.strips = int((b / radius).ceil())
         self.lines = [min(j * self.width, b) for j in range(self.strips + 1)]

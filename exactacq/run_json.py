@@ -90,9 +90,9 @@ def _run(document: dict[str, Any]) -> Run:
     path = Path(_read_piece(numbers, piece) for piece in document["path"])
     links = tuple(_read_link(numbers, link) for link in document["links"])
     radius, start = rational(document["radius"]), numbers.point(document["start"])
+    if radius <= 0:
+        raise FormatError(f"the radius must be positive, not {radius}")
     sweeping = _read_sweeping(numbers, document["sweeping"]) if "sweeping" in document else None
-    if sweeping is not None and scene.terrain is None:
-        raise FormatError("a run of the Seed Spreader needs a scene with a terrain")
     ground = None if sweeping is None else ground_of(scene)
     memory = None
     if any(event["point"] is None for event in document["events"]):
@@ -102,7 +102,19 @@ def _run(document: dict[str, Any]) -> Run:
         tuple(int(k) for k in document[key]) for key in ("visits", "unseen", "unvisited")
     )
     count = len(scene.obstacles if ground is None else ground.components)
-    named = [*visits, *unseen, *unvisited, *(p.obstacle for p in path), *(e.obstacle for e in events)]
+    swept = () if sweeping is None else (*sweeping.encounters, *sweeping.again)
+    diversions = () if sweeping is None else sweeping.diversions
+    if any(not 0 <= d.first <= d.last <= len(path) for d in diversions):
+        raise FormatError("a diversion names pieces that the path does not have")
+    named = [
+        *swept,
+        *(d.obstacle for d in diversions),
+        *visits,
+        *unseen,
+        *unvisited,
+        *(p.obstacle for p in path),
+        *(e.obstacle for e in events),
+    ]
     if any(k is not None and not 0 <= k < count for k in named):
         raise FormatError(f"the run names an obstacle that its scene of {count} does not have")
     length = path.length_after(len(path))

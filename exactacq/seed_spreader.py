@@ -14,7 +14,7 @@ from exactacq.curves import Segment
 from exactacq.errors import InvalidScene
 from exactacq.losses import Line, Loss, known
 from exactacq.numerals import rational
-from exactacq.points import Location, Point, distance_sq
+from exactacq.points import Point, distance_sq
 from exactacq.reach import nearest_of, nearest_point
 from exactacq.scene import Scene
 from exactacq.surveyor import Hit, Surveyor
@@ -58,28 +58,14 @@ def seed_spreader(
 
 
 def _checked(scene: Scene, radius: fmpq | None) -> tuple[Ground, fmpq]:
-    terrain, corner = scene.terrain, Point(0, 0)
-    if terrain is None:
-        raise InvalidScene(["the Seed Spreader needs a terrain: a rectangle with width and height"])
     if radius is None:
         raise InvalidScene(["a radius of vision must be given"])
-    flaws = list(sensor_flaws(corner, radius))
-    if scene.enclosure is not None:
-        flaws.append("the Seed Spreader's terrain is a rectangle: an enclosure cannot be explored")
-    if scene.start is not None and scene.start != corner:
+    flaws = list(sensor_flaws(Point(0, 0), radius))
+    if scene.start is not None and scene.start != Point(0, 0):
         flaws.append(f"the start {scene.start} is not the terrain's SW corner (0, 0)")
-    flaws += [
-        f"obstacle {obstacle.index} covers the SW corner (0, 0), where the Seed Spreader starts"
-        for obstacle in scene.obstacles
-        if not obstacle.is_enclosure and obstacle.locate(corner) is not Location.OUTSIDE
-    ]
     if flaws:
         raise InvalidScene(flaws)
-    ground = ground_of(scene)
-    outside = [o.index for o in scene.obstacles if not ground.of(o.index)]
-    if outside:
-        raise InvalidScene([f"obstacle {k} lies outside the terrain" for k in outside])
-    return ground, radius
+    return ground_of(scene), radius
 
 
 class _Spreader:

@@ -13,6 +13,7 @@ import pytest
 from exactacq import (
     Circle,
     FormatError,
+    InvalidScene,
     Length,
     Outline,
     Point,
@@ -217,4 +218,25 @@ def test_a_point_that_sensing_cannot_find_is_refused(kind: str) -> None:
     event["point"] = None
     event["obstacle"] = 2 if kind == "sight" else event["obstacle"]
     with pytest.raises(FormatError, match="no point" if kind == "hit" else "does not show"):
+        load_run(document)
+
+
+@pytest.mark.parametrize(
+    ("part", "value", "what"),
+    [
+        (("sweeping", "encounters"), [99], "does not have"),
+        (("sweeping", "diversions", 0, "last"), 10**9, "pieces that the path does not have"),
+        (("scene", "terrain"), {"width": 1, "height": 1}, "outside the terrain"),
+        (("radius",), "1/1000000000", "as wide as the radius"),
+        (("radius",), "-1", "must be positive"),
+        (("sweeping",), [], "not a run"),
+    ],
+)
+def test_broken_sweeps_are_refused(part: tuple[object, ...], value: object, what: str) -> None:
+    document = json.loads(json.dumps(seed_spreader(gallery.scene("figure4")).to_json()))
+    place = document
+    for key in part[:-1]:
+        place = place[key]
+    place[part[-1]] = value
+    with pytest.raises((FormatError, InvalidScene), match=what):
         load_run(document)

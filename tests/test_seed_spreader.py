@@ -209,6 +209,7 @@ class TestBadInput:
             (Scene([rectangle(0, 0, 1, 1)], terrain=Terrain(4, 4), radius=1), "covers the SW corner"),
             (Scene([rectangle(5, 1, 6, 2)], terrain=Terrain(4, 4), radius=1), "outside the terrain"),
             (Scene([rectangle(4, 1, 6, 2)], terrain=Terrain(4, 4), radius=1), "outside the terrain"),
+            (Scene([], terrain=Terrain(4, 4), radius=Q(1, 10**9)), "times as wide as the radius"),
         ],
     )
     def test_refused(self, scene: Scene, what: str) -> None:
