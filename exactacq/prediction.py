@@ -29,7 +29,7 @@ from exactacq.prediction_candidates import Proposals
 from exactacq.prediction_features import Cell, Feature, Lines, features_of
 from exactacq.prediction_pieces import ANGLE, Pieces, cross
 from exactacq.prediction_sight import Sights, Walk, hull, overlap, unique
-from exactacq.reach import nearest_point, thresholds
+from exactacq.reach import last_in_reach, nearest_point, thresholds
 from exactacq.reals import Real, rational
 from exactacq.vision.pencil import rational_between
 from exactacq.vision.rails import Rail
@@ -65,6 +65,11 @@ def sees_later(
     if not including and Real(stop).compare(start) == 0:
         return False
     walk = Walk(x, start, stop, radius, including)
+    pieces = [*targets, *(Segment(point, point) for point in points)]
+    last = last_in_reach(x, walk.sense > 0, pieces, radius)
+    if last is None or last.compare(start) == -walk.sense or (not including and last.compare(start) == 0):
+        # Whatever is in the way: nothing is in reach.
+        return False
     goals = [curve for curve in targets if walk.may_reach(hull(curve))]
     dots = [point for point in points if walk.may_reach((*point.xy, *point.xy))]
     if not goals and not dots:

@@ -83,6 +83,13 @@ def test_the_start_is_excluded() -> None:
     assert not sees(SCREEN, [], start=7, stop=7)
 
 
+def test_what_is_out_of_reach_is_not_seen() -> None:
+    """Only the corner is within range, and only from the start: no other candidate decides that."""
+    box, near = block(-1, 0, 3, 5), block(-1, 0, 1, 2)
+    assert not sees(box, near, radius=1, start=2, stop=0)
+    assert sees(box, near, radius=1 + EPS, start=2, stop=0)
+
+
 def test_the_start_can_be_included() -> None:
     """Of the slit's one line, from its one place, and from a walk that is no longer than that place."""
     known = [*SCREEN, *SLIT]
