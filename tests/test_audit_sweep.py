@@ -94,6 +94,11 @@ class TestSensing:
         shapes = [xa.Circle((Q(1, 2), Q(11, 2)), Q(1, 2)), Polygon([(1, 2), (1, 4), (0, 4)])]
         audit(xa.seed_spreader(Scene(shapes, terrain=Terrain(6, 10)), 3), samples=200)
 
+    def test_a_cut_seen_from_the_start_of_a_circle(self) -> None:
+        """A leg that ends at a circle's start, (2, 11/2), meets the view of O1's end at (3, 6) there."""
+        shapes = [xa.Circle((Q(1, 2), Q(11, 2)), Q(3, 2)), rectangle(3, 5, 6, 8)]
+        audit(xa.seed_spreader(Scene(shapes, terrain=Terrain(14, 6)), 3))
+
     def test_range_at_a_cut(self) -> None:
         """From x = 5 the cut end (22/3, 6) is in range from y = 5.1 on, not from 5.75 on."""
         scene = Scene([Polygon([(8, 5), (8, 8), (6, 8)])], terrain=Terrain(14, 6))

@@ -51,6 +51,8 @@ class Lookout:
         for curve in self._outline:
             for contact in contacts(leg.curve, curve):
                 cuts += [(leg.rail.parameter(p), p) for p in (contact.start, contact.end)]
+        # A full circle's start is at 0, and at the top for a leg that ends there: that end is a cut anyway.
+        cuts = [cut for cut in cuts if leg.span.low <= cut[0] <= leg.span.high]
         cuts.sort(key=lambda cut: cut[0])
         cuts = [c for k, c in enumerate(cuts) if k == 0 or cuts[k - 1][0].compare(c[0]) < 0]
         inside = [self.sees(leg.rail.point(rational_between(a[0], b[0]))) for a, b in pairwise(cuts)]
