@@ -115,13 +115,15 @@ class Line:
 
     def _loss(self, gap: _Gap, ahead: Ahead) -> tuple[Real, Reason] | None:
         """Where, before the end of a gap and of the way, its obstacle is about to be lost, and why."""
-        robot, y = self.robot, gap.place.y
-        chart = robot.map if gap.u is ahead.leg.first else robot.map_ahead(ahead, gap.u, gap.place)
-        if not self._is_at_stake(gap.obstacle, chart):
+        robot, y, k = self.robot, gap.place.y, gap.obstacle
+        chart = robot.map_ahead(ahead, gap.u, gap.place, {k})
+        if not self._is_at_stake(k, chart):
             return None
-        if gap.fresh and not (self.lookahead and self._is_visible_later(gap.obstacle, chart, y)):
-            return y, Reason.SIGHT
-        curves = known(chart, gap.obstacle)
+        curves = known(chart, k)
+        if gap.fresh:
+            around = robot.map_ahead(ahead, gap.u, gap.place, robot.near(curves))
+            if not (self.lookahead and self._sees(k, around, y, Real(self.last))):
+                return y, Reason.SIGHT
         last = last_in_reach(self.x, self.upward, curves, robot.radius)
         if last is None or self._order(last, y) < 0:
             return y, Reason.OVERDUE
@@ -134,18 +136,18 @@ class Line:
         """Whether an obstacle is incomplete, known west of the line, and not known to block what is left."""
         curves = known(chart, obstacle)
         return (
-            obstacle in chart.incomplete
+            chart.is_incomplete(obstacle)
             and any(leftmost(curve).compare(self.x) < 0 for curve in curves)
             and not self.robot.blocks_ahead(obstacle, chart)
         )
 
-    def _is_visible_later(self, obstacle: int, chart: Map, y: Real) -> bool:
-        """Whether by the map a known point of an obstacle can be seen from the rest of the line after *y*."""
-        return self._sees(obstacle, chart, y, Real(self.last))
-
     def _sees(self, obstacle: int, chart: Map, start: Real, stop: Real, including: bool = False) -> bool:
-        blockers = [curve for k in chart.seen for curve in known(chart, k) if _is_long(curve)]
+        """Whether by the map a point of an obstacle can be seen from the line between two ordinates.
+
+        What is farther than the radius from all its known points hides none of them.
+        """
         pieces = known(chart, obstacle)
+        blockers = [c for k in self.robot.near(pieces) for c in known(chart, k) if _is_long(c)]
         points = [curve.start for curve in pieces if not _is_long(curve)]
         targets = [curve for curve in pieces if _is_long(curve)]
         return sees_later(self.x, start, stop, targets, blockers, self.robot.radius, points, including)

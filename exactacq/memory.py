@@ -121,9 +121,14 @@ class Memory:
         self._looked = piece, self._senses.ahead(leg)
         return self._looked[1]
 
-    def map_ahead(self, ahead: Ahead, u: Real, place: Point) -> Map:
-        """The map as it will be at a place of a piece that was looked along."""
-        return self._map(ahead.covers(u, place))
+    def map_ahead(self, ahead: Ahead, u: Real, place: Point, obstacles: Set[int]) -> Map:
+        """The map of some obstacles as it will be at a place of a piece that was looked along."""
+        return self._map(ahead.covers(u, place, obstacles))
+
+    def near(self, box: tuple[float, float, float, float]) -> set[int]:
+        """The obstacles with an edge whose box is within the radius of a box."""
+        x, y, right, top = box
+        return self._senses.targets.near(self._table.near((x, y), (right, top), float(self.radius)).tolist())
 
     def visible(self, place: Point, obstacle: int) -> list[Curve]:
         """What is in sight of an obstacle from a place; a single point is a piece without length."""

@@ -6,12 +6,13 @@ on the map. It learns what is in the way by meeting it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Set
+from collections.abc import Callable, Sequence, Set
 from typing import NamedTuple
 
 from flint import fmpq
 
 from exactacq.blocking import Blocking
+from exactacq.boxes import box
 from exactacq.components import Component, Ground
 from exactacq.curves import Curve, Segment
 from exactacq.memory import Memory
@@ -68,9 +69,15 @@ class Surveyor(Robot):
         """Whether all of an obstacle is known."""
         return obstacle in self._memory.acquired
 
-    def map_ahead(self, ahead: Ahead, u: Real, place: Point) -> Map:
-        """What will be known at a place of a way that was looked along."""
-        return self._memory.map_ahead(ahead, u, place)
+    def map_ahead(self, ahead: Ahead, u: Real, place: Point, obstacles: Set[int]) -> Map:
+        """What will be known of some obstacles at a place of a way that was looked along."""
+        return self._memory.map_ahead(ahead, u, place, obstacles)
+
+    def near(self, curves: Sequence[Curve]) -> set[int]:
+        """Obstacles that may be within the radius of some curves: to ask the map for no others."""
+        boxes = [box(curve) for curve in curves]
+        left, bottom, right, top = (f(b[k] for b in boxes) for k, f in enumerate((min, min, max, max)))
+        return self._memory.near((left, bottom, right, top))
 
     def visible(self, obstacle: int) -> list[Curve]:
         """The pieces of an obstacle in sight from here; a single point is a piece without length."""

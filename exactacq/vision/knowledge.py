@@ -113,6 +113,10 @@ class Map:
         """
         return tuple((i, point) for i in self.incomplete for point in self._frontier(i))
 
+    def is_incomplete(self, i: int) -> bool:
+        """Whether some but not all of an obstacle's boundary is known."""
+        return self._is_seen(i) and not self._is_acquired(i)
+
     def _frontier(self, i: int) -> Iterator[Point]:
         targets = self._targets.of[i]
         for k, target in enumerate(targets):

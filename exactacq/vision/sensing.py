@@ -8,7 +8,7 @@ obstacles that are not acquired yet are looked at.
 from __future__ import annotations
 
 from collections import ChainMap
-from collections.abc import Iterator
+from collections.abc import Iterator, Set
 from dataclasses import dataclass
 from enum import Enum
 from functools import cmp_to_key
@@ -69,11 +69,12 @@ class Ahead:
     shares: Shares | None
     before: dict[int, Cover]
 
-    def covers(self, u: Real, place: Point) -> dict[int, Cover]:
-        """What will be known at a place of the leg."""
+    def covers(self, u: Real, place: Point, obstacles: Set[int]) -> dict[int, Cover]:
+        """What will be known of some obstacles at a place of the leg; of others, what was before."""
         covers = dict(self.before)
         if self.shares is not None and self.leg.order(u, self.leg.first) > 0:
-            covers.update(self.shares.cut(self.leg.upto(u, place)).taught(covers))
+            some = obstacles & set(self.shares.obstacles)
+            covers.update(self.shares.cut(self.leg.upto(u, place), some).taught(covers))
         return covers
 
 
