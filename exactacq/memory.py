@@ -59,6 +59,7 @@ class Memory:
         # share, so that ties with them are free.
         self._parameters: dict[tuple[int, int], tuple[Point, Real, int]] = {}
         self._looked: tuple[Piece | None, Ahead | None] = None, None
+        self._walked: dict[tuple[int, int], Piece] = {}
         self._learned: list[dict[int, Cover]] = []
         self._legs: list[list[Leg]] = []
 
@@ -88,10 +89,10 @@ class Memory:
         """Take in all that a piece of the path shows; the reports in the order in which they come."""
         known, ahead = self._looked
         legs = [ahead.leg] if ahead is not None and known is piece else self._legs_of(piece)
-        count, reports = len(self._legs), []
+        count, reports, retraced = len(self._legs), [], self._is_retraced(piece)
         learned: dict[int, Cover] = {}
         for k, leg in enumerate(legs):
-            took = ahead if ahead is not None and leg is ahead.leg else self._senses.ahead(leg)
+            took = ahead if ahead is not None and leg is ahead.leg else self._senses.ahead(leg, retraced)
             notices, more = self._senses.follow(took)
             learned.update(more)
             for n in notices:
@@ -104,6 +105,16 @@ class Memory:
         self._learned.append(learned)
         self._legs.append(legs)
         return self._reported(reports)
+
+    def _is_retraced(self, piece: Piece) -> bool:
+        """Whether a straight piece was walked before, the other way.
+
+        It shows what is known, in other forms of the same numbers: ties that need no proof.
+        """
+        if piece.obstacle is not None:
+            return False
+        self._walked[id(piece.start), id(piece.end)] = piece
+        return (id(piece.end), id(piece.start)) in self._walked
 
     def _legs_of(self, piece: Piece) -> list[Leg]:
         owner = piece.obstacle

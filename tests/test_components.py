@@ -19,7 +19,7 @@ from exactacq.vision.table import EdgeTable
 
 
 def ground(shapes: list[object], width: object, height: object) -> Ground:
-    return ground_of(Scene(shapes, terrain=Terrain(width, height)))
+    return Ground(Scene(shapes).obstacles, Terrain(width, height))
 
 
 def shore(component: Component) -> list[str]:
@@ -121,9 +121,9 @@ class TestMLine:
         assert (wide.strips, wide.width, wide.length) == (1, 5, 9)
 
     def crossings(self, shapes: list[object], width: object, height: object, radius: int) -> list[str]:
-        scene = Scene(shapes, terrain=Terrain(width, height))
-        found = MLine(scene.terrain, rational(radius)).crossings(
-            Blocking(ground_of(scene), EdgeTable(scene.obstacles))
+        obstacles, terrain = Scene(shapes).obstacles, Terrain(width, height)
+        found = MLine(terrain, rational(radius)).crossings(
+            Blocking(Ground(obstacles, terrain), EdgeTable(obstacles))
         )
         return [f"{c.stop.point}{'>' if c.ends else '<'}" for c in found]
 

@@ -119,15 +119,16 @@ class Senses:
         """Move along the leg that was looked along last; returns its reports and the covers that grew."""
         return self._settle(ahead.notices, ahead.learned)
 
-    def ahead(self, leg: Leg) -> Ahead:
-        """What moving along a leg will tell."""
+    def ahead(self, leg: Leg, retraced: bool = False) -> Ahead:
+        """What moving along a leg will tell; nothing is learned where the robot has been (*retraced*)."""
         obstacles = self._near(leg) - self.acquired
         shares = self._shares(leg, obstacles) if obstacles else None
-        return Ahead(leg, *([], {}) if shares is None else self._told(shares), shares, dict(self.covers))
+        told = ([], {}) if shares is None else self._told(shares, retraced)
+        return Ahead(leg, *told, shares, dict(self.covers))
 
-    def _told(self, shares: Shares) -> tuple[list[Notice], dict[int, Cover]]:
+    def _told(self, shares: Shares, retraced: bool) -> tuple[list[Notice], dict[int, Cover]]:
         leg = shares.leg
-        learned = shares.taught(self.covers)
+        learned = {} if retraced else shares.taught(self.covers)
         now = ChainMap(learned, self.covers)
         notices: list[Notice] = []
         for k in sorted(shares.obstacles):
