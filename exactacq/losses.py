@@ -12,8 +12,6 @@ from collections.abc import Iterator
 from enum import StrEnum
 from typing import NamedTuple
 
-from flint import fmpq
-
 from exactacq.curves import Curve, Segment
 from exactacq.points import Point
 from exactacq.prediction import sees_later
@@ -58,9 +56,10 @@ class Line:
 
     def __init__(self, robot: Surveyor, lookahead: bool) -> None:
         way = robot.mline.pieces[robot.piece]
-        x, last = way.end.rational or (fmpq(0), fmpq(0))
+        end = way.end.rational
+        assert end is not None, "the M-line's corners are rational"
         self.robot, self.lookahead = robot, lookahead
-        self.x, self.last = x, last
+        self.x, self.last = end
         self.upward = way.direction.y.sign() > 0
         self.sense = 1 if self.upward else -1
         self.losses: list[Loss] = []
@@ -128,7 +127,8 @@ class Line:
         if last is None or self._order(last, y) < 0:
             return y, Reason.OVERDUE
         if not self.lookahead:
-            last = first_out_of_reach(self.x, self.upward, y, curves, robot.radius) or last
+            first = first_out_of_reach(self.x, self.upward, y, curves, robot.radius)
+            last = last if first is None else first
         end = ahead.leg.end.y if gap.end is None else gap.end
         return (last, Reason.REACH) if self._order(last, end) < 0 else None
 

@@ -130,11 +130,6 @@ class Surveyor(Robot):
         self.at = crossing.component.index
         return Hit(self.at, crossing)
 
-    @property
-    def is_at_end(self) -> bool:
-        """Whether the robot is at the end of a straight piece of the M-line."""
-        return self.position == self.mline.pieces[self.piece].end
-
     def turn(self) -> bool:
         """Take up the next piece of the M-line; False at T."""
         self.piece += 1
