@@ -24,7 +24,7 @@ from exactacq.numerals import rational
 from exactacq.output import FIGURES, PAGES, TRACES, check_output, write_whole
 from exactacq.report import comparison, console, run_report, scene_list, scene_report
 from exactacq.scene import Scene
-from exactacq.seed_spreader import seed_spreader
+from exactacq.seed_spreader import TargetChoice, seed_spreader
 from exactacq.shapes import Terrain
 from exactacq.sightseer import sightseer
 from exactacq.trace import Run
@@ -42,13 +42,6 @@ class Strategy(StrEnum):
 
     SIGHTSEER = "sightseer"
     SEED_SPREADER = "seed-spreader"
-
-
-class Aim(StrEnum):
-    """Among which points of an obstacle that is about to be lost the Seed Spreader picks its target."""
-
-    KNOWN = "known"
-    VISIBLE = "visible"
 
 
 class Outer(StrEnum):
@@ -108,7 +101,9 @@ def explore(
     lookahead: Annotated[
         bool, typer.Option(help="Seed Spreader: look ahead on the map before a diversion.")
     ] = True,
-    target: Annotated[Aim, typer.Option(help="Seed Spreader: what a diversion aims at.")] = Aim.KNOWN,
+    target: Annotated[
+        TargetChoice, typer.Option(help="Seed Spreader: what a diversion aims at.")
+    ] = TargetChoice.KNOWN,
     figure: FigureFile = None,
     at: Annotated[
         str | None, typer.Option(metavar="L", help="Draw the figure after this length of the path.")
@@ -310,7 +305,7 @@ def _explored(
     radius: fmpq | None,
     strategy: Strategy,
     lookahead: bool = True,
-    target: Aim = Aim.KNOWN,
+    target: TargetChoice = TargetChoice.KNOWN,
 ) -> Run:
     """The run; with a progress bar if it is long and a terminal watches."""
 
