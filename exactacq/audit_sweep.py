@@ -461,7 +461,8 @@ def _west_of(field: Field, parts: Sequence[_Part], obstacle: Obstacle) -> Hashab
     place = Point(point.x - far, point.y)
     if met is None:
         for k, (a, b) in enumerate(pairwise([*field.stops, field.stops[0]])):
-            if Segment(a, b).passes(place):
+            # Of the two intervals at a stop one may be blocked.
+            if Segment(a, b).passes(place) and not field.is_border_blocked(a, b):
                 return "border", k
     else:
         at = _length_to(field.world.edges[met], place)

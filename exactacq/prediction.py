@@ -27,6 +27,7 @@ from exactacq.errors import Undecided
 from exactacq.points import Point, distance_sq
 from exactacq.prediction_candidates import Proposals
 from exactacq.prediction_features import Cell, Feature, Lines, features_of
+from exactacq.prediction_growth import growth_sign
 from exactacq.prediction_pieces import ANGLE, Pieces, cross
 from exactacq.prediction_sight import Sights, Walk, hull, overlap, unique
 from exactacq.reach import last_in_reach, nearest_point, thresholds
@@ -37,8 +38,6 @@ from exactacq.vision.rails import Rail
 UP = Point(0, 1)
 GRID = 8
 """Places of the walk, and points of each target, that are tried first, less one."""
-NEAR = 1e6
-"""How near a bound of a cell, in margins, slopes at two places tell those between."""
 TRIES = 6
 """Lines of sight of the grid that are tried exactly."""
 
@@ -412,10 +411,12 @@ class _Lines:
         inward = 1 if part[0] - cell.low < cell.high - part[1] else -1
         begin, marks = (cell.low, cell.below) if inward > 0 else (cell.high, cell.above)
         bound = (max if inward > 0 else min)(self._ordinates(marks, lines), default=None)
-        sight = None if bound is None else self._about(cell, bound)
-        if sight is None or max(abs(end - begin) for end in part) > NEAR * self.search.pieces.slack:
+        if bound is None or (sight := self._about(cell, bound)) is None:
             return None
         if distance_sq(*sight).compare(self.walk.radius**2) < 0:
             return True
-        grows = all(self.proposals.slope(cell, y) * inward > 1e-4 for y in (begin, *part))
-        return False if grows else None
+        far = Real(rational(max(part, key=lambda end: abs(end - begin))))
+        length = distance_sq(*sight).sqrt()
+        ends, shape = (bound, far), self._shape(cell.touch)
+        sign = growth_sign(Real(self.walk.x), ends, shape, self.search.known[cell.target], length)
+        return False if sign == inward else None

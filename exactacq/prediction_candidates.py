@@ -441,19 +441,3 @@ class Proposals:
         """Lengths of the lines of sight about features from ordinates to targets; infinite if not certain."""
         q, sure = self._ends(touch, y, target, branch)
         return np.where(sure, norm(q - self._places(y)), np.inf)
-
-    def slope(self, cell: Cell, y: float) -> float:
-        """How fast the length of a cell's line of sight grows with the ordinate; NaN if not certain."""
-        touch, target, branch = (np.array([k]) for k in (cell.touch, cell.target, cell.branch))
-        ys = np.array([y])
-        p = self._places(ys)
-        way, _, before, _ = self._about(touch, p)
-        q, sure = self._ends(touch, ys, target, branch)
-        along = self.pieces.tangents(self.targets[target], q)
-        normal = left(way)
-        center = self.center[touch]
-        sine = dot(normal, along)
-        if not sure[0] or abs(sine[0]) < 1e-3 or before[0] < 1e4 * self.slack:
-            return float("nan")
-        turn = normal[:, 1] * dot(q - center, along) / (before * sine)
-        return float(((ys - center[:, 1]) / before - turn)[0])

@@ -18,7 +18,7 @@ import pytest
 from sweeps import rectangle, swept_scene
 
 import exactacq as xa
-from exactacq import Polygon, Scene, Terrain
+from exactacq import Circle, Polygon, Scene, Terrain
 from exactacq.audit import audit
 from exactacq.curves import Curve, Segment
 from exactacq.errors import AuditError
@@ -55,6 +55,11 @@ class TestGoodRuns:
         scene = swept_scene(Random(seed), arcs=seed % 2 == 1, clear=seed % 5 == 0)
         target = "visible" if seed % 7 == 0 else "known"
         audit(xa.seed_spreader(scene, lookahead=seed % 3 != 0, target=target), samples=16)
+
+    def test_a_ray_to_the_border_may_end_where_an_obstacle_begins(self) -> None:
+        """What lies west of the triangle is the point where the circle meets the border: free on one side."""
+        shapes = [Circle((0, 2), 1), Polygon([(2, 1), (3, 1), (2, 3)])]
+        audit(xa.seed_spreader(Scene(shapes, terrain=Terrain(8, 8)), 3), samples=16)
 
     def test_empty_terrain(self) -> None:
         audit(xa.seed_spreader(Scene([], terrain=Terrain(10, 4)), 3))

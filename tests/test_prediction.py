@@ -13,9 +13,11 @@ from random import Random
 import numpy as np
 import pytest
 
+from exactacq.contacts import line_contacts
 from exactacq.curves import Arc, Curve, Segment
 from exactacq.points import Point
 from exactacq.prediction import sees_later
+from exactacq.prediction_growth import growth_sign
 from exactacq.reals import Real, fmpq, roots
 
 EPS = fmpq(1, 10**40)
@@ -396,3 +398,32 @@ class _Sampler:
             inward = -sense * ((place - (cx, cy)) * d).sum(axis=1)
             found.append((np.where(on, root, np.inf), inward))
         return found
+
+
+def test_the_sign_of_growth_is_that_of_exact_differences() -> None:
+    rng = Random(1)
+    step, told = Real(1) / 10**8, 0
+    for _ in range(600):
+        x, y, *numbers = (Real(rng.randint(-40, 40)) / 4 for _ in range(8))
+        shape = Point(numbers[0], numbers[1]), Real(rng.choice([0, 1, -1, 2]))
+        a, b = Point(numbers[2], numbers[3]), Point(numbers[4], numbers[5])
+        circle = Arc(Point(a.x + 2, a.y), Point(a.x + 2, a.y), a, fmpq(4), ccw=True, full=True)
+        target = circle if a == b or rng.random() < 0.5 else Segment(a, b)
+        before, after = (sights_about(Point(x, z), shape, target) for z in (y, y + step))
+        if len(before) == len(after):
+            for one, other in zip(before, after, strict=True):
+                sign = growth_sign(x, (y, y + step), shape, target, one)
+                assert sign in (0, (other - one).sign())
+                told += sign != 0
+    assert told > 50
+
+
+def sights_about(place: Point, shape: tuple[Point, Real], target: Curve) -> list[Real]:
+    """Lengths of the lines from a place past a point, or touching a circle, to a target ahead."""
+    turn, offset = shape[1], shape[0] - place
+    rest = offset.norm_sq() - turn * turn
+    if rest.sign() <= 0:
+        return []
+    ahead, across = rest.sqrt(), Point(-offset.y, offset.x)
+    way = (offset * ahead + across * turn) / offset.norm_sq()
+    return [t for t in line_contacts(place, way, target) if t.sign() > 0]

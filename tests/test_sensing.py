@@ -8,6 +8,7 @@ from random import Random
 
 import numpy as np
 import pytest
+from flint import fmpq
 from hypothesis import given, settings
 from strategies import Terrain, degenerate_terrain, random_terrain, terrains
 
@@ -334,3 +335,27 @@ def test_a_moment_inside_an_arc_is_near_the_length() -> None:
         run.map_at(run.near(1).at + 2 + run.scene.obstacles[0].perimeter / 37)
     with pytest.raises(ValueError, match="no place"):
         run.near(1000)
+
+
+def test_a_line_that_only_grazes_is_sighted_from_free_space_beyond_its_corners() -> None:
+    """Three corners in a row, the first on the left of their line: no neighbour of the line shows the third.
+
+    Nothing stands behind the first corner, so the line comes from free space, where a way crosses it.
+    """
+    shapes = [
+        Polygon([(5, 5), (6, 5), (6, 7), (5, 7)]),
+        Polygon([(3, 2), (4, 2), (4, 5), (3, 5)]),
+        Polygon([(0, 4), (2, 4), (2, 5), (0, 5)]),
+    ]
+    way = Piece("straight", None, Segment(Point(-1, 0), Point(-1, 3)))
+    memory = Memory.of(Scene(shapes), fmpq(20), way.start, [way])
+    seen = [(r.kind.name, str(r.place)) for r in memory.reports if r.obstacle == 0]
+    assert seen == [("SIGHT", "(-1, 1)"), ("LOSE", "(-1, 1)")]
+
+
+def test_the_normal_of_a_way_where_it_touches_a_circle_meets_the_circle_there() -> None:
+    """The way's middle is where it touches: its normal starts on the circle, and does not miss it."""
+    way = Piece("straight", None, Segment(Point(0, 3), Point(0, 10)))
+    scene = Scene([Circle((Fraction(3, 2), Fraction(13, 2)), Fraction(3, 2))])
+    (known,) = Memory.of(scene, fmpq(1), way.start, [way]).after(1).known(0)
+    assert (str(known.start), str(known.end)) == ("(1, sqrt(2) + 13/2)", "(1, 13/2 - sqrt(2))")

@@ -23,7 +23,7 @@ import numpy as np
 from flint import fmpq, fmpz
 
 from exactacq.contacts import line_contacts
-from exactacq.curves import Segment
+from exactacq.curves import Arc, Segment
 from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.vision.crossings import Crossings
@@ -221,6 +221,9 @@ class _Sweep:
         for e in edges:
             for tau in line_contacts(contact, direction, self.table.curves[e]):
                 side = tau.sign()
+                if side == 0 and e not in self.own and isinstance(self.table.curves[e], Arc):
+                    # A normal of a way where the way touches this arc.
+                    side = 1 if self._enters(contact, direction, tau, e, 1) else -1
                 if side and (side not in nearest or (tau - nearest[side][0]).sign() == -side):
                     nearest[side] = tau, int(e)
         proper = {s: e for s, (tau, e) in nearest.items() if self._enters(contact, direction, tau, e, s)}

@@ -319,6 +319,13 @@ class Sightlines:
                     near, far = (low, high) if _nearer(place, low, high) else (high, low)
                     if place != near:
                         yield Ray(place, e, (near, far), f)
+        step = direction * (self.radius / direction.norm_sq().sqrt())
+        for walk, place in ((behind, contact - step), (ahead, contact + step)):
+            if not walk.blocked:
+                for f, low, high in runs:
+                    near, far = (low, high) if _nearer(place, low, high) else (high, low)
+                    if place != near:
+                        yield Ray(place, None, (near, far), f)
 
 
 def _gaps(boxes: Floats, box: Floats) -> Floats:
