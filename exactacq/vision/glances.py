@@ -263,6 +263,11 @@ class Ranges:
     def _moved(self, glance: Glance, end: End, other: End, side: int, span: Interval) -> End:
         """An extreme view, moved to the end of an interval if it lies outside; *other* is the other one."""
         place = end.places[side]
+        for bound, point in ((span.low, span.start), (span.high, span.end)):
+            told = place is bound or (place.rational is not None and bound.rational is not None)
+            if not told and _overlap(place, bound) and self._shows(glance, end, side, point):
+                points = (point, end.points[1]) if side == 0 else (end.points[0], point)
+                return _placed(replace(end, points=points), side, bound)
         if place.compare(span.low) < 0:
             place, point = span.low, span.start
         elif place.compare(span.high) > 0:
@@ -275,6 +280,20 @@ class Ranges:
             points = (point, end.points[1]) if side == 0 else (end.points[0], point)
             return _placed(End(end.t, points, end.places), side, place)
         return _placed(self.view_from(glance, side, point), side, place)
+
+    def _shows(self, glance: Glance, end: End, side: int, point: Point) -> bool:
+        """Whether a line of the glance through a point, near an extreme view, has the same other end.
+
+        Where the point is the simpler one, this is easier to prove than that it is the extreme view's own.
+        """
+        strand = glance.strand
+        if strand is None or strand.sides[side].role is Role.CONTACT:
+            return False
+        for t in strand.sector.through(point):
+            if _overlap(t, end.t):
+                other = self._point(strand.sector, strand.sides[1 - side], *strand.sector.touch(t))
+                return other == end.points[1 - side]
+        return False
 
     def view_from(self, glance: Glance, side: int, point: Point) -> End:
         """The view of a glance from a point of one of its sides, strictly between its extreme views."""
@@ -393,6 +412,10 @@ class Ranges:
             away: Real = radius + self.radius if sector.outward else radius - self.radius
             return away * away
         return Real(self.square)
+
+
+def _overlap(a: Real, b: Real) -> bool:
+    return bool(a.ball(BITS).overlaps(b.ball(BITS)))
 
 
 def _is_met(direction: Point, curve: Curve, end: Point, role: Role) -> bool:
