@@ -10,7 +10,6 @@ from flint import fmpq
 
 from exactacq.bounds import spreader_bounds
 from exactacq.components import Ground, ground_of
-from exactacq.curves import Segment
 from exactacq.errors import InvalidScene
 from exactacq.losses import Line, Loss, known
 from exactacq.numerals import rational
@@ -159,12 +158,14 @@ class _Spreader:
         aim, loss = min(aims, key=cmp_to_key(order))
         robot.mark("divert", loss.obstacle, loss.reason)
         first = robot.count
-        self._approach(loss.obstacle, aim)
+        robot.head_for(aim)
+        self._approach(loss.obstacle)
         aim = robot.position
         robot.circumnavigate()
         robot.walk_to(aim)
         robot.mark("leave", loss.obstacle, "back to the M-line")
-        self._approach(None, leave)
+        robot.head_back()
+        self._approach(None)
         robot.mark("return", loss.obstacle, loss.reason)
         self.diversions.append(Diversion(loss.obstacle, leave, aim, str(loss.reason), first, robot.count))
 
@@ -175,23 +176,23 @@ class _Spreader:
         curves = curves or known(robot.map, loss.obstacle)
         return nearest_of([nearest_point(curve, robot.position) for curve in curves], robot.position)
 
-    def _approach(self, obstacle: int | None, goal: Point) -> None:
-        """Go straight to a point, around what is in the way; or to the first hit of the aimed *obstacle*."""
+    def _approach(self, obstacle: int | None) -> None:
+        """Go the straight way, around what is in the way; or to the first hit of the aimed *obstacle*."""
         robot = self.robot
-        way, note = Segment(robot.position, goal), "on the way back" if obstacle is None else "on the way"
-        while (hit := robot.go(goal)) is not None:
+        note = "on the way back" if obstacle is None else "on the way"
+        while (hit := robot.go()) is not None:
             k = hit.obstacle
             robot.mark("hit", k, note)
             if obstacle is not None:
                 self.encounters.append(k)
-            here, is_known = robot.position, robot.is_acquired(k)
+            is_known = robot.is_acquired(k)
             if k == obstacle and not is_known:
                 return
             if not is_known:
                 robot.circumnavigate()
-            crossing = robot.nearest_crossing(k, way)
-            if crossing is None or crossing == here:
-                raise _Trapped(f"obstacle {k} closes the way to {goal}")
+            crossing = robot.pass_by(k)
+            if crossing is None:
+                raise _Trapped(f"obstacle {k} closes the straight way")
             robot.walk_to(crossing)
             robot.mark("leave", k, note)
         if obstacle is not None:

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from flint import fmpq
 
-from exactacq.blocking import Blocking
+from exactacq.blocking import Blocking, Gap
 from exactacq.boxes import box
 from exactacq.components import Component, Ground
 from exactacq.curves import Curve, Segment
@@ -51,6 +51,8 @@ class Surveyor(Robot):
         self._blocking = Blocking(ground, table)
         self._crossings = self.mline.crossings(self._blocking)
         self._next = self.piece = 0
+        self._gaps: list[Gap] = []
+        self._bases, self._passed = (Point(0, 0), Point(0, 0)), 0
         super().__init__(Point(0, 0), Memory(scene, radius, table, ground))
 
     # -- the map -----------------------------------------------------------------------------------
@@ -106,17 +108,6 @@ class Surveyor(Robot):
                 return crossing
         return None
 
-    def nearest_crossing(self, obstacle: int, way: Segment) -> Point | None:
-        """The crossing point of an acquired obstacle with a way that is nearest to the way's end."""
-        found = [
-            gap.end
-            for gap in self._blocking.gaps(way)
-            if gap.component is not None
-            and gap.component.index == obstacle
-            and _is_ashore(gap.component, gap.end.point)
-        ]
-        return found[-1].point if found else None
-
     # -- motion ------------------------------------------------------------------------------------
 
     def follow(self, watch: Watch | None = None) -> Hit | None:
@@ -139,18 +130,42 @@ class Surveyor(Robot):
         """Take up the M-line at a leave point, to which the robot has walked."""
         self.piece, self._next = crossing.piece, self._crossings.index(crossing) + 1
 
-    def go(self, target: Point) -> Hit | None:
-        """Go straight to a point unless an obstacle blocks the way."""
-        if self.position == target:
+    def head_for(self, goal: Point) -> None:
+        """Lay a straight way from here to a point."""
+        self._bases, self._passed = (self.position, goal), 0
+        self._gaps = self._blocking.gaps(Segment(*self._bases)) if self.position != goal else []
+
+    def head_back(self) -> None:
+        """Lay the straight way back, from where the robot came to its end, or to what blocks it.
+
+        Its points are those of the way out: found again, they would be other forms of the same numbers.
+        """
+        passed = reversed(self._gaps[: self._passed])
+        self._gaps = [Gap(gap.obstacle, gap.component, gap.end, gap.begin) for gap in passed]
+        self._bases, self._passed = (self.position, self._bases[0]), 0
+
+    def go(self) -> Hit | None:
+        """Go on along the straight way until an obstacle blocks it, or to its end."""
+        if self._passed == len(self._gaps):
+            self._walk_straight(self._bases[1], None)
             return None
-        gaps = self._blocking.gaps(Segment(self.position, target))
-        self._walk_straight(gaps[0].begin.point if gaps else target, None)
-        if not gaps:
-            return None
-        component = gaps[0].component
-        assert component is not None, "a way between free points is blocked between them"
-        self.at = component.index
-        return Hit(component.index, None)
+        gap = self._gaps[self._passed]
+        self._walk_straight(gap.begin.point, None)
+        assert gap.component is not None, "a way between free points is blocked between them"
+        self.at = gap.component.index
+        return Hit(self.at, None)
+
+    def pass_by(self, obstacle: int) -> Point | None:
+        """Take up the straight way at the last crossing point of an obstacle with it, which is returned.
+
+        None if there is none that can be walked to.
+        """
+        for k in range(len(self._gaps) - 1, self._passed - 1, -1):
+            component, place = self._gaps[k].component, self._gaps[k].end.point
+            if component is not None and component.index == obstacle and _is_ashore(component, place):
+                self._passed = k + 1
+                return place
+        return None
 
     def _walk_straight(self, target: Point, watch: Watch | None) -> bool:
         """Walk to a point that can be reached; False if *watch* stopped the robot before."""

@@ -22,6 +22,7 @@ from flint import fmpq
 
 from exactacq.contacts import contacts, line_contacts
 from exactacq.curves import Arc, Curve, Segment
+from exactacq.errors import Undecided
 from exactacq.points import Point, distance_sq
 from exactacq.reals import Real
 from exactacq.vectors import dot, raw
@@ -264,8 +265,7 @@ class Ranges:
         """An extreme view, moved to the end of an interval if it lies outside; *other* is the other one."""
         place = end.places[side]
         for bound, point in ((span.low, span.start), (span.high, span.end)):
-            told = place is bound or (place.rational is not None and bound.rational is not None)
-            if not told and _overlap(place, bound) and self._shows(glance, end, side, point):
+            if self.is_again(glance, end, side, point, bound):
                 points = (point, end.points[1]) if side == 0 else (end.points[0], point)
                 return _placed(replace(end, points=points), side, bound)
         if place.compare(span.low) < 0:
@@ -281,19 +281,29 @@ class Ranges:
             return _placed(End(end.t, points, end.places), side, place)
         return _placed(self.view_from(glance, side, point), side, place)
 
-    def _shows(self, glance: Glance, end: End, side: int, point: Point) -> bool:
-        """Whether a line of the glance through a point, near an extreme view, has the same other end.
+    def is_again(self, glance: Glance, end: End, side: int, point: Point, u: Real) -> bool:
+        """Whether an extreme view certainly ends at another point of its side, whose parameter is *u*.
 
-        Where the point is the simpler one, this is easier to prove than that it is the extreme view's own.
+        Where that point is the simpler one, it is easier to prove that its line of the glance has the same
+        other end than that the two points are one. False where that is told by simpler means.
         """
-        strand = glance.strand
-        if strand is None or strand.sides[side].role is Role.CONTACT:
+        place, strand = end.places[side], glance.strand
+        told = place is u or (place.rational is not None and u.rational is not None)
+        if strand is None or told or not _overlap(place, u):
             return False
-        for t in strand.sector.through(point):
-            if _overlap(t, end.t):
-                other = self._point(strand.sector, strand.sides[1 - side], *strand.sector.touch(t))
-                return other == end.points[1 - side]
-        return False
+        sector, sides = strand.sector, strand.sides
+        if sides[side].role is not Role.CONTACT:
+            lines = sector.through(point)
+        elif isinstance(sector, Rolling):
+            lines = [sector.touching(point)]
+        else:
+            return False
+        here = end.points[1 - side]
+        near = [t for t in lines if _overlap(t, end.t)]
+        try:
+            return any(self._point(sector, sides[1 - side], *sector.touch(t)) == here for t in near)
+        except Undecided:
+            return False
 
     def view_from(self, glance: Glance, side: int, point: Point) -> End:
         """The view of a glance from a point of one of its sides, strictly between its extreme views."""

@@ -14,7 +14,7 @@ from typing import TypeAlias
 from exactacq.points import Point, distance_sq
 from exactacq.reals import Real
 from exactacq.vision.crossing import Crossing
-from exactacq.vision.glances import End, Glance, Ranges
+from exactacq.vision.glances import End, Glance, Pin, Ranges
 from exactacq.vision.holds import Seen
 from exactacq.vision.intervals import EMPTY, Cover, Interval
 from exactacq.vision.legs import Leg
@@ -143,15 +143,17 @@ class Shares:
     def taught(self, covers: Covers) -> dict[int, Cover]:
         """The covers that grow along the leg, if *covers* are known before it."""
         learned: dict[int, Cover] = {}
+        same: dict[int, Pin] = {}
         leg = self.leg
         for shares in self.of.values():
             for share in sorted(shares, key=lambda share: size(share.shown), reverse=True):
-                add(learned, covers, share.edge, share.shown)
+                same.update(self._recognised(share, covers.get(share.edge, EMPTY)))
+                add(learned, covers, share.edge, _called(share.shown, same))
         for u, place in ((leg.first, leg.start), (leg.last, leg.end)):
             view = self.view(place, leg.own(u))
             for k in self.obstacles:
                 for e, interval in self.targets.within(k, view.spans):
-                    add(learned, covers, e, interval)
+                    add(learned, covers, e, _called(interval, same))
         for seen in self.ends.values():
             for end, _ in seen:
                 add(learned, covers, end.edge, end.pin)
@@ -160,6 +162,20 @@ class Shares:
                 assert leg.edge is not None
                 add(learned, covers, leg.edge, leg.span)
         return learned
+
+    def _recognised(self, share: Share, cover: Cover) -> Iterator[tuple[int, Pin]]:
+        """Ends of what a share shows that are ends of a cover, by the identity of their parameters.
+
+        A leg often ends where an end of what is known comes in sight: found again from there, it is a number
+        that is hard to compare with itself.
+        """
+        glance, side = share.glance, 1 - share.side
+        for end in (glance.first, glance.last):
+            u = end.places[side]
+            for old in cover.intervals:
+                for pin in ((old.start, old.low), (old.end, old.high)):
+                    if self._ranges.is_again(glance, end, side, *pin):
+                        yield id(u), pin
 
     def _is_along(self, k: int) -> bool:
         """Whether the leg is on the boundary of an obstacle."""
@@ -238,6 +254,13 @@ class Shares:
 def size(interval: Interval) -> float:
     """Rough size. Large intervals are added first: equal ends inside them need not be compared."""
     return float((interval.high - interval.low).ball(64).mid())
+
+
+def _called(interval: Interval, same: dict[int, Pin]) -> Interval:
+    """An interval whose ends are replaced by what they are the same as, by identity of their parameters."""
+    start, low = same.get(id(interval.low), (interval.start, interval.low))
+    end, high = same.get(id(interval.high), (interval.end, interval.high))
+    return Interval(low, start, high, end)
 
 
 def add(learned: dict[int, Cover], covers: Covers, e: int, interval: Interval) -> None:
