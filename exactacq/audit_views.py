@@ -11,7 +11,7 @@ is shared with `exactacq.vision`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cmp_to_key
 from itertools import accumulate, pairwise
@@ -34,6 +34,8 @@ Floats: TypeAlias = NDArray[np.float64]
 Bools: TypeAlias = NDArray[np.bool_]
 Ints: TypeAlias = NDArray[np.int64]
 
+TIE_BITS = 256
+"""Numbers that differ by less are taken for candidates of a tie."""
 EPS = 2.0**-48
 """Relative error of a product with an offset from q (rounded once: 2^-53) and a ray (2^-50), with room."""
 APART = 2.0**-44
@@ -72,20 +74,29 @@ class World:
         return list(range(self.first[i], self.first[i + 1]))
 
     def blocker(
-        self, origin: Point, direction: Point, upto: object, edges: Iterable[int] | None = None
+        self,
+        origin: Point,
+        direction: Point,
+        upto: object,
+        edges: Iterable[int] | None = None,
+        starting: Collection[int] = (),
+        ending: Collection[int] = (),
     ) -> tuple[int, Point] | None:
         """An obstacle and a point of its interior on the way to ``origin + upto direction``, or None.
 
         Exact: where the way meets no edge it does not change sides, so the middle between two contacts
-        decides. *edges* are those that the way can meet; all edges near it if None.
+        decides. *edges* are those that the way can meet; all edges near it if None. Those *starting* and
+        *ending* the way are known to pass through its ends.
         """
         end = Real(upto)
         near = self._along(Segment(origin, origin + direction * end)) if edges is None else edges
         cuts: list[Real] = [Real(0)]
         owners: set[int] = set()
         for e in near:
-            found = [t for t in line_contacts(origin, direction, self.edges[e]) if 0 < t < end]
-            cuts += found
+            met = line_contacts(origin, direction, self.edges[e])
+            at_start = _single(met, Real(0)) if e in starting else None
+            at_end = _single(met, end) if e in ending else None
+            cuts += [t for t in met if t is not at_start and t is not at_end and 0 < t < end]
             owners.add(self.owner[e])
         cuts.sort()
         for a, b in pairwise([*cuts, end]):
@@ -109,11 +120,15 @@ class World:
 
 
 class Ray:
-    """A direction: a float unit vector within 2^-50 of it, and the exact vector, made on demand."""
+    """A direction: a float unit vector within 2^-50 of it, and the exact vector, made on demand.
 
-    def __init__(self, unit: tuple[float, float], exact: Callable[[], Point]) -> None:
+    ``aim`` is the number of the point that is one such vector away, if it has one.
+    """
+
+    def __init__(self, unit: tuple[float, float], exact: Callable[[], Point], aim: int | None = None) -> None:
         self.unit, self.exact = unit, exact
         self.angle = atan2(unit[1], unit[0])
+        self.aim = aim
 
 
 class Range(NamedTuple):
@@ -157,6 +172,11 @@ class Lookout:
         self.on = [names[k] for k in self.numbers]
         self.boxes = bounds(self.curves)
         self.ends = world.number_ends(self.curves)
+        self.at: dict[int, set[int]] = {}
+        for pair, e in zip(self.ends.tolist(), self.on, strict=True):
+            if e is not None:
+                for number in pair:
+                    self.at.setdefault(number, set()).add(e)
 
     def first(self, point: Point) -> int | None:
         """Number of the first curve that sees a rational point of the closed free space, or None.
@@ -192,6 +212,12 @@ def _identity(curve: Curve) -> object:
         return ends
     a, b = (curve.start.key, curve.end.key) if curve.ccw else (curve.end.key, curve.start.key)
     return a, b, curve.center.key, curve.radius_sq, curve.full
+
+
+def _single(met: Sequence[Real], value: Real) -> Real | None:
+    """The only one of some numbers that balls do not part from a value."""
+    near = [t for t in met if t is value or (t - value).ball(TIE_BITS).contains(0)]
+    return near[0] if len(near) == 1 else None
 
 
 def between(a: Real, b: Real) -> object:
@@ -240,7 +266,7 @@ class _View:
         """The critical rays, and the east so that there is at least one."""
         rays = [Ray((1.0, 0.0), lambda: Point(1, 0))]
         for number, offset in self.offsets.items():
-            rays += self._ray_to(self.lookout.world.points[number], offset)
+            rays += self._ray_to(self.lookout.world.points[number], offset, number)
         for point in self._range_crossings():
             rays += self._ray_to(point, self._offset(point))
         arcs = (curve for curve in (*self.edges, *self.curves) if isinstance(curve, Arc))
@@ -248,10 +274,10 @@ class _View:
             rays += [_ray(vector) for vector in _tangents(self.q, arc)]
         return rays
 
-    def _ray_to(self, point: Point, offset: tuple[float, float]) -> list[Ray]:
+    def _ray_to(self, point: Point, offset: tuple[float, float], aim: int | None = None) -> list[Ray]:
         """The ray to a point; none to q itself."""
         unit = _unit(*offset)
-        return [] if unit is None else [Ray(unit, lambda: point - self.q)]
+        return [] if unit is None else [Ray(unit, lambda: point - self.q, aim)]
 
     def _range_crossings(self) -> Iterator[Point]:
         q, radius = self.q, self.lookout.radius
@@ -361,8 +387,11 @@ class _View:
 
     def sees_along(self, ray: int, k: int) -> bool:
         """Whether a curve has a point on a ray that sees q: exact."""
-        direction, curve = self.rays[ray].exact(), self.curves[k]
+        direction, curve, aim = self.rays[ray].exact(), self.curves[k], self.rays[ray].aim
         found = line_contacts(self.q, direction, curve)
+        ending = set() if aim is None else self.lookout.at.get(aim, set())
+        if aim in self.lookout.ends[self.near[k]]:
+            found = [Real(1) if t is _single(found, Real(1)) else t for t in found]
         ahead = [t for t in found if t >= 0]
         if not ahead:
             return False
@@ -373,7 +402,10 @@ class _View:
         edges = self._possible_edges
         met = np.unique(edges.curve[edges.low[ray] < np.inf])
         numbers = {self.edge_numbers[e] for e in met} | set(self.own)
-        return self.lookout.world.blocker(self.q, direction, nearest, sorted(numbers)) is None
+        if nearest.rational != 1:
+            ending = set()
+        world = self.lookout.world
+        return world.blocker(self.q, direction, nearest, sorted(numbers), self.own, ending) is None
 
 
 def _rounded(value: Real) -> float:
