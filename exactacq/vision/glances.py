@@ -264,16 +264,19 @@ class Ranges:
     def _moved(self, glance: Glance, end: End, other: End, side: int, span: Interval) -> End:
         """An extreme view, moved to the end of an interval if it lies outside; *other* is the other one."""
         place = end.places[side]
-        for bound, point in ((span.low, span.start), (span.high, span.end)):
-            if self.is_again(glance, end, side, point, bound):
-                points = (point, end.points[1]) if side == 0 else (end.points[0], point)
-                return _placed(replace(end, points=points), side, bound)
-        if place.compare(span.low) < 0:
-            place, point = span.low, span.start
-        elif place.compare(span.high) > 0:
-            place, point = span.high, span.end
-        else:
-            return end
+        try:
+            if place.compare(span.low) < 0:
+                place, point = span.low, span.start
+            elif place.compare(span.high) > 0:
+                place, point = span.high, span.end
+            else:
+                return end
+        except Undecided:
+            for bound, point in ((span.low, span.start), (span.high, span.end)):
+                if self.is_again(glance, end, side, point, bound):
+                    points = (point, end.points[1]) if side == 0 else (end.points[0], point)
+                    return _placed(replace(end, points=points), side, bound)
+            raise
         if place.compare(other.places[side]) == 0:
             return other
         if glance.strand is None:
@@ -285,11 +288,10 @@ class Ranges:
         """Whether an extreme view certainly ends at another point of its side, whose parameter is *u*.
 
         Where that point is the simpler one, it is easier to prove that its line of the glance has the same
-        other end than that the two points are one. False where that is told by simpler means.
+        other end than that the two points are one: asked where the latter was Undecided.
         """
         place, strand = end.places[side], glance.strand
-        told = place is u or (place.rational is not None and u.rational is not None)
-        if strand is None or told or not _overlap(place, u):
+        if strand is None or place is u or not _overlap(place, u):
             return False
         sector, sides = strand.sector, strand.sides
         if sides[side].role is not Role.CONTACT:
@@ -298,12 +300,16 @@ class Ranges:
             lines = [sector.touching(point)]
         else:
             return False
-        here = end.points[1 - side]
-        near = [t for t in lines if _overlap(t, end.t)]
+        here, far = end.points[1 - side], self.curve(sides[1 - side].edge)
         try:
-            return any(self._point(sector, sides[1 - side], *sector.touch(t)) == here for t in near)
+            for contact, direction in (sector.touch(t) for t in lines if _overlap(t, end.t)):
+                if isinstance(far, Segment) and direction.cross(far.direction).sign() == 0:
+                    continue
+                if self._point(sector, sides[1 - side], contact, direction) == here:
+                    return True
         except Undecided:
-            return False
+            pass
+        return False
 
     def view_from(self, glance: Glance, side: int, point: Point) -> End:
         """The view of a glance from a point of one of its sides, strictly between its extreme views."""

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TypeAlias
 
+from exactacq.errors import Undecided
 from exactacq.points import Point, distance_sq
 from exactacq.reals import Real
 from exactacq.vision.crossing import Crossing
@@ -142,12 +143,22 @@ class Shares:
 
     def taught(self, covers: Covers) -> dict[int, Cover]:
         """The covers that grow along the leg, if *covers* are known before it."""
+        try:
+            return self._taught(covers, {})
+        except Undecided:
+            shares = (share for shares in self.of.values() for share in shares)
+            pins = (self._recognised(share, covers.get(share.edge, EMPTY)) for share in shares)
+            same = dict(pin for found in pins for pin in found)
+            if not same:
+                raise
+            return self._taught(covers, same)
+
+    def _taught(self, covers: Covers, same: Mapping[int, Pin]) -> dict[int, Cover]:
+        """The same; *same* as `_recognised` finds them."""
         learned: dict[int, Cover] = {}
-        same: dict[int, Pin] = {}
         leg = self.leg
         for shares in self.of.values():
             for share in sorted(shares, key=lambda share: size(share.shown), reverse=True):
-                same.update(self._recognised(share, covers.get(share.edge, EMPTY)))
                 add(learned, covers, share.edge, _called(share.shown, same))
         for u, place in ((leg.first, leg.start), (leg.last, leg.end)):
             view = self.view(place, leg.own(u))
@@ -256,7 +267,7 @@ def size(interval: Interval) -> float:
     return float((interval.high - interval.low).ball(64).mid())
 
 
-def _called(interval: Interval, same: dict[int, Pin]) -> Interval:
+def _called(interval: Interval, same: Mapping[int, Pin]) -> Interval:
     """An interval whose ends are replaced by what they are the same as, by identity of their parameters."""
     start, low = same.get(id(interval.low), (interval.start, interval.low))
     end, high = same.get(id(interval.high), (interval.end, interval.high))
