@@ -103,7 +103,8 @@ def spreader_values(run: Run, field: Field) -> dict[str, arb]:
     (6)  the same with A + B + r A + 2 n R for the first terms;  (8)  A + B + r A;
     (9)  (6) without the terms with p_max;  (10)  half of what (6) has of p;  (11)  both;
     L3 corrected  (4) + re, the number of times that known obstacles blocked the M-line;
-    T2 corrected  (6) + the p of those, or (10) + half of it where no obstacle meets the border.
+    T2 corrected  (6) + the p of those, or (10) + half of it where no obstacle meets the border, + twice what
+                  diversions are longer than R one way.
     """
     assert run.sweeping is not None
     a, b, reach, n = field.height, field.width, run.radius, len(run.obstacles)
@@ -117,6 +118,8 @@ def spreader_values(run: Run, field: Field) -> dict[str, arb]:
         total, largest = sum(perimeters, arb(0)), _greatest([*perimeters, arb(0)])
         hops = largest * (2 * n * len(crossing) + pairs)
         again = sum((perimeters[k] for k in run.sweeping.again), arb(0))
+        ways = [ball_sum([Segment(d.leave, d.hit)]) for d in run.sweeping.diversions]
+        beyond = sum((way - arb(reach) for way in ways if way > arb(reach)), arb(0))
         visits = arb(n + n * len(crossing)) + arb(pairs) / 2
         sweep = arb(a + b + r * a)
         wide = sweep + arb(2 * n * reach)
@@ -130,7 +133,7 @@ def spreader_values(run: Run, field: Field) -> dict[str, arb]:
             "(9)": wide + 3 * total,
             "(10)": wide + total * 3 / 2 + hops / 2,
             "(11)": wide + total * 3 / 2,
-            "T2 corrected": wide + 3 * part * total + part * hops + part * again,
+            "T2 corrected": wide + 2 * beyond + 3 * part * total + part * hops + part * again,
         }
 
 

@@ -15,6 +15,7 @@ from exactacq.contacts import nearest_points
 from exactacq.lengths import Length
 from exactacq.links import START, pair_bounds
 from exactacq.mline import MLine
+from exactacq.points import distance
 from exactacq.reals import Real
 from exactacq.scene import Scene
 from exactacq.trace import Bound, Sweeping, TreeLink
@@ -95,7 +96,8 @@ def spreader_bounds(ground: Ground, radius: fmpq, sweeping: Sweeping, length: Le
 
     n counts the components that can be reached, p is what the robot can walk of a boundary. n_j are the
     components wholly inside strip j, n_0 those that cross the M-line. Corrected forms charge every time that
-    an acquired obstacle was met again on the M-line. (4) bounds the number of visits, not a length.
+    an acquired obstacle was met again on the M-line, and what diversions are longer than R one way. (4)
+    bounds the number of visits, not a length.
     """
     components, mline = ground.components, MLine(ground.terrain, radius)
     counts = census(ground, radius)
@@ -109,7 +111,9 @@ def spreader_bounds(ground: Ground, radius: fmpq, sweeping: Sweeping, length: Le
     clear = all(c.closed for c in components)
     met = Length.sum(perimeters[k] for k in sweeping.again)
     share = HALF if clear else fmpq(1)
-    corrected = wide + total * (3 * share) + hops * share + met * share
+    ways = (Length(distance(d.leave, d.hit)) for d in sweeping.diversions)
+    beyond = Length.sum(way - Length(radius) for way in ways if way > Length(radius))
+    corrected = wide + beyond * 2 + total * (3 * share) + hops * share + met * share
     values = [
         ("(5)", "Theorem 2, as printed", Length(a + r * (w + a) + 2 * n * w) + total * 3 + hops),
         ("(6)", "Theorem 2 for rw = B, w = R, as printed", wide + total * 3 + hops),
@@ -117,7 +121,7 @@ def spreader_bounds(ground: Ground, radius: fmpq, sweeping: Sweeping, length: Le
         ("(9)", "Case 2: (6) without its last terms", wide + total * 3),
         ("(10)", "Case 3: clear of the border, as printed", wide + total * fmpq(3, 2) + hops * HALF),
         ("(11)", "Cases 2 and 3, as printed", wide + total * fmpq(3, 2)),
-        ("T2 corrected", "(6) or (10), plus what is met again", corrected),
+        ("T2 corrected", "(6) or (10), plus what is met again and far diversions", corrected),
     ]
     visits = Length(len(sweeping.encounters))
     most = Length(n + n * crossing + pairs * HALF)

@@ -34,9 +34,24 @@ _SCENES = {
     "m20-8": "the same across eight lines: bound (9) fails",
     "m20-16": "the same across sixteen lines: bound (6) fails",
     "m25": "an obstacle that is hidden for a while: a look ahead on the map spares the diversion",
+    "l2": "a single obstacle: one visit, where 2(n - 1) is none",
+    "sss5": "one obstacle hides two others in turn and is never in the way: two diversions, n = 3",
+    "sss6": "a pocket that cannot be seen from a strip of width 1: the diversion goes a radius of 10 far",
+    "sss9": "m14 nearer to the start: what the sweep misses, the Sightseer acquires",
+    "relay": "five crumbs, each seen only from the one before: ever longer diversions, bound (6) fails",
+    "tight-t1": "four obstacles on which bound (1) fails, found by search",
+    "tight-l3": "one triangle that is visited three times: bound (4) fails",
+    "tight-t2": "one convex obstacle on which bound (6) fails",
+    "tight-t2-snake": "one obstacle in two strips on which bound (6) fails by its many windings",
+    "tight-sss2": "one obstacle in three components, of which the middle one is never seen",
+    "tight-sss5": "three triangles and two diversions, of which none circles what hid its aim",
+    "tight-sss5-fan": "seven convex obstacles and six diversions",
     "plate": "a real part, as a room: the outline is the wall, its fourteen holes are obstacles",
 }
-_SWEPT = {"figure3", "figure4", "case1", "case2", "case3", "e3"}
+_SWEPT = (
+    "figure3", "figure4", "case", "e3", "m14", "m15", "m18", "m20", "m25", "sss", "relay",
+    "tight-l3", "tight-t2", "tight-sss",
+)  # fmt: skip
 _PLATE = "issue42.dxf"
 _PLATE_START, _PLATE_RADIUS = (-30, -60), 60
 
@@ -48,7 +63,7 @@ def names() -> dict[str, str]:
 
 def is_swept(name: str) -> bool:
     """Whether a scene is there for the Seed Spreader."""
-    return name in _SWEPT or name.startswith(("m14", "m15", "m18", "m20", "m25"))
+    return name.startswith(_SWEPT)
 
 
 def scene(name: str) -> Scene:

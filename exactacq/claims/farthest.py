@@ -1,0 +1,46 @@
+"""The Sightseer Strategy with another choice rule: of the visible unvisited obstacles, the farthest one.
+
+The paper says that its choice of the nearest does not affect the worst case (section 3.3). A run by this
+rule must then keep Theorem 1's bound too. Everything else is the Sightseer's own.
+"""
+
+from __future__ import annotations
+
+from exactacq.errors import InvalidScene
+from exactacq.links import START, Link, Node
+from exactacq.scene import Scene
+from exactacq.scout import Scout
+from exactacq.sightseer import _Sightseer
+from exactacq.trace import Run
+
+
+class _FarSighted(Scout):
+    """A scout that is asked for the nearest unvisited obstacle and names the farthest."""
+
+    def nearest_unvisited(self, node: Node) -> Link | None:
+        """The longest link (then the least index) from a visited node to an unvisited obstacle it sees."""
+        if node == START:
+            links = list(self._links.from_point(self.start).values())
+            # A start on an obstacle is no node of its own: that obstacle comes first, by either rule.
+            links = [link for link in links if link.length.sign() == 0] or links
+        else:
+            assert isinstance(node, int)
+            between = (self._links.between(node, j) for j in self._links.neighbours(node))
+            links = [link for link in between if link is not None]
+        best: Link | None = None
+        for link in sorted(links, key=lambda link: link.target):
+            if link.target not in self.visited and (best is None or link.length > best.length):
+                best = link
+        return best
+
+
+def farthest_first(scene: Scene, radius: object = None) -> Run:
+    """Explore a scene from its start, always going to the farthest obstacle in sight.
+
+    *radius* defaults to the scene's own. Raises `InvalidScene` if the scene has no rational start. Cost: all
+    links within the radius.
+    """
+    if scene.start is None or scene.start.rational is None:
+        raise InvalidScene(["a start point with rational coordinates must be given"])
+    robot = _FarSighted(scene, scene.radius if radius is None else radius, scene.start)
+    return _Sightseer(robot, None, len(scene.obstacles)).run(scene)

@@ -1,0 +1,61 @@
+"""Scenes that arguments refer to and that are families, or too special for the gallery."""
+
+from __future__ import annotations
+
+from fractions import Fraction as Q
+
+from exactacq import Polygon, Scene, Terrain
+
+
+def rectangle(left: object, bottom: object, right: object, top: object) -> Polygon:
+    return Polygon([(left, bottom), (right, bottom), (right, top), (left, top)])
+
+
+def relay(count: int) -> Scene:
+    """A crumb with a pocket, and north of it *count* crumbs 19 apart, each between two screens.
+
+    A screened crumb is seen from the crumb before it only: from both lines its screens hide it, and they
+    themselves become known from there. R = B = 20; all crumbs and screens are less than 1/5 around.
+    """
+    u, column, foot = Q(1, 100), 14, 30
+    pocket = [(0, 0), (3, 0), (3, 3), (0, 3), (0, 2), ("1/2", 2), ("1/2", "5/2"), (2, "5/2"), (2, 1), (0, 1)]
+    shapes = [Polygon([(column + Q(x) * u, foot + Q(y) * u) for x, y in pocket])]
+    for k in range(1, count + 1):
+        y = foot + 19 * k
+        shapes.append(rectangle(column - Q(9, 2) * u, y - Q(43, 10) * u, column - 4 * u, y + Q(43, 10) * u))
+        shapes.append(rectangle(column + u, y - Q(18, 5) * u, column + Q(3, 2) * u, y + Q(18, 5) * u))
+        shapes.append(rectangle(column - u / 20, y - u / 20, column + u / 20, y + u / 20))
+    return Scene(shapes, terrain=Terrain(20, foot + 19 * count + 30), radius=20, name=f"relay-{count}")
+
+
+def overlapping_links() -> Scene:
+    """Two links of the Sightseer's tree lie on one line, one inside the other, and both are walked back.
+
+    U and W face each other along y = 0. From W the tour goes on below, over A to X, and from X to Y along
+    y = 0, past U and W. Z is seen from U only.
+    """
+    return Scene(
+        [
+            Polygon([(4, 0), (4, Q(-3, 5)), (5, 0)], name="U"),
+            Polygon([(7, 0), (8, -2), (8, 0)], name="W"),
+            Polygon([(-1, -3), (8, -3), (8, Q(-27, 10)), (-1, Q(-27, 10))], name="A"),
+            Polygon([(-1, Q(-5, 2)), (0, Q(-5, 2)), (0, 0), (-1, 0)], name="X"),
+            Polygon([(10, Q(-1, 2)), (11, Q(-1, 2)), (11, 0), (10, 0)], name="Y"),
+            Polygon([(Q(9, 2), Q(99, 10)), (Q(23, 5), 10), (Q(22, 5), 10)], name="Z"),
+        ],
+        start=(5, 0),
+        radius=10,
+    )
+
+
+def trapped_end(is_free: bool) -> Scene:
+    """An obstacle with a pocket, to be diverted to at the end T of the M-line; and, unless *is_free*, T in
+    another obstacle."""
+    inner = Polygon(
+        [
+            *[(4, 3), (7, 3), (7, 6), (4, 6), (4, Q(51, 10)), (Q(9, 2), Q(51, 10)), (Q(9, 2), Q(11, 2))],
+            *[(6, Q(11, 2)), (6, Q(7, 2)), (Q(9, 2), Q(7, 2)), (Q(9, 2), 5), (4, 5)],
+        ]
+    )
+    block = [] if is_free else [rectangle(9, -1, 11, 1)]
+    return Scene([inner, *block], terrain=Terrain(10, 10), radius=10)

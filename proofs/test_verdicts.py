@@ -1,0 +1,94 @@
+"""Every claim of the paper, tried: its statements come out as the registry calls them.
+
+A statement called false fails exactly on each of its scenes. Any other holds on the gallery's scenes and on
+random ones, and at least one of them spoke of it. Runs are made once for each scene and shared.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from exactacq import Length, gallery
+from exactacq.claims import CLAIMS, Case, Claim, Statement, Status, Subject, verdict
+from exactacq.claims.tallies import largest_distance
+from exactacq.generators import random_octagons
+from exactacq.random_scenes import random_scene
+
+SEEDS = range(24)
+RADII = (4, 10)
+"""From short to long for eighteen octagons."""
+ARGUMENTS = Path(__file__).parent / "arguments"
+TAKEN_APART = {"plate", "figure2"}
+"""Gallery scenes too large to be run for every claim; figure2 has a claim of its own."""
+STATEMENTS = [
+    pytest.param(claim, statement, id=f"{claim.name}-{kind}")
+    for claim in CLAIMS
+    for kind, statement in zip(("printed", "corrected"), claim.statements, strict=False)
+]
+
+
+@cache
+def example(name: str) -> Case:
+    """A gallery scene."""
+    return Case(gallery.scene(name))
+
+
+@cache
+def randomly(subject: Subject, seed: int) -> Case:
+    """A random scene."""
+    return Case(random_scene(subject, seed))
+
+
+@cache
+def octagons(radius: int) -> Case:
+    """More obstacles than the random scenes have."""
+    return Case(random_octagons(18, seed=radius), radius)
+
+
+def cases(subject: Subject) -> list[tuple[str, Case]]:
+    """The gallery's scenes for one of the strategies, and random ones."""
+    swept = subject is Subject.SEED_SPREADER
+    more = [] if swept else [(f"octagons {radius}", octagons(radius)) for radius in RADII]
+    names = [n for n in gallery.names() if gallery.is_swept(n) is swept and n not in TAKEN_APART]
+    return more + [(n, example(n)) for n in names] + [(f"seed {k}", randomly(subject, k)) for k in SEEDS]
+
+
+@pytest.mark.parametrize(("claim", "statement"), STATEMENTS)
+def test_verdict(claim: Claim, statement: Statement) -> None:
+    found = verdict(statement, cases(statement.subject), example)
+    assert found.status not in (Status.CONTRADICTED, Status.UNTRIED), found
+    assert (found.status is Status.FALSE) is statement.is_called_false
+
+
+@pytest.mark.parametrize("name", sorted({s.argument for c in CLAIMS for s in c.statements if s.argument}))
+def test_argument_is_written(name: str) -> None:
+    """What is called proved has its proof in words beside it."""
+    assert (ARGUMENTS / f"{name}.md").is_file()
+
+
+def test_the_numbers_of_theorem_1() -> None:
+    """m9: P = 2248.735 where bound (1) is 1625.7, and d_max is 3.5 on m8."""
+    run = example("m9").sightseer
+    bounds = {bound.name: bound for bound in run.bounds}
+    assert (run.length, bounds["(1)"].value) == (Length("2248.735"), Length("1625.7"))
+    assert bounds["T1 corrected"].holds
+    assert Length(largest_distance(gallery.scene("m8"))) == Length("7/2")
+
+
+@pytest.mark.parametrize(
+    ("name", "broken"),
+    [
+        ("m20-3", {"(11)"}),
+        ("m20-6", {"(10)", "(11)"}),
+        ("m20-8", {"(9)", "(10)", "(11)"}),
+        ("m20-16", {"(5)", "(6)", "(9)", "(10)", "(11)"}),
+        ("relay", {"(5)", "(6)", "(9)", "(10)", "(11)"}),
+    ],
+)
+def test_which_bounds_of_theorem_2_break(name: str, broken: set[str]) -> None:
+    """As values, whatever the case that a bound is for."""
+    tally = example(name).tally
+    assert {k for k, value in tally.length_bounds().items() if tally.run.length > value} == broken
