@@ -18,12 +18,14 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from exactacq import gallery as scenes
 from exactacq.audit import audit
+from exactacq.campaign.command import verify
 from exactacq.errors import ExactacqError, FormatError, InvalidScene
 from exactacq.loading import load
 from exactacq.numerals import rational
 from exactacq.output import FIGURES, PAGES, TRACES, check_output, write_whole
 from exactacq.report import comparison, console, run_report, scene_list, scene_report
 from exactacq.scene import Scene
+from exactacq.search.command import search
 from exactacq.seed_spreader import TargetChoice, seed_spreader
 from exactacq.shapes import Terrain
 from exactacq.sightseer import sightseer
@@ -240,6 +242,10 @@ def gallery(
 
         save(scenes.scene(name), figure)
         print(f"figure written to {figure}")
+
+
+app.command()(verify)
+app.command()(search)
 
 
 def _draw_gallery(folder: Path) -> None:

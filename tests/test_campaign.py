@@ -1,0 +1,420 @@
+"""Campaigns: verdicts do not depend on who judges, and no kill loses what is judged.
+
+The claims here are planted; the workers import them from this module.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+import typer
+from typer.testing import CliRunner
+
+from exactacq.campaign import command, judging
+from exactacq.campaign.coordinator import conduct
+from exactacq.campaign.judging import Record, judge
+from exactacq.campaign.settings import CampaignError, Settings, Task, claims_at, parts
+from exactacq.campaign.store import Store
+from exactacq.campaign.summary import faults, tallies, unfinished
+from exactacq.claims.model import Case, Claim, Finding, Outcome, Statement, Subject
+from exactacq.errors import AuditError, FormatError, Undecided
+from exactacq.formats.json_scene import parse_json, scene_of, scene_to_json
+from exactacq.random_scenes import random_scene
+
+MARK = "EXACTACQ_TEST_MARK"
+"""Names the file that a planted check leaves when it kills its process, so that it does so only once."""
+
+
+# -- planted claims --------------------------------------------------------------------------------
+
+
+def positive(case: Case) -> Finding:
+    """Holds wherever something is to be visited."""
+    run = case.sightseer
+    if not run.visits:
+        return Finding(Outcome.SILENT)
+    return Finding(Outcome.HOLDS if run.length.sign() > 0 else Outcome.FAILS, "", float(run.length) / 1000)
+
+
+def no_third(case: Case) -> Finding:
+    """Fails on the scenes of seed 3."""
+    return Finding(Outcome.FAILS if str(case.scene.name).endswith("-3") else Outcome.HOLDS, "the third")
+
+
+def odd(case: Case) -> Finding:
+    """Fails on every scene with an odd number of obstacles."""
+    return Finding(Outcome.FAILS if len(case.scene.obstacles) % 2 else Outcome.HOLDS)
+
+
+def hang(case: Case) -> Finding:
+    """Never comes back from the scene of seed 1."""
+    while str(case.scene.name).endswith("-1"):
+        pass
+    return Finding(Outcome.HOLDS)
+
+
+def die_once(case: Case) -> Finding:
+    """Kills its process the first time."""
+    mark = Path(os.environ[MARK])
+    if not mark.exists():
+        mark.write_text("died")
+        os.kill(os.getpid(), signal.SIGKILL)
+    return positive(case)
+
+
+def die(case: Case) -> Finding:
+    """Kills its process on the scene of seed 2, every time."""
+    if str(case.scene.name).endswith("-2"):
+        os.kill(os.getpid(), signal.SIGKILL)
+    return Finding(Outcome.HOLDS)
+
+
+def dawdle(case: Case) -> Finding:
+    """Takes its time."""
+    time.sleep(0.3)
+    return positive(case)
+
+
+def doubt(case: Case) -> Finding:
+    """Is beyond its limits on the scene of seed 0, and broken on that of seed 1."""
+    if str(case.scene.name).endswith("-0"):
+        raise Undecided("two lengths")
+    if str(case.scene.name).endswith("-1"):
+        raise ZeroDivisionError("planted")
+    print("this must not get among the answers")
+    return Finding(Outcome.HOLDS)
+
+
+def _planted(check: Callable[[Case], Finding], **options: Any) -> Claim:
+    return Claim(check.__name__, "here", Statement(str(check.__doc__), Subject.SIGHTSEER, check, **options))
+
+
+SOUND = (_planted(positive), _planted(odd, counterexamples=("m4",)))
+FALSE = (*SOUND, _planted(no_third))
+HANGING, DYING, DOUBTFUL, SLOW = (_planted(hang),), (_planted(die),), (_planted(doubt),), (_planted(dawdle),)
+DYING_ONCE = (replace(_planted(die_once), name="positive"), SOUND[1])
+"""Like SOUND to the eye, so that the verdicts can be compared."""
+
+QUICK = Settings(scenes=4, strategies=("sightseer",), audit=False, claims="test_campaign:SOUND")
+
+
+def opened(settings: Settings, path: Path | None = None) -> Store:
+    return Store(path, settings, [called for called, _ in parts(claims_at(settings.claims))])
+
+
+def verdicts(store: Store) -> list[tuple[Any, ...]]:
+    """All that a campaign found, without the times it took."""
+    scenes = store.rows("SELECT strategy, seed, outcome, length, detail, json FROM scenes ORDER BY 1, 2")
+    findings = store.rows("SELECT strategy, seed, claim, outcome, ratio FROM findings ORDER BY 1, 2, 3, 4")
+    return [*scenes, *findings]
+
+
+@pytest.fixture(scope="module")
+def expected() -> list[tuple[Any, ...]]:
+    """The verdicts of QUICK, judged one by one in this process."""
+    statements = list(parts(SOUND))
+    with opened(QUICK) as store:
+        store.add([judge(task, statements, audited=False) for task in QUICK.tasks()], 0)
+        return verdicts(store)
+
+
+class TestVerdicts:
+    @pytest.mark.parametrize("workers", [1, 2])
+    def test_do_not_depend_on_the_number_of_workers(self, workers: int, expected: list[Any]) -> None:
+        with opened(QUICK) as store:
+            conduct(QUICK, store, workers)
+            assert verdicts(store) == expected
+
+    def test_do_not_depend_on_the_cluster(self, expected: list[Any]) -> None:
+        distributed = pytest.importorskip("distributed", reason="dask.distributed is not installed")
+        with (
+            distributed.LocalCluster(n_workers=1, processes=False, dashboard_address=None) as cluster,
+            opened(QUICK) as store,
+        ):
+            conduct(QUICK, store, scheduler=cluster.scheduler_address)
+            assert verdicts(store) == expected
+
+    def test_of_both_strategies_with_audit(self) -> None:
+        settings = replace(Settings(), scenes=1)
+        assert [str(task) for task in settings.tasks()] == ["sightseer:0", "seed-spreader:0"]
+        for task in settings.tasks():
+            record = judge(task, list(parts(SOUND)), audited=True)
+            assert (record.result, record.detail) == ("passed", "")
+            assert len(record.rows) == (2 if task.strategy == "sightseer" else 0)
+
+    def test_seeds_of_campaigns_are_apart(self) -> None:
+        first, second = (set(Settings(scenes=50, seed=seed).tasks()) for seed in (4, 5))
+        assert len(first) == 100
+        assert not first & second
+
+
+class TestFailures:
+    def test_a_failing_scene_is_stored_and_can_be_replayed(self) -> None:
+        settings = replace(QUICK, claims="test_campaign:FALSE", scenes=4)
+        with opened(settings) as store:
+            conduct(settings, store, 1)
+            assert faults(store) == [(Task("sightseer", 3), "no_third (printed) fails", "the third")]
+            ((text,),) = store.rows("SELECT json FROM scenes WHERE seed = 3")
+            again = scene_of(parse_json(text.encode()))
+            assert scene_to_json(again) == scene_to_json(random_scene(Subject.SIGHTSEER, 3))
+            assert no_third(Case(again)).outcome is Outcome.FAILS
+
+    def test_a_statement_called_false_may_fail(self) -> None:
+        with opened(QUICK) as store:
+            store.add([judge(task, list(parts(SOUND)), audited=False) for task in QUICK.tasks()], 0)
+            assert not faults(store)
+            true, false = tallies(store)
+            assert (true.held, true.silent, true.failed) == (4, 0, 0)
+            assert (false.called.truth, false.held + false.failed) == ("false", 4)
+            assert false.failed > 0
+
+    def test_the_worst_ratio_and_its_first_scene(self) -> None:
+        rows = [judging.Row("positive", "printed", "holds", ratio) for ratio in (0.5, 0.75, 0.75, None)]
+        records = [Record(Task("sightseer", k), "passed", rows=(row,)) for k, row in enumerate(rows)]
+        with opened(QUICK) as store:
+            store.add(records, 0)
+            tally = tallies(store)[0]
+            assert (tally.worst, tally.at, tally.tried) == (0.75, Task("sightseer", 1), 4)
+
+    def test_a_failed_audit_is_a_fault(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        def flawed(_: object) -> None:
+            raise AuditError("planted flaw")
+
+        monkeypatch.setattr(judging, "audit", flawed)
+        record = judge(Task("sightseer", 0), list(parts(SOUND)), audited=True)
+        assert (record.result, record.detail, len(record.rows)) == ("audit failed", "planted flaw", 2)
+        with opened(QUICK) as store:
+            store.add([record], 0)
+            assert faults(store) == [(record.task, "audit failed", "planted flaw")]
+
+    def test_undecided_and_broken_checks_are_no_passes(self) -> None:
+        settings = replace(QUICK, claims="test_campaign:DOUBTFUL", scenes=3)
+        with opened(settings) as store:
+            conduct(settings, store, 1)
+            assert store.rows("SELECT outcome FROM scenes ORDER BY seed") == [
+                ("undecided",), ("error",), ("passed",),
+            ]  # fmt: skip
+            tally = tallies(store)[0]
+            assert (tally.tried, tally.held, tally.unanswered) == (3, 1, 2)
+            assert [task.seed for task, *_ in faults(store)] == [1]
+            assert [task.seed for task, *_ in unfinished(store)] == [0]
+            assert "ZeroDivisionError: planted (in doubt)" in faults(store)[0][2]
+
+    def test_a_scene_that_hangs_is_a_timeout(self) -> None:
+        settings = replace(QUICK, claims="test_campaign:HANGING", scenes=3, timeout=4)
+        with opened(settings) as store:
+            conduct(settings, store, 1)
+            assert store.rows("SELECT outcome, json IS NULL FROM scenes ORDER BY seed") == [
+                ("passed", 1), ("timeout", 0), ("passed", 1),
+            ]  # fmt: skip
+            assert not faults(store)
+            assert [task.seed for task, *_ in unfinished(store)] == [1]
+
+
+class TestKills:
+    def test_a_killed_worker_loses_nothing(
+        self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, expected: list[Any]
+    ) -> None:
+        monkeypatch.setenv(MARK, str(tmp_path / "mark"))
+        settings = replace(QUICK, claims="test_campaign:DYING_ONCE")
+        with opened(settings) as store:
+            conduct(settings, store, 2)
+            assert (tmp_path / "mark").exists()
+            assert verdicts(store) == expected
+
+    def test_a_scene_that_kills_every_process_is_given_up(self) -> None:
+        settings = replace(QUICK, claims="test_campaign:DYING", scenes=4)
+        with opened(settings) as store:
+            conduct(settings, store, 1)
+            assert store.rows("SELECT seed FROM scenes WHERE outcome = 'passed'") == [(0,), (1,), (3,)]
+            assert [(task.seed, what) for task, what, _ in faults(store)] == [(2, "crashed")]
+
+    def test_workers_that_cannot_start_are_an_error(self) -> None:
+        settings = replace(QUICK, claims="test_campaign:NOTHING")
+        with Store(None, settings, []) as store, pytest.raises(CampaignError, match="end before they judge"):
+            conduct(settings, store, 1)
+
+    def test_a_killed_coordinator_loses_nothing(self, tmp_path: Path) -> None:
+        path, settings = tmp_path / "campaign.sqlite", replace(QUICK, claims="test_campaign:SLOW")
+        code = (
+            "from test_campaign import *\n"
+            f"settings = replace(QUICK, claims={settings.claims!r})\n"
+            f"conduct(settings, opened(settings, Path({str(path)!r})), 2)"
+        )
+        environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+        coordinator = subprocess.Popen([sys.executable, "-c", code], env=environment)
+        deadline = time.monotonic() + 30
+        while _committed(path) < 1 and time.monotonic() < deadline:
+            time.sleep(0.05)
+        coordinator.kill()
+        assert coordinator.wait() == -signal.SIGKILL
+        kept = _committed(path)
+        assert 1 <= kept < settings.scenes
+        judged: list[Record] = []
+        with opened(settings, path) as store:
+            before = verdicts(store)
+            conduct(settings, store, 1, report=judged.append)
+            assert len(judged) == settings.scenes - kept
+            assert set(before) <= set(verdicts(store))
+            assert store.done() == set(settings.tasks())
+
+
+def _committed(path: Path) -> int:
+    """The number of scenes in the file, as another process sees it."""
+    if not path.exists():
+        return 0
+    base = sqlite3.connect(path)
+    try:
+        return int(base.execute("SELECT count(*) FROM scenes").fetchone()[0])
+    except sqlite3.OperationalError:
+        return 0
+    finally:
+        base.close()
+
+
+class TestFile:
+    def test_goes_on_where_it_stopped(self, tmp_path: Path, expected: list[Any]) -> None:
+        path = tmp_path / "campaign.sqlite"
+        records = [judge(task, list(parts(SOUND)), audited=False) for task in list(QUICK.tasks())[:2]]
+        with opened(QUICK, path) as store:
+            store.add(records, 7.5)
+        judged: list[Record] = []
+        with opened(QUICK, path) as store:
+            conduct(QUICK, store, 1, report=judged.append)
+            assert [record.task.seed for record in judged] == [2, 3]
+            assert verdicts(store) == expected
+            assert store.wall > 7.5
+            conduct(QUICK, store, 1, report=judged.append)
+        assert len(judged) == 2
+
+    def test_a_scene_is_counted_once(self) -> None:
+        record = judge(Task("sightseer", 0), list(parts(SOUND)), audited=False)
+        with opened(QUICK) as store:
+            store.add([record, record], 0)
+            store.add([record], 0)
+            assert tallies(store)[0].tried == 1
+
+    @pytest.mark.parametrize(
+        ("changed", "word"),
+        [({"seed": 1}, "seed"), ({"scenes": 7}, "scenes"), ({"audit": True}, "audit"),
+         ({"timeout": 9}, "timeout"), ({"strategies": ("seed-spreader",)}, "strategies"),
+         ({"claims": "test_campaign:FALSE"}, "claims")],
+    )  # fmt: skip
+    def test_of_another_campaign_is_refused(self, tmp_path: Path, changed: Any, word: str) -> None:
+        path = tmp_path / "campaign.sqlite"
+        opened(QUICK, path).__exit__(None, None, None)
+        with pytest.raises(CampaignError, match=f"made with {word}"):
+            opened(replace(QUICK, **changed), path)
+
+    def test_of_another_version_is_refused(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+        path = tmp_path / "campaign.sqlite"
+        opened(QUICK, path).__exit__(None, None, None)
+        monkeypatch.setattr("exactacq.campaign.settings.version", lambda _: "0.0.1")
+        with pytest.raises(CampaignError, match=r"made with version .*, not 0\.0\.1"):
+            opened(QUICK, path)
+
+    def test_with_other_statements_is_refused(self, tmp_path: Path) -> None:
+        path = tmp_path / "campaign.sqlite"
+        Store(path, QUICK, []).__exit__(None, None, None)
+        with pytest.raises(CampaignError, match="other statements"):
+            opened(QUICK, path)
+
+    def test_foreign_files_are_refused_and_left(self, tmp_path: Path) -> None:
+        text, base = tmp_path / "notes.txt", tmp_path / "other.sqlite"
+        text.write_text("not a database, but long enough to be looked at" * 20)
+        with sqlite3.connect(base) as other:
+            other.execute("CREATE TABLE scenes (mine TEXT)")
+        other.close()
+        for path in (text, base):
+            before = path.read_bytes()
+            with pytest.raises(CampaignError, match="file"):
+                opened(QUICK, path)
+            assert path.read_bytes() == before
+        with pytest.raises(CampaignError, match="cannot be used"):
+            opened(QUICK, tmp_path / "missing" / "campaign.sqlite")
+
+
+app = typer.Typer()
+app.command()(command.verify)
+
+
+@pytest.fixture
+def planted(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The command line with the claims of this module."""
+    monkeypatch.setattr(Settings, "__init__", _with_claims(Settings.__init__))
+
+
+def _with_claims(make: Callable[..., None]) -> Callable[..., None]:
+    def init(self: Settings, *values: object, **named: object) -> None:
+        make(self, *values, **{"claims": "test_campaign:FALSE", **named})
+
+    return init
+
+
+@pytest.mark.usefixtures("planted")
+class TestCommand:
+    ARGUMENTS = ("--scenes", "4", "--strategy", "sightseer", "--no-audit", "--workers", "1")
+
+    def test_summary_table_and_replay(self, tmp_path: Path) -> None:
+        parquet = pytest.importorskip("pyarrow.parquet", reason="pyarrow is not installed")
+        table, out = tmp_path / "t.parquet", tmp_path / "c.sqlite"
+        done = CliRunner().invoke(app, [*self.ARGUMENTS, "--out", str(out), "--export", str(table)])
+        assert done.exit_code == 1
+        assert "exactacq verify --replay sightseer:3" in done.output
+        assert "4 scenes: 4 passed, 0 undecided, 0 timeout, 0 audit failed, 0 crashed, 0 error" in done.output
+        assert "verify: 4 of 4 scenes, 0 not passed" in done.output
+        read = parquet.read_table(table)
+        assert read.schema.metadata[b"seed"] == b"0"
+        settings = replace(QUICK, scenes=4, claims="test_campaign:FALSE")
+        with opened(replace(settings, timeout=120.0), out) as store:
+            rows = store.rows("SELECT strategy, seed, claim, outcome, ratio FROM findings ORDER BY 2, 1, 3")
+        names = ("strategy", "seed", "claim", "outcome", "ratio")
+        assert [tuple(row[name] for name in names) for row in read.to_pylist()] == rows
+        assert len(rows) == 12
+        again = CliRunner().invoke(app, ["--replay", "sightseer:3", "--no-audit"])
+        assert again.exit_code == 1
+        assert "the third" in again.output
+
+    def test_exit_status_0_if_nothing_true_fails(self) -> None:
+        done = CliRunner().invoke(app, [*self.ARGUMENTS, "--scenes", "2"])
+        assert done.exit_code == 0
+        assert CliRunner().invoke(app, ["--replay", "sightseer:0", "--no-audit"]).exit_code == 0
+
+    @pytest.mark.parametrize("text", ["17", "sightseer:-1", "both:3", "sightseer:x", "sightseer:"])
+    def test_a_scene_that_is_none_is_refused(self, text: str) -> None:
+        with pytest.raises(FormatError, match="not a scene"):
+            CliRunner().invoke(app, ["--replay", text], catch_exceptions=False)
+
+    def test_outputs_are_refused_before_work(self, tmp_path: Path) -> None:
+        def refused(*arguments: str) -> str:
+            with pytest.raises((FormatError, CampaignError)) as caught:
+                CliRunner().invoke(app, arguments, catch_exceptions=False)
+            return str(caught.value)
+
+        assert ".parquet" in refused("--export", str(tmp_path / "t.csv"))
+        assert ".sqlite" in refused("--out", str(tmp_path / "scene.json"))
+        assert "leave it out" in refused("--workers", "2", "--scheduler", "tcp://127.0.0.1:1")
+        assert "no directory" in refused("--export", str(tmp_path / "missing" / "t.parquet"))
+        assert "writes nothing" in refused("--replay", "sightseer:1", "--out", "x.sqlite")
+
+    @pytest.mark.parametrize(
+        ("module", "option", "value"),
+        [("pyarrow", "--export", "t.parquet"), ("distributed", "--scheduler", "tcp://127.0.0.1:1")],
+    )
+    def test_missing_extras_are_named(
+        self, module: str, option: str, value: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    ) -> None:
+        monkeypatch.setitem(sys.modules, module, None)
+        monkeypatch.chdir(tmp_path)
+        with pytest.raises(CampaignError, match=rf"{option} needs .*pip install 'exactacq\["):
+            CliRunner().invoke(app, [option, value], catch_exceptions=False)
