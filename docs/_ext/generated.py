@@ -1,0 +1,67 @@
+"""What the documentation shows and does not store: pictures and verdicts, computed when it is built.
+
+``docs/_generated`` receives the SVG files of `PICTURES`, and the text of the page of claims with its pictures
+and arguments. ``-D claims_scenes=N`` tries every statement on N random scenes of each kind.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from shutil import rmtree
+from typing import Any
+
+import claims_page
+
+import exactacq as xa
+from exactacq import claims, figures, gallery
+from exactacq.figures_scan import limit_figure
+
+FOLDER = "_generated"
+SCENES = 12
+"""Random scenes of each kind: enough to show what a verdict rests on, and a matter of seconds."""
+
+
+@cache
+def _run(name: str) -> xa.Run:
+    """The run on a gallery scene, by the strategy that the scene is there for."""
+    return (xa.seed_spreader if gallery.is_swept(name) else xa.sightseer)(gallery.scene(name))
+
+
+def _whole(name: str) -> Callable[[Path], None]:
+    """Draws a whole run."""
+    return lambda path: figures.save(_run(name), path)
+
+
+def _moment(path: Path) -> None:
+    run = _run("plate")
+    figures.save(run, path, at=run.near(1000))
+
+
+PICTURES: dict[str, Callable[[Path], None]] = {
+    **{f"{name}.svg": _whole(name) for name in ("figure1", "figure2", "figure3", "figure4", "plate")},
+    "plate_moment.svg": _moment,
+    "polygon_limit.svg": lambda path: limit_figure().savefig(path),
+}
+"""The pictures that pages name, each with what draws it."""
+TEXTS = ("verdicts.md",)
+"""The texts that pages include."""
+
+
+def generate(app: Any) -> None:
+    """Write everything anew; called once when a build begins."""
+    folder = Path(app.srcdir) / FOLDER
+    rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    for name, draw in PICTURES.items():
+        draw(folder / name)
+    arguments = Path(app.srcdir).parent / "proofs" / "arguments"
+    claims_page.write(folder, claims.CLAIMS, int(app.config.claims_scenes), arguments)
+
+
+def setup(app: Any) -> dict[str, bool]:
+    """Hook into Sphinx."""
+    app.add_config_value("claims_scenes", SCENES, "env")
+    app.connect("builder-inited", generate)
+    return {"parallel_read_safe": True}
