@@ -19,7 +19,7 @@ from exactacq.scene import Scene
 from exactacq.trace import Piece
 from exactacq.vision.intervals import Cover
 from exactacq.vision.knowledge import Body, Map
-from exactacq.vision.legs import Leg, along_edges, legs_of
+from exactacq.vision.legs import Leg, legs_of, parts_of
 from exactacq.vision.sensing import Ahead, Kind, Senses
 from exactacq.vision.table import EdgeTable
 
@@ -124,7 +124,7 @@ class Memory:
 
     def parts(self, way: Segment) -> list[Segment]:
         """The parts of a straight way of which each is one leg (see `ahead`)."""
-        return [part for _, part in along_edges(self._table, way)]
+        return [part for _, part in parts_of(self._table, way)]
 
     def ahead(self, piece: Piece) -> Ahead:
         """What a straight piece will tell when it is walked next."""

@@ -359,3 +359,14 @@ def test_the_normal_of_a_way_where_it_touches_a_circle_meets_the_circle_there() 
     scene = Scene([Circle((Fraction(3, 2), Fraction(13, 2)), Fraction(3, 2))])
     (known,) = Memory.of(scene, fmpq(1), way.start, [way]).after(1).known(0)
     assert (str(known.start), str(known.end)) == ("(1, sqrt(2) + 13/2)", "(1, 13/2 - sqrt(2))")
+
+
+def test_a_way_that_touches_a_corner_sees_what_only_the_corner_bounds() -> None:
+    """The inner arc of a crescent whose tip is on the way: from all places before the tip, up to the range."""
+    crescent = Outline([(0, Fraction(13, 2), -1), (1, Fraction(13, 2), Fraction(1, 2))])
+    way = Piece("straight", None, Segment(Point(0, 0), Point(0, 8)))
+    chart = Memory.of(Scene([crescent]), fmpq(5), way.start, [way]).after(1)
+    inner = next(k for k, e in enumerate(Scene([crescent]).obstacles[0].edges) if not e.ccw)
+    assert [(str(i.start), str(i.end)) for i in chart.known(0) if i.edge == inner] == [
+        ("(0, 13/2)", "(1, 13/2)")
+    ]

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable
+from collections.abc import Collection, Hashable
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
@@ -17,6 +18,9 @@ from exactacq.reals import Real
 from exactacq.vision.intervals import Interval
 from exactacq.vision.rails import Rail
 from exactacq.vision.table import EdgeTable
+
+BITS = 256
+"""Corners whose distance from a way's line balls of this precision do not part from 0 are candidates."""
 
 
 @dataclass(frozen=True)
@@ -98,13 +102,14 @@ def legs_of(
     """The legs of a path piece, on the boundary of an obstacle or straight through free space if None.
 
     One leg; two if the piece passes the start of a full circle. A straight piece that runs along edges has a
-    leg on each, and between them. *touches* is what a straight piece touches.
+    leg on each, and between them; it is cut at corners, from which it may see what it sees from nowhere else.
+    *touches* is what a straight piece touches.
     """
     if obstacle is None:
         assert isinstance(curve, Segment), "free space is crossed on straight lines"
         return [
             _through_space(part, touches) if e is None else _on_edge(rails[e], e, part)
-            for e, part in along_edges(table, curve)
+            for e, part in parts_of(table, curve, touches)
         ]
     e = next(e for e in table.edges_of(obstacle) if _carries(table.curves[e], curve))
     rail, start, end = rails[e], curve.start, curve.end
@@ -123,8 +128,43 @@ def legs_of(
     return legs if ahead else legs[::-1]
 
 
-def along_edges(table: EdgeTable, way: Segment) -> list[tuple[int | None, Segment]]:
-    """A straight way in parts: along edges, with their numbers, and free ones with None between."""
+def parts_of(
+    table: EdgeTable, way: Segment, touches: Collection[Hashable] = ()
+) -> list[tuple[int | None, Segment]]:
+    """A straight way in parts: along edges, with their numbers, and free ones, with None, between corners."""
+    return [
+        (e, piece)
+        for e, part in _along_edges(table, way)
+        for piece in ([part] if e is not None else _between_corners(table, part, touches))
+    ]
+
+
+def _between_corners(table: EdgeTable, way: Segment, touches: Collection[Hashable]) -> list[Segment]:
+    """A free way, cut at the corners that it touches between its ends."""
+    left, bottom, right, top = box(way)
+    near = table.near((left, bottom), (right, top), 0.0)
+    near = near[~table.full[near]]
+    numbers = np.unique(np.concatenate((near, table.next[near])))
+    (x, y), (dx, dy) = way.start.xy, (float(d.ball(64).mid()) for d in way.direction)
+    offsets, length = table.start[numbers] - (x, y), math.hypot(dx, dy)
+    sides = np.abs(offsets[:, 0] * dy - offsets[:, 1] * dx)
+    stops: list[tuple[Real, Point]] = []
+    for number in numbers[sides <= 64 * table.roundoff * length].tolist():
+        corner = table.curves[number].start
+        offset = corner - way.start
+        height = way.direction.cross(offset)
+        if ("corner", number) in touches or (height.ball(BITS).contains(0) and height.sign() == 0):
+            place = offset.dot(way.direction)
+            if place.sign() > 0 > place.compare(way.direction.norm_sq()):
+                stops.append((place, corner))
+    stops.sort(key=lambda stop: stop[0])
+    return (
+        [Segment(a, b) for a, b in pairwise([way.start, *(p for _, p in stops), way.end])] if stops else [way]
+    )
+
+
+def _along_edges(table: EdgeTable, way: Segment) -> list[tuple[int | None, Segment]]:
+    """A straight way in parts: along edges, with their numbers, and other ones with None between."""
     left, bottom, right, top = box(way)
     dx, dy = (float(d.ball(64).mid()) for d in way.direction)
     near = [e for e in table.near((left, bottom), (right, top), 0.0).tolist() if not table.kind[e]]
