@@ -362,7 +362,7 @@ def test_the_normal_of_a_way_where_it_touches_a_circle_meets_the_circle_there() 
 
 
 def test_a_way_that_touches_a_corner_sees_what_only_the_corner_bounds() -> None:
-    """The inner arc of a crescent whose tip is on the way: from all places before the tip, up to the range."""
+    """The inner arc of a crescent whose tip is on the way: from places before the tip, up to the range."""
     crescent = Outline([(0, Fraction(13, 2), -1), (1, Fraction(13, 2), Fraction(1, 2))])
     way = Piece("straight", None, Segment(Point(0, 0), Point(0, 8)))
     chart = Memory.of(Scene([crescent]), fmpq(5), way.start, [way]).after(1)
@@ -370,3 +370,12 @@ def test_a_way_that_touches_a_corner_sees_what_only_the_corner_bounds() -> None:
     assert [(str(i.start), str(i.end)) for i in chart.known(0) if i.edge == inner] == [
         ("(0, 13/2)", "(1, 13/2)")
     ]
+
+
+def test_normals_of_an_arc_meet_a_way_along_one_of_them_in_the_centre() -> None:
+    """Nothing is seen from the start of the way, farther than the range from the middle of the dent."""
+    dented = Outline([(13, 1, Fraction(-1, 5)), (13, -1), (16, -1), (16, 1)])
+    way = Piece("straight", None, Segment(Point(9, 0), Point(12, 0)))
+    memory = Memory.of(Scene([dented]), fmpq(3), way.start, [way])
+    seen = [(r.kind.name, str(r.place)) for r in memory.reports]
+    assert seen == [("SIGHT", "(13 - 2*sqrt(2), 0)")]

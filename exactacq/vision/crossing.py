@@ -27,7 +27,7 @@ from exactacq.vision.holds import Seen
 from exactacq.vision.legs import Leg
 from exactacq.vision.names import Names
 from exactacq.vision.pencil import pencil, rational_between
-from exactacq.vision.sectors import Sliding
+from exactacq.vision.sectors import Sliding, Spokes
 from exactacq.vision.sides import Sides, rough
 from exactacq.vision.sightlines import Beam, Ray, Sightlines
 from exactacq.vision.table import EdgeTable
@@ -132,10 +132,9 @@ class Crossing:
                 same = next((k for k, (known, _) in enumerate(lines) if _overlap(known, t)), None)
                 if same is None:
                     lines.append((t, pin))
-                elif beam.anchor in self.touches:
-                    # The one line through both ends is the way's own, which touches the circle.
-                    contact = beam.sector.touch(t)[0]
-                    lines[same] = t, (contact, self.rail.parameter(contact))
+                elif beam.anchor in self.touches or t.compare(lines[same][0]) == 0:
+                    # The one line through both ends is the way's own.
+                    lines[same] = t, self._pin_of_own(beam, beam.sector.touch(t)[0])
                 else:
                     lines.append((t, pin))
         low, high = (
@@ -178,9 +177,16 @@ class Crossing:
             if offset.ball(OVERLAP_BITS).contains(0) and offset.sign() == 0:
                 on_line.append((point, place))
         if len(on_line) == 2:
-            # The line is the way's own. All others of the beam near it cross the way near the contact.
-            return contact, self.rail.parameter(contact)
+            return self._pin_of_own(beam, contact)
         return on_line[0] if on_line else None
+
+    def _pin_of_own(self, beam: Beam, contact: Point) -> Pin:
+        """Where the lines of a beam near one that is the way's own cross the way.
+
+        Tangents do so near their contact, normals of an arc in its centre.
+        """
+        place = Point(*beam.sector.center) if isinstance(beam.sector, Spokes) else contact
+        return place, self.rail.parameter(place)
 
     def _role(self, beam: Beam, t: fmpq) -> Role | None:
         """On which side of the contact the line crosses the way within its free part, if it does."""
