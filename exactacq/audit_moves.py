@@ -293,9 +293,9 @@ class Replay:
             self._take("hit", k)
             if aimed is not None:
                 self.encounters.append(k)
-            if k == aimed:
-                return
             if not self._is_acquired(k, event):
+                if k == aimed:
+                    return
                 self._circumnavigate(k, event)
             ends = [s for s in stretches if self._is_left(s, k)]
             if not ends or not ends[-1].high > stretch.low:

@@ -596,3 +596,24 @@ class TestBounds:
         for changes, word in flaws:
             bounds = (*run.bounds[:k], replace(bound, **changes), *run.bounds[k + 1 :])
             refused(replace(run, bounds=bounds), "bound", word)
+
+
+def test_an_aim_that_became_known_on_the_way_is_passed_around() -> None:
+    """Around the hook all of the triangle comes in sight; its aim is then reached past its near side."""
+    hook = Polygon(
+        [(3, 13), (3, 11), (Q(13, 4), 11), (Q(13, 4), Q(25, 2)), (Q(15, 4), Q(25, 2)), (Q(15, 4), 11),
+         (4, 11), (4, 13)]
+    )  # fmt: skip
+    triangle = Polygon([(Q(27, 8), 12), (Q(7, 2), Q(23, 2)), (Q(29, 8), 12)])
+    others = [Polygon([(3, 4), (4, 10), (3, 10)]), Polygon([(3, 14), (4, 17), (3, 17)])]
+    run = xa.seed_spreader(Scene([hook, triangle, *others], terrain=Terrain(5, 18)), Q(5, 2))
+    hits = [
+        (event.kind, event.obstacle, event.note) for event in run.events if event.kind in ("hit", "divert")
+    ]
+    aim = hits.index(("divert", 1, "out of reach"))
+    assert hits[aim + 1 :][:3] == [
+        ("hit", 0, "on the way"),
+        ("hit", 1, "on the way"),
+        ("hit", 1, "diversion"),
+    ]
+    audit(run)

@@ -17,6 +17,9 @@ from exactacq.formats.json_scene import scene_to_json
 from exactacq.random_scenes import random_scene
 from exactacq.trace import Run
 
+SAMPLES = 8
+"""Samples of each kind that an audit takes: few, and others on each scene, for there are many scenes."""
+
 
 class Result(StrEnum):
     """What became of a scene; the worse comes later. Only PASSED is praise."""
@@ -97,7 +100,7 @@ def _run(case: Case, task: Task, audited: bool) -> tuple[Result, str, float | No
         run: Run = case.sightseer if task.strategy == Subject.SIGHTSEER.value else case.spreader
         length = float(run.length)
         if audited:
-            audit(run)
+            audit(run, SAMPLES, task.seed)
     except Undecided as error:
         return Result.UNDECIDED, _words(error), length
     except AuditError as error:
