@@ -336,7 +336,7 @@ class _Lines:
     def _sees_in_cells(self, lines: Lines) -> bool:
         undecided = None
         for cell in self.proposals.cells(lines):
-            answer = self._sees_in(cell, lines)
+            answer = self._sees_on_line(cell) if self._is_on_line(cell.touch) else self._sees_in(cell, lines)
             if answer:
                 return True
             undecided = cell if answer is None else undecided
@@ -346,6 +346,20 @@ class _Lines:
                 "sight that touches one feature is as long as the range there, as far as floats can tell"
             )
         return False
+
+    def _is_on_line(self, g: int) -> bool:
+        """Whether a feature is a point of the walk's own line."""
+        center, turn = self._shape(g)
+        return turn.rational == 0 and center.x.compare(self.walk.x) == 0
+
+    def _sees_on_line(self, cell: Cell) -> bool:
+        """Whether the walk's own line, the only one past such a feature, is free where it is a range long."""
+        x, reach = self.walk.x, self.walk.radius
+        return any(
+            self.search._is_seen(Point(x, y + offset), Point(x, y))
+            for y in line_contacts(Point(x, 0), UP, self.search.known[cell.target])
+            for offset in (reach, -reach)
+        )
 
     def _sees_in(self, cell: Cell, lines: Lines) -> bool | None:
         """Whether a line of sight of a cell is free; None if that is not decided."""

@@ -427,3 +427,17 @@ def sights_about(place: Point, shape: tuple[Point, Real], target: Curve) -> list
     ahead, across = rest.sqrt(), Point(-offset.y, offset.x)
     way = (offset * ahead + across * turn) / offset.norm_sq()
     return [t for t in line_contacts(place, way, target) if t.sign() > 0]
+
+
+@pytest.mark.parametrize(("start", "is_seen"), [(7, False), (fmpq(71, 10), True), (1, False)])
+def test_a_corner_on_the_line_of_the_walk_bounds_one_line_of_sight(start: object, is_seen: bool) -> None:
+    """Past it all lines of sight are the walk's own; on the way down the last one is as long as the range.
+
+    From (5, 7) on, all lines beside that one are as long as the range, as far as floats can tell.
+    """
+    diamond = [Point(5, 9), Point(fmpq(9, 2), 10), Point(4, 9), Point(fmpq(9, 2), 8)]
+    corner = [Segment(a, b) for a, b in zip(diamond, [*diamond[1:], diamond[0]], strict=True)]
+    target = Arc(Point(4, 12), Point(5, 12), Point(fmpq(9, 2), fmpq(66, 5)), fmpq(169, 100), ccw=True)
+    side = Segment(Point(5, 12), Point(5, 16))
+    targets = [side, target]
+    assert sees_later(fmpq(5), Real(start), fmpq(0), targets, [*targets, *corner], fmpq(5)) is is_seen
