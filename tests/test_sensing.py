@@ -379,3 +379,11 @@ def test_normals_of_an_arc_meet_a_way_along_one_of_them_in_the_centre() -> None:
     memory = Memory.of(Scene([dented]), fmpq(3), way.start, [way])
     seen = [(r.kind.name, str(r.place)) for r in memory.reports]
     assert seen == [("SIGHT", "(13 - 2*sqrt(2), 0)")]
+
+
+def test_the_start_of_a_circle_is_seen_along_the_way_from_as_far_as_the_range() -> None:
+    """The circle's start, at both ends of its parameters, is on the line of the way and of an edge."""
+    bar = Polygon([(6, 1), (9, 1), (9, 2), (6, 2)])
+    way = Piece("straight", None, Segment(Point(12, 1), Point(9, 1)))
+    memory = Memory.of(Scene([bar, Circle((4, 1), 1)]), fmpq(5), way.start, [way])
+    assert [str(r.place) for r in memory.reports if r.obstacle == 1] == ["(10, 1)"]

@@ -24,6 +24,7 @@ from exactacq.vectors import minus, raw
 from exactacq.vision.chords import meet
 from exactacq.vision.glances import End, Glance, Pin, Role, Side, Strand
 from exactacq.vision.holds import Seen
+from exactacq.vision.intervals import Cover
 from exactacq.vision.legs import Leg
 from exactacq.vision.names import Names
 from exactacq.vision.pencil import pencil, rational_between
@@ -285,8 +286,12 @@ class Crossing:
             for share in line_contacts(end, onward, curve):
                 if share.sign() > 0:
                     point = end + onward * share
-                    u = self.ranges.rails[e].parameter(point)
-                    if any(i.low.compare(u) <= 0 and i.high.compare(u) >= 0 for i in intervals):
+                    rail = self.ranges.rails[e]
+                    u = rail.parameter(point)
+                    # A full circle's start is at 0 and at the top.
+                    full = isinstance(curve, Arc) and curve.full
+                    places = [u, rail.top] if full and u.sign() == 0 else [u]
+                    if any(Cover(tuple(intervals)).contains(place) for place in places):
                         yield e, point
 
     def _within(self, point: Point) -> list[Pin]:
