@@ -392,13 +392,11 @@ class Replay:
                 found.append(part.start if single else edge.part(part.start, part.end))
         return found
 
-    def _gap(self, chart: Any, obstacle: int, start: Point) -> Real:
-        """The squared distance between what is known of an obstacle and the line from a place on."""
+    def _beyond_reach(self, chart: Any, obstacle: int, start: Point) -> int:
+        """1 if all that is known of an obstacle is out of reach of the rest of the line, 0 if just not."""
         rest = start if same(start, self._line_end) else Segment(start, self._line_end)
-        return min(_distance_sq(curve, rest) for curve in self._known(chart, obstacle))
-
-    def _is_in_reach(self, chart: Any, obstacle: int, start: Point) -> bool:
-        return self._gap(chart, obstacle, start).compare(self.run.radius**2) <= 0
+        square = self.run.radius**2
+        return min(_distance_sq(curve, rest).compare(square) for curve in self._known(chart, obstacle))
 
     def _check_reason(self, event: Event, chart: Any, leap: Mark | None) -> None:
         """An obstacle is about to be lost here, or when the robot has gone around another one to *leap*."""
@@ -411,9 +409,9 @@ class Replay:
         elif over:
             is_due = False
         elif reason == "out of reach" and leap is None:
-            is_due = self._gap(chart, i, onward).compare(self.run.radius**2) == 0
+            is_due = self._beyond_reach(chart, i, onward) == 0
         elif reason == "out of reach" or (reason == "overdue" and leap is None):
-            is_due = not self._is_in_reach(chart, i, onward)
+            is_due = self._beyond_reach(chart, i, onward) > 0
         elif reason == "out of sight":
             is_due = self._is_visible(i) is not False
             if self.sweeping.lookahead or leap is not None:
@@ -453,7 +451,7 @@ class Replay:
     def _check_rest(self, chart: Any, start: Point, where: str) -> None:
         """Obstacles at stake are in reach of the line from a place on."""
         for k in self._at_stake(chart):
-            if not self._is_in_reach(chart, k, start):
+            if self._beyond_reach(chart, k, start) > 0:
                 raise AuditError(
                     f"obstacle {k} is out of reach {where} at {place_text(start)}, without a diversion"
                 )
