@@ -387,3 +387,14 @@ def test_the_start_of_a_circle_is_seen_along_the_way_from_as_far_as_the_range() 
     way = Piece("straight", None, Segment(Point(12, 1), Point(9, 1)))
     memory = Memory.of(Scene([bar, Circle((4, 1), 1)]), fmpq(5), way.start, [way])
     assert [str(r.place) for r in memory.reports if r.obstacle == 1] == ["(10, 1)"]
+
+
+def test_a_line_along_an_edge_ends_at_a_wall_whose_back_is_out_of_reach() -> None:
+    """From (4, 5/4) the lower edge of the stadium is seen end on, past its tangent arc."""
+    wall = Polygon([(2, 1), (4, 1), (4, 3), (2, 3)])
+    x, y = (Fraction(21, 4), Fraction(23, 4)), (Fraction(5, 4), Fraction(7, 4))
+    stadium = Outline([(x[0], y[0]), (x[1], y[0], 1), (x[1], y[1]), (x[0], y[1], 1)])
+    way = Piece("boundary", 0, Segment(Point(4, 1), Point(4, 3)))
+    chart = Memory.of(Scene([wall, stadium]), fmpq(3, 2), way.start, [way]).after(1)
+    ends = {str(end) for part in chart.known(1) for end in (part.start, part.end)}
+    assert {"(11/2, 5/4)", "(11/2, 7/4)"} <= ends

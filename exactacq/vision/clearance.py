@@ -16,7 +16,7 @@ from flint import fmpq
 from exactacq.contacts import line_contacts
 from exactacq.curves import Arc, Curve
 from exactacq.points import Location, Point
-from exactacq.reals import Real
+from exactacq.reals import Real, rational
 from exactacq.vision.crossings import Crossings
 from exactacq.vision.sectors import Sector
 from exactacq.vision.table import EdgeTable, Ints
@@ -98,18 +98,25 @@ def walk_line(table: EdgeTable, sector: Sector, t: Real, reach: float) -> tuple[
     met.sort(key=cmp_to_key(_by_parameter))
     ahead = [hit for hit in met if hit[0].sign() > 0]
     behind = [hit for hit in reversed(met) if hit[0].sign() < 0]
-    return _until_blocked(table, contact, direction, behind), _until_blocked(table, contact, direction, ahead)
+    # Beyond the last contact nothing changes within reach: a parameter just short of that tells of the rest.
+    end = rational(reach * (1 - 1e-9) / float(np.hypot(*size)))
+    return (
+        _until_blocked(table, contact, direction, behind, Real(-end)),
+        _until_blocked(table, contact, direction, ahead, Real(end)),
+    )
 
 
 def _by_parameter(a: tuple[Real, int], b: tuple[Real, int]) -> int:
     return a[0].compare(b[0])
 
 
-def _until_blocked(table: EdgeTable, contact: Point, direction: Point, hits: list[tuple[Real, int]]) -> Walk:
+def _until_blocked(
+    table: EdgeTable, contact: Point, direction: Point, hits: list[tuple[Real, int]], end: Real
+) -> Walk:
     previous = Real(0)
     owners = {int(table.owner[e]) for _, e in hits}
-    for k, (tau, _) in enumerate(hits):
-        if tau.compare(previous) != 0:
+    for k, tau in enumerate([*(tau for tau, _ in hits), end]):
+        if (tau - previous).sign() == end.sign():
             middle = contact + direction * ((previous + tau) * HALF)
             if any(table.obstacles[i].locate(middle) is Location.INSIDE for i in owners):
                 return Walk(hits[:k], blocked=True)
