@@ -179,7 +179,7 @@ class Memory:
             u = leg.rail.parameter(place) if reported is None else reported[1]
             if leg.span.low.compare(u) <= 0 and leg.span.high.compare(u) >= 0:
                 if leg.order(u, leg.first) > 0:
-                    covers.update(self._senses.known_after(leg.upto(u, place), covers))
+                    covers.update(self._senses.known_within(leg, leg.upto(u, place), covers))
                 break
             covers.update(self._senses.known_after(leg, covers))
         return self._map(covers)

@@ -265,18 +265,19 @@ class Ranges:
         """An extreme view, moved to the end of an interval if it lies outside; *other* is the other one."""
         place = end.places[side]
         try:
-            if place.compare(span.low) < 0:
-                place, point = span.low, span.start
-            elif place.compare(span.high) > 0:
-                place, point = span.high, span.end
-            else:
-                return end
+            at_low, at_high = place.compare(span.low), place.compare(span.high)
         except Undecided:
             for bound, point in ((span.low, span.start), (span.high, span.end)):
                 if self.is_again(glance, end, side, point, bound):
-                    points = (point, end.points[1]) if side == 0 else (end.points[0], point)
-                    return _placed(replace(end, points=points), side, bound)
+                    return _shared(end, side, point, bound)
             raise
+        if at_low == 0:
+            return _shared(end, side, span.start, span.low)
+        if at_high == 0:
+            return _shared(end, side, span.end, span.high)
+        if at_low > 0 > at_high:
+            return end
+        place, point = (span.low, span.start) if at_low < 0 else (span.high, span.end)
         if place.compare(other.places[side]) == 0:
             return other
         if glance.strand is None:
@@ -440,6 +441,12 @@ def _is_met(direction: Point, curve: Curve, end: Point, role: Role) -> bool:
         return not direction.cross(curve.direction).ball(BITS).contains(0)
     far = -role.value if curve.ccw else role.value
     return bool((end - curve.center).dot(direction).ball(BITS) * far > 0)
+
+
+def _shared(end: End, k: int, point: Point, place: Real) -> End:
+    """The same view, with another name for its point on side k."""
+    points = (point, end.points[1]) if k == 0 else (end.points[0], point)
+    return _placed(replace(end, points=points), k, place)
 
 
 def _placed(end: End, k: int, place: Real) -> End:

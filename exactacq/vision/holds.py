@@ -31,10 +31,7 @@ BITS = 128
 
 
 class Seen:
-    """What is seen from a place: ``spans`` are the closed intervals of each edge, by its number.
-
-    *own* are the edges through the place, if known.
-    """
+    """What is seen from a place; *own* are the edges through the place, if known."""
 
     def __init__(
         self,
@@ -46,10 +43,34 @@ class Seen:
     ) -> None:
         self.table, self.place = table, place
         self._view = View(table, place, radius, own)
-        self.spans: dict[int, list[Interval]] = {
-            e: [i for a, b in parts for i in Interval.between(rails[e], a, b)]
+        self._view.knows_at_range = self._is_tight
+        self._rails = rails
+        self._tight: set[Hold] = set()
+
+    @cached_property
+    def spans(self) -> dict[int, list[Interval]]:
+        """The closed intervals that are seen of each edge, by its number."""
+        return {
+            e: [i for a, b in parts for i in Interval.between(self._rails[e], a, b)]
             for e, parts in self._view.seen().items()
         }
+
+    def tell(self, end: End, glance: Glance, side: int) -> None:
+        """Take note of an extreme view of a glance from this place that is as long as the range.
+
+        Told before anything is asked, it spares the proof that the same end of what is seen is at the range.
+        """
+        e, point = glance.edges[1 - side], end.points[1 - side]
+        self._tight.update(self._holds(e, point, False, glance.strand))
+
+    def _is_tight(self, e: int, point: Point) -> bool:
+        """Whether the end of a sight was told to be at the range."""
+        return any(hold in self._tight for hold in self._touching(e, point))
+
+    def _touching(self, e: int, point: Point) -> Iterator[Hold]:
+        """The holds of the end of a sight by what the ray to it touches."""
+        for number, side in self._view.touched(point):
+            yield e, ("circle", self.table.circles[number]) if side else ("corner", number), side
 
     def pinned(self, end: End, glance: Glance, side: int) -> End:
         """An extreme view of a glance from this place, its other end the view's own point if it is one."""
@@ -76,9 +97,7 @@ class Seen:
                         continue
                     if self._view.is_at_range(point):
                         found[e, RANGE, self._onward(e, point)] = point, u
-                    for number, side in self._view.touched(point):
-                        name = ("circle", self.table.circles[number]) if side else ("corner", number)
-                        found[e, name, side] = point, u
+                    found.update((hold, (point, u)) for hold in self._touching(e, point))
         return {hold: pin for hold, pin in found.items() if hold[1] != RANGE or hold[2]}
 
     def _holds(self, e: int, point: Point, tight: bool, strand: Strand | None) -> Iterator[Hold]:

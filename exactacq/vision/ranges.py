@@ -6,6 +6,7 @@ data. Ends that are within range are kept as they are, and decided first: no roo
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import Any, TypeAlias
 
 from flint import fmpq
@@ -19,13 +20,20 @@ Span: TypeAlias = "tuple[Point, Point]"
 """A closed piece of an edge in the boundary's direction; equal ends are a single point."""
 
 
-def within(curve: Curve, start: Point, end: Point, center: Vector, radius_sq: fmpq) -> list[Span]:
+def within(
+    curve: Curve,
+    start: Point,
+    end: Point,
+    center: Vector,
+    radius_sq: fmpq,
+    at_range: Collection[int] = (),
+) -> list[Span]:
     """The parts of the piece of a curve from *start* to *end* at most a radius away from a point, in order.
 
     At most two parts, each perhaps a single point. *start* and *end* may be one point of a segment, but on an
-    arc they are distinct.
+    arc they are distinct. *at_range* are identities of ends that are known to be as far away as the radius.
     """
-    excess = tuple(_excess(p, center, radius_sq) for p in (start, end))
+    excess = tuple(0 if id(p) in at_range else _excess(p, center, radius_sq) for p in (start, end))
     if isinstance(curve, Segment):
         return _of_segment(curve, (start, end), excess, center, radius_sq)
     ends, flipped = ((start, end), excess), not curve.ccw

@@ -94,6 +94,7 @@ class Senses:
         self.acquired: set[int] = set()
         self.in_sight: set[int] = set()
         self._views: dict[int, Seen] = {}
+        self._last: Shares | None = None
 
     # -- moving ------------------------------------------------------------------------------------
 
@@ -143,7 +144,20 @@ class Senses:
 
     def known_after(self, leg: Leg, covers: Covers) -> dict[int, Cover]:
         """The covers that grow along a leg, if *covers* are known before it."""
-        return self.shares(leg).taught(covers)
+        return self._whole(leg).taught(covers)
+
+    def known_within(self, leg: Leg, part: Leg, covers: Covers) -> dict[int, Cover]:
+        """The same along the first part of a leg. It is cut from what the leg shows.
+
+        To find that again from the end of the part, which is often an involved point, is harder.
+        """
+        return self._whole(leg).cut(part).taught(covers)
+
+    def _whole(self, leg: Leg) -> Shares:
+        """All that a leg shows; that of the last leg is kept."""
+        if self._last is None or self._last.leg is not leg:
+            self._last = self.shares(leg)
+        return self._last
 
     def shares(self, leg: Leg) -> Shares:
         """All that a leg shows, also of acquired obstacles."""

@@ -6,7 +6,7 @@ free space, which crosses them. The views from the two ends of the leg belong to
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TypeAlias
@@ -70,14 +70,32 @@ class Shares:
         self.ends = self._seen_ends() if ends is None else ends
 
     def _found(self) -> dict[int, list[Share]]:
-        found: dict[int, list[Share]] = {k: [] for k in self.obstacles}
+        parts: list[tuple[int, Glance, int]] = []
         for glance, side in self._glances():
             for k, target in self.targets.on(glance.edges[1 - side]):
-                if k in found:
+                if k in self.obstacles:
                     part = self._ranges.clipped(glance, 1 - side, target.span)
-                    share = None if part is None else self._share(part, side, self.leg)
-                    if share is not None:
-                        found[k].append(share)
+                    if part is not None:
+                        parts.append((k, part, side))
+        return self._shares(parts, self.leg, self.obstacles)
+
+    def _shares(
+        self, parts: Iterable[tuple[int, Glance, int]], leg: Leg, obstacles: Collection[int]
+    ) -> dict[int, list[Share]]:
+        """What of some glances is seen from a leg; views from its ends share their points."""
+        cuts: list[tuple[int, Glance, int]] = []
+        for k, glance, side in parts:
+            cut = self._ranges.clipped(glance, side, leg.span)
+            if cut is not None:
+                cuts.append((k, cut, side))
+                for end in (cut.first, cut.last):
+                    view = self._view_from(end, side, leg) if end.tight else None
+                    if view is not None:
+                        view.tell(end, cut, side)
+        found: dict[int, list[Share]] = {k: [] for k in obstacles}
+        for k, cut, side in cuts:
+            first, last = (self._pinned(end, cut, side, leg) for end in (cut.first, cut.last))
+            found[k].append(Share.of(replace(cut, first=first, last=last), side))
         return found
 
     def _seen_ends(self) -> dict[int, list[tuple[Lookout, Interval]]]:
@@ -89,18 +107,15 @@ class Shares:
             if k in lookouts
         }
 
-    def _share(self, glance: Glance, side: int, leg: Leg) -> Share | None:
-        """The part of a glance that is seen from a leg; views from its ends share their points."""
-        cut = self._ranges.clipped(glance, side, leg.span)
-        if cut is None:
-            return None
-        first, last = (self._pinned(end, cut, side, leg) for end in (cut.first, cut.last))
-        return Share.of(replace(cut, first=first, last=last), side)
-
     def _pinned(self, end: End, glance: Glance, side: int, leg: Leg) -> End:
+        view = self._view_from(end, side, leg)
+        return end if view is None else view.pinned(end, glance, side)
+
+    def _view_from(self, end: End, side: int, leg: Leg) -> Seen | None:
+        """What is seen from where an extreme view begins, if that is an end of the leg."""
         u = end.places[side]
         place = leg.start if u is leg.first else leg.end if u is leg.last else None
-        return end if place is None else self.view(place, leg.own(u)).pinned(end, glance, side)
+        return None if place is None else self.view(place, leg.own(u))
 
     def _glances(self) -> Iterator[tuple[Glance, int]]:
         sightlines, leg, obstacles = self.sightlines, self.leg, self.obstacles
@@ -123,12 +138,9 @@ class Shares:
     def cut(self, leg: Leg, obstacles: Collection[int] | None = None) -> Shares:
         """What a part of the leg shows, of some of the obstacles if these are given."""
         obstacles = self.obstacles if obstacles is None else obstacles
-        of: dict[int, list[Share]] = {
-            k: [
-                cut for share in self.of[k] if (cut := self._share(share.glance, share.side, leg)) is not None
-            ]
-            for k in obstacles
-        }
+        of = self._shares(
+            ((k, share.glance, share.side) for k in obstacles for share in self.of[k]), leg, obstacles
+        )
         ends = {
             k: [(end, part) for end, whole in self.ends[k] if (part := whole.within(leg.span)) is not None]
             for k in obstacles

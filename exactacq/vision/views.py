@@ -7,6 +7,7 @@ sides, edges seen edge-on, the edges through the point itself, and corners touch
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, cmp_to_key
 from typing import Any
@@ -15,6 +16,7 @@ import numpy as np
 from flint import fmpq
 
 from exactacq.curves import Arc, Segment
+from exactacq.errors import Undecided
 from exactacq.points import Point
 from exactacq.vectors import Vector, advance, dot, minus, raw, sign, square_root
 from exactacq.vision.facets import enters
@@ -71,6 +73,8 @@ class View:
         self.panorama = Panorama(table, point, float(radius) * (1 + 1e-12), self.own)
         self.origin = self.panorama.facets.origin
         self._at_range: dict[int, Point] = {}
+        self.knows_at_range: Callable[[int, Point], bool] = lambda edge, point: False
+        """Whether the end of a sight on an edge is known, by who asks, to be as far away as the range."""
         self._held: dict[int, tuple[Point, int]] = {}
 
     @cached_property
@@ -173,7 +177,11 @@ class View:
             return [ends]
         curve = self.table.curves[int(self.panorama.facets.edge[facet])]
         if start is not end:
-            spans = within(curve, start, end, self.origin, self.radius_sq)
+            try:
+                spans = within(curve, start, end, self.origin, self.radius_sq)
+            except Undecided:
+                known = [id(p) for p in ends if self.knows_at_range(int(self.panorama.facets.edge[facet]), p)]
+                spans = within(curve, start, end, self.origin, self.radius_sq, known)
             for point in (p for span in spans for p in span if p is not start and p is not end):
                 self._held[id(point)] = point, AT_RANGE
             return spans
