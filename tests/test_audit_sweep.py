@@ -20,10 +20,12 @@ from sweeps import rectangle, swept_scene
 import exactacq as xa
 from exactacq import Circle, Polygon, Scene, Terrain
 from exactacq.audit import audit
+from exactacq.claims.model import Subject
 from exactacq.curves import Curve, Segment
 from exactacq.errors import AuditError
 from exactacq.lengths import Length
 from exactacq.points import Point
+from exactacq.random_scenes import random_scene
 from exactacq.trace import Event, Path, Piece, Run
 
 SWEPT = (
@@ -596,6 +598,12 @@ class TestBounds:
         for changes, word in flaws:
             bounds = (*run.bounds[:k], replace(bound, **changes), *run.bounds[k + 1 :])
             refused(replace(run, bounds=bounds), "bound", word)
+
+
+def test_the_map_where_a_view_past_a_corner_is_as_long_as_the_range() -> None:
+    """From there the end of the view is at the range, which takes too many bits to prove again."""
+    scene = random_scene(Subject.SEED_SPREADER, 1001113)
+    audit(xa.seed_spreader(scene), samples=8)
 
 
 def test_an_aim_that_became_known_on_the_way_is_passed_around() -> None:
