@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache
@@ -27,11 +28,20 @@ from exactacq.trace import Run
 STRATEGIES = {Subject.SIGHTSEER: "Sightseer", Subject.SEED_SPREADER: "Seed Spreader"}
 FOLDER = "_generated"
 """The generated folder, as the page of claims sees it."""
+CONTENTS = "README"
+"""The argument that lists the others."""
 DETAILS, FAILURES = 3, 5
 """Most findings, and most failing scenes, of one statement that the page quotes."""
 _LINK = re.compile(r"(?<!!)\[([^\]\n]+)\]\(([^)\s]+)\)")
 _DISPLAY = re.compile(r"\s*\$\$(.+?)\$\$\s*", re.DOTALL)
+_HEADING = re.compile(r"^#+ .*$", re.MULTILINE)
 _SPECIAL = re.compile(r"([\\*_<>\[\]|$#~])")
+
+
+@cache
+def example(name: str) -> Case:
+    """A gallery scene; all pages share its runs."""
+    return Case(gallery.scene(name))
 
 
 def write(folder: Path, claims: Sequence[Claim], count: int, arguments: Path) -> None:
@@ -40,7 +50,6 @@ def write(folder: Path, claims: Sequence[Claim], count: int, arguments: Path) ->
     Statements that gallery scenes do not refute are tried on *count* random scenes of their kind.
     *arguments* is where the written proofs are; each becomes a page.
     """
-    example = cache(lambda name: Case(gallery.scene(name)))
     cases = {
         subject: [
             (f"{subject.value} scene {seed}", Case(random_scene(subject, seed))) for seed in range(count)
@@ -48,7 +57,9 @@ def write(folder: Path, claims: Sequence[Claim], count: int, arguments: Path) ->
         for subject in Subject
     }
     judged = [(claim, [judge(s, cases[s.subject], example) for s in claim.statements]) for claim in claims]
-    texts = {path.stem: path.read_text(encoding="utf-8") for path in sorted(arguments.glob("*.md"))}
+    texts = in_reading_order(
+        {path.stem: path.read_text(encoding="utf-8") for path in sorted(arguments.glob("*.md"))}
+    )
     (folder / "verdicts.md").write_text(page(judged, count, list(texts)), encoding="utf-8")
     statements = [statement for claim in claims for statement in claim.statements]
     (folder / "scenes").mkdir()
@@ -56,7 +67,9 @@ def write(folder: Path, claims: Sequence[Claim], count: int, arguments: Path) ->
         figures.save(run_on(example(name), subject), folder / picture(name, subject))
     (folder / "arguments").mkdir()
     for name, text in texts.items():
-        (folder / "arguments" / f"{name}.md").write_text(portable(text, set(texts)), encoding="utf-8")
+        below = "\n".join(["", *_below(n for n in texts if n != CONTENTS)]) if name == CONTENTS else ""
+        page_of_it = portable(text, set(texts)) + below
+        (folder / "arguments" / f"{name}.md").write_text(page_of_it, encoding="utf-8")
 
 
 def judge(
@@ -85,13 +98,27 @@ def run_on(case: Case, subject: Subject) -> Run:
 
 
 def page(judged: Sequence[tuple[Claim, Sequence[Verdict]]], count: int, arguments: Sequence[str]) -> str:
-    """The text that the page of claims includes; *arguments* are the pages below it."""
+    """The text that the page of claims includes; *arguments*, or their contents, are the pages below it."""
     lines = [f"When these pages were built, {count} random scenes of each kind were tried.", ""]
+    lines += [_tally(verdicts[0].status for _, verdicts in judged), ""]
     lines += _overview(judged)
     for claim, verdicts in judged:
         lines += _section(claim, verdicts)
-    lines += ["```{toctree}", ":hidden:", "", *(f"{FOLDER}/arguments/{name}" for name in arguments), "```"]
+    names = [CONTENTS] if CONTENTS in arguments else arguments
+    lines += _below(f"{FOLDER}/arguments/{name}" for name in names)
     return "\n".join(lines) + "\n"
+
+
+def _below(names: Iterable[str]) -> list[str]:
+    """The pages below a page."""
+    return ["```{toctree}", ":hidden:", "", *names, "```", ""]
+
+
+def _tally(statuses: Iterable[Status]) -> str:
+    """How many statements came out how."""
+    counts = Counter(statuses)
+    parts = (f"{status.value} {counts[status]}" for status in Status if counts[status])
+    return f"{counts.total()} claims, as printed: {', '.join(parts)}."
 
 
 def _overview(judged: Sequence[tuple[Claim, Sequence[Verdict]]]) -> Iterator[str]:
@@ -168,7 +195,10 @@ def plain(text: str) -> str:
 
 
 def portable(text: str, known: set[str]) -> str:
-    """An argument as a page: formulas on display stand alone, links lead to pages or are plain words."""
+    """An argument as a page: formulas on display stand alone, links lead to pages or are plain words.
+
+    Headings are in plain words too, for they are shown where formulas are not set.
+    """
 
     def displayed(match: re.Match[str]) -> str:
         return f"\n\n$$\n{' '.join(match[1].split())}\n$$\n\n"
@@ -178,4 +208,13 @@ def portable(text: str, known: set[str]) -> str:
         is_page = target.endswith(".md") and "/" not in target and target[:-3] in known
         return match[0] if is_page or "://" in target or not target else match[1]
 
-    return _LINK.sub(linked, _DISPLAY.sub(displayed, text))
+    text = _LINK.sub(linked, _DISPLAY.sub(displayed, text))
+    return _HEADING.sub(lambda match: match[0].replace("$", "").replace("\\ge", "≥"), text)
+
+
+def in_reading_order(texts: dict[str, str]) -> dict[str, str]:
+    """The arguments in the order in which their contents name them, then the others."""
+    contents = texts.get(CONTENTS, "")
+    places = {name: contents.find(f"({name}.md)") for name in texts}
+    order = sorted(texts, key=lambda name: (name != CONTENTS, places[name] < 0, places[name]))
+    return {name: texts[name] for name in order}

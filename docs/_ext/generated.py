@@ -1,21 +1,22 @@
 """What the documentation shows and does not store: pictures and verdicts, computed when it is built.
 
-``docs/_generated`` receives the SVG files of `PICTURES`, and the text of the page of claims with its pictures
-and arguments. ``-D claims_scenes=N`` tries every statement on N random scenes of each kind.
+``docs/_generated`` receives the SVG files of `PICTURES`, the text of the page of claims with its pictures and
+arguments, and the table of bounds. ``-D claims_scenes=N`` tries the claims on N random scenes of each kind.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import cache
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from shutil import rmtree
 from typing import Any
 
 import claims_page
+import tightest
 
 import exactacq as xa
 from exactacq import claims, figures, gallery
+from exactacq.claims.model import Case, Subject
 from exactacq.figures_scan import limit_figure
 
 FOLDER = "_generated"
@@ -23,10 +24,15 @@ SCENES = 12
 """Random scenes of each kind: enough to show what a verdict rests on, and a matter of seconds."""
 
 
-@cache
 def _run(name: str) -> xa.Run:
     """The run on a gallery scene, by the strategy that the scene is there for."""
-    return (xa.seed_spreader if gallery.is_swept(name) else xa.sightseer)(gallery.scene(name))
+    subject = Subject.SEED_SPREADER if gallery.is_swept(name) else Subject.SIGHTSEER
+    return claims_page.run_on(claims_page.example(name), subject)
+
+
+def _cases() -> Iterator[tuple[str, Case, xa.Run]]:
+    """All scenes of the gallery, each with that run."""
+    return ((name, claims_page.example(name), _run(name)) for name in gallery.names())
 
 
 def _whole(name: str) -> Callable[[Path], None]:
@@ -45,7 +51,7 @@ PICTURES: dict[str, Callable[[Path], None]] = {
     "polygon_limit.svg": lambda path: limit_figure().savefig(path),
 }
 """The pictures that pages name, each with what draws it."""
-TEXTS = ("verdicts.md",)
+TEXTS = ("verdicts.md", "tightest.md")
 """The texts that pages include."""
 
 
@@ -58,6 +64,7 @@ def generate(app: Any) -> None:
         draw(folder / name)
     arguments = Path(app.srcdir).parent / "proofs" / "arguments"
     claims_page.write(folder, claims.CLAIMS, int(app.config.claims_scenes), arguments)
+    tightest.write(folder, _cases())
 
 
 def setup(app: Any) -> dict[str, bool]:
