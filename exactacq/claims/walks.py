@@ -36,10 +36,14 @@ class Stay:
 
 
 def stays(run: Run) -> Iterator[Stay]:
-    """The stays of a path, in order. A stop at a boundary without a walk along it is none."""
+    """The stays of a path, in order. A stop at a boundary without a walk along it is none.
+
+    An obstacle that is left may block the M-line again at once: then another stay begins there.
+    """
     first = 0
+    left = {event.after for event in run.events if event.kind == "leave" and not event.inside}
     for k in range(1, len(run.path) + 1):
-        if k < len(run.path) and run.path[k].obstacle == run.path[first].obstacle:
+        if k < len(run.path) and run.path[k].obstacle == run.path[first].obstacle and k not in left:
             continue
         owner = run.path[first].obstacle
         if owner is not None:
