@@ -28,7 +28,7 @@ from exactacq.vision.intervals import Cover
 from exactacq.vision.legs import Leg
 from exactacq.vision.names import Names
 from exactacq.vision.pencil import pencil, rational_between
-from exactacq.vision.sectors import Rolling, Sliding, Spokes
+from exactacq.vision.sectors import Sliding, Spokes
 from exactacq.vision.sides import Sides, rough
 from exactacq.vision.sightlines import Beam, Ray, Sightlines
 from exactacq.vision.table import EdgeTable
@@ -133,7 +133,9 @@ class Crossing:
                 same = next((k for k, (known, _) in enumerate(lines) if _overlap(known, t)), None)
                 if same is None:
                     lines.append((t, pin))
-                elif beam.anchor in self.touches or t.compare(lines[same][0]) == 0:
+                elif beam.anchor in self.touches or (
+                    isinstance(beam.sector, Spokes) and t.compare(lines[same][0]) == 0
+                ):
                     # The one line through both ends is the way's own.
                     lines[same] = t, self._pin_of_own(beam, beam.sector.touch(t)[0])
                 else:
@@ -184,14 +186,10 @@ class Crossing:
     def _pin_of_own(self, beam: Beam, contact: Point) -> Pin:
         """Where the lines of a beam near one that is the way's own cross the way.
 
-        Tangents do so near their contact, the foot of the circle's centre; normals of an arc in its centre.
+        Tangents do so near their contact, normals of an arc in its centre.
         """
-        if isinstance(beam.sector, Spokes | Rolling):
-            contact = Point(*beam.sector.center)
-        if isinstance(beam.sector, Rolling):
-            start, along = self.line.start, self.line.end - self.line.start
-            contact = start + along * ((contact - start).dot(along) / along.norm_sq())
-        return contact, self.rail.parameter(contact)
+        place = Point(*beam.sector.center) if isinstance(beam.sector, Spokes) else contact
+        return place, self.rail.parameter(place)
 
     def _role(self, beam: Beam, t: fmpq) -> Role | None:
         """On which side of the contact the line crosses the way within its free part, if it does."""
