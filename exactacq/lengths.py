@@ -142,6 +142,13 @@ class Length:
         """The part without pi and angles."""
         return self._algebraic
 
+    @property
+    def numbers(self) -> tuple[Real, ...]:
+        """What the closed form is made of: the part without angles, coefficients, cosines and sines."""
+        angular = self._angular
+        directions = (number for angle in angular.angles for number in (angle.cosine, angle.sine))
+        return self._algebraic, angular.turn, *angular.angles.values(), *directions
+
     def direction(self, radius: Real) -> Vector | None:
         """Cosine and sine of the angle that a sum of angles alone is on a circle, if seen to be algebraic."""
         return self._angular.direction(radius)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from exactacq.errors import FormatError
 from exactacq.lengths import Length
+from exactacq.reals import Real
 
 FIGURES = (".svg", ".pdf", ".png")
 """File types of figures."""
@@ -31,12 +32,14 @@ def readable(length: Length, limit: int, digits: int) -> tuple[str, ...]:
     decimal = length.decimal(digits)
     if "e" not in decimal and "." in decimal:
         decimal = decimal.rstrip("0").rstrip(".")
-    algebraic = length.algebraic
-    short = len(algebraic.generators()) <= limit and algebraic.height_bound() <= BITS_PER_CHARACTER * limit
-    closed = str(length) if short else ""
+    closed = str(length) if all(_is_short(number, limit) for number in length.numbers) else ""
     if closed == decimal:
         return (closed,)
     return (closed, f"≈ {decimal}") if 0 < len(closed) <= limit else (f"≈ {decimal}",)
+
+
+def _is_short(number: Real, limit: int) -> bool:
+    return len(number.generators()) <= limit and number.height_bound() <= BITS_PER_CHARACTER * limit
 
 
 def check_output(path: str | os.PathLike[str], suffixes: Collection[str]) -> Path:
