@@ -119,7 +119,7 @@ def spreader_values(run: Run, field: Field) -> dict[str, arb]:
         hops = largest * (2 * n * len(crossing) + pairs)
         again = sum((perimeters[k] for k in run.sweeping.again), arb(0))
         ways = [ball_sum([Segment(d.leave, d.hit)]) for d in run.sweeping.diversions]
-        beyond = sum((way - arb(reach) for way in ways if way > arb(reach)), arb(0))
+        beyond = sum(((way - arb(reach)).max(arb(0)) for way in ways), arb(0))
         visits = arb(n + n * len(crossing)) + arb(pairs) / 2
         sweep = arb(a + b + r * a)
         wide = sweep + arb(2 * n * reach)

@@ -8,10 +8,12 @@ import pytest
 
 from exactacq import Circle, Outline, Point, Polygon, Scene, visibility_graph
 from exactacq.contacts import Family, nearest_points
+from exactacq.curves import Segment
 from exactacq.links import Links
 from exactacq.vision.chords import Chord
 from exactacq.vision.clearance import is_free
 from exactacq.vision.families import free_pieces
+from exactacq.vision.legs import parts_of
 from exactacq.vision.table import EdgeTable
 
 TINY = Fraction(1, 10**60)
@@ -145,3 +147,11 @@ def test_circles_in_a_row_are_joined_by_two_mirrored_chords(circles: list[tuple]
         for point, (center, r) in ((chord.start, circles[0]), (chord.end, circles[2])):
             distance = (point - Point(*center)).norm_sq()
             assert float(distance) == pytest.approx(float(r) ** 2, rel=1e-14)
+
+
+def test_a_way_from_afar_is_cut_at_the_corner_that_it_touches() -> None:
+    """A margin for coordinates of the scene's size is too small where a way begins 10^11 sizes away."""
+    corner, far = (Fraction(1, 7), Fraction(3, 7)), Fraction(10**12, 7)
+    table = EdgeTable(Scene([Polygon([corner, (5, -4), (6, -4)])]).obstacles)
+    start, end = (Point(corner[0] + s, corner[1] + s / 3) for s in (-far, Fraction(1)))
+    assert [part.end for _, part in parts_of(table, Segment(start, end))] == [Point(*corner), end]

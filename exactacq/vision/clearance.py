@@ -33,7 +33,7 @@ def is_free(table: EdgeTable, start: Point, end: Point) -> bool:
     p, q = np.array(start.xy), np.array(end.xy)
     size = float(np.hypot(*(q - p)))
     edges = table.near((min(p[0], q[0]), min(p[1], q[1])), (max(p[0], q[0]), max(p[1], q[1])), 0.0)
-    slack = 64 * table.roundoff
+    slack = 64 * table.roundoff_at((p[0], p[1]), (q[0], q[1]))
     if size > 1024 * slack and len(edges):
         direction = ((q - p) / size)[None, :]
         found = Crossings(table, edges, (), p, np.zeros((1, 2)), direction, slack * (1 + slack / size))

@@ -56,12 +56,12 @@ class Crossing:
         self.sightlines, self.span, self.wanted, self.view = sightlines, leg.span, wanted, view
         self.touches: frozenset[Any] = frozenset(leg.touches)
         self.rail = rail = leg.rail
-        self.ranges = sightlines.ranges.with_way(rail, leg.touches)
-        self.way = len(self.ranges.rails) - 1
         self.piece = Segment(leg.span.start, leg.span.end)
         self.line = rail.curve
         self.places = [rough(p) for p in (leg.span.start, leg.span.end)]
-        self.slack = 256 * sightlines.table.roundoff
+        self.ranges = sightlines.ranges.with_way(rail, leg.touches)
+        self.way = len(self.ranges.rails) - 1
+        self.slack = 256 * self.ranges.roundoff
 
     def glances(self) -> Iterator[Glance]:
         """All glances at wanted edges whose first side lies on the way."""

@@ -25,7 +25,7 @@ from exactacq.vectors import Vector, advance, cross, dot, minus, raw, sign, squa
 from exactacq.vision.features import is_spike
 from exactacq.vision.table import STRAIGHT, EdgeTable, Ints
 
-SLACK = 4.0
+SLACK = 8.0
 """Margin of float differences of coordinates, in units of the table's round-off; the larger, the more is
 decided exactly."""
 VAGUE = 10.0
@@ -91,7 +91,7 @@ class Facets:
         self.origin = raw(point)
         self.xy = point.xy
         self.reach = reach
-        self.slack = SLACK * (table.roundoff + 2.0**-50 * max(abs(self.xy[0]), abs(self.xy[1])))
+        self.slack = SLACK * table.roundoff_at(self.xy)
         self.marks: list[Mark] = []
         self.on_ray: list[int] = []
         self.special: list[int] = []

@@ -124,7 +124,8 @@ class Ranges:
 
     def with_way(self, way: Rail, touches: Collection[Any] = ()) -> Ranges:
         """The same with one more curve, a way through free space that touches what is named (see `names`)."""
-        ranges = Ranges([*self.rails, way], self.radius, self.roundoff)
+        extent = max(abs(v) for p in (way.curve.start, way.curve.end) for v in p.xy)
+        ranges = Ranges([*self.rails, way], self.radius, max(self.roundoff, 2.0**-50 * extent))
         ranges._pins = ChainMap({}, self._pins)
         arcs = [self.curve(name[1]) for name in touches if name[0] == "circle"]
         ranges._touched = {(*raw(arc.center), arc.radius_sq) for arc in arcs if isinstance(arc, Arc)}

@@ -144,7 +144,7 @@ class _Tables:
         """The obstacles that a point lies inside of or on; only those whose box holds it, and the enclosure,
         are asked."""
         x, y = point.xy
-        slack = 8 * (self.edges.roundoff + 2.0**-50 * max(abs(x), abs(y)))
+        slack = 8 * self.edges.roundoff_at((x, y))
         left, low, right, high = self.hulls.T
         near = (left <= x + slack) & (right >= x - slack) & (low <= y + slack) & (high >= y - slack)
         if self.obstacles and self.obstacles[-1].is_enclosure:

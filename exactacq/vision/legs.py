@@ -149,7 +149,7 @@ def _between_corners(table: EdgeTable, way: Segment, touches: Collection[Hashabl
     offsets, length = table.start[numbers] - (x, y), math.hypot(dx, dy)
     sides = np.abs(offsets[:, 0] * dy - offsets[:, 1] * dx)
     stops: list[tuple[Real, Point]] = []
-    for number in numbers[sides <= 64 * table.roundoff * length].tolist():
+    for number in numbers[sides <= 64 * table.roundoff_at((left, bottom), (right, top)) * length].tolist():
         corner = table.curves[number].start
         offset = corner - way.start
         height = way.direction.cross(offset)
@@ -169,7 +169,7 @@ def _along_edges(table: EdgeTable, way: Segment) -> list[tuple[int | None, Segme
     dx, dy = (float(d.ball(64).mid()) for d in way.direction)
     near = [e for e in table.near((left, bottom), (right, top), 0.0).tolist() if not table.kind[e]]
     edges, length = table.end[near] - table.start[near], math.hypot(dx, dy)
-    sizes, slack = np.hypot(*edges.T), 16 * table.roundoff
+    sizes, slack = np.hypot(*edges.T), 16 * table.roundoff_at((left, bottom), (right, top))
     slopes = np.abs(edges[:, 0] * dy - edges[:, 1] * dx)
     parallel = slopes <= (1e-9 * sizes + slack) * (length + slack)
     found = [

@@ -44,7 +44,7 @@ class Lookout:
     def along(self, leg: Leg) -> list[Interval]:
         """The parts of a leg that are seen, as closed intervals; single places count."""
         left, bottom, right, top = leg.box
-        x, y, r = *self.point.xy, float(self.radius) * (1 + 1e-9) + 8 * self.table.roundoff
+        x, y, r = *self.point.xy, float(self.radius) * (1 + 1e-9) + 8 * self.table.roundoff_at(self.point.xy)
         if left > x + r or right < x - r or bottom > y + r or top < y - r:
             return []
         cuts = [(leg.span.low, leg.span.start), (leg.span.high, leg.span.end)]

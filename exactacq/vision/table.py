@@ -77,9 +77,13 @@ class EdgeTable:
         first = int(self.first[obstacle])
         return range(first, first + len(self.obstacles[obstacle].edges))
 
+    def roundoff_at(self, *places: tuple[float, float]) -> float:
+        """The bound for differences of the table's coordinates and places, which may lie far outside."""
+        return max(self.roundoff, *(2.0**-50 * max(abs(x), abs(y)) for x, y in places))
+
     def near(self, low: tuple[float, float], high: tuple[float, float], reach: float) -> Ints:
         """The edges whose boxes come within *reach* of the box from *low* to *high*."""
-        r = reach + 8 * self.roundoff
+        r = reach + 8 * self.roundoff_at(low, high)
         return self.index.query(low[0] - r, low[1] - r, high[0] + r, high[1] + r)
 
     def distance_bounds(self, x: float, y: float, edges: Ints) -> Floats:
