@@ -176,6 +176,7 @@ CLAIMS = (
             "number of vertices the polygon's cost grows without bound.",
             SIGHTSEER,
             trial=circles_cost_what_polygons_do,
+            argument="CMP",
         ),
         note="The vertex scan is that of `exactacq.scanning`.",
     ),

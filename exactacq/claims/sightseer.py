@@ -145,6 +145,7 @@ CLAIMS = (
             "leads back the way the robot came.",
             SIGHTSEER,
             moves_straight,
+            argument="SS-2",
         ),
         note="With v as the weight: of what a segment met first, the first would be nearer. It may graze "
         "visited obstacles.",

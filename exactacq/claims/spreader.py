@@ -310,6 +310,7 @@ CLAIMS = (
             SPREADER,
             acquires_the_lone_convex,
             lone_convex,
+            argument="SSS-4",
         ),
     ),
     Claim(
