@@ -20,7 +20,7 @@ from exactacq.contacts import line_contacts
 from exactacq.curves import Arc, Segment
 from exactacq.points import Point, distance_sq
 from exactacq.reals import Real
-from exactacq.vectors import minus, raw
+from exactacq.vectors import dot, minus, raw
 from exactacq.vision.chords import meet
 from exactacq.vision.glances import End, Glance, Pin, Role, Side, Strand
 from exactacq.vision.holds import Seen
@@ -28,7 +28,7 @@ from exactacq.vision.intervals import Cover
 from exactacq.vision.legs import Leg
 from exactacq.vision.names import Names
 from exactacq.vision.pencil import pencil, rational_between
-from exactacq.vision.sectors import Sliding, Spokes
+from exactacq.vision.sectors import Rolling, Sector, Sliding, Spokes
 from exactacq.vision.sides import Sides, rough
 from exactacq.vision.sightlines import Beam, Ray, Sightlines
 from exactacq.vision.table import EdgeTable
@@ -133,10 +133,7 @@ class Crossing:
                 same = next((k for k, (known, _) in enumerate(lines) if _overlap(known, t)), None)
                 if same is None:
                     lines.append((t, pin))
-                elif beam.anchor in self.touches or (
-                    isinstance(beam.sector, Spokes) and t.compare(lines[same][0]) == 0
-                ):
-                    # The one line through both ends is the way's own.
+                elif beam.anchor in self.touches or self._is_own(beam.sector, t, lines[same][0]):
                     lines[same] = t, self._pin_of_own(beam, beam.sector.touch(t)[0])
                 else:
                     lines.append((t, pin))
@@ -151,6 +148,18 @@ class Crossing:
             if t.compare(cuts[-1][0]) != 0:
                 cuts.append((t, pin, ()))
         return [*cuts, high]
+
+    def _is_own(self, sector: Sector, t: Real, other: Real) -> bool:
+        """Whether the lines through the way's ends, which look the same, are one: the way's own line."""
+        if isinstance(sector, Rolling):
+            return self._is_tangent(Point(*sector.center), dot(sector.base, sector.base))
+        return isinstance(sector, Spokes) and t.compare(other) == 0
+
+    def _is_tangent(self, center: Point, radius_sq: fmpq) -> bool:
+        """Whether the way's line touches a circle."""
+        along = self.line.end - self.line.start
+        height = along.cross(center - self.line.start)
+        return _vanishes(height * height - along.norm_sq() * radius_sq)
 
     def _is_inside(self, beam: Beam, t: Real, pin: Pin) -> bool:
         """Whether a line through a point of the way lies strictly inside a beam.
@@ -256,11 +265,9 @@ class Crossing:
                 if ("corner", number) in self.touches or _vanishes(along.cross(corner - start)):
                     yield e, corner
             if isinstance(curve, Arc):
-                to_center = curve.center - start
-                height, size = along.cross(to_center), along.norm_sq()
                 named = ("circle", table.circles[e]) in self.touches
-                if named or _vanishes(height * height - size * curve.radius_sq):
-                    foot = start + along * (to_center.dot(along) / size)
+                if named or self._is_tangent(curve.center, curve.radius_sq):
+                    foot = start + along * ((curve.center - start).dot(along) / along.norm_sq())
                     if curve.contains(foot):
                         yield e, foot
 
