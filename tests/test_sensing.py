@@ -19,8 +19,12 @@ from exactacq.errors import InvalidScene
 from exactacq.lengths import Length
 from exactacq.memory import Memory
 from exactacq.trace import Event, Piece, Run
+from exactacq.vision.intervals import Cover, Interval
 from exactacq.vision.isovist import isovist
+from exactacq.vision.knowledge import Map
+from exactacq.vision.rails import Rail
 from exactacq.vision.table import EdgeTable
+from exactacq.vision.targets import Targets
 
 Q = Fraction
 
@@ -398,3 +402,34 @@ def test_a_line_along_an_edge_ends_at_a_wall_whose_back_is_out_of_reach() -> Non
     chart = Memory.of(Scene([wall, stadium]), fmpq(3, 2), way.start, [way]).after(1)
     ends = {str(end) for part in chart.known(1) for end in (part.start, part.end)}
     assert {"(11/2, 5/4)", "(11/2, 7/4)"} <= ends
+
+
+def test_the_map_on_a_way_that_touches_an_arc() -> None:
+    """The last of the arc's tangents is the way itself: the ones before it meet it at the point of touch.
+
+    It passes the way's end too, which was taken for the place where the others meet the way.
+    """
+    bow = Outline([(3, 6, Q(1, 5)), (3, 1), (4, 1), (4, 6)])
+    scene, start, place, end = Scene([bow]), (Q(5, 2), 13), (Q(5, 2), 5), (Q(5, 2), 0)
+    whole = walked(scene, Q(5, 2), start, end).within(0, Point(*place))
+    halves = walked(scene, Q(5, 2), start, place, end).after(1)
+    assert [(p.edge, str(p.start), str(p.end)) for p in whole.known(0)] == [
+        (p.edge, str(p.start), str(p.end)) for p in halves.known(0)
+    ]
+
+
+def test_a_circle_s_start_alone_is_not_told_beside_its_end() -> None:
+    """Both are one point: seen from either side, it was a part of its own beyond the last one."""
+    rails = [Rail(Scene([Circle((0, 0), 1)]).obstacles[0].edges[0])]
+    start, left = rails[0].curve.start, rails[0].point(fmpq(2))
+    alone = [Interval(u, start, u, start) for u in (Real(0), Real(4))]
+    first, second = Interval(Real(0), start, Real(2), left), Interval(Real(2), left, Real(4), start)
+    table = EdgeTable(Scene([Circle((0, 0), 1)]).obstacles)
+    for cover, ends in (
+        ((first, alone[1]), [(start, left)]),
+        ((alone[0], second), [(left, start)]),
+        ((alone[0], alone[1]), [(start, start)]),
+    ):
+        chart = Map(table.obstacles, Targets.whole(table, rails), rails, {0: Cover(cover)})
+        assert [(p.start, p.end) for p in chart.known(0)] == ends
+        assert sorted(map(str, (p for _, p in chart.frontier))) == sorted({str(p) for p in ends[0]})

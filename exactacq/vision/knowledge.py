@@ -149,15 +149,24 @@ class Map:
         low = target.span.low
         return any(p.low.compare(low) == 0 and p.high.compare(low) > 0 for p in self._parts(target))
 
-    def _parts(self, target: Target) -> Iterator[Interval]:
-        """The known intervals of a target."""
-        return (part for part in self._cover(target.edge).intervals if target.contains(part))
+    def _parts(self, target: Target) -> list[Interval]:
+        """The known intervals of a target; a full circle's start alone is not told beside its end."""
+        parts = [part for part in self._cover(target.edge).intervals if target.contains(part)]
+        curve = self._rails[target.edge].curve
+        if len(parts) > 1 and target.whole and isinstance(curve, Arc) and curve.full:
+            first, last = parts[0], parts[-1]
+            if first.low.sign() == 0 and last.high.compare(target.span.high) == 0:
+                if last.low.compare(last.high) == 0:
+                    parts.pop()
+                elif first.low.compare(first.high) == 0:
+                    parts.pop(0)
+        return parts
 
     def _cover(self, e: int) -> Cover:
         return self._covers.get(e, EMPTY)
 
     def _is_seen(self, i: int) -> bool:
-        return any(next(self._parts(target), None) is not None for target in self._targets.of[i])
+        return any(self._parts(target) for target in self._targets.of[i])
 
     def _is_acquired(self, i: int) -> bool:
         return self._targets.is_whole(i, self._covers)
