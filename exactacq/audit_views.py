@@ -89,7 +89,7 @@ class World:
         *ending* the way are known to pass through its ends.
         """
         end = Real(upto)
-        near = self._along(Segment(origin, origin + direction * end)) if edges is None else edges
+        near = self.near(Segment(origin, origin + direction * end)) if edges is None else edges
         cuts: list[Real] = [Real(0)]
         owners: set[int] = set()
         for e in near:
@@ -107,7 +107,8 @@ class World:
                         return k, middle
         return None
 
-    def _along(self, way: Segment) -> list[int]:
+    def near(self, way: Curve) -> list[int]:
+        """The edges whose boxes meet that of a way."""
         (window,) = bounds([way])
         return [int(e) for e in self.index.query(*window)]
 

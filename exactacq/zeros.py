@@ -9,7 +9,7 @@ one number.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator
+from collections.abc import Callable, Hashable, Iterator
 from typing import TYPE_CHECKING, Any, Protocol
 
 from flint import arb, arb_series, ctx, fmpq, fmpz
@@ -92,9 +92,12 @@ class Zero(Node):
         return Float(Real.of_atom(self).decimal(SHOWN_DIGITS), SHOWN_DIGITS)
 
 
-def zeros_between(function: Function, low: Real, high: Real) -> list[Real]:
+def zeros_between(
+    function: Function, low: Real, high: Real, sign_at: Callable[[Real], int] | None = None
+) -> list[Real]:
     """The zeros strictly between two numbers, ascending; the function is real and finite from low to high.
 
+    *sign_at* knows an easier way to the function's exact sign at the two ends.
     `Undecided` at a double zero, and where the slope is infinite at an end at which the function is 0 (or
     both nearly so). Which side of an end a zero lies on is asked of the function at that end: it is exact,
     and no comparison of numbers of large degree.
@@ -113,7 +116,7 @@ def zeros_between(function: Function, low: Real, high: Real) -> list[Real]:
                 continue
             steady = slope.abs_upper() < 2 * slope.abs_lower()
         if steady:
-            found += _zero_in(function, left, right, low, high)
+            found += _zero_in(function, left, right, low, high, sign_at)
         elif right - left < NARROWEST:
             raise Undecided(
                 f"{function} is stationary, or begins or ends, about at 0 near {float(left):.15g}"
@@ -124,7 +127,14 @@ def zeros_between(function: Function, low: Real, high: Real) -> list[Real]:
     return found
 
 
-def _zero_in(function: Function, left: fmpq, right: fmpq, low: Real, high: Real) -> Iterator[Real]:
+def _zero_in(
+    function: Function,
+    left: fmpq,
+    right: fmpq,
+    low: Real,
+    high: Real,
+    sign_at: Callable[[Real], int] | None,
+) -> Iterator[Real]:
     """The zero of a monotone function in [left, right), if there is one strictly between low and high."""
     before, after = _sign(function, Real(left)), _sign(function, Real(right))
     if before == 0:
@@ -132,17 +142,21 @@ def _zero_in(function: Function, left: fmpq, right: fmpq, low: Real, high: Real)
         if zero.compare(low) > 0 and zero.compare(high) < 0:
             yield zero
     elif before * after < 0:
-        begins = low.compare(left) <= 0 or (low.compare(right) < 0 and _sign(function, low) == before)
-        ends = high.compare(right) >= 0 or (high.compare(left) > 0 and _sign(function, high) == after)
+        begins = low.compare(left) <= 0 or (
+            low.compare(right) < 0 and _sign(function, low, sign_at) == before
+        )
+        ends = high.compare(right) >= 0 or (
+            high.compare(left) > 0 and _sign(function, high, sign_at) == after
+        )
         if begins and ends:
             yield Real.of_atom(Zero.make(function, left, right))
 
 
-def _sign(function: Function, t: Real) -> int:
+def _sign(function: Function, t: Real, exact: Callable[[Real], int] | None = None) -> int:
     """The sign of a value: by a ball, and exactly if that does not tell."""
     with ctx.workprec(BITS):
         sign = ball_sign(function(t.working_ball(BITS)))
-    return sign or int(function(t).sign())
+    return sign or (int(function(t).sign()) if exact is None else exact(t))
 
 
 def _excludes_zero(function: Function, cell: arb, slope: arb) -> bool:

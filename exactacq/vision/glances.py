@@ -13,7 +13,7 @@ from collections import ChainMap
 from collections.abc import Collection, Hashable, Iterator, MutableMapping
 from dataclasses import dataclass, replace
 from enum import Enum
-from functools import cmp_to_key
+from functools import cmp_to_key, partial
 from itertools import pairwise
 from math import hypot
 from typing import Any, TypeAlias
@@ -172,7 +172,7 @@ class Ranges:
             if certain:
                 yield Glance(edges, low, high, strand)
             return
-        ends = [low, *self._at_range(strand), high]
+        ends = [low, *self._at_range(strand, low, high), high]
         inside = [self._is_inside(strand, rational_between(a.t, b.t)) for a, b in pairwise(ends)]
         begin: End | None = None
         for k, end in enumerate(ends):
@@ -381,20 +381,27 @@ class Ranges:
 
     # -- where a family meets the range --------------------------------------------------------------
 
-    def _at_range(self, strand: Strand) -> list[End]:
-        """The views strictly between low and high that may be as long as the range, in order."""
+    def _at_range(self, strand: Strand, low: End, high: End) -> list[End]:
+        """The views strictly between the extreme ones that may be as long as the range, in order."""
         found = [
-            t for t in self._candidates(strand) if t.compare(strand.low) > 0 and t.compare(strand.high) < 0
+            t
+            for t in self._candidates(strand, low, high)
+            if t.compare(strand.low) > 0 and t.compare(strand.high) < 0
         ]
         found.sort(key=cmp_to_key(Real.compare))
         distinct = [t for k, t in enumerate(found) if k == 0 or t.compare(found[k - 1]) != 0]
         ends = (self.end(strand, t) for t in distinct)
         return [end for end in ends if self._may_be_at_range(end)]
 
+    def _longer_at(self, low: End, high: End, t: Real) -> int:
+        """-1, 0 or 1 as the view at one of two ends is shorter than the range, as long or longer."""
+        end = low if t is low.t else high
+        return distance_sq(*end.points).compare(self.square)
+
     def _may_be_at_range(self, end: End) -> bool:
         return not abs((distance_sq(*end.points) - self.square).ball(128)) > 0
 
-    def _candidates(self, strand: Strand) -> Iterator[Real]:
+    def _candidates(self, strand: Strand, low: End, high: End) -> Iterator[Real]:
         sector, (one, other) = strand.sector, strand.sides
         roles = {side.role: side.edge for side in (one, other)}
         curves = {role: self.curve(edge) for role, edge in roles.items()}
@@ -405,7 +412,9 @@ class Ranges:
             else:
                 circle = (*sector.center, dot(sector.base, sector.base)) if sector.round else None
                 way = self.rails[-1].curve if circle in self._touched else None
-                yield from of_length_on(sector, behind, ahead, self.square, strand.low, strand.high, way)
+                span = strand.low, strand.high
+                longer_at = partial(self._longer_at, low, high)
+                yield from of_length_on(sector, behind, ahead, self.square, *span, way, longer_at)
             return
         far = next(curve for role, curve in curves.items() if role is not Role.CONTACT)
         if isinstance(sector, Sliding):

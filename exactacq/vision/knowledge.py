@@ -178,5 +178,8 @@ class Map:
             yield Known(k, curve.start, curve.end, curve, whole=isinstance(curve, Arc) and curve.full)
             return
         for part in self._parts(target):
-            single = part.low.compare(part.high) == 0
-            yield Known(k, part.start, part.end, None if single else curve.part(part.start, part.end))
+            if part.low.compare(part.high) == 0:
+                # The two ends may be one point in two forms.
+                yield Known(k, part.start, part.start, None)
+            else:
+                yield Known(k, part.start, part.end, curve.part(part.start, part.end))

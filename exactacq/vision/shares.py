@@ -47,6 +47,17 @@ class Share:
         )
         return cls(source, glance.edges[1 - side], shown, glance, side)
 
+    def cut(self, glance: Glance) -> Share:
+        """The share of a part of its glance, whose sides run as its own do: nothing is to be compared."""
+        first, a, b = self.glance.first, glance.first, glance.last
+        source, shown = (
+            Interval(a.places[k], a.points[k], b.places[k], b.points[k])
+            if whole.low is first.places[k]
+            else Interval(b.places[k], b.points[k], a.places[k], a.points[k])
+            for whole, k in ((self.source, self.side), (self.shown, 1 - self.side))
+        )
+        return Share(source, self.edge, shown, glance, self.side)
+
 
 class Shares:
     """What a leg shows of some obstacles.
@@ -70,32 +81,36 @@ class Shares:
         self.ends = self._seen_ends() if ends is None else ends
 
     def _found(self) -> dict[int, list[Share]]:
-        parts: list[tuple[int, Glance, int]] = []
+        parts: list[tuple[int, Glance, int, None]] = []
         for glance, side in self._glances():
             for k, target in self.targets.on(glance.edges[1 - side]):
                 if k in self.obstacles:
                     part = self._ranges.clipped(glance, 1 - side, target.span)
                     if part is not None:
-                        parts.append((k, part, side))
+                        parts.append((k, part, side, None))
         return self._shares(parts, self.leg, self.obstacles)
 
     def _shares(
-        self, parts: Iterable[tuple[int, Glance, int]], leg: Leg, obstacles: Collection[int]
+        self,
+        parts: Iterable[tuple[int, Glance, int, Share | None]],
+        leg: Leg,
+        obstacles: Collection[int],
     ) -> dict[int, list[Share]]:
-        """What of some glances is seen from a leg; views from its ends share their points."""
-        cuts: list[tuple[int, Glance, int]] = []
-        for k, glance, side in parts:
+        """What of some glances, or of their shares, is seen from a leg; views from its ends share points."""
+        cuts: list[tuple[int, Glance, int, Share | None]] = []
+        for k, glance, side, whole in parts:
             cut = self._ranges.clipped(glance, side, leg.span)
             if cut is not None:
-                cuts.append((k, cut, side))
+                cuts.append((k, cut, side, whole))
                 for end in (cut.first, cut.last):
                     view = self._view_from(end, side, leg) if end.tight else None
                     if view is not None:
                         view.tell(end, cut, side)
         found: dict[int, list[Share]] = {k: [] for k in obstacles}
-        for k, cut, side in cuts:
+        for k, cut, side, whole in cuts:
             first, last = (self._pinned(end, cut, side, leg) for end in (cut.first, cut.last))
-            found[k].append(Share.of(replace(cut, first=first, last=last), side))
+            part = replace(cut, first=first, last=last)
+            found[k].append(Share.of(part, side) if whole is None else whole.cut(part))
         return found
 
     def _seen_ends(self) -> dict[int, list[tuple[Lookout, Interval]]]:
@@ -139,7 +154,9 @@ class Shares:
         """What a part of the leg shows, of some of the obstacles if these are given."""
         obstacles = self.obstacles if obstacles is None else obstacles
         of = self._shares(
-            ((k, share.glance, share.side) for k in obstacles for share in self.of[k]), leg, obstacles
+            ((k, share.glance, share.side, share) for k in obstacles for share in self.of[k]),
+            leg,
+            obstacles,
         )
         ends = {
             k: [(end, part) for end, whole in self.ends[k] if (part := whole.within(leg.span)) is not None]
@@ -151,7 +168,7 @@ class Shares:
     def at(self, share: Share, u: Real, place: Point) -> Share | None:
         """The one view of a share from a place of the leg, if it has one."""
         cut = self._ranges.clipped(share.glance, share.side, Interval(u, place, u, place))
-        return None if cut is None else Share.of(cut, share.side)
+        return None if cut is None else share.cut(cut)
 
     def taught(self, covers: Covers) -> dict[int, Cover]:
         """The covers that grow along the leg, if *covers* are known before it."""

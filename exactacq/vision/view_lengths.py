@@ -17,7 +17,7 @@ the product of those of their generators, and height at most 80 times the sum of
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Hashable, Iterator
+from collections.abc import Callable, Hashable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from math import prod
@@ -152,13 +152,15 @@ def of_length_on(
     low: Real,
     high: Real,
     touching: Curve | None = None,
+    longer_at: Callable[[Real], int] | None = None,
 ) -> list[Real]:
     """All t strictly between *low* and *high* where a view's squared length is *square*, ascending.
 
     Of Turning or Rolling lines which from low to high meet the carriers of both curves, behind and ahead of
     the contact; at least one is a segment. *touching* is a segment known to touch the circle that lines roll
-    on; of others it is found out where it matters. `Undecided` where the length is stationary at that value,
-    or has it at an end whose line touches an arc's circle. A millisecond, for numbers of small degree.
+    on; of others it is found out where it matters. *longer_at* compares the views at the two ends with the
+    value. `Undecided` where the length is stationary at that value, or has it at an end whose line touches
+    an arc's circle. A millisecond, for numbers of small degree.
     """
     numbers = tuple(Real(n) for n in (*sector.center, *sector.base, square))
     ends = (low, high)
@@ -166,7 +168,7 @@ def of_length_on(
         _side(sector, curve, side, curve is touching or _touches(sector, curve, ends))
         for curve, side in ((behind, -1), (ahead, 1))
     )
-    return zeros_between(ViewLength(sector.round, numbers, (one, other)), low, high)
+    return zeros_between(ViewLength(sector.round, numbers, (one, other)), low, high, longer_at)
 
 
 def _touches(sector: Sector, curve: Curve, ends: tuple[Real, Real]) -> bool:
