@@ -3,9 +3,12 @@ sections 3.3 and 4.3)."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from exactacq.claims.model import SILENT, Case, Claim, Finding, Statement, Subject, flaw, found
 from exactacq.claims.tallies import differs, theorem_1, theorem_1_printed
 from exactacq.lengths import Length
+from exactacq.trace import Run
 
 SIGHTSEER, SPREADER = Subject.SIGHTSEER, Subject.SEED_SPREADER
 
@@ -17,21 +20,20 @@ def _within(length: Length, value: Length) -> Finding:
 
 def keeps_theorem_1(case: Case) -> Finding:
     """P is at most (1), in model (a)."""
-    if not case.is_mutually_visible:
-        return SILENT
-    run = case.sightseer
-    value = theorem_1_printed(run)
-    wrong = differs(run, {"(1)": value})
-    return flaw(wrong) if wrong else _within(run.length, value)
+    return _keeps(case, "(1)", theorem_1_printed)
 
 
 def keeps_corrected_theorem_1(case: Case) -> Finding:
-    """P is at most the corrected (1), in model (a), and at most (2) with the way from a free start."""
+    """P is at most the corrected (1), in model (a)."""
+    return _keeps(case, "T1 corrected", theorem_1)
+
+
+def _keeps(case: Case, name: str, recounted: Callable[[Run], Length]) -> Finding:
     if not case.is_mutually_visible:
         return SILENT
     run = case.sightseer
-    value = theorem_1(run)
-    wrong = differs(run, {"T1 corrected": value})
+    value = recounted(run)
+    wrong = differs(run, {name: value})
     return flaw(wrong) if wrong else _within(run.length, value)
 
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from exactacq.claims import CLAIMS
 from exactacq.claims.model import Case, Finding, Outcome, Statement, Subject
+from exactacq.claims.premises import PREMISES
 from exactacq.errors import FormatError
 from exactacq.lengths import Length
-from exactacq.links import START
 from exactacq.output import readable
 from exactacq.trace import Bound, Run
 
@@ -95,19 +95,18 @@ def _bound_statement(name: str, corrected: bool) -> Statement | None:
         key = other
 
     def check(case: Case) -> Finding:
-        return _compared(case.sightseer if subject is Subject.SIGHTSEER else case.spreader, key)
+        return _compared(case, case.sightseer if subject is Subject.SIGHTSEER else case.spreader, key)
 
     return Statement(f"bound {key} holds", subject, check)
 
 
-def _compared(run: Run, name: str) -> Finding:
-    """A run against one of its bounds; silent for a Sightseer outside the paper's model (a)."""
+def _compared(case: Case, run: Run, name: str) -> Finding:
+    """A run against one of its bounds; silent where the bound is not meant for it."""
     bound = next((b for b in run.bounds if b.name == name), None)
     if bound is None:
         return Finding(Outcome.SILENT, "no such bound without obstacles")
-    starts = sum(link.source == START for link in run.links)
-    if run.sweeping is None and (not run.complete or starts > 1):
-        return Finding(Outcome.SILENT, "outside model (a)")
+    if not PREMISES[name].holds(case):
+        return Finding(Outcome.SILENT, f"not meant for this run, but for: {PREMISES[name].words}")
     outcome = Outcome.HOLDS if bound.holds else Outcome.FAILS
     return Finding(outcome, _detail(run, bound), _ratio(bound))
 
