@@ -270,6 +270,8 @@ class _Outline:
 
 def _backwards(curve: Curve, start: Point, end: Point) -> Curve:
     """A part of an edge as the view's outline runs, against the boundary's direction."""
+    if isinstance(curve, Segment):
+        return Segment(end, start)
     return curve.part(start, end).reversed()
 
 

@@ -152,7 +152,10 @@ class Panorama:
 
     def direction(self, rank: int) -> Vector:
         """The exact direction of a rank, rational where one of its events shows it."""
-        vectors = [self.facets.offset(event) for event in self.groups[rank]]
+        group = self.groups[rank]
+        if len(group) == 1:
+            return self.facets.offset(group[0])
+        vectors = [self.facets.offset(event) for event in group]
         return next((v for v in vectors if isinstance(v[0], fmpq) and isinstance(v[1], fmpq)), vectors[0])
 
     # -- cells -------------------------------------------------------------------------------------
