@@ -53,6 +53,15 @@ class Scout(Robot):
             self._exhausted.add(node)
         return best
 
+    def links_from(self, node: Node) -> list[Link]:
+        """All links from a visited node, in the order of the obstacles that they lead to."""
+        if node == START:
+            return [link for _, link in sorted(self._links.from_point(self.start).items())]
+        assert isinstance(node, int)
+        assert node in self.visited, "a boundary shows its links only once it was walked all around"
+        between = (self._links.between(node, j) for j in sorted(self._links.neighbours(node)))
+        return [link for link in between if link is not None]
+
     def _best_first(self, node: int, visited: set[int]) -> list[Link]:
         """The links that can be the least: lower bounds decide which are computed."""
         bounds = self._links.lower_bounds(node)

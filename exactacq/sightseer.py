@@ -48,6 +48,11 @@ def sightseer(
         robot = Scout(scene, scene.radius if radius is None else radius, place)
     except ValueError as error:
         raise InvalidScene([str(error)]) from None
+    return explored_by(robot, scene, progress)
+
+
+def explored_by(robot: Scout, scene: Scene, progress: Progress | None = None) -> Run:
+    """Explore a scene by the strategy with a robot at its start, which may have another rule of choice."""
     return _Sightseer(robot, progress, len(scene.obstacles)).run(scene)
 
 

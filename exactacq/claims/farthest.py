@@ -10,25 +10,21 @@ from exactacq.errors import InvalidScene
 from exactacq.links import START, Link, Node
 from exactacq.scene import Scene
 from exactacq.scout import Scout
-from exactacq.sightseer import _Sightseer
+from exactacq.sightseer import explored_by
 from exactacq.trace import Run
 
 
 class _FarSighted(Scout):
-    """A scout that is asked for the nearest unvisited obstacle and names the farthest."""
+    """A scout that names the farthest unvisited obstacle where it is asked for the nearest."""
 
     def nearest_unvisited(self, node: Node) -> Link | None:
         """The longest link (then the least index) from a visited node to an unvisited obstacle it sees."""
+        links = self.links_from(node)
         if node == START:
-            links = list(self._links.from_point(self.start).values())
             # A start on an obstacle is no node of its own: that obstacle comes first, by either rule.
             links = [link for link in links if link.length.sign() == 0] or links
-        else:
-            assert isinstance(node, int)
-            between = (self._links.between(node, j) for j in self._links.neighbours(node))
-            links = [link for link in between if link is not None]
         best: Link | None = None
-        for link in sorted(links, key=lambda link: link.target):
+        for link in links:
             if link.target not in self.visited and (best is None or link.length > best.length):
                 best = link
         return best
@@ -43,4 +39,4 @@ def farthest_first(scene: Scene, radius: object = None) -> Run:
     if scene.start is None or scene.start.rational is None:
         raise InvalidScene(["a start point with rational coordinates must be given"])
     robot = _FarSighted(scene, scene.radius if radius is None else radius, scene.start)
-    return _Sightseer(robot, None, len(scene.obstacles)).run(scene)
+    return explored_by(robot, scene)
