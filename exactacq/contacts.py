@@ -16,6 +16,8 @@ from enum import Enum
 from functools import cached_property
 from typing import Any
 
+from flint import fmpq
+
 from exactacq.curves import Arc, Curve, Segment
 from exactacq.lengths import Length
 from exactacq.points import Location, Point, distance_sq
@@ -500,27 +502,42 @@ def _projected(arc: Arc, point: Point) -> Point:
 
 def _parallel(a: Segment, b: Segment) -> Family | None:
     """The pieces of two parallel segments that face each other, if they are longer than a point."""
-    origin = raw(a.start)
-    along, across = minus(raw(a.end), origin), minus(raw(b.end), raw(b.start))
-    if sign(cross(along, across)) != 0:
+    along = minus(raw(a.end), raw(a.start))
+    heading, other = _heading(along), _heading(minus(raw(b.end), raw(b.start)))
+    if sign(cross(heading, other)) != 0:
         return None
-    to_b = minus(raw(b.start), origin)
-    square = dot(along, along)
-    at_start = dot(to_b, along) / square
-    at_end = at_start + dot(across, along) / square
-    offset = (to_b[0] - along[0] * at_start, to_b[1] - along[1] * at_start)
-    low, first, high, last = at_start, b.start, at_end, b.end
-    if sign(high - low) < 0:
-        low, first, high, last = high, last, low, first
-    if sign(high) <= 0 or sign(1 - low) <= 0:
+    first, last = (b.start, b.end) if sign(dot(heading, other)) >= 0 else (b.end, b.start)
+
+    def ahead(p: Point, q: Point) -> int:
+        return sign(dot(minus(raw(q), raw(p)), heading))
+
+    if ahead(a.start, last) <= 0 or ahead(first, a.end) <= 0:
         return None
-    start = (a.start, advance(origin, offset, 1))
-    if sign(low) >= 0:
-        start = (advance(origin, along, low) if sign(low) else a.start, first)
-    end = (a.end, advance(raw(a.end), offset, 1))
-    if sign(1 - high) >= 0:
-        end = (advance(origin, along, high) if sign(1 - high) else a.end, last)
-    return Family(FamilyKind.PARALLEL, a.part(start[0], end[0]), b.part(start[1], end[1]))
+    to_b, square = minus(raw(first), raw(a.start)), dot(along, along)
+    fraction = dot(to_b, along) / square
+    offset = (to_b[0] - along[0] * fraction, to_b[1] - along[1] * fraction)
+    ends = []
+    for p, q, side in ((a.start, first, ahead(a.start, first)), (a.end, last, ahead(last, a.end))):
+        if side < 0:
+            ends.append((p, advance(raw(p), offset, 1)))
+        else:
+            ends.append((advance(raw(q), offset, -1) if side else p, q))
+    (p, first), (q, last) = ends
+    return Family(FamilyKind.PARALLEL, a.part(p, q), b.part(first, last))
+
+
+def _heading(vector: Vector) -> Vector:
+    """A positive multiple of a vector, rational if its slope is seen to be: what lies ahead shows easily."""
+    x, y = (Real(coordinate) for coordinate in vector)
+    if x.rational is not None and y.rational is not None:
+        return vector
+    steep = bool(abs(y.ball(64)) > abs(x.ball(64)))
+    major, minor = (y, x) if steep else (x, y)
+    slope = minor.rational_ratio(major)
+    if slope is None:
+        return vector
+    unit = fmpq(major.sign())
+    return (slope * unit, unit) if steep else (unit, slope * unit)
 
 
 def _inner_pairs(a: Curve, b: Curve) -> list[Nearest | Family]:
