@@ -12,7 +12,7 @@ sys.path.insert(0, str(Path(__file__).parent / "_ext"))
 project = "exactacq"
 version = release = installed_version("exactacq")
 author = copyright = "the exactacq authors"
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.mathjax", "generated"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx-mathjax-offline", "generated"]
 exclude_patterns = ["_build", "_ext", "_generated/*.md"]
 
 html_theme = "pydata_sphinx_theme"
