@@ -60,6 +60,7 @@ class Memory:
         self._parameters: dict[tuple[int, int], tuple[Point, Real, int]] = {}
         self._looked: tuple[Piece | None, Ahead | None] = None, None
         self._walked: dict[tuple[int, int], Piece] = {}
+        self._retraced: set[int] = set()
         self._learned: list[dict[int, Cover]] = []
         self._legs: list[list[Leg]] = []
 
@@ -104,6 +105,8 @@ class Memory:
                 reports.append(Report(n.kind, n.obstacle, n.place, n.note, after, inside))
         self._learned.append(learned)
         self._legs.append(legs)
+        if retraced:
+            self._retraced.add(count)
         return self._reported(reports)
 
     def _is_retraced(self, piece: Piece) -> bool:
@@ -171,6 +174,9 @@ class Memory:
     def within(self, count: int, place: Point) -> Map:
         """The map when the robot is at a place inside piece number *count*."""
         covers = self._covers(count)
+        if count in self._retraced:
+            # What it shows is known, in other forms of the same numbers.
+            return self._map(covers)
         reported = self._parameters.get((count, id(place)))
         for k, leg in enumerate(self._legs[count]):
             if reported is not None and k < reported[2]:

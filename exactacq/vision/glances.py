@@ -340,6 +340,11 @@ class Ranges:
         if side.role is Role.CONTACT:
             return curve.start if side.fixed else contact
         try:
+            if isinstance(curve, Segment) and curve.start.rational is not None:
+                # Linear in one number, and with an edge's own abscissa if that is vertical: ties show.
+                along = curve.direction
+                share = direction.cross(contact - curve.start) / direction.cross(along)
+                return curve.start + along * share
             return contact + direction * meet(contact, direction, curve, side.role.value)
         except ZeroDivisionError:
             # A line along the edge. All others of the family meet it in one point, the centre of the arc to
