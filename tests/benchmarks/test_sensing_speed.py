@@ -35,8 +35,8 @@ FEW = 10
 """Obstacles of a whole run where timings are off."""
 SOME = 300
 """Steps of the stepping simulator that stand for the whole path of a large scene."""
-LARGE: list[xa.Run] = []
-"""The large run, once it was timed."""
+LARGE: dict[int, xa.Run] = {}
+"""The large runs by their number of obstacles, once they were timed."""
 
 
 def skip_unless_timed(benchmark: object, n: int) -> None:
@@ -128,12 +128,12 @@ def test_sensing_sightseer(benchmark: object) -> None:
     report(benchmark, run)
 
 
-@pytest.mark.benchmark(group="a run with its map, n = 1000")
-def test_large_sensing_sightseer(benchmark: object) -> None:
-    skip_unless_timed(benchmark, 1000)
-    run = benchmark.pedantic(explored, setup=lambda: ((random_octagons(1000, SEED),), {}), rounds=1)
-    LARGE.append(run)
-    report(benchmark, run)
+@pytest.mark.benchmark(group="a run with its map, many obstacles")
+@pytest.mark.parametrize("n", [1000, 2000])
+def test_large_sensing_sightseer(benchmark: object, n: int) -> None:
+    skip_unless_timed(benchmark, n)
+    LARGE[n] = benchmark.pedantic(explored, setup=lambda: ((random_octagons(n, SEED),), {}), rounds=1)
+    report(benchmark, LARGE[n])
 
 
 def report(benchmark: object, run: xa.Run) -> None:
@@ -162,14 +162,15 @@ def test_stepping(benchmark: object, look: str) -> None:
         assert found.done.all(), "the peer knows all in the end"
 
 
-@pytest.mark.benchmark(group="a run with its map, n = 1000")
+@pytest.mark.benchmark(group="a run with its map, many obstacles")
+@pytest.mark.parametrize("n", [1000, 2000])
 @pytest.mark.parametrize("look", ["lazy", "polygon", "cgal"])
-def test_stepping_through_a_large_scene(benchmark: object, look: str) -> None:
+def test_stepping_through_a_large_scene(benchmark: object, look: str, n: int) -> None:
     """Some steps from the middle of the path: the whole walk takes as many times longer as it has more."""
-    skip_unless_timed(benchmark, 1000)
+    skip_unless_timed(benchmark, n)
     if look == "cgal":
         pytest.importorskip("peers", reason="needs pyvispoly, an optional test dependency")
-    run = LARGE[0] if LARGE else finished(1000)
+    run = LARGE[n] if n in LARGE else finished(n)
     curves = [piece.curve for piece in run.path[len(run.path) // 2 :]]
     stepper = Stepper(run.scene, run.radius, look)
     benchmark.pedantic(lambda: stepper.walk(curves, SOME), rounds=1)
