@@ -173,6 +173,8 @@ class _Search:
         elif place == curve.end and pieces.after[k] >= 0:
             j = int(pieces.after[k])
             on = (k, j)
+        elif place == curve.start or place == curve.end:
+            return Feature(place, stand=True, on=on)
         at = np.array([place.xy])
         (leave,), (back,) = pieces.tangents(np.array([j]), at), -pieces.tangents(np.array([i]), at)
         return Feature(place, tuple(leave.tolist()), tuple(back.tolist()), stand=True, on=on)

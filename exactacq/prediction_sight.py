@@ -151,9 +151,10 @@ class Sights:
         else:
             leave = _germ(curve, z)
             back = _reversed(leave)
-        if (leave is None or back is None) and not (at_begin or at_end):
+        if (leave is None or back is None) and not at_end:
+            # From places beside a lone end the like sights are free: so is this one, their limit.
             return True
-        # At a lone end the boundary is taken to go straight on.
+        # At a lone end that is looked at, the boundary is taken to go straight on.
         leave = _Germ(-back.way, fmpq(0)) if leave is None and back is not None else leave
         assert leave is not None
         back = _Germ(-leave.way, fmpq(0)) if back is None else back

@@ -191,6 +191,15 @@ def test_gaps_are_looked_through() -> None:
     assert not sees(target, [wall(1, fmpq(1, 10), 60), wall(1, -60, 0), wall(2, -30, 30)])
 
 
+def test_between_pieces_on_the_line_of_the_walk_there_is_free_sight() -> None:
+    """The places between have no first one: sights from the lone ends of the pieces stand for them."""
+    target, before = [wall(3, -2, 3)], wall(0, -5, 0)
+    assert sees(target, [before, wall(0, 1, 5)], 5, start=-4, stop=4)
+    assert sees(target, [before, wall(0, EPS, 5)], 5, start=-4, stop=4)
+    assert not sees(target, [before, wall(0, 0, 5)], 5, start=-4, stop=4)
+    assert not sees(target, [wall(0, -5, 5)], 5, start=-4, stop=4)
+
+
 def test_single_points_are_seen_too() -> None:
     dot = Point(4, 0)
     assert sees([], SLIT, points=(dot,))
