@@ -433,3 +433,13 @@ def test_a_circle_s_start_alone_is_not_told_beside_its_end() -> None:
         chart = Map(table.obstacles, Targets.whole(table, rails), rails, {0: Cover(cover)})
         assert [(p.start, p.end) for p in chart.known(0)] == ends
         assert sorted(map(str, (p for _, p in chart.frontier))) == sorted({str(p) for p in ends[0]})
+
+
+def test_the_map_where_a_line_along_the_way_touches_another_circle() -> None:
+    """At these events of a real part the robot, on one arc, sees another one along their common tangent.
+
+    Its point there came in two forms, from the view and from a glance, whose equality took minutes to prove.
+    """
+    run = xa.sightseer(xa.load("plate"))
+    for number in (13, 21, 24, 26):
+        assert run.map_at(run.events[number]).known_length() < run.map.known_length()

@@ -10,7 +10,7 @@ sight. A `Strand` is such a family as a cell of a pencil gives it; `Ranges.glanc
 from __future__ import annotations
 
 from collections import ChainMap
-from collections.abc import Collection, Hashable, Iterator, MutableMapping
+from collections.abc import Collection, Hashable, Iterator, Mapping, MutableMapping
 from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cmp_to_key, partial
@@ -116,8 +116,8 @@ class Glance:
 class Ranges:
     """Cuts strands to a range and finds their views; holds the rails of the scene's edges by number."""
 
-    def __init__(self, rails: list[Rail], radius: fmpq, roundoff: float) -> None:
-        self.rails, self.radius, self.roundoff = rails, radius, roundoff
+    def __init__(self, rails: list[Rail], radius: fmpq, roundoff: float, circles: Mapping[int, int]) -> None:
+        self.rails, self.radius, self.roundoff, self.circles = rails, radius, roundoff, circles
         self.square, self.limit = radius * radius, float(radius)
         self._pins: MutableMapping[tuple[Hashable, int, int], Pin] = {}
         self._touched: set[Hashable] = set()
@@ -125,7 +125,7 @@ class Ranges:
     def with_way(self, way: Rail, touches: Collection[Any] = ()) -> Ranges:
         """The same with one more curve, a way through free space that touches what is named (see `names`)."""
         extent = max(abs(v) for p in (way.curve.start, way.curve.end) for v in p.xy)
-        ranges = Ranges([*self.rails, way], self.radius, max(self.roundoff, 2.0**-50 * extent))
+        ranges = Ranges([*self.rails, way], self.radius, max(self.roundoff, 2.0**-50 * extent), self.circles)
         ranges._pins = ChainMap({}, self._pins)
         arcs = [self.curve(name[1]) for name in touches if name[0] == "circle"]
         ranges._touched = {(*raw(arc.center), arc.radius_sq) for arc in arcs if isinstance(arc, Arc)}
@@ -217,7 +217,9 @@ class Ranges:
     def _pin(self, sector: Sector, t: Real, side: Side, names: Names, passed: Passed) -> Pin:
         """Where a line meets an edge: the same point as on the same line under another name."""
         role = side.role.value
-        keys = [(name, side.edge, role * sense) for name, sense in names]
+        keys = [
+            (name, side.edge, 0 if self._touches(name, side.edge) else role * sense) for name, sense in names
+        ]
         for key in keys:
             if key in self._pins:
                 return self._pins[key]
@@ -228,6 +230,15 @@ class Ranges:
         pin = point, self.rails[side.edge].parameter(point)
         self._pins.update((key, pin) for key in keys)
         return pin
+
+    def _touches(self, name: Any, edge: int) -> bool:
+        """Whether a named line touches an edge's circle: then it meets the edge at the contact."""
+        kind, *features = name
+        circle = self.circles.get(edge)
+        return circle is not None and (
+            (kind == "circles" and circle in features[:2])
+            or (kind == "corner, circle" and circle == features[1])
+        )
 
     def _passed(self, side: Side, contact: Point, direction: Point, passed: Passed) -> Point | None:
         """Where a line meets an edge, if that is an event of the line: no root is to be proved 0 or equal."""

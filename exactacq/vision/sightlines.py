@@ -140,7 +140,7 @@ class Sightlines:
     def __init__(self, table: EdgeTable, radius: fmpq) -> None:
         self.table, self.radius = table, radius
         self.reach = float(radius) * (1 + 1e-12)
-        self.ranges = Ranges([Rail(curve) for curve in table.curves], radius, table.roundoff)
+        self.ranges = Ranges([Rail(curve) for curve in table.curves], radius, table.roundoff, table.circles)
         self._namer = Namer(table)
         self._family = lru_cache(KEPT)(self._swept)
 

@@ -323,6 +323,7 @@ class View:
             if event in covered:
                 continue
             place = facets.place(event)
+            self._held[id(place)] = place, ray.rank
             if event < len(table.vertices):
                 found.setdefault(event, []).append(((-2, 0), (place, place)))
                 continue
