@@ -443,3 +443,14 @@ def test_the_map_where_a_line_along_the_way_touches_another_circle() -> None:
     run = xa.sightseer(xa.load("plate"))
     for number in (13, 21, 24, 26):
         assert run.map_at(run.events[number]).known_length() < run.map.known_length()
+
+
+def test_a_way_along_an_edge_sees_from_its_corner_what_the_corner_sees() -> None:
+    """The end of the edge, met with an equal parameter that was another object, was taken for an inner point.
+
+    From the tip beside the dent all of the dent is seen, from inside the edge nothing of it.
+    """
+    dented = Outline([(3, 3), (3, 4, 1), (4, 4), (4, 3)])
+    chart = walked(Scene([dented]), Q(2), (4, 0), (4, 3), (4, 4)).after(2)
+    dent = next(k for k, e in enumerate(Scene([dented]).obstacles[0].edges) if not isinstance(e, Segment))
+    assert [(str(p.start), str(p.end)) for p in chart.known(0) if p.edge == dent] == [("(4, 4)", "(3, 4)")]

@@ -20,7 +20,7 @@ from exactacq.vision.rails import Rail
 from exactacq.vision.table import EdgeTable
 
 BITS = 256
-"""Corners whose distance from a way's line balls of this precision do not part from 0 are candidates."""
+"""Precision of the balls that tell which corners a way may touch, and which places are inside an edge."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,8 @@ class Leg:
         if self.edge is None:
             return None
         full = isinstance(self.rail.curve, Arc) and self.rail.curve.full
-        inside = u is not self.rail.top and u.rational != 0
+        place = u.ball(BITS)
+        inside = bool(place > 0) and bool(place < self.rail.top.ball(BITS))
         return (self.edge,) if full or inside else None
 
     def upto(self, u: Real, place: Point) -> Leg:
