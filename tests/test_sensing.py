@@ -454,3 +454,18 @@ def test_a_way_along_an_edge_sees_from_its_corner_what_the_corner_sees() -> None
     chart = walked(Scene([dented]), Q(2), (4, 0), (4, 3), (4, 4)).after(2)
     dent = next(k for k, e in enumerate(Scene([dented]).obstacles[0].edges) if not isinstance(e, Segment))
     assert [(str(p.start), str(p.end)) for p in chart.known(0) if p.edge == dent] == [("(4, 4)", "(3, 4)")]
+
+
+def test_a_line_past_two_corners_ends_at_a_wall_that_is_just_out_of_reach_of_one() -> None:
+    """Past (6, 4) and (4, 5) the line meets a wall at (1, 13/2), farther than the range from the first corner.
+
+    What is behind the wall was not looked at from there, but for the corner (0, 7): it seemed to be seen.
+    """
+    shapes = [
+        Polygon([(6, 7), (7, 7), (6, 4)]),
+        Polygon([(1, 7), (0, 7), (0, Q(27, 4)), (Q(3, 4), Q(27, 4)), (Q(3, 4), 6), (1, 6)]),
+        Polygon([(4, 5), (4, 3), (3, 3), (3, 5)]),
+    ]
+    chart = walked(Scene(shapes), Q(5), (5, 6), (4, 5)).after(1)
+    assert not chart.knows(1, Point(0, 7))
+    assert chart.knows(1, Point(1, Q(13, 2)))

@@ -88,18 +88,22 @@ def walk_line(table: EdgeTable, sector: Sector, t: Real, reach: float) -> tuple[
     contact, direction = sector.touch(t)
     x, y = contact.xy
     edges = table.near((x, y), (x, y), reach)
-    size = np.array(direction.xy)
+    size = float(np.hypot(*direction.xy))
     slack = 64 * table.roundoff
-    line = (size / np.hypot(*size))[None, :]
+    line = np.array([direction.xy]) / size
     found = Crossings(table, edges, (), np.array((x, y)), np.zeros((1, 2)), line, slack)
     met = [
-        (tau, int(e)) for e in found.possible(0) for tau in line_contacts(contact, direction, table.curves[e])
+        (tau, int(e))
+        for e in found.possible(0)
+        for tau in line_contacts(contact, direction, table.curves[e])
+        # Farther away some edges are not among those looked at.
+        if abs(float(tau)) * size <= reach * (1 + 1e-9)
     ]
     met.sort(key=cmp_to_key(_by_parameter))
     ahead = [hit for hit in met if hit[0].sign() > 0]
     behind = [hit for hit in reversed(met) if hit[0].sign() < 0]
     # Beyond the last contact nothing changes within reach: a parameter just short of that tells of the rest.
-    end = rational(reach * (1 - 1e-9) / float(np.hypot(*size)))
+    end = rational(reach * (1 - 1e-9) / size)
     return (
         _until_blocked(table, contact, direction, behind, Real(-end)),
         _until_blocked(table, contact, direction, ahead, Real(end)),
