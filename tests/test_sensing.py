@@ -457,7 +457,7 @@ def test_a_way_along_an_edge_sees_from_its_corner_what_the_corner_sees() -> None
 
 
 def test_a_line_past_two_corners_ends_at_a_wall_that_is_just_out_of_reach_of_one() -> None:
-    """Past (6, 4) and (4, 5) the line meets a wall at (1, 13/2), farther than the range from the first corner.
+    """The line by (6, 4) and (4, 5) meets a wall at (1, 13/2), farther than the range from the first corner.
 
     What is behind the wall was not looked at from there, but for the corner (0, 7): it seemed to be seen.
     """
