@@ -93,21 +93,29 @@ def walk_line(table: EdgeTable, sector: Sector, t: Real, reach: float) -> tuple[
     line = np.array([direction.xy]) / size
     found = Crossings(table, edges, (), np.array((x, y)), np.zeros((1, 2)), line, slack)
     met = [
-        (tau, int(e))
-        for e in found.possible(0)
-        for tau in line_contacts(contact, direction, table.curves[e])
-        # Farther away some edges are not among those looked at.
-        if abs(float(tau)) * size <= reach * (1 + 1e-9)
+        (tau, int(e)) for e in found.possible(0) for tau in line_contacts(contact, direction, table.curves[e])
     ]
     met.sort(key=cmp_to_key(_by_parameter))
-    ahead = [hit for hit in met if hit[0].sign() > 0]
-    behind = [hit for hit in reversed(met) if hit[0].sign() < 0]
+    far = reach * (1 + 1e-9) / size
+    ahead = _as_far([hit for hit in met if hit[0].sign() > 0], table, far)
+    behind = _as_far([hit for hit in reversed(met) if hit[0].sign() < 0], table, far)
     # Beyond the last contact nothing changes within reach: a parameter just short of that tells of the rest.
     end = rational(reach * (1 - 1e-9) / size)
     return (
         _until_blocked(table, contact, direction, behind, Real(-end)),
         _until_blocked(table, contact, direction, ahead, Real(end)),
     )
+
+
+def _as_far(hits: list[tuple[Real, int]], table: EdgeTable, far: float) -> list[tuple[Real, int]]:
+    """The contacts up to a distance, or to the end of an edge along the line that begins before.
+
+    Farther away only some edges were looked at; along an edge nothing else can be.
+    """
+    within = {e for tau, e in hits if abs(float(tau)) <= far and not table.kind[e]}
+    ends = (abs(float(tau)) for tau, e in hits if e in within)
+    limit = max(far, *ends, 0.0)
+    return [hit for hit in hits if abs(float(hit[0])) <= limit]
 
 
 def _by_parameter(a: tuple[Real, int], b: tuple[Real, int]) -> int:
