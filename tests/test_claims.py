@@ -13,6 +13,7 @@ from exactacq.claims import CLAIMS, Case, Outcome, Statement, Status, Subject, c
 from exactacq.claims.coverage import times_walked
 from exactacq.claims.model import SILENT, found
 from exactacq.claims.sights import overlooked
+from exactacq.claims.sightseer import farthest_keeps_the_bound
 from exactacq.claims.sweeps import bare_walk, hops, is_convex
 from exactacq.claims.tallies import differs, largest_distance, straight_length, theorem_1
 from exactacq.claims.trees import arrivals, circled, tree_flaw
@@ -216,3 +217,16 @@ def box(left: object, bottom: object, right: object, top: object) -> Polygon:
 
 def rational_half(number: int) -> object:
     return Length(f"{number}/2").algebraic
+
+
+def test_a_start_between_obstacles_does_not_link_them() -> None:
+    """The start sees both, but neither sees the other one: the way back to the start counts double.
+
+    Taken for model (a), the scene failed the corrected Theorem 1 under the rule of SS-7.
+    """
+    diamond = Polygon([(4, "11/2"), (3, 5), (2, "11/2"), (3, 6)])
+    wall = Outline([(8, 2, "-1/5"), (8, 1), (11, 1), (11, 2)])
+    case = Case(Scene([diamond, wall], start=(4, "7/2")), radius=5)
+    assert [link.source for link in case.farthest.links] == ["S", "S"]
+    assert not case.is_mutually_visible
+    assert farthest_keeps_the_bound(case) is SILENT

@@ -90,8 +90,12 @@ class Case:
 
     @property
     def is_mutually_visible(self) -> bool:
-        """Whether the paper's model (a) holds: the start and all obstacles are linked by sight."""
-        return bool(self.scene.obstacles) and nx.is_connected(self.graph)
+        """Whether the paper's model (a) holds: the start sees an obstacle, and all obstacles are linked by
+        sight, without the start between them."""
+        if not self.scene.obstacles:
+            return False
+        among = self.graph.subgraph(node for node in self.graph if node != START)
+        return bool(nx.is_connected(among) and nx.is_connected(self.graph))
 
     @cached_property
     def within_sight(self) -> set[int]:
