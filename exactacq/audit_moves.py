@@ -23,7 +23,6 @@ from exactacq.audit_measure import (
     ball_sum,
     event_name,
     is_close,
-    passes,
     place_text,
     rational_on,
     same,
@@ -320,7 +319,8 @@ class Replay:
         for k in range(self.done, event.after):
             piece = self.run.path[k]
             onward = piece.kind == "straight" and not same(self.here, goal)
-            if not (onward and passes(Segment(self.here, goal), piece.end)):
+            arrives = onward and same(piece.end, goal)
+            if not arrives and not (onward and Segment(self.here, goal).passes(piece.end)):
                 raise AuditError(f"piece {k} is not on the way to {place_text(goal)}")
             self.here, self.done = piece.end, k + 1
         if not same(self.here, goal):
