@@ -209,7 +209,7 @@ Atom: TypeAlias = "int | Node"
 
 def atom_ball(atom: Atom, bits: int) -> arb:
     """Enclosure of an atom with at least *bits* working bits, which the caller has set."""
-    return atom.ball(bits) if isinstance(atom, Node) else arb(atom).sqrt()
+    return arb(atom).sqrt() if isinstance(atom, int) else atom.ball(bits)
 
 
 def atom_height(atom: Atom) -> float:

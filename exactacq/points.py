@@ -7,7 +7,7 @@ from enum import IntEnum
 
 from flint import fmpq
 
-from exactacq.reals import Real
+from exactacq.reals import Real, real
 
 
 class Orientation(IntEnum):
@@ -32,8 +32,8 @@ class Point:
     __slots__ = ("x", "y")
 
     def __init__(self, x: object, y: object) -> None:
-        self.x = x if type(x) is Real else Real(x)
-        self.y = y if type(y) is Real else Real(y)
+        self.x = x if type(x) is Real else real(x) if type(x) is fmpq else Real(x)
+        self.y = y if type(y) is Real else real(y) if type(y) is fmpq else Real(y)
 
     @classmethod
     def of(cls, value: Point | Sequence[object]) -> Point:
@@ -73,15 +73,24 @@ class Point:
 
     def dot(self, other: Point) -> Real:
         """Scalar product."""
-        return self.x * other.x + self.y * other.y
+        a, b, c, d = self.x.rational, self.y.rational, other.x.rational, other.y.rational
+        if a is None or b is None or c is None or d is None:
+            return self.x * other.x + self.y * other.y
+        return real(a * c + b * d)
 
     def cross(self, other: Point) -> Real:
         """z of the vector product: positive if *other* lies counterclockwise of self."""
-        return self.x * other.y - self.y * other.x
+        a, b, c, d = self.x.rational, self.y.rational, other.x.rational, other.y.rational
+        if a is None or b is None or c is None or d is None:
+            return self.x * other.y - self.y * other.x
+        return real(a * d - b * c)
 
     def norm_sq(self) -> Real:
         """Squared length."""
-        return self.x * self.x + self.y * self.y
+        x, y = self.x.rational, self.y.rational
+        if x is None or y is None:
+            return self.x * self.x + self.y * self.y
+        return real(x * x + y * y)
 
     def left(self) -> Point:
         """The vector turned by a quarter, counterclockwise."""

@@ -71,7 +71,7 @@ from exactacq.towers import vanishes
 if TYPE_CHECKING:
     import sympy
 
-__all__ = ["FILTER_BITS", "ZERO_TEST_BITS", "Real", "fmpq", "rational", "roots"]
+__all__ = ["FILTER_BITS", "ZERO_TEST_BITS", "Real", "fmpq", "rational", "real", "roots"]
 
 FILTER_BITS = (64, 128, 256)
 """Precisions of the balls that are tried before the zero test: most signs show at the first."""
@@ -97,23 +97,24 @@ class Real:
     here.  An irrational Real is not hashable: equal values may have different expressions.
     """
 
-    __slots__ = ("_ball", "_bits", "_q", "_sign", "_terms")
+    __slots__ = ("_ball", "_bits", "_sign", "_terms", "rational")
 
+    rational: fmpq | None
+    """The value if the form is rational, else None (a hidden rational stays hidden). Not to be assigned."""
     _ball: arb
     _bits: int
-    _q: fmpq | None
     _sign: int | None
     _terms: Mapping[Atom, fmpq]
 
     def __new__(cls, value: object = 0) -> Real:
-        return value if isinstance(value, Real) else _of(rational(value))
+        return value if isinstance(value, Real) else real(rational(value))
 
     @classmethod
     def _form(cls, terms: Mapping[Atom, fmpq]) -> Real:
         if not terms or (len(terms) == 1 and 1 in terms):
-            return _of(terms.get(1, ZERO))
+            return real(terms.get(1, ZERO))
         self = object.__new__(cls)
-        self._q, self._terms, self._bits, self._sign = None, terms, 0, None
+        self.rational, self._terms, self._bits, self._sign = None, terms, 0, None
         return self
 
     @classmethod
@@ -134,7 +135,7 @@ class Real:
         # Most rationals never need the form: it is made when it is first asked for.
         if name != "_terms":
             raise AttributeError(name)
-        self._terms = {1: self._q} if self._q else {}
+        self._terms = {1: self.rational} if self.rational else {}
         return self._terms
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -144,11 +145,6 @@ class Real:
     # -- structure ---------------------------------------------------------------------------
 
     @property
-    def rational(self) -> fmpq | None:
-        """The value if the form is rational, else None (a hidden rational stays hidden)."""
-        return self._q
-
-    @property
     def terms(self) -> Mapping[Atom, fmpq]:
         """The linear form: coefficients by atom (1, the radicand of a square root, or a node)."""
         return self._terms
@@ -156,7 +152,7 @@ class Real:
     @property
     def key(self) -> Hashable:
         """Equal keys mean equal values (not conversely): the structural identity."""
-        return self._q if self._q is not None else frozenset(self._terms.items())
+        return self.rational if self.rational is not None else frozenset(self._terms.items())
 
     # -- arithmetic --------------------------------------------------------------------------
 
@@ -164,8 +160,9 @@ class Real:
         right = other if type(other) is Real else _coerce(other)
         if right is None:
             return NotImplemented
-        if self._q is not None and right._q is not None:
-            return _of(self._q + right._q)
+        a, b = self.rational, right.rational
+        if a is not None and b is not None:
+            return real(a + b)
         return Real._form(plus(self._terms, right._terms, ONE))
 
     __radd__ = __add__
@@ -183,8 +180,9 @@ class Real:
         right = other if type(other) is Real else _coerce(other)
         if right is None:
             return NotImplemented
-        if self._q is not None and right._q is not None:
-            return _of(self._q - right._q)
+        a, b = self.rational, right.rational
+        if a is not None and b is not None:
+            return real(a - b)
         return Real._form(plus(self._terms, right._terms, -ONE))
 
     def __rsub__(self, other: object) -> Real:
@@ -192,16 +190,16 @@ class Real:
         return NotImplemented if left is None else left - self
 
     def _scaled(self, q: fmpq) -> Real:
-        if self._q is not None:
-            return _of(self._q * q)
+        if self.rational is not None:
+            return real(self.rational * q)
         return Real._form({a: c * q for a, c in self._terms.items()} if q else {})
 
     def affine(self, factor: fmpq, offset: fmpq) -> Real:
         """offset + factor * self, in one step."""
-        if self._q is not None:
-            return _of(offset + factor * self._q)
+        if self.rational is not None:
+            return real(offset + factor * self.rational)
         if not factor:
-            return _of(offset)
+            return real(offset)
         terms = {atom: c * factor for atom, c in self._terms.items()}
         terms[1] = terms.get(1, ZERO) + offset
         if not terms[1]:
@@ -212,10 +210,11 @@ class Real:
         right = other if type(other) is Real else _coerce(other)
         if right is None:
             return NotImplemented
-        if right._q is not None:
-            return self._scaled(right._q)
-        if self._q is not None:
-            return right._scaled(self._q)
+        a, b = self.rational, right.rational
+        if a is not None:
+            return real(a * b) if b is not None else right._scaled(a)
+        if b is not None:
+            return self._scaled(b)
         field = field_of(self._terms)
         if field is not None and field == field_of(right._terms):
             product = polynomial(self._terms) * polynomial(right._terms)
@@ -236,12 +235,12 @@ class Real:
         right = other if type(other) is Real else _coerce(other)
         if right is None:
             return NotImplemented
-        if right._q is not None:
-            if not right._q:
+        if right.rational is not None:
+            if not right.rational:
                 raise ZeroDivisionError("division of an exact real by zero")
-            return self._scaled(1 / right._q)
+            return self._scaled(1 / right.rational)
         if self.key == right.key:
-            return _of(ONE)
+            return real(ONE)
         return self * right._inverse()
 
     def __rtruediv__(self, other: object) -> Real:
@@ -287,8 +286,8 @@ class Real:
             raise ValueError(f"square root of the negative number {self.decimal(20)}")
         if sign == 0:
             return Real(0)
-        if self._q is not None:
-            return Real._form(square_root(self._q))
+        if self.rational is not None:
+            return Real._form(square_root(self.rational))
         plain = denested(self._terms)
         return _sqrt_node(self) if plain is None else Real._form(plain)
 
@@ -308,8 +307,8 @@ class Real:
 
     def sign(self) -> int:
         """-1, 0 or 1, decided exactly; raises `Undecided` beyond `ZERO_TEST_BITS`."""
-        if self._q is not None:
-            return int(self._q > 0) - int(self._q < 0)
+        if self.rational is not None:
+            return int(self.rational > 0) - int(self.rational < 0)
         if self._sign is None:
             self._sign = self._decide_sign()
         return self._sign
@@ -349,14 +348,14 @@ class Real:
 
     def height_bound(self) -> float:
         """Upper bound of the absolute logarithmic height, base 2 (Waldschmidt, section 3.2)."""
-        if self._q is not None:
-            return float(self._q.height_bits())
+        if self.rational is not None:
+            return float(self.rational.height_bits())
         parts = (c.height_bits() + atom_height(a) for a, c in self._terms.items())
         return float(sum(parts)) + log2(len(self._terms))
 
     def generators(self) -> Generators:
         """The distinct radicals and roots of the expression, with their degrees."""
-        if self._q is not None:
+        if self.rational is not None:
             return frozenset()
         return frozenset().union(*(atom_generators(a) for a in self._terms))
 
@@ -370,6 +369,10 @@ class Real:
 
         TypeError for what is no number, ValueError for a NaN, `Undecided` beyond `ZERO_TEST_BITS`.
         """
+        if type(other) is Real:
+            a, b = self.rational, other.rational
+            if a is not None and b is not None:
+                return -1 if a < b else int(a != b)
         order: int | None = self._order(other)
         if order is NotImplemented:
             raise TypeError(f"cannot compare an exact real with {type(other).__name__}")
@@ -389,8 +392,8 @@ class Real:
             right = _coerce(other)
             if right is None:
                 return NotImplemented
-        if self._q is not None and right._q is not None:
-            return -1 if self._q < right._q else int(self._q != right._q)
+        if self.rational is not None and right.rational is not None:
+            return -1 if self.rational < right.rational else int(self.rational != right.rational)
         left_ball, right_ball = self.ball(64), right.ball(64)
         if left_ball < right_ball:
             return -1
@@ -400,6 +403,13 @@ class Real:
             # Two positive roots that 64 bits cannot tell apart: their squares have a quarter of the degree.
             return (self * self - right * right).sign()
         return (self - right).sign()
+
+    def overlaps(self, other: Real) -> bool:
+        """Whether two numbers may be equal: balls leave it open, or rationals are."""
+        a, b = self.rational, other.rational
+        if a is not None and b is not None:
+            return bool(a == b)
+        return all(self.ball(bits).overlaps(other.ball(bits)) for bits in FILTER_BITS)
 
     @property
     def _is_root(self) -> bool:
@@ -430,9 +440,9 @@ class Real:
         return NotImplemented if order is NotImplemented else order is not None and order >= 0
 
     def __hash__(self) -> int:
-        if self._q is None:
+        if self.rational is None:
             raise TypeError("an irrational Real is not hashable: use .key for structural identity")
-        return hash(self._q)
+        return hash(self.rational)
 
     def __bool__(self) -> bool:
         return self.sign() != 0
@@ -449,8 +459,8 @@ class Real:
     def working_ball(self, bits: int) -> arb:
         """As `ball`, where the caller has set the working precision to *bits*."""
         if self._bits < bits:
-            if self._q is not None:
-                ball = arb(self._q)
+            if self.rational is not None:
+                ball = arb(self.rational)
             else:
                 ball = arb(0)
                 for atom, c in self._terms.items():
@@ -460,15 +470,19 @@ class Real:
 
     def enclosure(self, bits: int) -> tuple[fmpq, fmpq]:
         """Rational (low, high) around the value, at most 2^-bits apart; exact if rational."""
-        if self._q is not None:
-            return self._q, self._q
+        if self.rational is not None:
+            return self.rational, self.rational
         return enclose(self.ball, bits)
 
     def __float__(self) -> float:
         """The nearest float, ties to even; OverflowError beyond the largest float, as for Fraction."""
-        if self._q is not None:
-            return nearest_float(self._q)
+        if self.rational is not None:
+            return nearest_float(self.rational)
         return round_to_float(self.ball, lambda middle: self == middle) + 0.0
+
+    def rough(self) -> float:
+        """A float near the value: to draw or to sort, never to decide."""
+        return nearest_float(self.rational) if self.rational is not None else float(self.ball(64).mid())
 
     def decimal(self, digits: int) -> str:
         """The value with *digits* significant digits, correctly rounded to one unit in the last."""
@@ -489,27 +503,27 @@ class Real:
         return str(latex(self.sympy()))
 
     def __str__(self) -> str:
-        return str(self._q) if self._q is not None else str(self.sympy())
+        return str(self.rational) if self.rational is not None else str(self.sympy())
 
     def __repr__(self) -> str:
-        return f"Real({str(self)!r})" if self._q is not None else f"<Real {self.decimal(15)}>"
+        return f"Real({str(self)!r})" if self.rational is not None else f"<Real {self.decimal(15)}>"
 
 
-def _of(q: fmpq) -> Real:
-    """A rational as a Real: the commonest of all steps."""
+def real(q: fmpq) -> Real:
+    """A rational as a Real, without any check: the commonest of all steps."""
     self = object.__new__(Real)
-    self._q, self._bits, self._sign = q, 0, None
+    self.rational, self._bits, self._sign = q, 0, None
     return self
 
 
 def _coerce(value: object) -> Real | None:
     """A number as a Real, None for what is no number (bools included); FormatError if it is not finite."""
+    if type(value) is fmpq:
+        return real(value)
     if isinstance(value, Real):
         return value
-    if type(value) is fmpq:
-        return _of(value)
     if isinstance(value, (int, fmpz, fmpq, Fraction, float, Decimal)) and not isinstance(value, bool):
-        return _of(rational(value))
+        return real(rational(value))
     return None
 
 

@@ -36,8 +36,8 @@ from exactacq.vision.table import EdgeTable
 Cut: TypeAlias = "tuple[Real, Pin | None, Names]"
 """A parameter where a beam is cut, the point of the way there, and the names of the line."""
 
-OVERLAP_BITS = 256
-"""Numbers that differ by less are taken for candidates of a tie."""
+BITS = 256
+"""Precision of the balls that propose ties."""
 
 
 class Crossing:
@@ -62,6 +62,7 @@ class Crossing:
         self.ranges = sightlines.ranges.with_way(rail, leg.touches)
         self.way = len(self.ranges.rails) - 1
         self.slack = 256 * self.ranges.roundoff
+        self._through: dict[int, tuple[Sector, list[tuple[Pin, list[Real]]]]] = {}
 
     def glances(self) -> Iterator[Glance]:
         """All glances at wanted edges whose first side lies on the way."""
@@ -125,12 +126,10 @@ class Crossing:
 
     def _cuts(self, beam: Beam) -> list[Cut]:
         """A beam's ends, and the parameters between them of the lines through the way's ends, in order."""
-        span = self.span
-        pins = (span.start, span.low), (span.end, span.high)
         lines: list[tuple[Real, Pin]] = []
-        for pin in pins:
-            for t in beam.sector.through(pin[0]):
-                same = next((k for k, (known, _) in enumerate(lines) if _overlap(known, t)), None)
+        for pin, through in self._through_ends(beam.sector):
+            for t in through:
+                same = next((k for k, (known, _) in enumerate(lines) if known.overlaps(t)), None)
                 if same is None:
                     lines.append((t, pin))
                 elif beam.anchor in self.touches or self._is_own(beam.sector, t, lines[same][0]):
@@ -138,7 +137,7 @@ class Crossing:
                 else:
                     lines.append((t, pin))
         low, high = (
-            (t, self._pin_at(beam, t, names, pins), names)
+            (t, self._pin_at(beam, t, names), names)
             for t, names in zip((beam.low, beam.high), beam.names, strict=True)
         )
         inner = [line for line in lines if self._is_inside(beam, *line)]
@@ -148,6 +147,15 @@ class Crossing:
             if t.compare(cuts[-1][0]) != 0:
                 cuts.append((t, pin, ()))
         return [*cuts, high]
+
+    def _through_ends(self, sector: Sector) -> list[tuple[Pin, list[Real]]]:
+        """The way's ends with the parameters of a sector's lines through them; kept, as beams share it."""
+        kept = self._through.get(id(sector))
+        if kept is None:
+            span = self.span
+            pins = (span.start, span.low), (span.end, span.high)
+            kept = self._through[id(sector)] = sector, [(pin, sector.through(pin[0])) for pin in pins]
+        return kept[1]
 
     def _is_own(self, sector: Sector, t: Real, other: Real) -> bool:
         """Whether the lines through the way's ends, which look the same, are one: the way's own line."""
@@ -159,7 +167,8 @@ class Crossing:
         """Whether the way's line touches a circle."""
         along = self.line.end - self.line.start
         height = along.cross(center - self.line.start)
-        return _vanishes(height * height - along.norm_sq() * radius_sq)
+        excess: Real = height * height - along.norm_sq() * radius_sq
+        return excess.sign() == 0
 
     def _is_inside(self, beam: Beam, t: Real, pin: Pin) -> bool:
         """Whether a line through a point of the way lies strictly inside a beam.
@@ -168,7 +177,7 @@ class Crossing:
         take a root more. If the way's own line bounds the beam, its name tells.
         """
         for bound, side, names in ((beam.low, 1, beam.names[0]), (beam.high, -1, beam.names[1])):
-            if _overlap(t, bound):
+            if t.overlaps(bound):
                 if any(name in self.touches for name, _ in names):
                     return False
                 contact, direction = beam.sector.touch(bound)
@@ -178,16 +187,21 @@ class Crossing:
                 return False
         return True
 
-    def _pin_at(self, beam: Beam, t: Real, names: Names, pins: tuple[Pin, Pin]) -> Pin | None:
+    def _pin_at(self, beam: Beam, t: Real, names: Names) -> Pin | None:
         """The point of the way on a line that bounds a beam, where it need not be computed."""
+        is_own = any(name in self.touches for name, _ in names)
+        # No parameter: the end may be the point about which the lines turn.
+        near = [
+            pin
+            for pin, through in self._through_ends(beam.sector)
+            if not through or any(t.overlaps(u) for u in through)
+        ]
+        if not near and not is_own:
+            return None
         contact, direction = beam.sector.touch(t)
-        if any(name in self.touches for name, _ in names):
+        if is_own:
             return contact, self.rail.parameter(contact)
-        on_line = []
-        for point, place in pins:
-            offset = direction.cross(point - contact)
-            if offset.ball(OVERLAP_BITS).contains(0) and offset.sign() == 0:
-                on_line.append((point, place))
+        on_line = [pin for pin in near if direction.cross(pin[0] - contact).sign() == 0]
         if len(on_line) == 2:
             return self._pin_of_own(beam, contact)
         return on_line[0] if on_line else None
@@ -262,7 +276,7 @@ class Crossing:
                 continue
             curve = table.curves[e]
             for number, corner in ((e, curve.start), (int(table.next[e]), curve.end)):
-                if ("corner", number) in self.touches or _vanishes(along.cross(corner - start)):
+                if ("corner", number) in self.touches or along.cross(corner - start).sign() == 0:
                     yield e, corner
             if isinstance(curve, Arc):
                 named = ("circle", table.circles[e]) in self.touches
@@ -339,21 +353,13 @@ def _edges_near(table: EdgeTable, point: Point) -> list[int]:
     """The edges that balls do not part from a point: the end of a way lies on a boundary, or it does not."""
     x, y = point.xy
     near = (int(e) for e in table.near((x, y), (x, y), 0.0))
-    return [e for e in near if table.curves[e].may_pass(point, OVERLAP_BITS)]
+    return [e for e in near if table.curves[e].may_pass(point, BITS)]
 
 
 def _by_parameter(a: tuple[Real, Pin], b: tuple[Real, Pin]) -> int:
     return a[0].compare(b[0])
 
 
-def _vanishes(value: Real) -> bool:
-    return bool(value.ball(OVERLAP_BITS).contains(0)) and value.sign() == 0
-
-
 def _certainly(low: Real, high: Real) -> bool:
     """Whether balls tell that one number is less than another."""
-    return bool(low.ball(OVERLAP_BITS) < high.ball(OVERLAP_BITS))
-
-
-def _overlap(a: Real, b: Real) -> bool:
-    return bool(a.ball(OVERLAP_BITS).overlaps(b.ball(OVERLAP_BITS)))
+    return bool(low.ball(BITS) < high.ball(BITS))

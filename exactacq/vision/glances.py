@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections import ChainMap
 from collections.abc import Collection, Hashable, Iterator, Mapping, MutableMapping
 from dataclasses import dataclass, replace
-from enum import Enum
+from enum import IntEnum
 from functools import cmp_to_key, partial
 from itertools import pairwise
 from math import hypot
@@ -44,7 +44,7 @@ Pin: TypeAlias = "tuple[Point, Real]"
 """A point of an edge with its parameter."""
 
 
-class Role(Enum):
+class Role(IntEnum):
     """Where on a line one end of a view lies."""
 
     BEHIND = -1
@@ -216,7 +216,7 @@ class Ranges:
 
     def _pin(self, sector: Sector, t: Real, side: Side, names: Names, passed: Passed) -> Pin:
         """Where a line meets an edge: the same point as on the same line under another name."""
-        role = side.role.value
+        role = side.role
         keys = [
             (name, side.edge, 0 if self._touches(name, side.edge) else role * sense) for name, sense in names
         ]
@@ -304,7 +304,7 @@ class Ranges:
         other end than that the two points are one: asked where the latter was Undecided.
         """
         place, strand = end.places[side], glance.strand
-        if strand is None or place is u or not _overlap(place, u):
+        if strand is None or place is u or not place.overlaps(u):
             return False
         sector, sides = strand.sector, strand.sides
         if sides[side].role is not Role.CONTACT:
@@ -315,7 +315,7 @@ class Ranges:
             return False
         here, far = end.points[1 - side], self.curve(sides[1 - side].edge)
         try:
-            for contact, direction in (sector.touch(t) for t in lines if _overlap(t, end.t)):
+            for contact, direction in (sector.touch(t) for t in lines if t.overlaps(end.t)):
                 if isinstance(far, Segment) and direction.cross(far.direction).sign() == 0:
                     continue
                 if self._point(sector, sides[1 - side], contact, direction) == here:
@@ -328,7 +328,7 @@ class Ranges:
         """The view of a glance from a point of one of its sides, strictly between its extreme views."""
         strand = glance.strand
         assert strand is not None
-        role = strand.sides[side].role.value
+        role = strand.sides[side].role
         sector = strand.sector
         if role == 0 and isinstance(sector, Rolling):
             lines = [sector.touching(point)]
@@ -356,7 +356,7 @@ class Ranges:
                 along = curve.direction
                 share = direction.cross(contact - curve.start) / direction.cross(along)
                 return curve.start + along * share
-            return contact + direction * meet(contact, direction, curve, side.role.value)
+            return contact + direction * meet(contact, direction, curve, side.role)
         except ZeroDivisionError:
             # A line along the edge. All others of the family meet it in one point, the centre of the arc to
             # which they are normal: that is the limit.
@@ -457,27 +457,24 @@ class Ranges:
         return Real(self.square)
 
 
-def _overlap(a: Real, b: Real) -> bool:
-    return bool(a.ball(BITS).overlaps(b.ball(BITS)))
-
-
 def _is_met(direction: Point, curve: Curve, end: Point, role: Role) -> bool:
     """Whether balls tell that a line through an end of an edge enters its obstacle there."""
     if isinstance(curve, Segment):
         return not direction.cross(curve.direction).ball(BITS).contains(0)
-    far = -role.value if curve.ccw else role.value
+    far = -role if curve.ccw else role
     return bool((end - curve.center).dot(direction).ball(BITS) * far > 0)
 
 
 def _shared(end: End, k: int, point: Point, place: Real) -> End:
     """The same view, with another name for its point on side k."""
     points = (point, end.points[1]) if k == 0 else (end.points[0], point)
-    return _placed(replace(end, points=points), k, place)
+    return _placed(End(end.t, points, end.places, end.tight), k, place)
 
 
 def _placed(end: End, k: int, place: Real) -> End:
     """The same view with another parameter on side k."""
-    return replace(end, places=(place, end.places[1]) if k == 0 else (end.places[0], place))
+    places = (place, end.places[1]) if k == 0 else (end.places[0], place)
+    return End(end.t, end.points, places, end.tight)
 
 
 def _is_rational(curve: Curve) -> bool:

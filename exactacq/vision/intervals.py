@@ -62,16 +62,16 @@ class Cover:
         before: list[Interval] = []
         after: list[Interval] = []
         for old in self.intervals:
-            if old.high.compare(new.low) < 0:
-                before.append(old)
-            elif old.low.compare(new.high) > 0:
+            at_low = old.low.compare(new.low)
+            if at_low <= 0 and old.high.compare(new.high) >= 0:
+                return self
+            if at_low > 0 and old.low.compare(new.high) > 0:
                 after.append(old)
+            elif at_low < 0 and old.high.compare(new.low) < 0:
+                before.append(old)
             else:
-                at_low, at_high = old.low.compare(new.low), old.high.compare(new.high)
-                if at_low <= 0 and at_high >= 0:
-                    return self
                 left = old if at_low <= 0 else new
-                right = old if at_high >= 0 else new
+                right = old if at_low > 0 and old.high.compare(new.high) >= 0 else new
                 new = Interval(left.low, left.start, right.high, right.end)
         return Cover((*before, new, *after))
 

@@ -101,8 +101,10 @@ class _Sweep:
     ) -> None:
         self.table, self.sector, self.own, self.breaks = table, sector, own, breaks
         self.slack = 64 * (table.roundoff + 2.0**-50 * sector.extent)
-        straight_own = [e for e in own if table.kind[e] == STRAIGHT]
-        self.edges = edges[~np.isin(edges, list(own) if sector.round else straight_own)]
+        for e in own:
+            if sector.round or table.kind[e] == STRAIGHT:
+                edges = edges[edges != e]
+        self.edges = edges
 
     def run(self) -> Pencil:
         lines = self._events()
@@ -126,15 +128,21 @@ class _Sweep:
         low, high = Real(self.sector.low), Real(self.sector.high)
         bounds = [_Event(float(low), 1e-15, -1, 0, 0, low), _Event(float(high), 1e-15, -1, 0, 0, high)]
         events = [*bounds, *self._break_events(), *self._vertex_events(), *self._arc_events()]
-        return [
-            (value, passed)
-            for cluster in _clusters(events)
-            for value, passed in self._resolve(cluster)
-            if value.compare(low) >= 0 and value.compare(high) <= 0
-        ]
+        lines = [line for cluster in _clusters(events) for line in self._resolve(cluster)]
+        while lines[0][0].compare(low) < 0:
+            del lines[0]
+        while lines[-1][0].compare(high) > 0:
+            del lines[-1]
+        return lines
 
     def _resolve(self, cluster: list[_Event]) -> Iterator[tuple[Real, Passed]]:
         """The distinct exact values of a cluster, ascending, with the true events at each."""
+        if len(cluster) == 1:
+            (event,) = cluster
+            value = self._exact(event)
+            if value is not None:
+                yield value, ((event.edge, event.side, event.sign),) if event.edge >= 0 else ()
+            return
         known = [(value, event) for event in cluster if (value := self._exact(event)) is not None]
         if len(known) > 1:
             known.sort(key=cmp_to_key(_by_value))
@@ -170,7 +178,8 @@ class _Sweep:
     def _arc_events(self) -> Iterator[_Event]:
         table, sector = self.table, self.sector
         ids = self.edges[table.kind[self.edges] == CONVEX]
-        ids = ids[~np.isin(ids, list(self.own))]
+        for e in self.own:
+            ids = ids[ids != e]
         offsets, radii = table.center[ids] - sector.origin, table.radius[ids]
         for side, sign, guess, margin in sector.past_circles(offsets, radii, self.slack):
             yield from self._collect(ids, side, sign, guess, margin)

@@ -117,8 +117,8 @@ class Turning(Sector):
 
     def direction(self, t: Real) -> Point:
         """e + t e'."""
-        ex, ey = self.base
-        return Point(ex - t * ey, ey + t * ex)
+        (ex, ey), q = self.base, t if t.rational is None else t.rational
+        return Point(ex - q * ey, ey + q * ex)
 
     def through(self, point: Point) -> list[Real]:
         _, along, across = self._frame((point.x, point.y))

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import chain
 from typing import TypeAlias
 
 from exactacq.errors import Undecided
@@ -136,7 +137,7 @@ class Shares:
         sightlines, leg, obstacles = self.sightlines, self.leg, self.obstacles
         x, y, right, top = leg.box
         near = sightlines.table.near((x, y), (right, top), sightlines.reach).tolist()
-        wanted = frozenset(e for e in near if any(k in obstacles for k, _ in self.targets.on(e)))
+        wanted = frozenset(near).intersection(chain.from_iterable(self.targets.edges[k] for k in obstacles))
         if leg.edge is None:
             crossing = Crossing(sightlines, leg, wanted, self.view)
             yield from ((glance, 0) for glance in crossing.glances())
@@ -293,7 +294,7 @@ class Shares:
 
 def size(interval: Interval) -> float:
     """Rough size. Large intervals are added first: equal ends inside them need not be compared."""
-    return float((interval.high - interval.low).ball(64).mid())
+    return interval.high.rough() - interval.low.rough()
 
 
 def _called(interval: Interval, same: Mapping[int, Pin]) -> Interval:

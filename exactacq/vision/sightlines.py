@@ -10,9 +10,8 @@ in the scene at constant density and range.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from enum import Enum
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -122,16 +121,9 @@ class Family:
         return Sides.of_lines([(ray.place, ray.run[0]) for ray in self.rays])
 
 
-class Pencils(Enum):
-    """What the lines of a family are."""
-
-    NORMALS = "normals of an edge"
-    TANGENTS = "tangents of a feature"
-    CORNER_NORMALS = "normals of the boundary at a corner"
-
-
 KEPT = 4096
-"""Families that are remembered, the last used: enough for a wide neighbourhood, and a bound of the memory."""
+"""Families that are remembered, the last used of each kind: enough for a wide neighbourhood, and a bound of
+the memory."""
 
 
 class Sightlines:
@@ -142,7 +134,11 @@ class Sightlines:
         self.reach = float(radius) * (1 + 1e-12)
         self.ranges = Ranges([Rail(curve) for curve in table.curves], radius, table.roundoff, table.circles)
         self._namer = Namer(table)
-        self._family = lru_cache(KEPT)(self._swept)
+        self._normals_of = lru_cache(KEPT)(lambda e: self._family(self._normals(e)))
+        self._tangents_of = lru_cache(KEPT)(lambda k: self._family(*self._tangents(self.features[k])))
+        self._corner_normals_of = lru_cache(KEPT)(
+            lambda k: self._family(self._corner_normals(self.features[k]))
+        )
 
     @cached_property
     def features(self) -> list[Feature]:
@@ -157,6 +153,14 @@ class Sightlines:
             for f in self.features
         ]
         return np.array(boxes, dtype=float).reshape(-1, 4)
+
+    @cached_property
+    def _features_at(self) -> Ints:
+        """For every edge its number as a feature, and that of its start; -1 for none."""
+        numbers = np.full((len(self.table.curves), 2), -1, dtype=np.intp)
+        for k, feature in enumerate(self.features):
+            numbers[feature.edges[-1], int(not feature.round)] = k
+        return numbers
 
     def on(self, edge: int, wanted: frozenset[int]) -> Iterator[tuple[Bundle, int]]:
         """The bundles between an edge and wanted ones, with the number of its side.
@@ -177,27 +181,23 @@ class Sightlines:
         reach = self.reach + 8 * self.table.roundoff
         for e in edges[_gaps(self.table.boxes[edges], box) <= reach].tolist():
             if e != own:
-                yield self._family(Pencils.NORMALS, e)
+                yield self._normals_of(e)
         if own is not None:
-            yield self._family(Pencils.NORMALS, own)
-        here = _gaps(self._spots, box)
-        close = np.flatnonzero(here <= reach)
+            yield self._normals_of(own)
+        left, bottom, right, top = box.tolist()
+        close = self._features_at[self.table.near((left, bottom), (right, top), self.reach)].ravel()
+        here = _gaps(self._spots[close], box)
+        near = (close >= 0) & (here <= reach)
+        close, here = close[near], here[near]
         there = _gaps(self.table.boxes[edges], self._spots[close, None]).min(axis=1, initial=np.inf)
-        for k in close[here[close] + there <= reach].tolist():
-            yield self._family(Pencils.TANGENTS, k)
+        for k in close[here + there <= reach].tolist():
+            yield self._tangents_of(k)
             if not self.features[k].round and self.features[k].edges[1] in wanted:
-                yield self._family(Pencils.CORNER_NORMALS, k)
+                yield self._corner_normals_of(k)
 
-    def _swept(self, pencils: Pencils, number: int) -> Family:
-        """The family of an edge's normals, or of a feature's tangents or normals."""
-        beams: list[Beam] = []
-        rays: list[Ray] = []
-        if pencils is Pencils.NORMALS:
-            beams += self._normals(number)
-        elif pencils is Pencils.CORNER_NORMALS:
-            beams += self._corner_normals(self.features[number])
-        else:
-            self._add_tangents(self.features[number], beams, rays)
+    def _family(self, beams: Iterable[Beam], rays: Iterable[Ray] = ()) -> Family:
+        """Beams and rays with the bundles that they are on each edge."""
+        beams, rays = tuple(beams), tuple(rays)
         on: dict[int, list[tuple[Bundle, int]]] = {}
         for strand in (strand for beam in beams for strand in beam.strands()):
             bundle = Bundle((strand.sides[0].edge, strand.sides[1].edge), strand)
@@ -211,16 +211,17 @@ class Sightlines:
                 bundle = Bundle(edges, [Glance(edges, *end) for end in ends])
                 for k, e in enumerate(edges):
                     on.setdefault(e, []).append((bundle, k))
-        return Family(tuple(beams), tuple(rays), on)
+        return Family(beams, rays, on)
 
     # -- the families ------------------------------------------------------------------------------
 
-    def _add_tangents(self, feature: Feature, beams: list[Beam], rays: list[Ray]) -> None:
+    def _tangents(self, feature: Feature) -> tuple[list[Beam], list[Ray]]:
+        """The tangent lines of a feature, and the single lines that join them."""
         contact = Side(feature.edges[-1], Role.CONTACT, fixed=not feature.round)
         sweeps = [pencil(self.table, s, feature.edges, self.reach) for s in feature.sectors]
-        beams += [self._beam(feature, s.sector, cell, contact) for s in sweeps for cell in s.cells]
-        rays += [ray for s in sweeps for t in s.pinches for ray in self._pinched(s.sector, t, feature.edges)]
-        rays += self._end_on(feature, sweeps[0], sweeps[-1])
+        beams = [self._beam(feature, s.sector, cell, contact) for s in sweeps for cell in s.cells]
+        rays = [ray for s in sweeps for t in s.pinches for ray in self._pinched(s.sector, t, feature.edges)]
+        return beams, [*rays, *self._end_on(feature, sweeps[0], sweeps[-1])]
 
     def _beam(self, feature: Feature, sector: Sector, cell: Cell, contact: Side) -> Beam:
         behind = None if cell.behind is None else Side(cell.behind, Role.BEHIND)

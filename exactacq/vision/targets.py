@@ -45,6 +45,7 @@ class Targets:
         self, of: Sequence[tuple[Target, ...]], lookouts: Mapping[int, Sequence[Lookout]] | None = None
     ) -> None:
         self.of, self.lookouts = tuple(of), lookouts or {}
+        self.edges = [frozenset(target.edge for target in targets) for targets in self.of]
         self._on: dict[int, list[tuple[int, Target]]] = {}
         for k, targets in enumerate(self.of):
             for target in targets:
