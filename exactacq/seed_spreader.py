@@ -11,6 +11,7 @@ from flint import fmpq
 from exactacq.bounds import spreader_bounds
 from exactacq.components import Ground, ground_of
 from exactacq.errors import InvalidScene
+from exactacq.garbage import uncollected
 from exactacq.losses import Line, Loss, known
 from exactacq.numerals import rational
 from exactacq.points import Point, distance_sq
@@ -35,6 +36,7 @@ class _Trapped(Exception):
     """The strategy ends before T: what the robot is at leaves no way on."""
 
 
+@uncollected()
 def seed_spreader(
     scene: Scene,
     radius: object = None,

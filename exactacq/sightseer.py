@@ -9,6 +9,7 @@ from functools import cmp_to_key
 
 from exactacq.bounds import sightseer_bounds
 from exactacq.errors import InvalidScene
+from exactacq.garbage import uncollected
 from exactacq.lengths import Length
 from exactacq.links import START, Link, Node, lexicographic
 from exactacq.points import Point
@@ -51,6 +52,7 @@ def sightseer(
     return explored_by(robot, scene, progress)
 
 
+@uncollected()
 def explored_by(robot: Scout, scene: Scene, progress: Progress | None = None) -> Run:
     """Explore a scene by the strategy with a robot at its start, which may have another rule of choice."""
     return _Sightseer(robot, progress, len(scene.obstacles)).run(scene)

@@ -7,10 +7,9 @@ away as the range, ahead or back along the edge.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
-from typing import TypeAlias
 
 from flint import fmpq
 
@@ -21,10 +20,8 @@ from exactacq.vision.glances import End, Glance, Pin, Strand
 from exactacq.vision.intervals import Interval
 from exactacq.vision.rails import Rail
 from exactacq.vision.table import EdgeTable
-from exactacq.vision.views import View
+from exactacq.vision.views import Hold, View
 
-Hold: TypeAlias = "tuple[int, Hashable, int]"
-"""An edge, the name of what the line to its point touches (see `names`) or of the range, and a side."""
 RANGE = "range"
 BITS = 128
 """Signs are read from balls of this precision, or not at all."""
@@ -43,9 +40,7 @@ class Seen:
     ) -> None:
         self.table, self.place = table, place
         self._view = View(table, place, radius, own)
-        self._view.knows_at_range = self._is_tight
         self._rails = rails
-        self._tight: set[Hold] = set()
 
     @cached_property
     def spans(self) -> dict[int, list[Interval]]:
@@ -61,16 +56,7 @@ class Seen:
         Told before anything is asked, it spares the proof that the same end of what is seen is at the range.
         """
         e, point = glance.edges[1 - side], end.points[1 - side]
-        self._tight.update(self._holds(e, point, False, glance.strand))
-
-    def _is_tight(self, e: int, point: Point) -> bool:
-        """Whether the end of a sight was told to be at the range."""
-        return any(hold in self._tight for hold in self._touching(e, point))
-
-    def _touching(self, e: int, point: Point) -> Iterator[Hold]:
-        """The holds of the end of a sight by what the ray to it touches."""
-        for number, side in self._view.touched(point):
-            yield e, ("circle", self.table.circles[number]) if side else ("corner", number), side
+        self._view.tight.update(self._holds(e, point, False, glance.strand))
 
     def pinned(self, end: End, glance: Glance, side: int) -> End:
         """An extreme view of a glance from this place, its other end the view's own point if it is one."""
@@ -97,7 +83,7 @@ class Seen:
                         continue
                     if self._view.is_at_range(point):
                         found[e, RANGE, self._onward(e, point)] = point, u
-                    found.update((hold, (point, u)) for hold in self._touching(e, point))
+                    found.update((hold, (point, u)) for hold in self._view.holds(e, point))
         return {hold: pin for hold, pin in found.items() if hold[1] != RANGE or hold[2]}
 
     def _holds(self, e: int, point: Point, tight: bool, strand: Strand | None) -> Iterator[Hold]:

@@ -7,10 +7,10 @@ sides, edges seen edge-on, the edges through the point itself, and corners touch
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Hashable, Iterator
 from dataclasses import dataclass
 from functools import cached_property, cmp_to_key
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from flint import fmpq
@@ -28,6 +28,8 @@ from exactacq.vision.table import EdgeTable, Floats
 LAST = 1 << 60
 AT_RANGE = -1
 """In place of the rank of a point's direction."""
+Hold: TypeAlias = "tuple[int, Hashable, int]"
+"""An edge, the name of what the line to its point touches (see `names`) or of the range, and a side."""
 
 
 def seen_from(
@@ -73,8 +75,8 @@ class View:
         self.panorama = Panorama(table, point, float(radius) * (1 + 1e-12), self.own)
         self.origin = self.panorama.facets.origin
         self._at_range: dict[int, Point] = {}
-        self.knows_at_range: Callable[[int, Point], bool] = lambda edge, point: False
-        """Whether the end of a sight on an edge is known, by who asks, to be as far away as the range."""
+        self.tight: set[Hold] = set()
+        """What holds the ends of sights that are known, by who asks, to be as far away as the range."""
         self._held: dict[int, tuple[Point, int]] = {}
 
     @cached_property
@@ -156,6 +158,11 @@ class View:
         """Whether an end of what is seen was made as a point as far away as the range."""
         return self._held.get(id(point), (point, LAST))[1] == AT_RANGE
 
+    def holds(self, e: int, point: Point) -> Iterator[Hold]:
+        """What holds the end of a sight, by what the ray to it touches."""
+        for number, side in self.touched(point):
+            yield e, ("circle", self.table.circles[number]) if side else ("corner", number), side
+
     def touched(self, point: Point) -> list[tuple[int, int]]:
         """What the ray to an end of what is seen touches, if it ends a sight; else nothing.
 
@@ -180,7 +187,8 @@ class View:
             try:
                 spans = within(curve, start, end, self.origin, self.radius_sq)
             except Undecided:
-                known = [id(p) for p in ends if self.knows_at_range(int(self.panorama.facets.edge[facet]), p)]
+                e = int(self.panorama.facets.edge[facet])
+                known = [id(p) for p in ends if any(hold in self.tight for hold in self.holds(e, p))]
                 spans = within(curve, start, end, self.origin, self.radius_sq, known)
             for point in (p for span in spans for p in span if p is not start and p is not end):
                 self._held[id(point)] = point, AT_RANGE

@@ -1,0 +1,23 @@
+"""Pausing the interpreter's search for cyclic garbage.
+
+A run makes millions of small objects that live as long as it, and no cycles (a test sees to that). Without a
+pause the interpreter walks through all of them again and again: a sixth of the time, more in larger scenes.
+"""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+
+@contextmanager
+def uncollected() -> Iterator[None]:
+    """No search for cyclic garbage meanwhile (of the whole process), if there is one. Also a decorator."""
+    searching = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if searching:
+            gc.enable()
