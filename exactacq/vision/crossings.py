@@ -1,23 +1,26 @@
 """Where lines cross edges, in floats with certainty flags: the numpy kernel of sweeps and clearance tests.
 
-A flag HIT or MISSED is proved by margins that are multiples of the table's round-off; everything else is
-UNSURE, and the callers then ask the exact predicates.
+That a line hits an edge or misses it is proved by margins that are multiples of the table's round-off;
+everything else is unsure, and the callers then ask the exact predicates.
 """
 
 from __future__ import annotations
 
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from exactacq.vision.table import STRAIGHT, EdgeTable, Floats, Ints
 
-MISSED, UNSURE, HIT = 0, 1, 2
-
 
 class Crossings:
-    """Where lines (rows) cross edges (columns): float parameters with certainty flags."""
+    """Where lines (rows) cross edges (columns): float parameters with certainty flags.
+
+    ``hit`` and ``unsure`` are the flags; ``enters`` tells that the line, followed ahead, passes from free to
+    blocked.
+    """
 
     def __init__(
         self,
@@ -29,19 +32,24 @@ class Crossings:
         direction: Floats,
         slack: float,
     ) -> None:
-        self.edges = edges
+        self.edges, self.slack = edges, slack
         kind = table.kind[edges]
         straight, curved = np.flatnonzero(kind == STRAIGHT), np.flatnonzero(kind != STRAIGHT)
         start, end = table.start[edges] - origin, table.end[edges] - origin
         s0, a0 = _frame(start[straight], contact, direction)
         s1, a1 = _frame(end[straight], contact, direction)
-        difference = np.where(s1 == s0, 1.0, s1 - s0)
-        sure = (np.abs(s0) > slack) & (np.abs(s1) > slack)
-        state = np.where(sure, np.where(s0 * s1 < 0, HIT, MISSED), UNSURE)
+        # Negated, so that what is no number is unsure.
+        unsure = ~((np.abs(s0) > slack) & (np.abs(s1) > slack))
+        enters = s0 > s1
+        difference = s1 - s0
+        difference[difference == 0] = 1.0
         tau = (a0 * s1 - a1 * s0) / difference
         error = 4 * slack * (1 + (np.abs(a0) + np.abs(a1)) / np.maximum(np.abs(difference), 1e-300))
-        inward = np.where(s0 > s1, 1, -1)
-        parts = [(straight, state, tau, error, np.minimum(a0, a1), np.maximum(a0, a1), inward)]
+        hit = ((s0 < 0) != (s1 < 0)) & ~unsure
+        parts: list[tuple[NDArray[Any], ...]] = [
+            (np.broadcast_to(straight, hit.shape), hit, unsure, tau, error, enters)
+        ]
+        self._reaches = [(a0, a1)]
         if len(curved):
             arcs = edges[curved]
             through = np.isin(arcs, list(own))
@@ -57,24 +65,28 @@ class Crossings:
                 y = contact[:, None, 1] + tau * direction[:, None, 1] - start[curved, 1]
                 side = (chord[:, 0] * y - chord[:, 1] * x) * -kind[curved]
                 near = (thick + slack) * (2 * np.hypot(chord[:, 0], chord[:, 1]) + slack)
-                on = np.where(table.full[arcs] | (side > near), HIT, np.where(side < -near, MISSED, UNSURE))
-                state = np.where(np.abs(g) > radius + slack, MISSED, on)
-                state = np.where(~through & (np.abs(np.abs(g) - radius) <= slack), UNSURE, state)
+                hit = table.full[arcs] | (side > near)
+                unsure = ~hit & ~(side < -near)
+                apart = np.abs(g) > radius + slack
+                hit, unsure = hit & ~apart, unsure & ~apart
+                touched = ~through & (np.abs(np.abs(g) - radius) <= slack)
                 # An arc through the contact meets every line there: that root is no crossing.
                 zero = through & (np.abs(tau) <= np.abs(h))
-                state = np.where(zero, np.where(np.abs(h) > thick, MISSED, UNSURE), state)
-                inward = np.broadcast_to(-sign * kind[curved], state.shape)
-                parts.append((curved, state, tau, 4 * thick, h - radius - slack, h + radius + slack, inward))
-        columns = [np.broadcast_to(p[0], p[1].shape) for p in parts]
-        self.column = np.concatenate(columns, axis=1)
-        self.state = np.concatenate([p[1] for p in parts], axis=1)
-        self.tau = np.concatenate([p[2] for p in parts], axis=1)
-        self.error = np.concatenate([np.broadcast_to(p[3], p[1].shape) for p in parts], axis=1)
-        self.low = np.concatenate([p[4] for p in parts], axis=1)
-        self.high = np.concatenate([p[5] for p in parts], axis=1)
-        # 1 where the line, followed ahead, passes from free to blocked.
-        self.inward = np.concatenate([p[6] for p in parts], axis=1)
-        self.slack = slack
+                hit &= ~(touched | zero)
+                unsure = ((unsure | touched) & ~zero) | (zero & ~(np.abs(h) > thick))
+                enters = np.broadcast_to(sign * kind[curved] < 0, hit.shape)
+                parts.append((np.broadcast_to(curved, hit.shape), hit, unsure, tau, 4 * thick, enters))
+                self._reaches.append((h - radius - slack, h + radius + slack))
+        self.column, self.hit, self.unsure, self.tau, self.error, self.enters = (
+            columns[0] if len(columns) == 1 else np.concatenate(columns, axis=1)
+            for columns in zip(*parts, strict=True)
+        )
+
+    @cached_property
+    def _reach(self) -> tuple[Floats, Floats]:
+        """Between which parameters a line may meet an edge."""
+        low = np.concatenate([np.minimum(*ends) for ends in self._reaches], axis=1)
+        return low, np.concatenate([np.maximum(*ends) for ends in self._reaches], axis=1)
 
     @cached_property
     def _rows(self) -> list[tuple[int | None, int | None] | None]:
@@ -82,11 +94,12 @@ class Crossings:
 
         An edge that is met from its blocked side stands for one that was left out: no edge then.
         """
-        hit, unsure = self.state == HIT, self.state == UNSURE
+        hit, unsure = self.hit, self.unsure
         doubt = (hit & (np.abs(self.tau) <= self.error)).any(axis=1)
+        vague = bool(unsure.any())
         chosen = []
-        sides = ((-self.tau, -self.high, -self.low, -1), (self.tau, self.low, self.high, 1))
-        for tau, low, high, inward in sides:
+        for side in (-1, 1):
+            tau = self.tau * side
             forward = hit & (tau > self.error)
             nearest = np.where(forward, tau, np.inf)
             best = nearest.argmin(axis=1)
@@ -94,13 +107,15 @@ class Crossings:
             limit = nearest[rows, best] + self.error[rows, best]
             close = forward & (tau - self.error <= limit[:, None])
             doubt |= close.sum(axis=1) > 1
-            vague = unsure & (high >= -self.slack) & (low - self.slack <= limit[:, None])
-            doubt |= vague.any(axis=1)
-            proper = forward.any(axis=1) & (self.inward[rows, best] == inward)
-            chosen.append(np.where(proper, self.column[rows, best], -1))
+            if vague:
+                low, high = self._reach if side > 0 else [-end for end in self._reach[::-1]]
+                near = unsure & (high >= -self.slack) & (low - self.slack <= limit[:, None])
+                doubt |= near.any(axis=1)
+            proper = forward[rows, best] & (self.enters[rows, best] == (side > 0))
+            chosen.append(np.where(proper, self.column[rows, best], -1).tolist())
         return [
-            None if doubt[k] else (self._edge(chosen[0][k]), self._edge(chosen[1][k]))
-            for k in range(len(doubt))
+            None if doubted else (self._edge(behind), self._edge(ahead))
+            for doubted, behind, ahead in zip(doubt.tolist(), *chosen, strict=True)
         ]
 
     def _edge(self, column: int) -> int | None:
@@ -112,19 +127,20 @@ class Crossings:
 
     def possible(self, row: int) -> Ints:
         """The edges that the line of a row may meet."""
-        return self._at(row, self.state[row] != MISSED)
+        return self._at(row, self.hit[row] | self.unsure[row])
 
     def blocks(self, row: int, size: float) -> bool:
         """Whether some edge certainly crosses the line of a row between 0 and *size*."""
-        hit, tau, error = self.state[row] == HIT, self.tau[row], self.error[row]
+        hit, tau, error = self.hit[row], self.tau[row], self.error[row]
         return bool((hit & (tau > error) & (tau < size - error)).any())
 
     def doubtful(self, row: int, size: float) -> Ints:
         """The edges that may meet the line of a row between 0 and *size*."""
-        state, tau, error = self.state[row], self.tau[row], self.error[row]
-        away = (state == HIT) & ((tau < -error) | (tau > size + error))
-        away |= (state == UNSURE) & ((self.high[row] < -self.slack) | (self.low[row] > size + self.slack))
-        return self._at(row, ~away & (state != MISSED))
+        tau, error = self.tau[row], self.error[row]
+        low, high = (end[row] for end in self._reach)
+        hit = self.hit[row] & ~((tau < -error) | (tau > size + error))
+        unsure = self.unsure[row] & ~((high < -self.slack) | (low > size + self.slack))
+        return self._at(row, hit | unsure)
 
     def _at(self, row: int, chosen: NDArray[np.bool_]) -> Ints:
         edges: Ints = self.edges[np.unique(self.column[row][chosen])]

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections import ChainMap
 from collections.abc import Collection, Hashable, Iterator, Mapping, MutableMapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import IntEnum
 from functools import cmp_to_key, partial
 from itertools import pairwise
@@ -178,10 +178,10 @@ class Ranges:
         for k, end in enumerate(ends):
             before, after = k > 0 and inside[k - 1], k < len(inside) and inside[k]
             if after and begin is None:
-                begin = replace(end, tight=k > 0)
+                begin = _tight(end) if k > 0 else end
             elif before and not after:
                 assert begin is not None
-                yield Glance(edges, begin, replace(end, tight=k < len(inside)), strand)
+                yield Glance(edges, begin, _tight(end) if k < len(inside) else end, strand)
                 begin = None
             elif not before and not after and distance_sq(*end.points).compare(self.square) <= 0:
                 yield Glance(edges, end, end, strand)
@@ -469,6 +469,11 @@ def _shared(end: End, k: int, point: Point, place: Real) -> End:
     """The same view, with another name for its point on side k."""
     points = (point, end.points[1]) if k == 0 else (end.points[0], point)
     return _placed(End(end.t, points, end.places, end.tight), k, place)
+
+
+def _tight(end: End) -> End:
+    """The same view, known to be as long as the range."""
+    return End(end.t, end.points, end.places, tight=True)
 
 
 def _placed(end: End, k: int, place: Real) -> End:

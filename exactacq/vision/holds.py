@@ -8,7 +8,6 @@ away as the range, ahead or back along the edge.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from functools import cached_property
 
 from flint import fmpq
@@ -67,7 +66,7 @@ class Seen:
             if pin is not None and _sign(pin[1] - end.places[1 - side]) == 0:
                 here = end.points[side], end.places[side]
                 (p, u), (q, v) = (here, pin) if side == 0 else (pin, here)
-                return replace(end, points=(p, q), places=(u, v))
+                return End(end.t, (p, q), (u, v), end.tight)
         return end
 
     @cached_property

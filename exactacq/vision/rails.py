@@ -63,7 +63,8 @@ class Rail:
 
     def _fraction(self, point: Point) -> Real:
         k, start, growth = self._axis
-        return Real((raw(point)[k] - start) / growth)
+        place = point.y if k else point.x
+        return Real(((place if place.rational is None else place.rational) - start) / growth)
 
     @cached_property
     def _sense(self) -> int:

@@ -7,7 +7,7 @@ free space, which crosses them. The views from the two ends of the leg belong to
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
 from typing import TypeAlias
@@ -110,7 +110,7 @@ class Shares:
         found: dict[int, list[Share]] = {k: [] for k in obstacles}
         for k, cut, side, whole in cuts:
             first, last = (self._pinned(end, cut, side, leg) for end in (cut.first, cut.last))
-            part = replace(cut, first=first, last=last)
+            part = Glance(cut.edges, first, last, cut.strand)
             found[k].append(Share.of(part, side) if whole is None else whole.cut(part))
         return found
 
