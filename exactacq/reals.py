@@ -201,9 +201,10 @@ class Real:
         if not factor:
             return real(offset)
         terms = {atom: c * factor for atom, c in self._terms.items()}
-        terms[1] = terms.get(1, ZERO) + offset
-        if not terms[1]:
-            del terms[1]
+        whole = terms.pop(1, None)
+        whole = offset if whole is None else whole + offset
+        if whole:
+            terms[1] = whole
         return Real._form(terms)
 
     def __mul__(self, other: object) -> Real:

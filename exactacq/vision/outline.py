@@ -116,7 +116,7 @@ def _all_around(view: View, sight: Sight) -> Iterator[ViewPiece]:
     circle = range_circle(view)
     spans = view.spans(sight) if sight.facet != NOTHING else []
     if sight.facet != NOTHING:
-        e = int(view.panorama.facets.edge[sight.facet])
+        e = view.panorama.edges[sight.facet]
         curve = view.table.curves[e]
         if len(spans) == 2:
             yield _edge_piece(view, e, curve.reversed)
@@ -170,7 +170,7 @@ class _Outline:
         if facet == NOTHING:
             yield _Part(None, sight.low, sight.high)
             return
-        e = int(self.panorama.facets.edge[facet])
+        e = self.panorama.edges[facet]
         if self.view.near[facet]:
             yield _Part(e, self._end(sight, True), self._end(sight, False))
             return
@@ -250,9 +250,9 @@ class _Outline:
         return sign(dot(offset, offset) - self.view.radius_sq)
 
     def _resolved(self, end: End) -> Point:
-        if isinstance(end, int):
-            return self.view.at_range(end)
-        return end if isinstance(end, Point) else end.point
+        if isinstance(end, Point):
+            return end
+        return self.view.at_range(end) if isinstance(end, int) else end.point
 
     def _piece(self, part: _Part) -> ViewPiece:
         view, e = self.view, part.edge
@@ -276,8 +276,7 @@ def _backwards(curve: Curve, start: Point, end: Point) -> Curve:
 
 
 def _edge_piece(view: View, e: int, make: Callable[[], Curve]) -> ViewPiece:
-    owner = int(view.table.owner[e])
-    return ViewPiece(ViewKind.EDGE, make, owner, e - int(view.table.first[owner]))
+    return ViewPiece(ViewKind.EDGE, make, view.table.owners[e], view.table.numbers[e])
 
 
 def range_circle(view: View) -> Arc:

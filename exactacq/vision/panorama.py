@@ -53,6 +53,10 @@ class Panorama:
     def __init__(self, table: EdgeTable, point: Point, reach: float, own: tuple[int, ...]) -> None:
         self.table = table
         self.facets = Facets(table, point, reach, own)
+        self.edges: list[int] = self.facets.edge.tolist()
+        """The edge of every facet, and the events that end it, as plain numbers."""
+        self.ends_low: list[int] = self.facets.low.tolist()
+        self.ends_high: list[int] = self.facets.high.tolist()
         self.groups: list[list[int]] = []
         self._order_events()
         self.count = len(self.groups)
@@ -239,7 +243,7 @@ class Panorama:
 
     def parameter(self, ray: Point, facet: int) -> Real:
         """How many times a ray's vector leads from the point to a facet that covers it."""
-        e = int(self.facets.edge[facet])
+        e = self.edges[facet]
         curve = self.table.curves[e]
         if isinstance(curve, Arc) and e in self.facets.own:
             # The ray meets the circle at the point itself, and again at twice the foot of the centre.
@@ -282,12 +286,11 @@ class Panorama:
 
     def at(self, facet: int, rank: int, is_low: bool) -> Point:
         """The point of a facet in the direction of a rank that the facet covers, or that ends it."""
-        facets = self.facets
         if rank == (self.low if is_low else self.high)[facet]:
-            event = int((facets.low if is_low else facets.high)[facet])
+            event = (self.ends_low if is_low else self.ends_high)[facet]
             if event != NOWHERE:
-                return facets.place(event)
-            return self.table.curves[int(facets.edge[facet])].start
+                return self.facets.place(event)
+            return self.table.curves[self.edges[facet]].start
         return self.hit(facet, self.direction(rank))
 
     def hit(self, facet: int, vector: Vector) -> Point:
@@ -295,8 +298,7 @@ class Panorama:
 
         On a straight edge s + u a with u = v x (p - s) / v x a: linear in one number, however p looks.
         """
-        facets = self.facets
-        e = int(facets.edge[facet])
+        facets, e = self.facets, self.edges[facet]
         curve = self.table.curves[e]
         if isinstance(curve, Segment):
             start = self.table.vertices[e]

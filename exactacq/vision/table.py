@@ -38,6 +38,7 @@ class EdgeTable:
         counts = [len(o.edges) for o in obstacles]
         self.owner: Ints = np.repeat(np.arange(len(obstacles)), counts)
         self.owners: list[int] = self.owner.tolist()
+        self.numbers: list[int] = [k for count in counts for k in range(count)]
         firsts = np.cumsum([0, *counts])
         self.first: Ints = firsts[:-1]
         self.next: Ints = np.arange(1, len(self.curves) + 1)

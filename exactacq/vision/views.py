@@ -137,7 +137,7 @@ class View:
         """The parts within range of what is seen of a facet, in the boundary's direction."""
         facet = sight.facet
         if sight.low == sight.high:
-            curve = self.table.curves[int(self.panorama.facets.edge[facet])]
+            curve = self.table.curves[self.panorama.edges[facet]]
             assert isinstance(curve, Arc)
             some = of_circle(curve, self.origin, self.radius_sq)
             if some is None:
@@ -182,12 +182,12 @@ class View:
         start, end = ends
         if self.near[facet] and start is not end:
             return [ends]
-        curve = self.table.curves[int(self.panorama.facets.edge[facet])]
+        curve = self.table.curves[self.panorama.edges[facet]]
         if start is not end:
             try:
                 spans = within(curve, start, end, self.origin, self.radius_sq)
             except Undecided:
-                e = int(self.panorama.facets.edge[facet])
+                e = self.panorama.edges[facet]
                 known = [id(p) for p in ends if any(hold in self.tight for hold in self.holds(e, p))]
                 spans = within(curve, start, end, self.origin, self.radius_sq, known)
             for point in (p for span in spans for p in span if p is not start and p is not end):
@@ -337,10 +337,10 @@ class View:
                 continue
             for facet in np.flatnonzero((facets.low == event) | (facets.high == event)).tolist():
                 order = LAST if facets.low[facet] == event else -1
-                found.setdefault(int(facets.edge[facet]), []).append(((facet, order), (place, place)))
+                found.setdefault(panorama.edges[facet], []).append(((facet, order), (place, place)))
         if ray.struck is not None:
             key = ray.struck, self._order(ray.struck, ray.rank)
-            found.setdefault(int(facets.edge[ray.struck]), []).append((key, (ray.end, ray.end)))
+            found.setdefault(panorama.edges[ray.struck], []).append((key, (ray.end, ray.end)))
 
     def _add_own(self, found: dict[int, list[tuple[tuple[int, int], Span]]]) -> None:
         """The straight edges through the point, or the point alone."""
