@@ -10,7 +10,7 @@ in the scene at constant density and range.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -52,6 +52,18 @@ class Beam:
     anchor: Anchor | None = None
     names: tuple[Names, Names] = ((), ())
     passed: tuple[Passed, Passed] = ((), ())
+    _bundles: tuple[Bundle, ...] | None = None
+
+    @property
+    def sides(self) -> list[Side]:
+        """What its lines meet or touch."""
+        return [side for side in (self.behind, self.contact, self.ahead) if side is not None]
+
+    def bundles(self) -> tuple[Bundle, ...]:
+        """The glances of its strands; made at the first call, as most beams are never asked."""
+        if self._bundles is None:
+            self._bundles = tuple(Bundle(strand.sides, strand) for strand in self.strands())
+        return self._bundles
 
     def strands(self) -> Iterator[Strand]:
         """The families of views between any two of the three."""
@@ -88,10 +100,10 @@ class Ray:
 class Bundle:
     """The glances of one strand, cut to the range when they are first asked for."""
 
-    __slots__ = ("_source", "edges")
+    __slots__ = ("_source", "sides")
 
-    def __init__(self, edges: tuple[int, int], source: Strand | list[Glance]) -> None:
-        self.edges = edges
+    def __init__(self, sides: tuple[Side, Side], source: Strand | list[Glance]) -> None:
+        self.sides = sides
         self._source = source
 
     def glances(self, ranges: Ranges) -> list[Glance]:
@@ -101,14 +113,31 @@ class Bundle:
         return self._source
 
 
-@dataclass(frozen=True)
 class Family:
-    """The beams and single rays of one feature, edge or corner; ``on`` gives its bundles with a side on an
-    edge, with the number of that side; sides that stay at a corner are left out."""
+    """The beams and single rays of one feature, edge or corner; *single* are the bundles of the rays."""
 
-    beams: tuple[Beam, ...]
-    rays: tuple[Ray, ...]
-    on: dict[int, list[tuple[Bundle, int]]]
+    def __init__(self, beams: tuple[Beam, ...], rays: tuple[Ray, ...], single: Iterable[Bundle]) -> None:
+        self.beams, self.rays = beams, rays
+        self._beams_on: dict[int, list[Beam | Bundle]] = {}
+        self._on: dict[int, list[tuple[Bundle, int]]] = {}
+        sources: list[Beam | Bundle] = [*beams, *single]
+        for source in sources:
+            for e in {side.edge for side in source.sides if not side.fixed}:
+                self._beams_on.setdefault(e, []).append(source)
+
+    def on(self, edge: int) -> Sequence[tuple[Bundle, int]]:
+        """The bundles with a side on an edge, with the number of that side; not if it stays at a corner."""
+        if edge not in self._beams_on:
+            return ()
+        if edge not in self._on:
+            self._on[edge] = [
+                (bundle, k)
+                for source in self._beams_on[edge]
+                for bundle in (source.bundles() if isinstance(source, Beam) else (source,))
+                for k, side in enumerate(bundle.sides)
+                if side.edge == edge and not side.fixed
+            ]
+        return self._on[edge]
 
     @cached_property
     def sides(self) -> Sides:
@@ -168,8 +197,8 @@ class Sightlines:
         Not those that start at a corner of it: what a corner sees is a view.
         """
         for family in self.near(self.table.boxes[edge], wanted, edge):
-            for bundle, side in family.on.get(edge, ()):
-                if bundle.edges[1 - side] in wanted:
+            for bundle, side in family.on(edge):
+                if bundle.sides[1 - side].edge in wanted:
                     yield bundle, side
 
     def near(self, box: Floats, wanted: frozenset[int], own: int | None = None) -> Iterator[Family]:
@@ -196,22 +225,15 @@ class Sightlines:
                 yield self._corner_normals_of(k)
 
     def _family(self, beams: Iterable[Beam], rays: Iterable[Ray] = ()) -> Family:
-        """Beams and rays with the bundles that they are on each edge."""
+        """Beams and rays, and what the rays show to edges."""
         beams, rays = tuple(beams), tuple(rays)
-        on: dict[int, list[tuple[Bundle, int]]] = {}
-        for strand in (strand for beam in beams for strand in beam.strands()):
-            bundle = Bundle((strand.sides[0].edge, strand.sides[1].edge), strand)
-            for k, side in enumerate(strand.sides):
-                if not side.fixed:
-                    on.setdefault(side.edge, []).append((bundle, k))
+        single: list[Bundle] = []
         for ray in rays:
             if ray.edge is not None:
                 ends = self.ranges.along(ray.place, self.ranges.rails[ray.edge], ray.run, ray.shown)
-                edges = ray.edge, ray.shown
-                bundle = Bundle(edges, [Glance(edges, *end) for end in ends])
-                for k, e in enumerate(edges):
-                    on.setdefault(e, []).append((bundle, k))
-        return Family(beams, rays, on)
+                sides = Side(ray.edge, Role.CONTACT), Side(ray.shown, Role.AHEAD)
+                single.append(Bundle(sides, [Glance((ray.edge, ray.shown), *end) for end in ends]))
+        return Family(beams, rays, single)
 
     # -- the families ------------------------------------------------------------------------------
 
