@@ -59,10 +59,10 @@ class Segment:
     def may_pass(self, point: Point, bits: int) -> bool:
         """False only if balls of that precision prove that the closed segment does not contain the point."""
         offset, along = point - self.start, self.direction
-        across, forward = along.cross(offset), offset.dot(along)
-        beyond = forward - along.norm_sq()
-        off_line = abs(across.ball(bits)) > 0
-        return not (off_line or forward.ball(bits) < 0 or beyond.ball(bits) > 0)
+        if along.cross(offset).clear_sign(bits):
+            return False
+        forward = offset.dot(along)
+        return forward.clear_sign(bits) >= 0 and (forward - along.norm_sq()).clear_sign(bits) <= 0
 
     def part(self, start: Point, end: Point) -> Segment:
         """The piece between two of its points."""

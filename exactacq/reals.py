@@ -405,6 +405,10 @@ class Real:
             return (self * self - right * right).sign()
         return (self - right).sign()
 
+    def clear_sign(self, bits: int) -> int:
+        """The sign if a ball of *bits* working bits shows it, else 0; rationals show theirs."""
+        return self.sign() if self.rational is not None else ball_sign(self.ball(bits))
+
     def overlaps(self, other: Real) -> bool:
         """Whether two numbers may be equal: balls leave it open, or rationals are."""
         a, b = self.rational, other.rational

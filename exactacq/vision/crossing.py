@@ -362,4 +362,4 @@ def _by_parameter(a: tuple[Real, Pin], b: tuple[Real, Pin]) -> int:
 
 def _certainly(low: Real, high: Real) -> bool:
     """Whether balls tell that one number is less than another."""
-    return bool(low.ball(BITS) < high.ball(BITS))
+    return (high - low).clear_sign(BITS) > 0

@@ -460,9 +460,9 @@ class Ranges:
 def _is_met(direction: Point, curve: Curve, end: Point, role: Role) -> bool:
     """Whether balls tell that a line through an end of an edge enters its obstacle there."""
     if isinstance(curve, Segment):
-        return not direction.cross(curve.direction).ball(BITS).contains(0)
+        return direction.cross(curve.direction).clear_sign(BITS) != 0
     far = -role if curve.ccw else role
-    return bool((end - curve.center).dot(direction).ball(BITS) * far > 0)
+    return (end - curve.center).dot(direction).clear_sign(BITS) == far
 
 
 def _shared(end: End, k: int, point: Point, place: Real) -> End:

@@ -14,7 +14,6 @@ from flint import fmpq
 
 from exactacq.curves import Arc
 from exactacq.points import Point
-from exactacq.reals import Real
 from exactacq.vision.glances import End, Glance, Pin, Strand
 from exactacq.vision.intervals import Interval
 from exactacq.vision.rails import Rail
@@ -63,7 +62,7 @@ class Seen:
         for hold in self._holds(e, point, end.tight, glance.strand):
             pin = self._held.get(hold)
             # A full circle's start has two parameters: a glance over it keeps the one on its side.
-            if pin is not None and _sign(pin[1] - end.places[1 - side]) == 0:
+            if pin is not None and (pin[1] - end.places[1 - side]).clear_sign(BITS) == 0:
                 here = end.points[side], end.places[side]
                 (p, u), (q, v) = (here, pin) if side == 0 else (pin, here)
                 return End(end.t, (p, q), (u, v), end.tight)
@@ -102,15 +101,10 @@ class Seen:
         curve = self.table.curves[e]
         if isinstance(curve, Arc):
             return self._turn(e, point)
-        return _sign((point - self.place).dot(curve.direction))
+        return (point - self.place).dot(curve.direction).clear_sign(BITS)
 
     def _turn(self, arc: int, point: Point) -> int:
         """1 or -1 as an arc's centre is to the left or right of the line from here to a point; as above."""
         curve = self.table.curves[arc]
         assert isinstance(curve, Arc)
-        return _sign((point - self.place).cross(curve.center - self.place))
-
-
-def _sign(value: Real) -> int:
-    ball = value.ball(BITS)
-    return 1 if ball > 0 else -1 if ball < 0 else 0
+        return (point - self.place).cross(curve.center - self.place).clear_sign(BITS)

@@ -73,8 +73,7 @@ class Leg:
         if self.edge is None:
             return None
         full = isinstance(self.rail.curve, Arc) and self.rail.curve.full
-        place = u.ball(BITS)
-        inside = bool(place > 0) and bool(place < self.rail.top.ball(BITS))
+        inside = u.clear_sign(BITS) > 0 and (self.rail.top - u).clear_sign(BITS) > 0
         return (self.edge,) if full or inside else None
 
     def upto(self, u: Real, place: Point) -> Leg:

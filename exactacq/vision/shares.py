@@ -299,6 +299,8 @@ def size(interval: Interval) -> float:
 
 def _called(interval: Interval, same: Mapping[int, Pin]) -> Interval:
     """An interval whose ends are replaced by what they are the same as, by identity of their parameters."""
+    if not same:
+        return interval
     start, low = same.get(id(interval.low), (interval.start, interval.low))
     end, high = same.get(id(interval.high), (interval.end, interval.high))
     return Interval(low, start, high, end)

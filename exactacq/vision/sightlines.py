@@ -150,7 +150,7 @@ class Family:
         return Sides.of_lines([(ray.place, ray.run[0]) for ray in self.rays])
 
 
-KEPT = 4096
+KEPT = 8192
 """Families that are remembered, the last used of each kind: enough for a wide neighbourhood, and a bound of
 the memory."""
 
