@@ -17,6 +17,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cmp_to_key
 from itertools import pairwise
+from math import floor, frexp
 from typing import TypeAlias
 
 import numpy as np
@@ -24,6 +25,7 @@ from flint import fmpq, fmpz
 
 from exactacq.contacts import line_contacts
 from exactacq.curves import Arc, Segment
+from exactacq.numerals import nearest_float
 from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.vision.crossings import Crossings
@@ -180,6 +182,8 @@ class _Sweep:
         ids = self.edges[table.kind[self.edges] == CONVEX]
         for e in self.own:
             ids = ids[ids != e]
+        if not len(ids):
+            return
         offsets, radii = table.center[ids] - sector.origin, table.radius[ids]
         for side, sign, guess, margin in sector.past_circles(offsets, radii, self.slack):
             yield from self._collect(ids, side, sign, guess, margin)
@@ -262,7 +266,15 @@ def _clusters(events: list[_Event]) -> Iterator[list[_Event]]:
 
 
 def rational_between(low: Real, high: Real) -> fmpq:
-    """A short rational strictly between two reals, near their middle."""
+    """A short rational strictly between two reals, near their middle; floats propose it where they can."""
+    first, last = low.rational, high.rational
+    if first is not None and last is not None:
+        a, b = nearest_float(first), nearest_float(last)
+        if b - a > 1e-9:
+            scale = 1 << max(4 - frexp(b - a)[1], 0)
+            between = fmpq(floor((a + b) / 2 * scale), scale)
+            if first < between < last:
+                return between
     bits = 64
     while True:
         (_, left_end), (right_end, _) = low.enclosure(bits), high.enclosure(bits)

@@ -208,7 +208,8 @@ class Sightlines:
         """
         edges = np.array(sorted(wanted), dtype=np.intp)
         reach = self.reach + 8 * self.table.roundoff
-        for e in edges[_gaps(self.table.boxes[edges], box) <= reach].tolist():
+        edges = edges[_gaps(self.table.boxes[edges], box) <= reach]
+        for e in edges.tolist():
             if e != own:
                 yield self._normals_of(e)
         if own is not None:

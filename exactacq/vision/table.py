@@ -23,6 +23,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 
 STRAIGHT, CONVEX, CONCAVE = 0, 1, -1
+NEAR_KEPT = 64
 
 
 class EdgeTable:
@@ -55,6 +56,7 @@ class EdgeTable:
         table = _array(circles, 3)
         self.center, self.radius = table[:, :2], table[:, 2]
         self.boxes: Floats = _array([box(c) for c in self.curves], 4)
+        self._near: dict[tuple[tuple[float, float], tuple[float, float], float], Ints] = {}
         self.magnitude = float(np.abs(self.boxes).max(initial=0.0))
         self.roundoff = 2.0**-50 * max(self.magnitude, float(self.radius.max(initial=0.0)))
 
@@ -83,9 +85,19 @@ class EdgeTable:
         return max(self.roundoff, *(2.0**-50 * max(abs(x), abs(y)) for x, y in places))
 
     def near(self, low: tuple[float, float], high: tuple[float, float], reach: float) -> Ints:
-        """The edges whose boxes come within *reach* of the box from *low* to *high*."""
-        r = reach + 8 * self.roundoff_at(low, high)
-        return self.index.query(low[0] - r, low[1] - r, high[0] + r, high[1] + r)
+        """The edges whose boxes come within *reach* of the box from *low* to *high*.
+
+        The last answers are kept: the pencils of a corner ask alike, and so do the ways along an edge.
+        """
+        found = self._near.get((low, high, reach))
+        if found is None:
+            if len(self._near) >= NEAR_KEPT:
+                self._near.clear()
+            r = reach + 8 * self.roundoff_at(low, high)
+            found = self.index.query(low[0] - r, low[1] - r, high[0] + r, high[1] + r)
+            found.flags.writeable = False
+            self._near[low, high, reach] = found
+        return found
 
     def distance_bounds(self, x: float, y: float, edges: Ints) -> Floats:
         """Lower bounds of the distances from a point to edges."""
