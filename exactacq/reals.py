@@ -200,6 +200,9 @@ class Real:
             return real(offset + factor * self.rational)
         if not factor:
             return real(offset)
+        if len(self._terms) == 1 and offset:
+            ((atom, c),) = self._terms.items()
+            return Real._form({atom: c * factor, 1: offset})
         terms = {atom: c * factor for atom, c in self._terms.items()}
         whole = terms.pop(1, None)
         whole = offset if whole is None else whole + offset
@@ -282,13 +285,14 @@ class Real:
 
     def sqrt(self) -> Real:
         """The non-negative square root; ValueError for a negative number."""
+        q = self.rational
+        if q is not None and q > 0:
+            return Real._form(square_root(q))
         sign = self.sign()
         if sign < 0:
             raise ValueError(f"square root of the negative number {self.decimal(20)}")
         if sign == 0:
             return Real(0)
-        if self.rational is not None:
-            return Real._form(square_root(self.rational))
         plain = denested(self._terms)
         return _sqrt_node(self) if plain is None else Real._form(plain)
 

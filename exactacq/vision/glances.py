@@ -233,11 +233,12 @@ class Ranges:
 
     def _touches(self, name: Any, edge: int) -> bool:
         """Whether a named line touches an edge's circle: then it meets the edge at the contact."""
-        kind, *features = name
         circle = self.circles.get(edge)
-        return circle is not None and (
-            (kind == "circles" and circle in features[:2])
-            or (kind == "corner, circle" and circle == features[1])
+        if circle is None:
+            return False
+        kind, *features = name
+        return (kind == "circles" and circle in features[:2]) or (
+            kind == "corner, circle" and circle == features[1]
         )
 
     def _passed(self, side: Side, contact: Point, direction: Point, passed: Passed) -> Point | None:

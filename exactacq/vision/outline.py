@@ -158,7 +158,8 @@ class _Outline:
             yield ViewPiece(ViewKind.RANGE, partial(range_circle, self.view))
             return
         for part, windows in merged:
-            yield from windows
+            if windows:
+                yield from windows
             yield self._piece(part)
 
     def _parts(self, sight: Sight) -> Iterator[_Part]:
@@ -191,7 +192,7 @@ class _Outline:
         """An end of what a sight sees of its facet, all of it within range."""
         panorama, facet = self.panorama, sight.facet
         rank, own = (sight.low, panorama.low) if is_low else (sight.high, panorama.high)
-        return panorama.at(facet, rank, is_low) if own[facet] == rank else _Hit(self.view, facet, rank)
+        return panorama.end(facet, is_low) if own[facet] == rank else _Hit(self.view, facet, rank)
 
     def _window(self, end: End, start: End, before: Sight, after: Sight) -> list[ViewPiece]:
         """What joins the end of one sight to the start of the next: nothing, a window, or an own edge."""
@@ -265,7 +266,10 @@ class _Outline:
         return Arc(start, end, self.view.point, self.view.radius_sq, ccw=True, full=start is end)
 
     def _edge(self, part: _Part, curve: Curve) -> Curve:
-        return _backwards(curve, self._resolved(part.end), self._resolved(part.start))
+        start, end = part.start, part.end
+        start = start if type(start) is Point else self._resolved(start)
+        end = end if type(end) is Point else self._resolved(end)
+        return Segment(start, end) if type(curve) is Segment else _backwards(curve, end, start)
 
 
 def _backwards(curve: Curve, start: Point, end: Point) -> Curve:

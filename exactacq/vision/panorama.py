@@ -287,11 +287,13 @@ class Panorama:
     def at(self, facet: int, rank: int, is_low: bool) -> Point:
         """The point of a facet in the direction of a rank that the facet covers, or that ends it."""
         if rank == (self.low if is_low else self.high)[facet]:
-            event = (self.ends_low if is_low else self.ends_high)[facet]
-            if event != NOWHERE:
-                return self.facets.place(event)
-            return self.table.curves[self.edges[facet]].start
+            return self.end(facet, is_low)
         return self.hit(facet, self.direction(rank))
+
+    def end(self, facet: int, is_low: bool) -> Point:
+        """The point that ends a facet."""
+        event = (self.ends_low if is_low else self.ends_high)[facet]
+        return self.table.curves[self.edges[facet]].start if event == NOWHERE else self.facets.place(event)
 
     def hit(self, facet: int, vector: Vector) -> Point:
         """The point of a facet in a direction that it covers.
