@@ -10,7 +10,7 @@ import atexit
 from abc import ABC, abstractmethod
 from collections.abc import Hashable
 from functools import lru_cache
-from math import log2
+from math import log2, prod
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeAlias
 from weakref import WeakValueDictionary
 
@@ -231,20 +231,22 @@ def atom_sympy(atom: Atom) -> sympy.Expr:
     return sqrt(Integer(atom)) if isinstance(atom, int) else atom.sympy()
 
 
+WHOLLY_FACTORED = 62
+"""Bits up to which a radicand is factored completely: that takes microseconds."""
+
+
 @lru_cache(maxsize=1 << 16)
 def square_free(n: int) -> tuple[int, int]:
     """(s, d) with n = s^2 d > 0, s as large as trial division and one perfect-square test find it."""
-    number, side = fmpz(n), fmpz(1)
-    factors = number.factor() if number.bit_length() <= 62 else number.factor_smooth(12)
-    rest = fmpz(1)
-    for factor, exponent in factors:
-        base, odd = fmpz(factor), exponent % 2
-        if not odd or not base.is_square():
-            side *= base ** (exponent // 2)
-            rest *= base if odd else fmpz(1)
-        else:
-            side *= base.isqrt() ** exponent
-    return int(side), int(rest)
+    if n.bit_length() <= WHOLLY_FACTORED:
+        side = prod(int(p) ** (exponent // 2) for p, exponent in fmpz(n).factor() if exponent > 1)
+        return side, n // (side * side)
+    side = 1
+    for factor, exponent in fmpz(n).factor_smooth(12):
+        base = fmpz(factor)
+        # The last factor may be composite, and a square.
+        side *= int(base.isqrt() ** exponent if base.is_square() else base ** (exponent // 2))
+    return side, n // (side * side)
 
 
 def rational_sqrt(q: fmpq) -> fmpq | None:

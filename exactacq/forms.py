@@ -55,9 +55,9 @@ def is_surd(terms: Terms) -> bool:
 
 
 def square_root(q: fmpq) -> dict[Atom, fmpq]:
-    """The square root of a positive rational."""
-    side, radicand = square_free(int(q.p * q.q))
-    return {radicand: fmpq(side) / q.q}
+    """The square root of a positive rational; its two parts are factored apart, as they are coprime."""
+    (over, a), (under, b) = square_free(int(q.p)), square_free(int(q.q))
+    return {a * b: fmpq(over * under) / q.q}
 
 
 def denested(terms: Terms) -> dict[Atom, fmpq] | None:
