@@ -318,6 +318,40 @@ def test_radicands_with_large_square_factors_are_the_same_radical() -> None:
     assert 1 / (left + right) == right / (2 * p * p * q)
 
 
+@settings(max_examples=100)
+@given(trees, trees)
+def test_balls_never_contradict_the_order(left: Tree, right: Tree) -> None:
+    """What balls say of a sign or of two numbers is what comparing says, or nothing."""
+    a, b = build(left), build(right)
+    assert a.overlaps(b) == b.overlaps(a)
+    assert a.overlaps(b) or a != b
+    assert (a - b).clear_sign(64) in (0, (a - b).sign())
+    for x in (a, b):
+        if x.rational is not None:
+            assert x.clear_sign(64) == x.sign()
+    if a.rational is not None and b.rational is not None:
+        assert a.overlaps(b) == (a == b)
+
+
+def test_balls_leave_a_hidden_zero_open() -> None:
+    hidden = ((sqrt(2) + sqrt(7)) ** 2 * (sqrt(3) + 1)).sqrt() - (sqrt(2) + sqrt(7)) * (sqrt(3) + 1).sqrt()
+    assert hidden.sign() == 0
+    assert hidden.clear_sign(256) == 0
+    assert hidden.overlaps(Real(0))
+
+
+@pytest.mark.parametrize(
+    "factors", [(1, 1), (4, 1), (2, 3**4), (10**9 + 7, 5), (2**40, 3**21), (97**2, (10**12 + 39) ** 2)]
+)
+def test_square_factors_leave_the_radical(factors: tuple[int, int]) -> None:
+    """Both parts of a fraction: what is left under the root is free of squares, and the square is right."""
+    p, q = factors
+    root = sqrt(Fraction(p, q))
+    assert root * root == Real(Fraction(p, q))
+    for atom in root.terms:
+        assert all(int(atom) % (k * k) for k in range(2, 1000))
+
+
 def test_roots_satisfy_their_polynomial() -> None:
     for coefficients in ([-2, 0, 0, 1], [1, -5, 0, 0, 0, 1], [6, -5, 1], [-1, -1, 1], [4, 0, -4, 0, 1]):
         found = roots(coefficients)

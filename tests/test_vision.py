@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from random import Random
 
 import pytest
+from flint import fmpq
 
 from exactacq import Circle, Outline, Point, Polygon, Scene, visibility_graph
 from exactacq.contacts import Family, nearest_points
 from exactacq.curves import Segment
 from exactacq.links import Links
+from exactacq.reals import Real
 from exactacq.vision.chords import Chord
 from exactacq.vision.clearance import is_free
 from exactacq.vision.families import free_pieces
 from exactacq.vision.legs import parts_of
+from exactacq.vision.pencil import rational_between
 from exactacq.vision.table import EdgeTable
 
 TINY = Fraction(1, 10**60)
@@ -155,3 +159,16 @@ def test_a_way_from_afar_is_cut_at_the_corner_that_it_touches() -> None:
     table = EdgeTable(Scene([Polygon([corner, (5, -4), (6, -4)])]).obstacles)
     start, end = (Point(corner[0] + s, corner[1] + s / 3) for s in (-far, Fraction(1)))
     assert [part.end for _, part in parts_of(table, Segment(start, end))] == [Point(*corner), end]
+
+
+@pytest.mark.parametrize("digits", [0, 1, 8, 9, 10, 15, 16, 17, 60, 400])
+def test_a_rational_between_two_numbers_is_strictly_between(digits: int) -> None:
+    """Wide gaps are told by floats, narrow ones by balls; no gap is too narrow, and no end is met."""
+    rng, gap = Random(digits), fmpq(1, 10**digits)
+    for low in (fmpq(rng.randint(-(10**6), 10**6), rng.randint(1, 10**6)) for _ in range(20)):
+        for a, b in (
+            (Real(low), Real(low + gap)),
+            (Real(low), Real(low) + Real(2).sqrt() * gap),
+            (Real(low) - Real(3).sqrt() * gap, Real(low)),
+        ):
+            assert a < Real(rational_between(a, b)) < b
