@@ -169,6 +169,17 @@ def test_cells_together_teach_what_the_piece_teaches(make: object, seed: int) ->
                 assert whole.knows(i, part.end)
 
 
+def test_a_room_without_any_convex_corner() -> None:
+    """There are no features at all, and no view is held: the walls behind and ahead pass the range."""
+    room = Scene([], enclosure=Polygon([(0, 0), (10, 0), (10, 10), (0, 10)]))
+    swept = sweep(room, Segment(Point(1, 5), Point(9, 5)), radius=3)
+    assert [(event.change, event.place.x) for event in swept.events] == [
+        (Change.EXIT, Point(3, 0).x),
+        (Change.ENTRY, Point(7, 0).x),
+    ]
+    assert swept.events[0].edge != swept.events[1].edge
+
+
 def test_errors() -> None:
     scene = Scene([Circle((5, 5), 3)])
     with pytest.raises(InvalidScene, match="radius"):

@@ -216,9 +216,9 @@ class Sightlines:
             yield self._normals_of(own)
         left, bottom, right, top = box.tolist()
         close = self._features_at[self.table.near((left, bottom), (right, top), self.reach)].ravel()
+        close = close[close >= 0]
         here = _gaps(self._spots[close], box)
-        near = (close >= 0) & (here <= reach)
-        close, here = close[near], here[near]
+        close, here = close[here <= reach], here[here <= reach]
         there = _gaps(self.table.boxes[edges], self._spots[close, None]).min(axis=1, initial=np.inf)
         for k in close[here + there <= reach].tolist():
             yield self._tangents_of(k)
