@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -558,47 +557,6 @@ def mp_length(curve: object) -> mpmath.mpf:
     elif turn < 0:
         turn += 2 * mpmath.pi
     return mpmath.sqrt(squared) * turn
-
-
-def cycles_left_by(run: Callable[[], xa.Run]) -> int:
-    """How many objects only a search for cyclic garbage can free after a run."""
-    gc.collect()
-    finished = run()
-    try:
-        return gc.collect()
-    finally:
-        assert finished.path
-
-
-class TestGarbage:
-    """Runs pause the search for cyclic garbage: so they must not leave any, and must resume it."""
-
-    @pytest.mark.parametrize("name", ["m11", "plate"])
-    def test_sightseer(self, name: str) -> None:
-        scene = xa.load(name)
-        assert cycles_left_by(lambda: xa.sightseer(scene)) < 100
-        assert gc.isenabled()
-
-    def test_seed_spreader(self) -> None:
-        scene = xa.load("relay")
-        assert cycles_left_by(lambda: xa.seed_spreader(scene)) < 100
-        assert gc.isenabled()
-
-    def test_a_run_that_fails_resumes_it_too(self) -> None:
-        def stop(visited: int, total: int) -> None:
-            raise KeyboardInterrupt
-
-        with pytest.raises(KeyboardInterrupt):
-            xa.sightseer(xa.load("m11"), progress=stop)
-        assert gc.isenabled()
-
-    def test_who_switched_it_off_finds_it_off(self) -> None:
-        gc.disable()
-        try:
-            xa.sightseer(xa.load("m11"))
-            assert not gc.isenabled()
-        finally:
-            gc.enable()
 
 
 class TestEnclosures:

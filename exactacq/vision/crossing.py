@@ -21,6 +21,7 @@ from exactacq.curves import Arc, Segment
 from exactacq.points import Point, distance_sq
 from exactacq.reals import Real
 from exactacq.vectors import dot, minus, raw
+from exactacq.vision.beams import Beam, Ray
 from exactacq.vision.chords import meet
 from exactacq.vision.glances import End, Glance, Pin, Role, Side, Strand
 from exactacq.vision.holds import Seen
@@ -30,7 +31,7 @@ from exactacq.vision.names import Names
 from exactacq.vision.pencil import pencil, rational_between
 from exactacq.vision.sectors import Rolling, Sector, Sliding, Spokes
 from exactacq.vision.sides import Sides, rough
-from exactacq.vision.sightlines import Beam, Ray, Sightlines
+from exactacq.vision.sightlines import Sightlines
 from exactacq.vision.table import EdgeTable
 
 Cut: TypeAlias = "tuple[Real, Pin | None, Names]"
@@ -87,8 +88,7 @@ class Crossing:
 
     def _across(self, beam: Beam, certain: bool) -> Iterator[Glance]:
         """The glances along a beam's lines; *certain* if each of them passes between the ends of the way."""
-        met = (beam.behind, beam.contact, beam.ahead)
-        if not any(side is not None and side.edge in self.wanted for side in met):
+        if not any(side.edge in self.wanted for side in beam.sides):
             return
         if not beam.sector.round and beam.anchor in self.touches:
             # Every line through a corner that the way touches crosses it there and shows nothing else.

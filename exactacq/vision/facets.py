@@ -253,8 +253,8 @@ class Facets:
             return vertex
         x, y = raw(curve.tangent(self.point))
         vector = x * sense, y * sense
-        xy = float(vector[0]), float(vector[1])
-        return self._mark(Mark(lambda: (self.point, vector), xy, EXACT, e, sense if curve.ccw else -sense))
+        xy, here = (float(vector[0]), float(vector[1])), self.point
+        return self._mark(Mark(lambda: (here, vector), xy, EXACT, e, sense if curve.ccw else -sense))
 
 
 def _touch(origin: Vector, arc: Arc, w: Vector, side: int) -> tuple[Point, Vector]:
