@@ -40,7 +40,6 @@ from exactacq.atoms import (
     atom_generators,
     atom_height,
     atom_sympy,
-    square_free,
 )
 from exactacq.errors import Undecided
 from exactacq.forms import (
@@ -566,9 +565,9 @@ def _primitive(x: Real) -> tuple[fmpq, Real]:
 def _sqrt_node(x: Real) -> Real:
     """sqrt of a form, its rational content taken out as far as it is a square."""
     divisor = content(x._terms)
-    side, rest = square_free(int(divisor.p * divisor.q))
-    inner = x._scaled(fmpq(rest) / divisor)
-    return Real.of_atom(Sqrt.make(inner))._scaled(fmpq(side) / divisor.q)
+    ((radicand, factor),) = square_root(divisor).items()
+    assert isinstance(radicand, int)
+    return Real.of_atom(Sqrt.make(x._scaled(fmpq(radicand) / divisor)))._scaled(factor)
 
 
 def roots(coefficients: Iterable[object]) -> list[Real]:

@@ -145,7 +145,7 @@ def _between_corners(table: EdgeTable, way: Segment, touches: Collection[Hashabl
     near = table.near((left, bottom), (right, top), 0.0)
     near = near[~table.full[near]]
     numbers = np.unique(np.concatenate((near, table.next[near])))
-    (x, y), (dx, dy) = way.start.xy, (float(d.ball(64).mid()) for d in way.direction)
+    (x, y), (dx, dy) = way.start.xy, (d.rough() for d in way.direction)
     offsets, length = table.start[numbers] - (x, y), math.hypot(dx, dy)
     sides = np.abs(offsets[:, 0] * dy - offsets[:, 1] * dx)
     stops: list[tuple[Real, Point]] = []
@@ -166,7 +166,7 @@ def _between_corners(table: EdgeTable, way: Segment, touches: Collection[Hashabl
 def _along_edges(table: EdgeTable, way: Segment) -> list[tuple[int | None, Segment]]:
     """A straight way in parts: along edges, with their numbers, and other ones with None between."""
     left, bottom, right, top = box(way)
-    dx, dy = (float(d.ball(64).mid()) for d in way.direction)
+    dx, dy = (d.rough() for d in way.direction)
     near = [e for e in table.near((left, bottom), (right, top), 0.0).tolist() if not table.kind[e]]
     edges, length = table.end[near] - table.start[near], math.hypot(dx, dy)
     sizes, slack = np.hypot(*edges.T), 16 * table.roundoff_at((left, bottom), (right, top))

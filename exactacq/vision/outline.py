@@ -158,8 +158,7 @@ class _Outline:
             yield ViewPiece(ViewKind.RANGE, partial(range_circle, self.view))
             return
         for part, windows in merged:
-            if windows:
-                yield from windows
+            yield from windows
             yield self._piece(part)
 
     def _parts(self, sight: Sight) -> Iterator[_Part]:
@@ -266,10 +265,7 @@ class _Outline:
         return Arc(start, end, self.view.point, self.view.radius_sq, ccw=True, full=start is end)
 
     def _edge(self, part: _Part, curve: Curve) -> Curve:
-        start, end = part.start, part.end
-        start = start if type(start) is Point else self._resolved(start)
-        end = end if type(end) is Point else self._resolved(end)
-        return Segment(start, end) if type(curve) is Segment else _backwards(curve, end, start)
+        return _backwards(curve, self._resolved(part.end), self._resolved(part.start))
 
 
 def _backwards(curve: Curve, start: Point, end: Point) -> Curve:

@@ -95,13 +95,12 @@ class View:
         """See `seen_from`."""
         found: dict[int, list[tuple[tuple[int, int], Span]]] = {}
         panorama = self.panorama
-        edge = panorama.facets.edge
         for sight in panorama.sights:
             if sight.facet < 0:
                 continue
             for span in self.spans(sight):
                 key = sight.facet, self._order(sight.facet, sight.high)
-                found.setdefault(int(edge[sight.facet]), []).append((key, span))
+                found.setdefault(panorama.edges[sight.facet], []).append((key, span))
         for ray in self.rays:
             self._add_ray(ray, found)
         self._add_own(found)
@@ -253,7 +252,7 @@ class View:
                 reached = True
             elif facet != BLOCKED and limited:
                 ends_here = (panorama.high if high else panorama.low)[facet] == rank
-                event = (facets.high if high else facets.low)[facet]
+                event = (panorama.ends_high if high else panorama.ends_low)[facet]
                 reached |= (ends_here and event == blocker) or (facet == struck and blocker is None)
             elif facet != BLOCKED:
                 place = panorama.at(facet, rank, not high)
@@ -321,7 +320,7 @@ class View:
         covered = {e for edge in ray.along for e in (edge, int(table.next[edge]))}
         for facet, high in ((panorama.first[ray.rank - 1], True), (panorama.first[ray.rank], False)):
             if facet >= 0 and (panorama.high if high else panorama.low)[facet] == ray.rank:
-                covered.add(int((facets.high if high else facets.low)[facet]))
+                covered.add((panorama.ends_high if high else panorama.ends_low)[facet])
         for e in ray.along:
             if e not in self.own:
                 curve = table.curves[e]
@@ -336,7 +335,7 @@ class View:
                 found.setdefault(event, []).append(((-2, 0), (place, place)))
                 continue
             for facet in np.flatnonzero((facets.low == event) | (facets.high == event)).tolist():
-                order = LAST if facets.low[facet] == event else -1
+                order = LAST if panorama.ends_low[facet] == event else -1
                 found.setdefault(panorama.edges[facet], []).append(((facet, order), (place, place)))
         if ray.struck is not None:
             key = ray.struck, self._order(ray.struck, ray.rank)
