@@ -278,6 +278,22 @@ def test_bad_files(capsys: pytest.CaptureFixture[str], tmp_path: Path, command: 
     assert list(tmp_path.iterdir()) == [path]
 
 
+def test_a_drawing_with_a_damaged_number_costs_one_line(tmp_path: Path) -> None:
+    """ezdxf's logger wrote "recovered invalid floating point value" beside the error.
+
+    In a process of its own: pytest's handlers would keep Python from printing it.
+    """
+    path = tmp_path / "damaged.dxf"
+    path.write_text(
+        EMPTY_DXF.replace("ENTITIES\n", "ENTITIES\n0\nLINE\n8\n0\n10\n1.2.3\n20\n0\n11\n1\n21\n1\n")
+    )
+    command = [sys.executable, "-m", "exactacq", "check", str(path), "--start", "0,0"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+    assert "damaged" in done.stderr
+
+
 @pytest.mark.parametrize("name", ["huge.json", "huge.dxf"])
 def test_200_megabytes_of_noise(capsys: pytest.CaptureFixture[str], tmp_path: Path, name: str) -> None:
     path = tmp_path / name

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
@@ -30,6 +31,9 @@ MAX_DEPTH = 16
 BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
 _OPENING = re.compile(rb"(?:\xef\xbb\xbf)?\s*(?:999[ \t]*\r?\n[^\n]*\n\s*)*0[ \t]*\r?\n[ \t]*SECTION\s")
 _ENTITY = re.compile(rb"\n[ \t]*0[ \t]*\r?\n[ \t]*[A-Z]")
+
+# Without a handler Python prints what ezdxf mends to standard error; the scene's notes count it.
+logging.getLogger("ezdxf").addHandler(logging.NullHandler())
 
 
 @dataclass(slots=True)
