@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator, Sequence
 from typing import Any
 
 from exactacq.bounds import sightseer_bounds, spreader_bounds
@@ -26,6 +26,14 @@ FORMAT, VERSION = "exactacq run", 2
 DIGITS = 20
 """Decimals beside exact values are for readers: they are not read back."""
 SENSED = {kind.value for kind in Kind}
+NAMES = {
+    "corner": ("corner",),
+    "circle": ("circle",),
+    "corners": ("corner", "corner"),
+    "corner, circle": ("corner", "circle", "crossing"),
+    "circles": ("circle", "circle", "crossing", "turn"),
+}
+"""What names hold after their first word: numbers of edges, a truth value, 1 or -1."""
 CLOSED = 200
 """Closed forms up to so many characters are written beside the decimals."""
 
@@ -87,7 +95,8 @@ def load_run(source: str | os.PathLike[str] | dict[str, Any]) -> Run:
 def _run(document: dict[str, Any]) -> Run:
     numbers = _Points(Decoder(document["numbers"]))
     scene = scene_of(document["scene"])
-    path = Path(_read_piece(numbers, piece) for piece in document["path"])
+    edges = [edge for obstacle in scene.obstacles for edge in obstacle.edges]
+    path = Path(_read_piece(numbers, piece, edges) for piece in document["path"])
     links = tuple(_read_link(numbers, link) for link in document["links"])
     radius, start = rational(document["radius"]), numbers.point(document["start"])
     if radius <= 0:
@@ -244,17 +253,36 @@ class _Points:
         return self._points[key]
 
 
-def _read_piece(numbers: _Points, document: dict[str, Any]) -> Piece:
+def _read_piece(numbers: _Points, document: dict[str, Any], edges: Sequence[Curve]) -> Piece:
     start, end = numbers.point(document["start"]), numbers.point(document["end"])
     curve: Curve = Segment(start, end)
     if "arc" in document:
         arc = document["arc"]
         center, square = numbers.point(arc["center"]), rational(arc["radius_sq"])
         curve = Arc(start, end, center, square, arc["ccw"] is True, arc["full"] is True)
-    if document["kind"] not in ("straight", "boundary"):
+    is_straight, obstacle = document["kind"] == "straight", _index(document["obstacle"])
+    if not is_straight and document["kind"] != "boundary":
         raise FormatError("a piece of the path is straight or boundary")
-    touches = tuple(tuple(name) for name in document.get("touches", ()))
-    return Piece(document["kind"], _index(document["obstacle"]), curve, touches)
+    if is_straight != (obstacle is None) or (is_straight and isinstance(curve, Arc)):
+        raise FormatError("a piece of the path is straight, or on the boundary of an obstacle")
+    touches = tuple(_read_name(name, edges) for name in document.get("touches", ()))
+    return Piece(document["kind"], obstacle, curve, touches)
+
+
+def _read_name(name: list[Any], edges: Sequence[Curve]) -> tuple[Hashable, ...]:
+    """What a straight piece touches (see `exactacq.vision.names`), with numbers as they were written."""
+    kind, *parts = name
+    roles = NAMES.get(str(kind))
+    if roles is None or len(parts) != len(roles):
+        raise FormatError(f"a piece touches something unknown: {str(name)[:40]}")
+    read: list[Hashable] = [str(kind)]
+    for role, part in zip(roles, parts, strict=True):
+        value = part is True if role == "crossing" else int(part)
+        known = role == "crossing" or (abs(value) == 1 if role == "turn" else 0 <= value < len(edges))
+        if not known or (role == "circle" and not isinstance(edges[value], Arc)):
+            raise FormatError(f"a piece touches a {role} that the scene does not have: {str(part)[:40]}")
+        read.append(value)
+    return tuple(read)
 
 
 def _read_link(numbers: _Points, document: dict[str, Any]) -> TreeLink:
