@@ -93,7 +93,8 @@ class Component:
 class Ground:
     """The components of a terrain: those that the robot can reach from the SW corner, and the others.
 
-    ``components`` are numbered in the order of their obstacles. The SW corner must be free.
+    ``components`` are numbered in the order of their obstacles, those of one obstacle as its boundary comes
+    to them from its first vertex. The SW corner must be free.
     """
 
     def __init__(self, obstacles: Sequence[Obstacle], terrain: Terrain) -> None:
@@ -113,7 +114,7 @@ class Ground:
             shore = arcs[reached[0]][1] if reached else ()
             hidden = tuple(arcs[k][1] for k in sorted(numbers - set(reached)))
             found.append((arcs[group[0]][0], shore, hidden, False, bool(reached)))
-        found.sort(key=lambda f: (f[0].index, min(p.edge for s in (f[1], *f[2]) for p in s)))
+        found.sort(key=lambda f: (f[0].index, min((p.edge, p.span.low) for s in (f[1], *f[2]) for p in s)))
         inside = [f[:4] for f in found if f[4]]
         owners = [f[0].index for f in inside]
         self.components = tuple(
@@ -281,6 +282,7 @@ class _Border:
             across = (point - side.start).cross(side.direction)
             if across.sign() == 0 and point != side.end and side.contains(point):
                 return k, (point - side.start).dot(side.direction)
+        # Arcs are cut where edges meet the four sides, and these are all of the border.
         raise AssertionError("an arc begins and ends on the border")
 
     @cached_property
@@ -289,6 +291,8 @@ class _Border:
         found, n = [], 0
         while n < len(self.ends):
             k, is_start = self.ends[n]
+            # `ground_of` has refused obstacles that hold the SW corner, so the border is free from there to
+            # the first end, and from each start to the next end.
             assert not is_start, "the SW corner is free"
             found.append(k)
             n = self.at[k, True] + 1
@@ -306,6 +310,8 @@ class _Border:
 
     def _after(self, arc: int) -> int:
         k, is_start = self.ends[(self.at[arc, False] + 1) % len(self.ends)]
+        # The sides of the border alternate: beside an arc's end it is blocked ahead, beside a start behind,
+        # and disjoint simple loops share no end.
         assert is_start, "a blocked stretch ends where an arc starts"
         return k
 

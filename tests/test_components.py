@@ -9,7 +9,7 @@ import pytest
 import shapely
 from sweeps import rectangle, swept_scene
 
-from exactacq import Circle, Point, Polygon, Real, Scene, Terrain
+from exactacq import Circle, Outline, Point, Polygon, Real, Scene, Terrain
 from exactacq.blocking import Blocking
 from exactacq.components import Component, Ground, ground_of
 from exactacq.curves import Segment
@@ -73,6 +73,16 @@ class TestComponents:
         """The place that stands for a loop must not be on the border."""
         found = ground([Circle((1, 5), 1), rectangle(4, -1, 5, 1)], 9, 8)
         assert [c.closed for c in found.components] == [True, False]
+
+    def test_a_cut_edge_leaves_the_numbers_as_they_are(self) -> None:
+        """The horns of a crescent were numbered by the edges they have parts of, in which both began at 0."""
+        crescent = [("5/2", 2, 1), ("5/2", 5, "-1/2")]
+        cut = [("5/2", 2, 1), ("5/2", 5, "-1/4"), ("1877/578", "983/289", "-2/9")]
+        for vertices in (crescent, cut):
+            found = ground([Outline(vertices)], 3, 12)
+            low, high = found.components
+            assert any(curve.start == Point("5/2", 2) for curve in low.edges)
+            assert any(curve.start == Point("5/2", 5) for curve in high.edges)
 
     def test_a_pocket_between_two_components(self) -> None:
         """What lies between a component and the border is not in reach, nor is an obstacle in it."""
