@@ -469,4 +469,6 @@ def _west_of(field: Field, parts: Sequence[_Part], obstacle: Obstacle) -> Hashab
         for n, part in enumerate(parts):
             if part.edge == met and not (at < part.low or at > part.high):
                 return n
+    # The westernmost point of a loop in the terrain is free to its west. The first edge there bounds the free
+    # region, so it is the part of some shore; without one the ray ends at a free stretch of the border.
     raise AssertionError("a ray in the terrain ends at a boundary in it, or at the border")

@@ -45,7 +45,8 @@ class Boundary:
             raise ValueError(f"{point} is not on the boundary")
         if len(candidates) == 1:
             return candidates[0]
-        return next((k for k in candidates if self.edges[k].start == point), candidates[0])
+        through = [k for k in candidates if self.edges[k].passes(point)]
+        return next((k for k in through if self.edges[k].start == point), through[0])
 
     def position(self, point: Point) -> Length:
         """Length of the walk from the first vertex to the point."""

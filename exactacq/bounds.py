@@ -170,5 +170,7 @@ def _distance(table: EdgeTable, i: int, j: int) -> Real:
         for found in nearest_points(table.curves[a[r]], table.curves[b[c]]):
             if least is None or found.distance_sq < least:
                 least = found.distance_sq
+    # The closest points of two compact sets are a closest pair of some two edges, and the loop breaks only
+    # after it has found a pair.
     assert least is not None, "two boundaries have a closest pair"
     return least.sqrt()

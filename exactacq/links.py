@@ -33,13 +33,13 @@ from exactacq.validation import sensor_flaws
 from exactacq.vision.chords import Chord, chord_at, critical
 from exactacq.vision.clearance import is_free, walk_line
 from exactacq.vision.families import free_pieces
-from exactacq.vision.fans import edges_at, fan
+from exactacq.vision.fans import fan
 from exactacq.vision.features import Feature, leaving
 from exactacq.vision.features import features as scene_features
 from exactacq.vision.mirrors import Mirrors
 from exactacq.vision.names import Namer
 from exactacq.vision.pencil import Cell, Pencil, pencil
-from exactacq.vision.table import STRAIGHT, EdgeTable, Floats, Ints
+from exactacq.vision.table import STRAIGHT, EdgeTable, Floats, Ints, quotient
 
 START = "S"
 Node: TypeAlias = "int | str"
@@ -353,7 +353,7 @@ class Links:
 
     def _fan_links(self, point: Point) -> dict[int, Link]:
         best: dict[int, _Best] = {}
-        for e in edges_at(self.table, point):
+        for e in self.table.edges_at(point):
             owner = int(self.table.owner[e])
             best.setdefault(owner, _Best(self.limit)).offer(Real(0), Chord(point, point, Real(0)))
         for sweep in fan(self.table, point, self.reach):
@@ -466,14 +466,14 @@ def _facing(table: EdgeTable, a: Ints, b: Ints) -> NDArray[np.bool_]:
 def _reach_right(table: EdgeTable, a: Ints, b: Ints) -> Floats:
     """How far at most edges b (columns) lie to the right of the edges a (rows); infinite for arcs a."""
     along = table.end[a] - table.start[a]
-    size = np.maximum(np.hypot(along[:, 0], along[:, 1]), 1e-300)
-    normal = np.stack((along[:, 1], -along[:, 0]), axis=1) / size[:, None]
+    size = np.hypot(along[:, 0], along[:, 1])
+    normal = np.stack((along[:, 1], -along[:, 0]), axis=1) / np.maximum(size, 1e-300)[:, None]
     straight = table.kind[b] == STRAIGHT
     offset = (normal * table.start[a]).sum(axis=1)[:, None]
     at_start, at_end = normal @ table.start[b].T - offset, normal @ table.end[b].T - offset
     at_center = normal @ table.center[b].T - offset + table.radius[b]
     right = np.where(straight, np.maximum(at_start, at_end), at_center)
-    margin = 64 * table.roundoff * (1 + np.minimum(table.magnitude, 1e300 * size) / size)[:, None]
+    margin = 64 * table.roundoff * (1 + np.minimum(quotient(table.magnitude, size), 1e60))[:, None]
     return np.where((table.kind[a] == STRAIGHT)[:, None], right + margin, np.inf)
 
 

@@ -91,6 +91,7 @@ class MLine:
                 if gap.begin.u.rational == 0 and not blocking.is_free(gap.obstacle, gap.begin.point):
                     component = found.pop().component
                 else:
+                    # `_owner` finds none only if both ends are blocked, and this beginning is free.
                     assert component is not None, "a stretch begins at its component"
                     found.append(Crossing(component, k, gap.begin, False))
                 found.append(Crossing(component, k, gap.end, True))

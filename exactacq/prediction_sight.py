@@ -156,6 +156,7 @@ class Sights:
             return True
         # At a lone end that is looked at, the boundary is taken to go straight on.
         leave = _Germ(-back.way, fmpq(0)) if leave is None and back is not None else leave
+        # Each of the three cases above knows one of the two germs.
         assert leave is not None
         back = _Germ(-leave.way, fmpq(0)) if back is None else back
         ways = [] if at_end else [sight.direction]

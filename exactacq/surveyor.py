@@ -151,6 +151,8 @@ class Surveyor(Robot):
             return None
         gap = self._gaps[self._passed]
         self._walk_straight(gap.begin.point, None)
+        # `Blocking` finds no component only where both ends of a stretch are blocked, and these can only be
+        # ends of the way: the robot's own place or its free goal.
         assert gap.component is not None, "a way between free points is blocked between them"
         self.at = gap.component.index
         return Hit(self.at, None)

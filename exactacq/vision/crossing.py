@@ -127,7 +127,13 @@ class Crossing:
     def _cuts(self, beam: Beam) -> list[Cut]:
         """A beam's ends, and the parameters between them of the lines through the way's ends, in order."""
         lines: list[tuple[Real, Pin]] = []
-        for pin, through in self._through_ends(beam.sector):
+        ends = self._through_ends(beam.sector)
+        # All normals of an arc pass its centre. If one end of the way is there, the line through the other
+        # one is the way's own, and its neighbours cross the way in the centre.
+        centers = [pin for pin, _ in ends if _is_center(beam.sector, pin[0])]
+        if centers:
+            ends = [(centers[0], through) for _, through in ends]
+        for pin, through in ends:
             for t in through:
                 same = next((k for k, (known, _) in enumerate(lines) if known.overlaps(t)), None)
                 if same is None:
@@ -354,6 +360,11 @@ def _edges_near(table: EdgeTable, point: Point) -> list[int]:
     x, y = point.xy
     near = (int(e) for e in table.near((x, y), (x, y), 0.0))
     return [e for e in near if table.curves[e].may_pass(point, BITS)]
+
+
+def _is_center(sector: Sector, point: Point) -> bool:
+    """Whether a point is the centre of the arc to which a sector's lines are normal."""
+    return isinstance(sector, Spokes) and point == Point(*sector.center)
 
 
 def _by_parameter(a: tuple[Real, Pin], b: tuple[Real, Pin]) -> int:

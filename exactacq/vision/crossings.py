@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from exactacq.vision.table import STRAIGHT, EdgeTable, Floats, Ints
+from exactacq.vision.table import STRAIGHT, EdgeTable, Floats, Ints, quotient
 
 
 class Crossings:
@@ -44,7 +44,7 @@ class Crossings:
         difference = s1 - s0
         difference[difference == 0] = 1.0
         tau = (a0 * s1 - a1 * s0) / difference
-        error = 4 * slack * (1 + (np.abs(a0) + np.abs(a1)) / np.maximum(np.abs(difference), 1e-300))
+        error = 4 * slack * (1 + quotient(np.abs(a0) + np.abs(a1), np.abs(difference)))
         hit = ((s0 < 0) != (s1 < 0)) & ~unsure
         parts: list[tuple[NDArray[Any], ...]] = [
             (np.broadcast_to(straight, hit.shape), hit, unsure, tau, error, enters)
@@ -57,7 +57,7 @@ class Crossings:
             g, h = _frame(middle, contact, direction)
             square = np.where(through, h * h, (radius - g) * (radius + g))
             half = np.sqrt(np.maximum(square, 0.0))
-            thick = slack * (1 + 4 * radius / np.maximum(half, 1e-300))
+            thick = slack * (1 + quotient(4 * radius, half))
             chord = end[curved] - start[curved]
             for sign in (1, -1):
                 tau = h + sign * half

@@ -22,7 +22,7 @@ from exactacq.contacts import spans
 from exactacq.curves import Arc, Curve, Segment
 from exactacq.points import Point
 from exactacq.vectors import Vector, advance, cross, dot, minus, raw, sign, square_root
-from exactacq.vision.features import is_spike
+from exactacq.vision.features import is_spike, parallel
 from exactacq.vision.table import STRAIGHT, EdgeTable, Ints
 
 SLACK = 8.0
@@ -179,7 +179,9 @@ class Facets:
         end = int(table.next[e])
         w = minus(raw(arc.center), self.origin)
         outside = size > radius
-        if not abs(size - radius) > 8 * slack:
+        if any(table.circles.get(own) == table.circles[e] for own in self.own):
+            outside = False  # An own edge is another arc of the same circle, so the point is on it.
+        elif not abs(size - radius) > 8 * slack:
             outside = sign(dot(w, w) - arc.radius_sq) > 0
         if not outside:
             whole = NOWHERE if arc.full else e
@@ -241,7 +243,7 @@ class Facets:
                 arcs.append((incoming, high, incoming))
             if isinstance(after, Arc) and not after.ccw:
                 arcs.append((outgoing, int(table.next[outgoing]), low))
-        if len(self.own) == 2 and _parallel(self.offset(low), self.offset(high)):
+        if len(self.own) == 2 and parallel(self.offset(low), self.offset(high)):
             return None if is_spike(before, after) else Cone(low, low)
         return Cone(low, high)
 
@@ -268,28 +270,3 @@ def _touch(origin: Vector, arc: Arc, w: Vector, side: int) -> tuple[Point, Vecto
     g = square_root(excess * arc.radius_sq) * side
     vector = w[0] * excess - w[1] * g, w[1] * excess + w[0] * g
     return advance(origin, vector, 1 / square), vector
-
-
-def enters(incoming: Curve, outgoing: Curve, before: Vector, after: Vector, direction: Vector) -> bool:
-    """Whether a ray from a boundary point leads straight into its obstacle.
-
-    *before* and *after* are the directions of travel into and out of the point. Along an edge the ray is free
-    if the edge is straight or convex.
-    """
-    back = -before[0], -before[1]
-    along = [_parallel(after, direction), _parallel(back, direction)]
-    curls = [isinstance(c, Arc) and not c.ccw for c in (outgoing, incoming)]
-    turn = sign(cross(after, back))
-    if turn == 0 and sign(dot(after, back)) > 0:
-        spike = is_spike(incoming, outgoing)
-        if not along[0]:
-            return not spike
-        return all(curls) if spike else any(curls)
-    if along[0] or along[1]:
-        return curls[0] if along[0] else curls[1]
-    left, right = sign(cross(after, direction)) > 0, sign(cross(direction, back)) > 0
-    return (left and right) if turn > 0 else left if turn == 0 else (left or right)
-
-
-def _parallel(a: Vector, b: Vector) -> bool:
-    return sign(cross(a, b)) == 0 and sign(dot(a, b)) > 0

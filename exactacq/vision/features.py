@@ -7,6 +7,7 @@ of the incoming edge to that of the outgoing one. The range is cut into `Sector`
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from flint import fmpq
@@ -14,7 +15,7 @@ from flint import fmpq
 from exactacq.curves import Arc, Curve
 from exactacq.points import Point
 from exactacq.reals import Real
-from exactacq.vectors import cross, dot
+from exactacq.vectors import cross, dot, raw, sign
 from exactacq.vision.sectors import Sector, Vector, corner_sectors, round_sectors
 from exactacq.vision.table import EdgeTable
 
@@ -83,6 +84,39 @@ def _curvature(curve: Curve) -> Real:
     if not isinstance(curve, Arc):
         return Real(0)
     return 1 / curve.radius if curve.ccw else -1 / curve.radius
+
+
+def enters(incoming: Curve, outgoing: Curve, before: Vector, after: Vector, direction: Vector) -> bool:
+    """Whether a ray from a boundary point leads straight into its obstacle.
+
+    *before* and *after* are the directions of travel into and out of the point. Along an edge the ray is free
+    if the edge is straight or convex.
+    """
+    back = -before[0], -before[1]
+    along = [parallel(after, direction), parallel(back, direction)]
+    curls = [isinstance(c, Arc) and not c.ccw for c in (outgoing, incoming)]
+    turn = sign(cross(after, back))
+    if turn == 0 and sign(dot(after, back)) > 0:
+        spike = is_spike(incoming, outgoing)
+        if not along[0]:
+            return not spike
+        return all(curls) if spike else any(curls)
+    if along[0] or along[1]:
+        return curls[0] if along[0] else curls[1]
+    left, right = sign(cross(after, direction)) > 0, sign(cross(direction, back)) > 0
+    return (left and right) if turn > 0 else left if turn == 0 else (left or right)
+
+
+def parallel(a: Vector, b: Vector) -> bool:
+    """Whether two vectors have the same direction."""
+    return sign(cross(a, b)) == 0 and sign(dot(a, b)) > 0
+
+
+def directions_at(table: EdgeTable, point: Point, own: Iterable[int]) -> Iterator[Vector]:
+    """Directions of the edges through a point: there a line about it passes from free to blocked."""
+    for e in own:
+        curve = table.curves[e]
+        yield raw(curve.tangent(point) if isinstance(curve, Arc) else curve.direction)
 
 
 def leaving(curve: Curve, at_end: bool) -> Vector:

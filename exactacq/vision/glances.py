@@ -16,7 +16,7 @@ from enum import IntEnum
 from functools import cmp_to_key, partial
 from itertools import pairwise
 from math import hypot
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeGuard
 
 from flint import fmpq
 
@@ -341,16 +341,27 @@ class Ranges:
             contact, direction = strand.sector.touch(t)
             # 0: the two sides meet there, as where a way touches a circle.
             if role == 0 or (point - contact).dot(direction).sign() in (0, role):
-                other = self._point(strand.sector, strand.sides[1 - side], contact, direction)
+                near, far = (self.curve(strand.sides[k].edge) for k in (side, 1 - side))
+                other = _along_normal(sector, strand.sides[1 - side].role, near, far, point, direction)
+                if other is None:
+                    other = self._point(sector, strand.sides[1 - side], contact, direction)
                 points = (point, other) if side == 0 else (other, point)
                 places = [self.rails[s.edge].parameter(p) for s, p in zip(strand.sides, points, strict=True)]
                 return End(t, points, (places[0], places[1]))
+        # Each point of the plane, but for one that all lines may share, lies on one line of a family on that
+        # side of the contact: on one half tangent of a circle, one ray from a corner, one normal. So where
+        # the lines meet a side moves along it without turning back, through all places between the extreme
+        # ones. Where they all meet it in the shared point, the centre of an arc to which they are normal,
+        # there is no place between: `pencil` parts such normals from the others.
         raise AssertionError("a line of the glance passes each point between its extreme views")
 
     def _point(self, sector: Sector, side: Side, contact: Point, direction: Point) -> Point:
         curve = self.curve(side.edge)
         if side.role is Role.CONTACT:
             return curve.start if side.fixed else contact
+        center = _met_in_center(sector, curve, direction, side.role)
+        if center is not None:
+            return center
         try:
             if isinstance(curve, Segment) and curve.start.rational is not None:
                 # Linear in one number, and with an edge's own abscissa if that is vertical: ties show.
@@ -359,10 +370,9 @@ class Ranges:
                 return curve.start + along * share
             return contact + direction * meet(contact, direction, curve, side.role)
         except ZeroDivisionError:
-            # A line along the edge. All others of the family meet it in one point, the centre of the arc to
-            # which they are normal: that is the limit.
-            assert isinstance(sector, Spokes)
-            return Point(*sector.center)
+            # A line along the edge: where the others meet the edge has a limit. Normals of an arc all pass
+            # through its centre. A tangent meets another one half way, by angle, between the two contacts.
+            return Point(*sector.center) if isinstance(sector, Spokes) else contact
 
     def _is_inside(self, strand: Strand, t: fmpq) -> bool:
         contact, direction = strand.sector.touch(Real(t))
@@ -458,8 +468,45 @@ class Ranges:
         return Real(self.square)
 
 
+def _along_normal(
+    sector: Sector, role: Role, near: Curve, far: Curve, point: Point, direction: Point
+) -> Point | None:
+    """Where a normal of an arc that passes a point of a curve meets an arc with the same centre, if it does.
+
+    Of concentric arcs each has the normals of the other. So that both tell of the same point, it is made
+    from the given one: c + (p - c) r / |p - c|, or on the other side of the centre.
+    """
+    if not isinstance(sector, Spokes) or not _is_about(far, sector):
+        return None
+    offset = point - far.center
+    ahead = offset.dot(direction).clear_sign(BITS)
+    if not ahead:
+        return None
+    size = near.radius if _is_about(near, sector) else offset.norm_sq().sqrt()
+    side = -role if far.ccw else int(role)
+    if role is Role.CONTACT:
+        side = 1 if sector.outward else -1
+    return far.center + offset * (far.radius / size * (ahead * side))
+
+
+def _is_about(curve: Curve, sector: Sector) -> TypeGuard[Arc]:
+    """Whether a curve is an arc about the centre of a sector."""
+    return isinstance(curve, Arc) and curve.center.rational == sector.center
+
+
+def _met_in_center(sector: Sector, curve: Curve, direction: Point, role: Role) -> Point | None:
+    """The centre of an arc, if that is where a normal of the arc meets an edge: then all of them do."""
+    if not isinstance(sector, Spokes):
+        return None
+    center = Point(*sector.center)
+    if not curve.may_pass(center, BITS) or not curve.passes(center):
+        return None
+    ends = (end for end in (curve.start, curve.end) if end == center)
+    return next(ends, center) if _is_met(direction, curve, center, role) else None
+
+
 def _is_met(direction: Point, curve: Curve, end: Point, role: Role) -> bool:
-    """Whether balls tell that a line through an end of an edge enters its obstacle there."""
+    """Whether balls tell that a line through a point of an edge, perhaps an end, enters its obstacle."""
     if isinstance(curve, Segment):
         return direction.cross(curve.direction).clear_sign(BITS) != 0
     far = -role if curve.ccw else role

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Hashable
+from collections.abc import Collection, Hashable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -106,20 +106,20 @@ def legs_of(
     *touches* is what a straight piece touches.
     """
     if obstacle is None:
+        # The robots walk arcs only along boundaries; `load_run` refuses other pieces.
         assert isinstance(curve, Segment), "free space is crossed on straight lines"
         return [
             _through_space(part, touches) if e is None else _on_edge(rails[e], e, part)
             for e, part in parts_of(table, curve, touches)
         ]
-    e = next(e for e in table.edges_of(obstacle) if _carries(table.curves[e], curve))
-    rail, start, end = rails[e], curve.start, curve.end
+    e = _edge_of(table.curves, table.edges_of(obstacle), curve)
+    rail = rails[e]
     if isinstance(curve, Segment):
         return [_on_edge(rail, e, curve)]
-    low, high = rail.parameter(start), rail.parameter(end)
-    assert isinstance(rail.curve, Arc)
+    assert isinstance(rail.curve, Arc), "an arc is carried by an arc"
     ahead = curve.ccw == rail.curve.ccw
-    if not ahead:
-        start, end, low, high = end, start, high, low
+    start, end = (curve.start, curve.end) if ahead else (curve.end, curve.start)
+    low, high = rail.parameter(start), rail.parameter(end)
     if low.compare(high) < 0:
         return [Leg(rail, e, Interval(low, start, high, end), ahead)]
     seam = rail.curve.start
@@ -207,14 +207,46 @@ def _through_space(piece: Segment, touches: tuple[Hashable, ...]) -> Leg:
     return Leg(rail, None, Interval(low, piece.start, high, piece.end), True, touches)
 
 
-def _carries(edge: Curve, piece: Curve) -> bool:
-    """Whether an edge may carry a piece of its boundary: both ends, and the circle of an arc."""
+def _edge_of(curves: Sequence[Curve], edges: Iterable[int], piece: Curve) -> int:
+    """The edge, of those of one boundary, that carries a piece of it; balls leave one or a few.
+
+    ValueError if none does.
+    """
+    near = [e for e in edges if _may_carry(curves[e], piece)]
+    found = near if len(near) == 1 else [e for e in near if _carries(curves[e], piece)]
+    if not found:
+        raise ValueError(f"no edge of the boundary carries {piece}")
+    return found[0]
+
+
+def _may_carry(edge: Curve, piece: Curve) -> bool:
+    """False only if an edge certainly does not carry a piece."""
     if isinstance(edge, Arc) != isinstance(piece, Arc):
         return False
-    circle = (edge.radius_sq, *edge.center) if isinstance(edge, Arc) else ()
-    if circle != ((piece.radius_sq, *piece.center) if isinstance(piece, Arc) else ()):
+    if isinstance(edge, Arc) and isinstance(piece, Arc) and not _is_same_circle(edge, piece):
         return False
-    return all(edge.may_pass(p, 256) for p in (piece.start, piece.end))
+    return all(edge.may_pass(p, BITS) for p in (piece.start, piece.end))
+
+
+def _carries(edge: Curve, piece: Curve) -> bool:
+    """Whether an edge carries all of a piece, which is no longer than a full turn.
+
+    Two edges of one circle may share both ends of the piece: the one that carries it runs from the first
+    to the second, in its own direction, without passing its start.
+    """
+    if not (edge.passes(piece.start) and edge.passes(piece.end)):
+        return False
+    if not (isinstance(edge, Arc) and isinstance(piece, Arc)):
+        return True
+    if piece.full or edge.full:
+        return edge.full
+    ends = (piece.start, piece.end) if piece.ccw == edge.ccw else (piece.end, piece.start)
+    first, last = (Rail(edge).parameter(end) for end in ends)
+    return first.compare(last) < 0
+
+
+def _is_same_circle(a: Arc, b: Arc) -> bool:
+    return a.radius_sq == b.radius_sq and a.center.rational == b.center.rational
 
 
 def _rational_carrier(piece: Segment) -> Segment | None:

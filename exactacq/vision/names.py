@@ -12,7 +12,9 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterator
 from typing import TypeAlias
 
+from exactacq.curves import Arc
 from exactacq.reals import Real
+from exactacq.vectors import minus, raw
 from exactacq.vision.features import Feature
 from exactacq.vision.pencil import Passed
 from exactacq.vision.sectors import Sector
@@ -50,13 +52,24 @@ class Namer:
     def _corner(
         self, feature: Feature, sector: Sector, t: Real, passed: Passed
     ) -> Iterator[tuple[Hashable, int]]:
+        """A float is enough to tell ahead from behind.
+
+        What is passed is a vertex on the line or a circle, whose centre lies to the right of the way from the
+        corner to where the line touches it if *sign* is 1, else to the left. So of the products of the exact
+        offset of vertex or centre with the line's direction, the larger one, along or across, is at least 0.7
+        times the product of their lengths: its sign is beyond doubt. Only the one across remains where the
+        corner lies on the circle.
+        """
         own = feature.edges[1]
         x, y = sector.touch(t)[1].xy
         for number, side, sign in passed:
-            # On the line, and not at the contact: no float can mistake ahead for behind.
-            middle = self.table.center if side else self.table.start
-            px, py = middle[number] - self.table.start[own]
-            ahead = 1 if px * x + py * y > 0 else -1
+            curve = self.table.curves[number]
+            place = raw(curve.center) if side and isinstance(curve, Arc) else self.table.vertices[number]
+            px, py = (float(c) for c in minus(place, self.table.vertices[own]))
+            along, across = px * x + py * y, x * py - y * px
+            if abs(along) < abs(across):
+                along = -sign * across
+            ahead = 1 if along > 0 else -1
             if side:
                 yield ("corner, circle", own, self.table.circles[number], sign > 0), ahead
             else:

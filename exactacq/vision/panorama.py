@@ -22,9 +22,9 @@ from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.vectors import Vector, advance, cross, minus, raw, sign
 from exactacq.vision.chords import meet
-from exactacq.vision.facets import NOWHERE, VAGUE, Facets, enters
-from exactacq.vision.features import leaving
-from exactacq.vision.table import STRAIGHT, EdgeTable, Floats, Ints
+from exactacq.vision.facets import NOWHERE, VAGUE, Facets
+from exactacq.vision.features import enters, leaving
+from exactacq.vision.table import STRAIGHT, EdgeTable, Floats, Ints, quotient
 
 NOTHING, BLOCKED = -1, -2
 """First facets of cells without one: nothing within reach, and inside the point's own obstacle."""
@@ -124,7 +124,7 @@ class Panorama:
         vertices = (ids >= 0) & (ids < count)
         xy[vertices] = self.table.start[ids[vertices]] - facets.xy
         size, slack = np.hypot(xy[:, 0], xy[:, 1]), facets.slack
-        margin = np.where(size > 16 * slack, 2 * slack / np.maximum(size, 1e-300) + 2e-15, VAGUE)
+        margin = np.where(size > 16 * slack, quotient(2 * slack, size) + 2e-15, VAGUE)
         for k in np.flatnonzero(~vertices).tolist():
             if ids[k] >= 0:
                 mark = facets.marks[int(ids[k]) - count]
@@ -218,7 +218,7 @@ class Panorama:
         clear = np.abs(below)
         sure = clear > 8 * doubt
         tau = above[facet] / np.where(sure, below, 1.0)
-        error = np.where(sure, 2 * (spread[facet] + np.abs(tau) * doubt) / np.maximum(clear, 1e-300), inf)
+        error = np.where(sure, quotient(2 * (spread[facet] + np.abs(tau) * doubt), clear), inf)
         if facets.curved:
             edge = facets.edge[facet]
             curved = np.flatnonzero(table.kind[edge] != STRAIGHT)
@@ -228,7 +228,7 @@ class Panorama:
             off = 4 * slack + (np.abs(w).sum(axis=1) + radius) * rough
             half = np.sqrt(np.maximum((radius - np.abs(across)) * (radius + np.abs(across)), 0.0))
             tau[curved] = along - table.kind[e] * half
-            error[curved] = np.where(half > 8 * off, off * (2 + 4 * radius / np.maximum(half, 1e-300)), inf)
+            error[curved] = np.where(half > 8 * off, off * (2 + quotient(4 * radius, half)), inf)
         return tau, error
 
     def nearest(self, direction: Vector, facets: Iterable[int]) -> int:

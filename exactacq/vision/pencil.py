@@ -28,8 +28,10 @@ from exactacq.curves import Arc, Segment
 from exactacq.numerals import nearest_float
 from exactacq.points import Point
 from exactacq.reals import Real
+from exactacq.vectors import raw
 from exactacq.vision.crossings import Crossings
-from exactacq.vision.sectors import Sector, Vector
+from exactacq.vision.features import directions_at, enters
+from exactacq.vision.sectors import Sector, Spokes, Vector
 from exactacq.vision.table import CONVEX, STRAIGHT, EdgeTable, Floats, Ints
 
 CHUNK = 1 << 18
@@ -107,19 +109,30 @@ class _Sweep:
             if sector.round or table.kind[e] == STRAIGHT:
                 edges = edges[edges != e]
         self.edges = edges
+        # The edges through the centre of an arc whose normals go there: all of these pass that point.
+        self.through: tuple[int, ...] = ()
+        if isinstance(sector, Spokes) and not sector.outward:
+            self.through = table.edges_at(Point(*sector.center))
 
     def run(self) -> Pencil:
         lines = self._events()
         middles = [rational_between(a, b) for (a, _), (b, _) in pairwise(lines)]
         cells: list[Cell] = []
-        for ((low, first), (high, last)), (behind, ahead) in zip(
-            pairwise(lines), self._meets(middles), strict=True
+        was_at_center = False
+        for ((low, first), (high, last)), middle, (behind, ahead) in zip(
+            pairwise(lines), middles, self._meets(middles), strict=True
         ):
             cell = Cell(low, high, behind, ahead, (first, last))
-            if cells and (cells[-1].behind, cells[-1].ahead) == (behind, ahead):
+            at_center = self._is_at_center(middle, ahead)
+            if (
+                cells
+                and (cells[-1].behind, cells[-1].ahead) == (behind, ahead)
+                and at_center == was_at_center
+            ):
                 before = cells.pop()
                 cell = Cell(before.low, high, behind, ahead, (before.bounds[0], last))
             cells.append(cell)
+            was_at_center = at_center
         pinches = tuple(value for value, passed in lines if len(passed) > 1)
         return Pencil(self.sector, tuple(cells), pinches)
 
@@ -162,7 +175,8 @@ class _Sweep:
 
     def _break_events(self) -> Iterator[_Event]:
         x, y = self.sector.center
-        for dx, dy in self.breaks:
+        at_center = directions_at(self.table, Point(x, y), self.through)
+        for dx, dy in (*self.breaks, *at_center):
             value = self.sector.exact((x + dx, y + dy), fmpq(0), 0, 0)
             if value is not None and self.sector.low <= value <= self.sector.high:
                 yield _Event(float(value), 1e-15, -1, 0, 0, value)
@@ -231,8 +245,16 @@ class _Sweep:
     def _exact_meet(self, middle: fmpq, edges: Ints) -> tuple[int | None, int | None]:
         contact, direction = self.sector.touch(Real(middle))
         nearest: dict[int, tuple[Real, int]] = {}
+        center = (Point(*self.sector.center) - contact).dot(direction) / direction.norm_sq()
+        if self._is_blocked_at_center(direction):
+            nearest[1] = (
+                center,
+                next(e for e in self.through[::-1] if self._enters(contact, direction, center, e, 1)),
+            )
         for e in edges:
             for tau in line_contacts(contact, direction, self.table.curves[e]):
+                if e in self.through and tau.compare(center) == 0:
+                    continue
                 side = tau.sign()
                 if side == 0 and e not in self.own and isinstance(self.table.curves[e], Arc):
                     # A normal of a way where the way touches this arc.
@@ -241,6 +263,30 @@ class _Sweep:
                     nearest[side] = tau, int(e)
         proper = {s: e for s, (tau, e) in nearest.items() if self._enters(contact, direction, tau, e, s)}
         return proper.get(-1), proper.get(1)
+
+    def _is_blocked_at_center(self, direction: Point) -> bool:
+        """Whether a normal enters an obstacle in the centre of the arc, on a boundary that goes through it.
+
+        Where that is a corner, no edge tells it alone, though one at least is entered if the obstacle is.
+        """
+        if not self.through:
+            return False
+        incoming, outgoing = self.table.curves[self.through[0]], self.table.curves[self.through[-1]]
+        ways = list(directions_at(self.table, Point(*self.sector.center), self.through))
+        return enters(incoming, outgoing, ways[0], ways[-1], raw(direction))
+
+    def _is_at_center(self, middle: fmpq, ahead: int | None) -> bool:
+        """Whether a normal meets the edge ahead in the centre of the arc.
+
+        Then all normals of a family do; others, which meet the same arc elsewhere, are another family.
+        """
+        if ahead is None or ahead not in self.through:
+            return False
+        contact, direction = self.sector.touch(Real(middle))
+        center = (Point(*self.sector.center) - contact).dot(direction) / direction.norm_sq()
+        return isinstance(self.table.curves[ahead], Segment) or self._enters(
+            contact, direction, center, ahead, 1
+        )
 
     def _enters(self, contact: Point, direction: Point, tau: Real, e: int, side: int) -> bool:
         """Whether the line, followed ahead (side 1) or back (-1), passes from free to blocked at an edge."""

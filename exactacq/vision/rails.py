@@ -89,4 +89,6 @@ class Rail:
             along, across = dot(base, radius), cross(base, radius) * self._sense
             if sign(along) > 0 and sign(across) >= 0:
                 return Real(k + across / (self.curve.radius_sq + along))
+        # The four half-open quarters are disjoint and cover the plane but for its origin, the centre, which
+        # is not on the circle.
         raise AssertionError("one of four quarter turns contains every direction")

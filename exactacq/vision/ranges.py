@@ -146,5 +146,8 @@ def _of_arc(arc: Arc, ends: Span, excess: tuple[int, ...], center: Vector, radiu
 
 
 def _is_side(point: Point, arc: Arc, w: Vector, excess: int, side: int) -> bool:
-    """Whether a point of the circle is its crossing of the range to the left (1) or right (-1) of w."""
-    return excess == 0 and sign(cross(w, minus(raw(point), raw(arc.center)))) == side
+    """Whether a point of the circle is its crossing of the range to the left (1) or right (-1) of w.
+
+    Where the range only touches the circle, the two crossings are one point.
+    """
+    return excess == 0 and sign(cross(w, minus(raw(point), raw(arc.center)))) in (0, side)

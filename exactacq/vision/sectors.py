@@ -27,7 +27,7 @@ from flint import fmpq
 from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.vectors import cross, dot, sign
-from exactacq.vision.table import Floats
+from exactacq.vision.table import Floats, quotient
 
 Vector: TypeAlias = "tuple[Any, Any]"
 Guess: TypeAlias = "tuple[int, int, Floats, Floats]"
@@ -105,7 +105,7 @@ class Sector(ABC):
         x = offsets @ self.unit
         y = offsets @ np.array((-self.unit[1], self.unit[0]))
         size = np.hypot(x, y)
-        error = np.minimum(slack / np.maximum(size, 1e-300), 1.0) + 1e-14
+        error = np.minimum(quotient(slack, size), 1.0) + 1e-14
         return size, np.arctan2(y, x), error
 
 
@@ -134,7 +134,7 @@ class Turning(Sector):
 
     def past_circles(self, offsets: Floats, radii: Floats, slack: float) -> Iterator[Guess]:
         size, angle, error = self._polar(offsets, slack)
-        ratio = radii / np.maximum(size, 1e-300)
+        ratio = quotient(radii, size)
         wing = np.arcsin(np.clip(ratio, -1.0, 1.0))
         margin = 4 * (error + _arc_error(ratio, error))
         for turn in (1, -1):
@@ -202,7 +202,7 @@ class Rolling(Sector):
     def _past(self, offsets: Floats, radii: Floats | float, turn: int, slack: float) -> tuple[Floats, Floats]:
         """The line touching another circle (radius 0: through a point); negative radii lie to the right."""
         size, angle, error = self._polar(offsets, slack)
-        ratio = (self.size + radii) / np.maximum(size, 1e-300)
+        ratio = quotient(self.size + radii, size)
         wing = np.arccos(np.clip(ratio, -1.0, 1.0))
         turned = np.remainder(angle + turn * wing + np.pi, 2 * np.pi) - np.pi
         guess, margin = np.tan(turned / 2), 4 * (error + _arc_error(ratio, error))

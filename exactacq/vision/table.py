@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from exactacq.boxes import BoxIndex, box
 from exactacq.curves import Arc, Curve, Segment
+from exactacq.points import Point
 from exactacq.scene import Obstacle
 from exactacq.vectors import raw
 
@@ -24,6 +25,8 @@ Ints = NDArray[np.intp]
 
 STRAIGHT, CONVEX, CONCAVE = 0, 1, -1
 NEAR_KEPT = 64
+BITS = 64
+"""Precision of the balls that tell which edges are not near a point."""
 
 
 class EdgeTable:
@@ -80,6 +83,18 @@ class EdgeTable:
         first = int(self.first[obstacle])
         return range(first, first + len(self.obstacles[obstacle].edges))
 
+    def edges_at(self, point: Point) -> tuple[int, ...]:
+        """The edges through a point of a boundary: at a vertex the incoming one, then the outgoing one.
+
+        None for a point that is on no boundary.
+        """
+        x, y = point.xy
+        near = self.near((x, y), (x, y), 0.0).tolist()
+        found = [e for e in near if self.curves[e].may_pass(point, BITS) and self.curves[e].passes(point)]
+        if len(found) == 2 and self.curves[found[0]].start == point:
+            found.reverse()
+        return tuple(found)
+
     def roundoff_at(self, *places: tuple[float, float]) -> float:
         """The bound for differences of the table's coordinates and places, which may lie far outside."""
         return max(self.roundoff, *(2.0**-50 * max(abs(x), abs(y)) for x, y in places))
@@ -115,6 +130,15 @@ class EdgeTable:
         bound = np.where(self.kind[edges] == STRAIGHT, straight, curved)
         bounds: Floats = np.maximum(bound * (1 - 1e-14) - 8 * self.roundoff, 0.0)
         return bounds
+
+
+def quotient(top: Floats | float, bottom: Floats) -> Floats:
+    """A quotient by numbers of at least 0, without a warning where it is huge or infinite.
+
+    There it is an error that leaves everything unsure, or no number that anything is decided by.
+    """
+    with np.errstate(over="ignore"):
+        return top / np.maximum(bottom, 1e-300)
 
 
 def _kind(curve: Curve) -> int:

@@ -19,8 +19,7 @@ from exactacq.curves import Arc, Segment
 from exactacq.errors import Undecided
 from exactacq.points import Point
 from exactacq.vectors import Vector, advance, dot, minus, raw, sign, square_root
-from exactacq.vision.facets import enters
-from exactacq.vision.fans import edges_at
+from exactacq.vision.features import enters
 from exactacq.vision.panorama import BLOCKED, NOTHING, Panorama, Sight
 from exactacq.vision.ranges import Span, of_circle, within
 from exactacq.vision.table import EdgeTable, Floats
@@ -71,7 +70,7 @@ class View:
     ) -> None:
         self.table, self.point, self.radius = table, point, radius
         self.radius_sq = radius * radius
-        self.own = edges_at(table, point) if own is None else own
+        self.own = table.edges_at(point) if own is None else own
         self.panorama = Panorama(table, point, float(radius) * (1 + 1e-12), self.own)
         self.origin = self.panorama.facets.origin
         self._at_range: dict[int, Point] = {}
@@ -137,6 +136,8 @@ class View:
         facet = sight.facet
         if sight.low == sight.high:
             curve = self.table.curves[self.panorama.edges[facet]]
+            # All around is seen only a full circle: from inside a circle a ray meets it once, so that a part
+            # of it covers less; from outside, and so of straight edges, a facet covers less than half a turn.
             assert isinstance(curve, Arc)
             some = of_circle(curve, self.origin, self.radius_sq)
             if some is None:
@@ -192,7 +193,7 @@ class View:
             for point in (p for span in spans for p in span if p is not start and p is not end):
                 self._held[id(point)] = point, AT_RANGE
             return spans
-        # All of a full circle that passes through the point itself.
+        # All of a full circle that passes through the point itself: the ends of other facets are distinct.
         assert isinstance(curve, Arc)
         opposite = curve.center + (curve.center - start)
         first = within(curve, start, opposite, self.origin, self.radius_sq)
