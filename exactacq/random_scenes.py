@@ -6,25 +6,33 @@ equal, and the radius of vision equals gaps. A share is generic: octagons, or a 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from random import Random
-from typing import NamedTuple, TypeVar
+from collections.abc import Callable, Iterator, Sequence
+from typing import NamedTuple
 
 from flint import fmpq
 
 from exactacq.claims.model import Subject
 from exactacq.components import ground_of
+from exactacq.dice import Dice
 from exactacq.errors import InvalidScene
 from exactacq.generators import GAP, UNIT, random_octagons
+from exactacq.random_arcs import (
+    CUSPS,
+    HALF,
+    LATE,
+    QUARTER,
+    ROOM_ARCS,
+    SMOOTH,
+    Corner,
+    Drawn,
+    circle_of_arcs,
+    ring,
+    rounded_triangle,
+    subdivided,
+)
 from exactacq.scene import Scene
 from exactacq.shapes import Circle, Outline, Polygon, Shape, Terrain
 
-Item = TypeVar("Item")
-Corner = tuple[fmpq, fmpq]
-Drawn = Sequence[tuple[fmpq | int, ...]]
-"""Vertices in the unit square, some with a bulge."""
-
-QUARTER, HALF, LATE = fmpq(1, 4), fmpq(1, 2), fmpq(3, 4)
 HAIR = fmpq(1, 10**9)
 """How far some scenes are off the grid: far below what floats of this size tell apart by guessing."""
 MOST = 7
@@ -87,29 +95,6 @@ class Box(NamedTuple):
         return aside or self.top < other.bottom or other.top < self.bottom
 
 
-class Dice:
-    """Choices from `Random.random` alone, whose stream Python promises to keep for a seed."""
-
-    def __init__(self, seed: int) -> None:
-        self._rng = Random(seed)
-
-    def below(self, n: int) -> int:
-        """A number from 0 to n - 1."""
-        return int(self._rng.random() * n)
-
-    def between(self, low: int, high: int) -> int:
-        """A number from low to high."""
-        return low + self.below(high - low + 1)
-
-    def choice(self, items: Sequence[Item]) -> Item:
-        """One of the items."""
-        return items[self.below(len(items))]
-
-    def chance(self, percent: int) -> bool:
-        """True in so many cases of a hundred."""
-        return self.below(100) < percent
-
-
 def random_scene(subject: Subject, seed: int) -> Scene:
     """A small valid scene with its radius, the same on every platform for the same arguments.
 
@@ -120,7 +105,20 @@ def random_scene(subject: Subject, seed: int) -> Scene:
     """
     if seed < 0:
         raise ValueError(f"a seed must not be negative: {seed}")
-    make = _sightseer_scene if subject is Subject.SIGHTSEER else _swept_scene
+    if seed % 5 >= 3:
+        return arc_scene(subject, seed)
+    return _made(_sightseer_scene if subject is Subject.SIGHTSEER else _swept_scene, subject, seed)
+
+
+def arc_scene(subject: Subject, seed: int) -> Scene:
+    """As `random_scene`, with obstacles and rooms as drawings have them: see `random_arcs`.
+
+    Circles in several arcs, arcs that share a circle or a centre, smooth joints, cusps, subdivided edges.
+    """
+    return _made(_sightseer_arcs if subject is Subject.SIGHTSEER else _swept_arcs, subject, seed)
+
+
+def _made(make: Callable[[Dice, str], Scene], subject: Subject, seed: int) -> Scene:
     # Neighbouring seeds give unlike streams; the two subjects must not share theirs.
     dice = Dice(2 * seed + (subject is Subject.SIGHTSEER))
     while True:
@@ -192,6 +190,79 @@ def _canyon(dice: Dice, name: str) -> Scene:
     return Scene(shapes, (0, 0), terrain=Terrain(width, height), radius=radius, name=name)
 
 
+def _sightseer_arcs(dice: Dice, name: str) -> Scene:
+    radius = FAR if dice.chance(40) else dice.choice(SIGHTS)
+    percent = dice.choice((0, 30, 80))
+    if dice.chance(40):
+        center, size = (fmpq(0), fmpq(0)), fmpq(dice.choice((9, 12)))
+        shapes = list(_rings(dice, center, ((2, 3), (4, 5), (6, 8)), percent))
+        room = Box(-9, -9, 9, 9)
+    else:
+        width, height = dice.choice(((8, 8), (12, 6), (5, 9)))
+        within = Box(0, 0, width, height)
+        shapes = _shapes(dice, within, Box(-1, -1, width, height), dice.between(1, 4), drawn=_with_arcs)
+        shapes = [subdivided(dice, shape, percent) for shape in shapes]
+        center, size = (fmpq(width, 2), fmpq(height, 2)), fmpq(8)
+        room = Box(-1, -1, width + 1, height + 1)
+    wall = _round_room(dice, center, size, percent) if dice.chance(60) else None
+    for _ in range(THROWS):
+        try:
+            return Scene(shapes, _start(dice, shapes, room), enclosure=wall, radius=radius, name=name)
+        except InvalidScene:
+            continue
+    raise InvalidScene(["no free start was found"])
+
+
+def _round_room(dice: Dice, center: Corner, size: fmpq, percent: int) -> Shape:
+    """A circle about obstacles no farther than *size*, in one to four arcs, or a triangle with fillets."""
+    kind = dice.below(5)
+    if kind == 0:
+        low = Box(*(int(c - 3 * size) for c in center), *(int(c + 3 * size) for c in center))
+        return subdivided(dice, _Place(low, 0, fmpq(0)).shape(rounded_triangle(fmpq(1, 10))), percent)
+    if kind == 1:
+        return Circle(center, size)
+    off = center[0] + dice.choice((0, 0, 1)), center[1]
+    return subdivided(dice, circle_of_arcs(off, size + 1, dice.choice(ROOM_ARCS)), percent)
+
+
+def _rings(dice: Dice, center: Corner, rings: Sequence[tuple[int, int]], percent: int) -> Iterator[Shape]:
+    """Obstacles with arcs on circles about one centre, and perhaps a circle in the middle."""
+    if dice.chance(40):
+        yield subdivided(dice, Circle(center, 1), percent)
+    first = dice.below(len(rings))
+    for inner, outer in rings[first : first + dice.between(1, 2)]:
+        for shape in ring(dice, center, (fmpq(inner), fmpq(outer)), dice.between(1, 3)):
+            yield subdivided(dice, shape, percent)
+
+
+def _swept_arcs(dice: Dice, name: str) -> Scene:
+    percent = dice.choice((0, 30, 80))
+    if dice.chance(30):
+        width, height = 8, dice.choice((8, 10))
+        shapes = list(_rings(dice, (fmpq(4), fmpq(height, 2)), ((1, 2), (3, 4)), percent))
+    else:
+        width, height = dice.choice(TERRAINS)
+        within = Box(-1, -1, width + 3, height + 3)
+        if dice.chance(50):
+            within = Box(1, 1, width - 1, height - 1)
+        shapes = _shapes(dice, within, Box(0, 0, width, height), dice.between(1, 4), drawn=_with_arcs)
+        shapes = [subdivided(dice, shape, percent) for shape in shapes]
+    scene = Scene(shapes, (0, 0), terrain=Terrain(width, height), radius=dice.choice(SWEEP_RADII), name=name)
+    ground_of(scene)
+    return scene
+
+
+def _with_arcs(dice: Dice, box: Box) -> list[Shape]:
+    """One shape that fills a box: a smooth one or one with a cusp if the box is square, or a polygon."""
+    place = _Place(box, dice.below(8), fmpq(0))
+    if box.right - box.left != box.top - box.bottom:
+        return [place.shape(dice.choice((*OUTLINES, POLYGONS[0], POLYGONS[5])))]
+    kind = dice.below(4)
+    if kind == 0:
+        return [place.circle()]
+    return [place.shape(dice.choice((SMOOTH, CUSPS, ROUNDED)[kind - 1]))]
+
+
 def _swept_octagons(dice: Dice, name: str) -> Scene:
     """Octagons in a terrain that holds them with room to spare, or that cuts the eastern or northern ones."""
     shapes = random_octagons(dice.between(1, MOST), dice.below(10**6)).shapes
@@ -202,14 +273,20 @@ def _swept_octagons(dice: Dice, name: str) -> Scene:
 
 
 def _shapes(
-    dice: Dice, within: Box, terrain: Box, count: int, sides: tuple[int, int] = (3, 3)
+    dice: Dice,
+    within: Box,
+    terrain: Box,
+    count: int,
+    sides: tuple[int, int] = (3, 3),
+    drawn: Callable[[Dice, Box], list[Shape]] | None = None,
 ) -> list[Shape]:
     """Obstacles in boxes apart from each other, each partly in the terrain and off its SW corner.
 
-    *count* boxes of at most these *sides* are thrown; those that find no place are left out.
+    *count* boxes of at most these *sides* are thrown; those that find no place are left out. *drawn* fills a
+    box; by default polygons do, and some round shapes.
     """
-    round_share = dice.choice((0, 40, 80))
-    shift = HAIR if dice.chance(10) else fmpq(0)
+    if drawn is None:
+        drawn = _filler(dice)
     boxes: list[Box] = []
     shapes: list[Shape] = []
     for _ in range(count):
@@ -220,9 +297,16 @@ def _shapes(
             on_corner = box.left <= terrain.left and box.bottom <= terrain.bottom
             if not misses and not on_corner and all(box.is_apart(other) for other in boxes):
                 boxes.append(box)
-                shapes += _filled(dice, box, round_share, shift if dice.chance(50) else fmpq(0))
+                shapes += drawn(dice, box)
                 break
     return shapes[:MOST]
+
+
+def _filler(dice: Dice) -> Callable[[Dice, Box], list[Shape]]:
+    """Fills boxes with polygons and some round shapes, perhaps half of them a hair off the grid."""
+    round_share = dice.choice((0, 40, 80))
+    shift = HAIR if dice.chance(10) else fmpq(0)
+    return lambda dice, box: _filled(dice, box, round_share, shift if dice.chance(50) else fmpq(0))
 
 
 def _box(dice: Dice, within: Box, sides: tuple[int, int]) -> Box:
