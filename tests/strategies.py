@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from math import atan
 from random import Random
 
 from hypothesis import strategies as st
@@ -259,3 +260,108 @@ def terrains(**options: object) -> st.SearchStrategy[Terrain]:
 def degenerate_terrains(**options: object) -> st.SearchStrategy[Terrain]:
     """`degenerate_terrain` under hypothesis."""
     return st.randoms(use_true_random=False).map(lambda rng: degenerate_terrain(rng, **options))
+
+
+# Arcs as drawings have them: on one circle or about one centre, joined smoothly or in cusps, round rooms.
+
+STADIUM = [(-2, -1), (2, -1, 1), (2, 1), (-2, 1, 1)]
+ROUNDED_U = [(-2, 2), (-2, 0, 1), (2, 0), (2, 2), (1, 2), (1, 0, -1), (-1, 0), (-1, 2)]
+S_BAND = [(0, 2, 1), (0, Q(-1, 2), -1), (0, -1), (0, -2, 1), (0, Q(1, 2), -1), (0, 1)]
+SMOOTH: tuple[list[tuple], ...] = (STADIUM, ROUNDED_U, S_BAND)
+FREE_CUSPS: tuple[list[tuple], ...] = (
+    [(2, -1), (-1, -1, 1), (-1, 1), (-2, 1), (-2, -2), (2, -2)],  # an arc on a floor
+    [(2, 0, 1), (0, 0, 1), (-2, 0), (0, -2)],  # two arcs
+)
+SPIKES: tuple[list[tuple], ...] = (
+    [(-1, -1), (1, -1), (1, Q(1, 2), Q(-1, 3))],  # an arc on a floor
+    [(-2, 0, 1), (2, 0, Q(-1, 2))],  # two arcs
+)
+ROOM_BULGES = (Q(1), Q(1, 2), Q(3, 4), Q(2), Q(3))
+"""Of the first arc of a round room or circle: its ends are rational."""
+RING_BULGES = (Q(1, 5), Q(1, 4), Q(1, 3), Q(2, 5), Q(1, 2), Q(1))
+
+
+def turned(v: Sequence[object], bulge: Fraction) -> Pair:
+    """A vector turned by the angle of a bulge b, which is that of (1 + i b)^4."""
+    x, y = Q(v[0]), Q(v[1])
+    for _ in range(4):
+        x, y = x - bulge * y, y + bulge * x
+    size = (1 + bulge * bulge) ** 2
+    return x / size, y / size
+
+
+def arcs_of_circle(center: Pair, radius: Fraction, bulge: Fraction) -> list[tuple]:
+    """A circle as two arcs, the first from its east point."""
+    (x, y), (u, v) = center, turned((radius, 0), bulge)
+    return [(x + radius, y, bulge), (x + u, y + v, 1 / bulge)]
+
+
+def fillets() -> list[tuple]:
+    """A triangle with rounded corners: 4 atan(1/2) twice and 4 atan(3/4) make a full turn."""
+    x, y = Q(-1), Q(-1)
+    along = (Q(1), Q(0))
+    loop: list[tuple] = []
+    for length, bulge in ((2, Q(1, 2)), (Q(28, 25), Q(1, 2)), (2, Q(3, 4))):
+        loop.append((x, y, Q(0)))
+        x, y = x + length * along[0], y + length * along[1]
+        loop.append((x, y, bulge))
+        after = turned(along, bulge)
+        # The fillet has radius 1/2 and its centre to the left.
+        x, y = x + (after[1] - along[1]) / 2, y - (after[0] - along[0]) / 2
+        along = after
+    assert (x, y) == loop[0][:2], "the loop closes"
+    return loop
+
+
+def ring(rng: Random, inner: object, outer: object) -> list[list[tuple]]:
+    """Annular sectors and segments of a disc about the origin, apart from each other, on two circles."""
+    ray, angle, shapes = turned((1, 0), rng.choice(RING_BULGES)), 0.0, []
+    for _ in range(rng.randint(1, 3)):
+        bulge, gap = rng.choice(RING_BULGES), rng.choice(RING_BULGES[:3])
+        angle += 4 * (atan(bulge) + atan(gap))
+        if angle > 6.2:
+            break
+        first, last = ray, turned(ray, bulge)
+        ray = turned(last, gap)
+        (a, b), (c, d) = (tuple(Q(r) * w for w in first) for r in (outer, inner))
+        (e, f), (g, h) = (tuple(Q(r) * w for w in last) for r in (outer, inner))
+        cap = rng.choice([0, 0, 1]) if outer - inner < inner / 2 else 0
+        sector = [(a, b, bulge), (e, f, cap), (g, h, -bulge), (c, d, cap)]
+        shapes.append(rng.choice([sector, sector, [(a, b, bulge), (e, f)]]))
+    return shapes
+
+
+def arc_terrain(rng: Random) -> Terrain:
+    """Either obstacles about one centre or smooth shapes and cusps in cells, mostly in a round room."""
+    shapes: list[object]
+    if rng.random() < 0.5:
+        shapes = [*ring(rng, 2, 3), *(ring(rng, 5, 6) if rng.random() < 0.5 else ())]
+        if rng.random() < 0.5:
+            shapes.append(rng.choice([Disc(0, 0, 1), _arcs(ONE, rng.choice(ROOM_BULGES))]))
+        center, radius = (ZERO, ZERO), Q(9)
+    else:
+        kinds = (
+            *SMOOTH,
+            *FREE_CUSPS,
+            *SPIKES,
+            fillets(),
+            Disc(0, 0, 2),
+            _arcs(2 * ONE, ONE),
+        )
+        cells = [Similarity(rng.choice([(1, 0), (0, 1), (-1, 0)]), shift=(Q(5 * k), ZERO)) for k in range(2)]
+        shapes = [place.shape(rng.choice(kinds)) for place in cells]
+        center, radius = (Q(5, 2), ZERO), Q(8)
+    start = rng.choice([(Q(rng.randint(-8, 8)), Q(rng.randint(-8, 8), 2)), _a_vertex(rng, shapes)])
+    center = center[0] + rng.choice([0, 0, 1]), center[1]
+    room = [Room(arcs_of_circle(center, radius, rng.choice(ROOM_BULGES)))] if rng.random() < 0.7 else []
+    return Terrain((*shapes, *room), start, Q(rng.choice([1, 2, 3, 5, 60])))
+
+
+def _arcs(radius: Fraction, bulge: Fraction) -> list[tuple]:
+    return arcs_of_circle((ZERO, ZERO), radius, bulge)
+
+
+def _a_vertex(rng: Random, shapes: Sequence[object]) -> Pair:
+    shape = rng.choice(list(shapes))
+    x, y = (shape.x + shape.r, shape.y) if isinstance(shape, Disc) else rng.choice(shape)[:2]
+    return Q(x), Q(y)

@@ -166,8 +166,8 @@ def split_point(p: Sequence, q: Sequence, bulge: Fraction, part: Fraction) -> tu
     return (cx + (x - cx) * c - (y - cy) * s, cy + (x - cx) * s + (y - cy) * c), first, last
 
 
-def refined(terrain: Terrain, rng: Random) -> Terrain:
-    """Some edges cut in two, circles cut into arcs, loops started elsewhere."""
+def refined(terrain: Terrain, rng: Random, rotate: bool = True) -> Terrain:
+    """Some edges cut in two, circles cut into arcs, loops started elsewhere if *rotate*."""
 
     def refine(shape: object) -> object:
         if isinstance(shape, Room):
@@ -176,7 +176,8 @@ def refined(terrain: Terrain, rng: Random) -> Terrain:
             if rng.random() < 0.4:
                 return shape
             x, y, r = (Q(c) for c in shape)
-            shape = rng.choice([[(x + r, y, 1), (x - r, y, 1)], [(x, y - r, 1), (x, y + r, 1)]])
+            halves = [[(x + r, y, 1), (x - r, y, 1)], [(x, y - r, 1), (x, y + r, 1)]]
+            shape = rng.choice(halves) if rotate else halves[0]
         loop: list[tuple] = []
         for k, (x, y, *b) in enumerate(shape):
             after = shape[(k + 1) % len(shape)]
@@ -186,7 +187,7 @@ def refined(terrain: Terrain, rng: Random) -> Terrain:
                 loop += [(x, y, first), (*middle, last)]
             else:
                 loop.append((x, y, bulge))
-        k = rng.randrange(len(loop))
+        k = rng.randrange(len(loop)) if rotate else 0
         return loop[k:] + loop[:k]
 
     return replace(terrain, shapes=tuple(refine(shape) for shape in terrain.shapes))

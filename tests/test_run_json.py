@@ -26,8 +26,11 @@ from exactacq import (
     seed_spreader,
     sightseer,
 )
+from exactacq.claims.model import Subject
 from exactacq.encoding import Decoder, Encoder
+from exactacq.errors import Undecided
 from exactacq.generators import random_octagons
+from exactacq.random_scenes import random_scene
 from exactacq.reals import roots
 from exactacq.run_json import VERSION
 
@@ -78,6 +81,31 @@ def test_gallery_runs_come_back(name: str, tmp_path: Path) -> None:
     path = tmp_path / "run.json"
     path.write_text(json.dumps(run.to_json()), encoding="utf-8")
     assert_same(run, load_run(path))
+    law_of_reading_back(run)
+
+
+def law_of_reading_back(run: Run) -> None:
+    """A run that is read back is written as the same text, and its sensing, repeated, finds the same map."""
+    text = json.dumps(run.to_json())
+    again = load_run(json.loads(text))
+    assert json.dumps(again.to_json()) == text
+    for k in range(len(run.map.obstacles)):
+        assert again.map.known_length(k) == run.map.known_length(k)
+    assert again.map.frontier == run.map.frontier
+    found, before = again.memory.reports, run.memory.reports
+    assert [(r.kind, r.obstacle, r.after) for r in found] == [(r.kind, r.obstacle, r.after) for r in before]
+
+
+@pytest.mark.parametrize("subject", list(Subject), ids=lambda subject: subject.value)
+@pytest.mark.parametrize("first", range(0, 150, 10))
+def test_random_runs_come_back(subject: Subject, first: int) -> None:
+    for seed in range(first, first + 10):
+        scene = random_scene(subject, seed)
+        try:
+            run = sightseer(scene) if subject is Subject.SIGHTSEER else seed_spreader(scene)
+        except Undecided:
+            continue
+        law_of_reading_back(run)
 
 
 def test_data_come_back_without_a_file() -> None:
