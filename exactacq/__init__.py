@@ -8,6 +8,7 @@ from exactacq.lengths import Length
 from exactacq.links import visibility_graph
 from exactacq.loading import load
 from exactacq.points import Point
+from exactacq.ports import JSON, SVG, offer
 from exactacq.reals import Real
 from exactacq.scene import Scene
 from exactacq.seed_spreader import seed_spreader
@@ -15,7 +16,12 @@ from exactacq.shapes import Circle, Outline, Polygon, Terrain
 from exactacq.sightseer import sightseer
 from exactacq.sweep import sweep
 from exactacq.trace import Run
-from exactacq.vision.isovist import isovist
+from exactacq.vision.isovist import Isovist, isovist
+
+offer(SVG, Scene, "exactacq.figures", "svg")
+offer(SVG, Run, "exactacq.figures", "svg")
+offer(SVG, Isovist, "exactacq.views_svg", "svg")
+offer(JSON, Run, "exactacq.run_json", "run_to_json")
 
 if TYPE_CHECKING:
     from exactacq.figures import figure

@@ -30,10 +30,11 @@ from exactacq.errors import FormatError
 from exactacq.figures_sweep import Sweep, window
 from exactacq.lengths import Length
 from exactacq.output import readable
+from exactacq.path import Event
 from exactacq.points import Point
 from exactacq.scene import Scene
 from exactacq.strokes import Region, Stroke
-from exactacq.trace import Event, Run
+from exactacq.trace import Run
 
 LIMIT = 2000
 """Most frames of a page: a few megabytes, and a list of events that a browser scrolls without effort."""

@@ -45,8 +45,9 @@ from exactacq.audit_views import World
 from exactacq.curves import Arc, Curve
 from exactacq.errors import AuditError
 from exactacq.lengths import Length
+from exactacq.path import Event
 from exactacq.points import Point
-from exactacq.trace import Event, Run
+from exactacq.trace import Run
 
 MOVES = {
     "start": {"hit", "stop"},

@@ -28,8 +28,9 @@ from exactacq.audit_views import Lookout, World, point_at, point_near, visible
 from exactacq.curves import Arc, Curve, Segment
 from exactacq.errors import AuditError
 from exactacq.numerals import rational
+from exactacq.path import Event
 from exactacq.points import Point
-from exactacq.trace import Event, Run
+from exactacq.trace import Run
 
 MOMENTS = 6
 """Events at which the map is checked, besides the end."""

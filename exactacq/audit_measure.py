@@ -13,8 +13,9 @@ from flint import arb, ctx, fmpq
 from exactacq.curves import Arc, Curve, Segment
 from exactacq.lengths import Length
 from exactacq.numerals import rational
+from exactacq.path import Event
 from exactacq.points import Point
-from exactacq.trace import Event, Run
+from exactacq.trace import Run
 
 DIGITS = 500
 """Decimals to which lengths are re-added."""

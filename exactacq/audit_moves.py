@@ -32,9 +32,10 @@ from exactacq.audit_views import Lookout, visible
 from exactacq.contacts import contacts, nearest_points
 from exactacq.curves import Arc, Curve, Segment
 from exactacq.errors import AuditError
+from exactacq.path import Event
 from exactacq.points import Point
 from exactacq.reals import Real
-from exactacq.trace import Diversion, Event, Run, Sweeping
+from exactacq.trace import Diversion, Run, Sweeping
 
 PAIRS = 64
 """Lines of sight that are tried where an obstacle is said not to be seen later."""

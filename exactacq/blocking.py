@@ -9,6 +9,7 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import NamedTuple
 
+from exactacq.between import rational_between
 from exactacq.boxes import box
 from exactacq.components import Component, Ground, sides
 from exactacq.contacts import contacts
@@ -16,7 +17,6 @@ from exactacq.curves import Segment
 from exactacq.points import Location, Point
 from exactacq.reals import Real
 from exactacq.scene import Obstacle
-from exactacq.vision.pencil import rational_between
 from exactacq.vision.rails import Rail
 from exactacq.vision.table import EdgeTable
 

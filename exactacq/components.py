@@ -16,8 +16,7 @@ from itertools import pairwise
 from string import ascii_lowercase
 from typing import NamedTuple
 
-from flint import fmpq
-
+from exactacq.between import rational_between
 from exactacq.boxes import box
 from exactacq.contacts import contacts, winding
 from exactacq.curves import Curve, Segment
@@ -28,11 +27,7 @@ from exactacq.reals import Real
 from exactacq.scene import Obstacle, Scene
 from exactacq.shapes import Terrain
 from exactacq.vision.intervals import Interval
-from exactacq.vision.lookouts import Lookout
-from exactacq.vision.pencil import rational_between
 from exactacq.vision.rails import Rail
-from exactacq.vision.table import EdgeTable
-from exactacq.vision.targets import Target, Targets
 
 
 class Part(NamedTuple):
@@ -127,25 +122,6 @@ class Ground:
                 (f for f in found if not f[4]), len(inside)
             )
         )
-
-    def targets(self, table: EdgeTable, radius: fmpq) -> Targets:
-        """What there is to learn: the shores of the components that can be reached."""
-        of = [
-            tuple(
-                Target(int(table.first[c.obstacle.index]) + part.edge, part.span, part.is_whole)
-                for part in c.shore
-            )
-            for c in self.components
-        ]
-        lookouts = {
-            c.index: (
-                Lookout(table, radius, targets[0].edge, targets[0].span.low, targets[0].span.start),
-                Lookout(table, radius, targets[-1].edge, targets[-1].span.high, targets[-1].span.end),
-            )
-            for c, targets in zip(self.components, of, strict=True)
-            if not c.closed
-        }
-        return Targets(of, lookouts)
 
     def of(self, obstacle: int) -> list[Component]:
         """The components of one obstacle, reached or not."""

@@ -35,9 +35,10 @@ from exactacq.figures_sweep import Sweep, window
 from exactacq.lengths import Length
 from exactacq.moments import Moment
 from exactacq.output import FIGURES, check_output, readable, write_whole
+from exactacq.path import Event
 from exactacq.scene import Scene
 from exactacq.strokes import Region, Room, Steps, Stroke, clearance, closed
-from exactacq.trace import Event, Run
+from exactacq.trace import Run
 from exactacq.vision.table import Floats
 
 CLOSED_FORM = 40

@@ -21,11 +21,11 @@ from matplotlib.ticker import NullFormatter, NullLocator
 from exactacq.figures import HIT, INK, SOFT, STYLES, VIEW
 from exactacq.gallery import scene as gallery_scene
 from exactacq.lengths import Length
+from exactacq.path import Piece
 from exactacq.scanning import LimitRow, polygon_limit, polygonal, vertex_scan
 from exactacq.scene import Scene
 from exactacq.sightseer import sightseer
 from exactacq.strokes import Region, Steps, Stroke
-from exactacq.trace import Piece
 
 SIDES, KS = 16, (4, 8, 16, 32, 64)
 """Sides of the polygons in the upper pictures, and numbers of sides for the lower ones."""

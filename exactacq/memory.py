@@ -13,15 +13,16 @@ from flint import fmpq
 
 from exactacq.components import Ground
 from exactacq.curves import Curve, Segment
+from exactacq.path import Piece
 from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.scene import Scene
-from exactacq.trace import Piece
 from exactacq.vision.intervals import Cover
 from exactacq.vision.knowledge import Body, Map
 from exactacq.vision.legs import Leg, legs_of, parts_of
 from exactacq.vision.sensing import Ahead, Kind, Senses
 from exactacq.vision.table import EdgeTable
+from exactacq.vision.targets import Targets
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +53,7 @@ class Memory:
         self.scene, self.radius, self.ground = scene, radius, ground
         self._table = EdgeTable(scene.obstacles) if table is None else table
         self.bodies: Sequence[Body] = scene.obstacles if ground is None else ground.components
-        targets = None if ground is None else ground.targets(self._table, radius)
+        targets = None if ground is None else Targets.of_components(ground.components, self._table, radius)
         self._senses = Senses(self._table, radius, targets)
         self.reports: list[Report] = []
         # The parameters of the reports' places, and on which leg of the piece they are: numbers that glances

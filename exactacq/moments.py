@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from exactacq.lengths import Length
+from exactacq.path import Event, Piece
 from exactacq.points import Point
-from exactacq.trace import Event, Piece, Run
+from exactacq.trace import Run
 from exactacq.vision.isovist import Isovist
 from exactacq.vision.knowledge import Map
 

@@ -21,6 +21,7 @@ from itertools import pairwise
 import numpy as np
 from flint import fmpq
 
+from exactacq.between import rational_between
 from exactacq.contacts import contacts, line_contacts
 from exactacq.curves import Arc, Curve, Segment
 from exactacq.errors import Undecided
@@ -32,7 +33,6 @@ from exactacq.prediction_pieces import ANGLE, Pieces, cross
 from exactacq.prediction_sight import Sights, Walk, hull, overlap, unique
 from exactacq.reach import last_in_reach, nearest_point, thresholds
 from exactacq.reals import Real, rational
-from exactacq.vision.pencil import rational_between
 from exactacq.vision.rails import Rail
 
 UP = Point(0, 1)

@@ -8,11 +8,11 @@ from itertools import pairwise
 
 from flint import fmpq
 
+from exactacq.between import rational_between
 from exactacq.contacts import spans
 from exactacq.curves import Arc, Curve
 from exactacq.points import Point, distance_sq
 from exactacq.reals import Real
-from exactacq.vision.pencil import rational_between
 
 
 def nearest_point(curve: Curve, place: Point) -> Point:

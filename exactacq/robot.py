@@ -11,8 +11,8 @@ from exactacq.curves import Curve
 from exactacq.lengths import Length
 from exactacq.links import START, Node
 from exactacq.memory import Memory, Report
+from exactacq.path import Event, Path, Piece
 from exactacq.points import Point
-from exactacq.trace import Event, Path, Piece
 
 
 class Robot:

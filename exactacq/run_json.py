@@ -18,8 +18,9 @@ from exactacq.lengths import Length
 from exactacq.memory import Memory
 from exactacq.numerals import rational
 from exactacq.output import readable
+from exactacq.path import Event, Path, Piece
 from exactacq.points import Point
-from exactacq.trace import Bound, Diversion, Event, Path, Piece, Run, Sweeping, TreeLink
+from exactacq.trace import Bound, Diversion, Run, Sweeping, TreeLink
 from exactacq.vision.sensing import Kind
 
 FORMAT, VERSION = "exactacq run", 2

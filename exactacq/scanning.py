@@ -18,12 +18,12 @@ from exactacq.errors import InvalidScene
 from exactacq.gallery import scene as gallery_scene
 from exactacq.lengths import Length
 from exactacq.numerals import rational
+from exactacq.path import Path, Piece
 from exactacq.points import Point
 from exactacq.reals import fmpq
 from exactacq.scene import Scene
 from exactacq.shapes import Circle, Polygon, Shape
 from exactacq.sightseer import sightseer
-from exactacq.trace import Path, Piece
 from exactacq.vectors import dot, minus, raw
 from exactacq.vision.isovist import Isovist, isovist
 

@@ -13,6 +13,7 @@ from exactacq.curves import Arc, Curve, Segment
 from exactacq.lengths import Length
 from exactacq.numerals import rational
 from exactacq.points import Location, Point
+from exactacq.ports import SVG, made
 from exactacq.reals import Real
 from exactacq.shapes import Circle, Shape, Terrain
 from exactacq.validation import validate
@@ -110,9 +111,7 @@ class Scene:
         return [o.index for o in inner if not all(_strictly_inside(edge, terrain) for edge in o.edges)]
 
     def _repr_svg_(self) -> str:
-        from exactacq.figures import svg
-
-        return svg(self)
+        return str(made(SVG, self))
 
     def __repr__(self) -> str:
         name = f" {self.name!r}" if self.name else ""

@@ -11,10 +11,10 @@ from collections.abc import Hashable
 from exactacq.curves import Segment
 from exactacq.links import START, Link, Links, Node
 from exactacq.memory import Memory
+from exactacq.path import Piece
 from exactacq.points import Location, Point
 from exactacq.robot import Robot
 from exactacq.scene import Scene
-from exactacq.trace import Piece
 
 
 class Scout(Robot):

@@ -17,11 +17,11 @@ from exactacq.components import Component, Ground
 from exactacq.curves import Curve, Segment
 from exactacq.memory import Memory
 from exactacq.mline import Crossing, MLine
+from exactacq.path import Piece
 from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.robot import Robot
 from exactacq.scene import Scene
-from exactacq.trace import Piece
 from exactacq.vision.knowledge import Map
 from exactacq.vision.sensing import Ahead
 from exactacq.vision.table import EdgeTable

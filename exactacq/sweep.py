@@ -20,10 +20,10 @@ from flint import fmpq
 from exactacq.curves import Curve, Segment
 from exactacq.errors import InvalidScene
 from exactacq.numerals import rational
+from exactacq.path import Piece
 from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.scene import Scene
-from exactacq.trace import Piece
 from exactacq.validation import sensor_flaws
 from exactacq.vectors import dot
 from exactacq.vision.glances import Role, Side

@@ -22,13 +22,14 @@ from exactacq import FormatError, figures, gallery, isovist
 from exactacq.animation import FAR, LIMIT, SIZE, Changes, Frame, Paper, Stop, chosen, frames_of, page, stops
 from exactacq.curves import Arc, Curve, Segment
 from exactacq.lengths import Length
+from exactacq.path import Event
 from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.scene import Scene
 from exactacq.seed_spreader import seed_spreader
 from exactacq.shapes import Circle, Outline, Polygon, Terrain
 from exactacq.sightseer import sightseer
-from exactacq.trace import Event, Run
+from exactacq.trace import Run
 
 CODE = Path(__file__).parent.parent / "exactacq"
 HOSTILE = (

@@ -27,8 +27,9 @@ from exactacq.audit_views import Lookout, World, point_at, point_near, visible
 from exactacq.curves import Arc, Segment
 from exactacq.errors import AuditError
 from exactacq.lengths import Length
+from exactacq.path import Event, Path, Piece
 from exactacq.points import Point
-from exactacq.trace import Event, Path, Piece, Run
+from exactacq.trace import Run
 
 Q = Fraction
 SIGHTS = ("sight", "acquire", "lose", "regain")

@@ -24,9 +24,10 @@ from exactacq.claims.model import Subject
 from exactacq.curves import Curve, Segment
 from exactacq.errors import AuditError
 from exactacq.lengths import Length
+from exactacq.path import Event, Path, Piece
 from exactacq.points import Point
 from exactacq.random_scenes import random_scene
-from exactacq.trace import Event, Path, Piece, Run
+from exactacq.trace import Run
 
 SWEPT = (
     "case1", "case2", "case3", "e3", "figure3", "figure4", "m14", "m15", "m18", "m20-3", "m20-6", "m20-8",

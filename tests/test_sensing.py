@@ -18,7 +18,8 @@ from exactacq.curves import Segment
 from exactacq.errors import InvalidScene
 from exactacq.lengths import Length
 from exactacq.memory import Memory
-from exactacq.trace import Event, Piece, Run
+from exactacq.path import Event, Piece
+from exactacq.trace import Run
 from exactacq.vision.intervals import Cover, Interval
 from exactacq.vision.isovist import isovist
 from exactacq.vision.knowledge import Map

@@ -9,6 +9,7 @@ import pytest
 from flint import fmpq
 
 from exactacq import Circle, Outline, Point, Polygon, Scene, visibility_graph
+from exactacq.between import rational_between
 from exactacq.contacts import Family, nearest_points
 from exactacq.curves import Segment
 from exactacq.links import Links
@@ -17,7 +18,6 @@ from exactacq.vision.chords import Chord
 from exactacq.vision.clearance import is_free
 from exactacq.vision.families import free_pieces
 from exactacq.vision.legs import parts_of
-from exactacq.vision.pencil import rational_between
 from exactacq.vision.table import EdgeTable
 
 TINY = Fraction(1, 10**60)

@@ -8,8 +8,9 @@ from functools import cmp_to_key
 from exactacq.audit_measure import is_part
 from exactacq.claims.walks import Stay
 from exactacq.curves import Arc, Curve
+from exactacq.path import Piece
 from exactacq.reals import Real
-from exactacq.trace import Piece, Run
+from exactacq.trace import Run
 from exactacq.vision.intervals import Interval
 from exactacq.vision.rails import Rail
 

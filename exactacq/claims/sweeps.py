@@ -11,9 +11,10 @@ from exactacq.claims.model import Case
 from exactacq.claims.walks import is_circuit, stays
 from exactacq.curves import Arc, Curve
 from exactacq.memory import Memory
+from exactacq.path import Event, Piece
 from exactacq.points import Point
 from exactacq.reals import Real
-from exactacq.trace import Diversion, Event, Piece, Run
+from exactacq.trace import Diversion, Run
 
 ON_LINE = "on the M-line"
 

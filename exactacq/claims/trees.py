@@ -12,7 +12,8 @@ from exactacq.claims.model import Case
 from exactacq.claims.walks import Move, is_circuit, is_same_segment, moves, node_at, stays, traversals
 from exactacq.contacts import contacts
 from exactacq.links import START
-from exactacq.trace import Piece, Run
+from exactacq.path import Piece
+from exactacq.trace import Run
 
 
 def traversal_flaw(run: Run) -> str | None:

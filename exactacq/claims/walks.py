@@ -13,8 +13,9 @@ from typing import NamedTuple
 from exactacq.audit_measure import same
 from exactacq.lengths import Length
 from exactacq.links import START, Node
+from exactacq.path import Piece
 from exactacq.points import Point
-from exactacq.trace import Piece, Run
+from exactacq.trace import Run
 
 BITS = 256
 """Balls of this precision tell which of several disjoint boundaries holds a point of one of them."""

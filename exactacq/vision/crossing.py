@@ -16,6 +16,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from flint import fmpq
 
+from exactacq.between import rational_between
 from exactacq.contacts import line_contacts
 from exactacq.curves import Arc, Segment
 from exactacq.points import Point, distance_sq
@@ -28,7 +29,7 @@ from exactacq.vision.holds import Seen
 from exactacq.vision.intervals import Cover
 from exactacq.vision.legs import Leg
 from exactacq.vision.names import Names
-from exactacq.vision.pencil import pencil, rational_between
+from exactacq.vision.pencil import pencil
 from exactacq.vision.sectors import Rolling, Sector, Sliding, Spokes
 from exactacq.vision.sides import Sides, rough
 from exactacq.vision.sightlines import Sightlines

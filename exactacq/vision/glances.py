@@ -20,6 +20,7 @@ from typing import Any, TypeAlias, TypeGuard
 
 from flint import fmpq
 
+from exactacq.between import rational_between
 from exactacq.contacts import contacts, line_contacts
 from exactacq.curves import Arc, Curve, Segment
 from exactacq.errors import Undecided
@@ -29,7 +30,7 @@ from exactacq.vectors import dot, raw
 from exactacq.vision.chords import meet, of_length
 from exactacq.vision.intervals import Interval
 from exactacq.vision.names import Anchor, Names
-from exactacq.vision.pencil import Passed, rational_between
+from exactacq.vision.pencil import Passed
 from exactacq.vision.rails import Rail
 from exactacq.vision.sectors import Rolling, Sector, Sliding, Spokes
 from exactacq.vision.view_lengths import of_length_on

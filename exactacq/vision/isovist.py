@@ -19,6 +19,7 @@ from exactacq.errors import InvalidScene
 from exactacq.lengths import Length
 from exactacq.numerals import rational
 from exactacq.points import Location, Point, distance_sq
+from exactacq.ports import SVG, made
 from exactacq.reals import fmpq
 from exactacq.scene import Obstacle, Scene
 from exactacq.validation import sensor_flaws
@@ -91,9 +92,7 @@ class Isovist:
         return not view.buries(raw(point - self.point)) and is_free(view.table, self.point, point)
 
     def _repr_svg_(self) -> str:
-        from exactacq.views_svg import svg
-
-        return svg(self)
+        return str(made(SVG, self))
 
     def __repr__(self) -> str:
         return f"<Isovist from {self.point} within {self.radius}>"

@@ -11,6 +11,7 @@ from itertools import pairwise
 
 from flint import fmpq
 
+from exactacq.between import rational_between
 from exactacq.contacts import contacts
 from exactacq.curves import Curve, Segment
 from exactacq.points import Point, distance_sq
@@ -20,7 +21,6 @@ from exactacq.vision.clearance import is_free
 from exactacq.vision.intervals import Interval
 from exactacq.vision.legs import Leg
 from exactacq.vision.outline import outline
-from exactacq.vision.pencil import rational_between
 from exactacq.vision.table import EdgeTable
 from exactacq.vision.views import View
 

@@ -17,15 +17,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cmp_to_key
 from itertools import pairwise
-from math import floor, frexp
 from typing import TypeAlias
 
 import numpy as np
-from flint import fmpq, fmpz
+from flint import fmpq
 
+from exactacq.between import rational_between
 from exactacq.contacts import line_contacts
 from exactacq.curves import Arc, Segment
-from exactacq.numerals import nearest_float
 from exactacq.points import Point
 from exactacq.reals import Real
 from exactacq.vectors import raw
@@ -309,26 +308,6 @@ def _clusters(events: list[_Event]) -> Iterator[list[_Event]]:
         cluster.append(event)
     if cluster:
         yield cluster
-
-
-def rational_between(low: Real, high: Real) -> fmpq:
-    """A short rational strictly between two reals, near their middle; floats propose it where they can."""
-    first, last = low.rational, high.rational
-    if first is not None and last is not None:
-        a, b = nearest_float(first), nearest_float(last)
-        if b - a > 1e-9:
-            scale = 1 << max(4 - frexp(b - a)[1], 0)
-            between = fmpq(floor((a + b) / 2 * scale), scale)
-            if first < between < last:
-                return between
-    bits = 64
-    while True:
-        (_, left_end), (right_end, _) = low.enclosure(bits), high.enclosure(bits)
-        gap = right_end - left_end
-        if gap > 0:
-            scale = fmpz(2) ** (int((1 / gap).ceil().bit_length()) + 3)
-            return fmpq(((left_end + right_end) / 2 * scale).floor(), scale)
-        bits *= 2
 
 
 def _by_value(a: tuple[Real, _Event], b: tuple[Real, _Event]) -> int:

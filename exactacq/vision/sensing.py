@@ -15,6 +15,7 @@ from functools import cmp_to_key
 
 from flint import fmpq
 
+from exactacq.between import rational_between
 from exactacq.contacts import contacts
 from exactacq.curves import Arc
 from exactacq.points import Point
@@ -22,7 +23,6 @@ from exactacq.reals import Real
 from exactacq.vision.holds import Seen
 from exactacq.vision.intervals import EMPTY, Cover, Interval
 from exactacq.vision.legs import Leg
-from exactacq.vision.pencil import rational_between
 from exactacq.vision.shares import Covers, Shares, add
 from exactacq.vision.sightlines import Sightlines
 from exactacq.vision.table import EdgeTable

@@ -12,6 +12,7 @@ from functools import cached_property
 from itertools import chain
 from typing import TypeAlias
 
+from exactacq.between import rational_between
 from exactacq.errors import Undecided
 from exactacq.points import Point, distance_sq
 from exactacq.reals import Real
@@ -21,7 +22,6 @@ from exactacq.vision.holds import Seen
 from exactacq.vision.intervals import EMPTY, Cover, Interval
 from exactacq.vision.legs import Leg
 from exactacq.vision.lookouts import Lookout
-from exactacq.vision.pencil import rational_between
 from exactacq.vision.sightlines import Sightlines
 from exactacq.vision.targets import Targets
 

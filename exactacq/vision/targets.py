@@ -9,6 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
+from flint import fmpq
+
+from exactacq.components import Component
 from exactacq.vision.intervals import EMPTY, Cover, Interval
 from exactacq.vision.lookouts import Lookout
 from exactacq.vision.rails import Rail
@@ -60,6 +63,22 @@ class Targets:
                 for k in range(len(table.obstacles))
             ]
         )
+
+    @classmethod
+    def of_components(cls, components: Iterable[Component], table: EdgeTable, radius: fmpq) -> Targets:
+        """The shores of what a terrain leaves of obstacles, with lookouts where a border cuts them."""
+        of, lookouts = [], {}
+        for component in components:
+            first = int(table.first[component.obstacle.index])
+            targets = tuple(Target(first + p.edge, p.span, p.is_whole) for p in component.shore)
+            if not component.closed:
+                begin, end = targets[0], targets[-1]
+                lookouts[component.index] = (
+                    Lookout(table, radius, begin.edge, begin.span.low, begin.span.start),
+                    Lookout(table, radius, end.edge, end.span.high, end.span.end),
+                )
+            of.append(targets)
+        return cls(of, lookouts)
 
     def on(self, edge: int) -> Sequence[tuple[int, Target]]:
         """The obstacles that an edge counts for."""

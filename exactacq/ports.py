@@ -1,0 +1,24 @@
+"""Ports: what an object offers though a room above it makes it, such as its picture.
+
+A module imports only from below, so a scene cannot import what draws it. It asks here, by the port's name,
+and the package's `__init__` says which function answers. That function's module is loaded when it is asked.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+SVG, JSON = "svg", "json"
+_MAKERS: dict[tuple[str, type], tuple[str, str]] = {}
+
+
+def offer(port: str, kind: type, module: str, function: str) -> None:
+    """Name the function that makes what a port of a type gives, from the object."""
+    _MAKERS[port, kind] = module, function
+
+
+def made(port: str, value: object) -> Any:
+    """What a port of an object gives; KeyError if its type has no such port."""
+    module, function = _MAKERS[port, type(value)]
+    return getattr(import_module(module), function)(value)
