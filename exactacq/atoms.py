@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import atexit
 from abc import ABC, abstractmethod
-from collections.abc import Hashable
+from collections.abc import Hashable, Mapping
 from functools import lru_cache
 from math import log2, prod
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeAlias
 from weakref import WeakValueDictionary
 
-from flint import arb, fmpq, fmpz
+from flint import arb, ctx, fmpq, fmpz
 
 from exactacq.isolation import refined
 
@@ -31,6 +31,13 @@ class Form(Protocol):
     @property
     def key(self) -> Hashable:
         """Structural identity."""
+
+    @property
+    def terms(self) -> Mapping[Atom, fmpq]:
+        """The coefficient of each atom of the linear form; that of 1 is the rational part."""
+
+    def ball(self, bits: int) -> arb:
+        """Enclosure with at least *bits* working bits."""
 
     def working_ball(self, bits: int) -> arb:
         """Enclosure with *bits* working bits, which the caller has set."""
@@ -82,6 +89,11 @@ class Node(ABC):
         if self._bits < bits:
             self._ball, self._bits = self._evaluate(bits), bits
         return self._ball
+
+    def precise_ball(self, bits: int) -> arb:
+        """As `ball`; sets the precision itself."""
+        with ctx.workprec(bits):
+            return self.ball(bits)
 
     def height(self) -> float:
         """Upper bound of the absolute logarithmic height, base 2."""

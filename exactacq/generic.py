@@ -11,20 +11,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable
 from math import prod
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from flint import arb, ctx, fmpq
 
-from exactacq.atoms import Atom, Generators, Inverse, Node, Product, Sqrt, atom_ball
+from exactacq.atoms import Atom, Form, Generators, Inverse, Node, Product, Sqrt, atom_ball
 from exactacq.errors import Undecided
-from exactacq.numerals import Enclosing, ball_sign, enclose
+from exactacq.numerals import Enclosing, ball_sign, decimal_string, enclose
 
 if TYPE_CHECKING:
     import sympy
 
-    from exactacq.reals import Real
-
-Vector: TypeAlias = "tuple[Real, Real]"
+R = TypeVar("R", bound=Form)
+"""The type of real numbers, which stands above."""
 NEAR = (24, 100, 400)
 """The rationals that are tried differ from tau by less than 2 to the minus one of these."""
 FINE = 4096
@@ -58,12 +57,10 @@ class Generic(Node):
         """A decimal: there is no closed form."""
         from sympy import Float
 
-        from exactacq.reals import Real
-
-        return Float(Real.of_atom(self).decimal(SHOWN_DIGITS), SHOWN_DIGITS)
+        return Float(decimal_string(self.precise_ball, SHOWN_DIGITS), SHOWN_DIGITS)
 
 
-def generic_in(value: Real) -> Generic | None:
+def generic_in(value: Form) -> Generic | None:
     """The transcendental number that a real is made of, if any; `Undecided` if there are several."""
     found = [key for key, _ in value.generators() if isinstance(key, Generic)]
     if len(found) > 1:
@@ -71,12 +68,13 @@ def generic_in(value: Real) -> Generic | None:
     return found[0] if found else None
 
 
-def transcendental(real: type[Real], ball: Enclosing) -> Real:
+def transcendental(real: type[R], ball: Enclosing) -> R:
     """A new number from its balls; that it is transcendental is the caller's promise."""
-    return real.of_atom(Generic.make(object(), ball))
+    made: R = cast(Any, real).of_atom(Generic.make(object(), ball))
+    return made
 
 
-def turned(radial: Vector, sense: int, length: Enclosing, radius: Enclosing) -> Vector:
+def turned(radial: tuple[R, R], sense: int, length: Enclosing, radius: Enclosing) -> tuple[R, R]:
     """A vector turned by length / radius, less than two full turns; counterclockwise if *sense* is 1.
 
     That e to the power of i times the angle is transcendental is the caller's promise.
@@ -85,7 +83,7 @@ def turned(radial: Vector, sense: int, length: Enclosing, radius: Enclosing) -> 
     def quarter_tangent(bits: int) -> arb:
         return (sense * length(bits) / radius(bits) / 4).tan()
 
-    x, y = radial
+    x, y = cast("tuple[Any, Any]", radial)
     tau = transcendental(type(x), quarter_tangent)
     square = tau * tau
     half_cos, half_sin = (1 - square) / (1 + square), 2 * tau / (1 + square)
@@ -93,44 +91,45 @@ def turned(radial: Vector, sense: int, length: Enclosing, radius: Enclosing) -> 
     return x * cosine - y * sine, y * cosine + x * sine
 
 
-def sign_at(value: Real, tau: Generic) -> int:
+def sign_at(value: Form, tau: Generic) -> int:
     """The sign of an algebraic function of *tau*, which balls of moderate precision did not tell."""
     if sign := ball_sign(value.ball(FINE)):
         return sign
     degree = prod(d for key, d in value.generators() if isinstance(key, Sqrt))
     trials = int(degree * _degree(value, {})) + 1
     low, high = _beside(value, tau)
+    real: Any = type(value)
     for k in range(min(trials, MOST_TRIALS)):
-        place = type(value)(low + (high - low) * fmpq(k + 1, k + 2))
-        if _evaluated(value, {tau: place}, type(value).of_atom).sign():
+        place = real(low + (high - low) * fmpq(k + 1, k + 2))
+        if _evaluated(value, {tau: place}, real.of_atom).sign():
             return _refined(value)
     if trials > MOST_TRIALS:
         raise Undecided(f"a number that vanishes at {MOST_TRIALS} of {trials} places")
     return 0
 
 
-def _refined(value: Real) -> int:
+def _refined(value: Form) -> int:
     bits = 512
     while not (sign := ball_sign(value.ball(bits))):
         bits *= 2
     return sign
 
 
-def _beside(value: Real, tau: Generic) -> tuple[fmpq, fmpq]:
+def _beside(value: Form, tau: Generic) -> tuple[fmpq, fmpq]:
     """Rationals around tau between which no radical and no divisor passes 0.
 
     As far apart as the value allows: short rationals are decided soon.
     """
     for bits in NEAR:
         with ctx.workprec(4 * bits):
-            low, high = enclose(type(value).of_atom(tau).ball, bits)
+            low, high = enclose(tau.precise_ball, bits)
             around = arb((low + high) / 2, (high - low) / 2)
             if _evaluated(value, {tau: around}, lambda atom: atom_ball(atom, ctx.prec)).is_finite():
                 return low, high
     raise Undecided("a radical may pass 0 beside a transcendental number")
 
 
-def _evaluated(value: Real, known: dict[Atom, Any], leaf: Callable[[Atom], Any]) -> Any:
+def _evaluated(value: Form, known: dict[Atom, Any], leaf: Callable[[Atom], Any]) -> Any:
     """The value of an expression where some atoms are *known* to be other numbers, Reals or balls.
 
     *leaf* gives other atoms that are made of no reals; what is made of them becomes known.
@@ -156,7 +155,7 @@ def _root(square: Any) -> Any:
     return arb.nan() if isinstance(square, arb) and not square > 0 else square.sqrt()
 
 
-def _degree(value: Real, known: dict[Atom, float]) -> float:
+def _degree(value: Form, known: dict[Atom, float]) -> float:
     """The height of a real as a function of the transcendental number: its degree over its radicals'."""
     for atom in value.terms:
         if atom not in known:
@@ -165,5 +164,5 @@ def _degree(value: Real, known: dict[Atom, float]) -> float:
     return sum(known[atom] for atom in value.terms)
 
 
-def _arguments(atom: Atom) -> tuple[Real, ...]:
-    return atom.args if isinstance(atom, Sqrt | Product | Inverse) else ()  # type: ignore[return-value]
+def _arguments(atom: Atom) -> tuple[Form, ...]:
+    return atom.args if isinstance(atom, Sqrt | Product | Inverse) else ()

@@ -11,15 +11,12 @@ The norms of a true zero cancel after few steps, whatever the degree of the numb
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 from flint import arb, ctx, fmpq_poly, fmpz
 
-from exactacq.atoms import Inverse, Node, Product, Root, Sqrt
+from exactacq.atoms import Form, Inverse, Node, Product, Root, Sqrt
 from exactacq.numerals import ball_sign
-
-if TYPE_CHECKING:
-    from exactacq.reals import Real
 
 Coefficient: TypeAlias = "fmpz | fmpq_poly"
 Polynomial: TypeAlias = "dict[int, Any]"
@@ -38,7 +35,7 @@ class _TooLong(Exception):
     """The test would take too long."""
 
 
-def vanishes(value: Real) -> bool | None:
+def vanishes(value: Form) -> bool | None:
     """Whether a real is 0; None if it holds several other roots, or the test would take too long."""
     try:
         tower = _Tower(value)
@@ -48,7 +45,7 @@ def vanishes(value: Real) -> bool | None:
 
 
 class _Tower:
-    def __init__(self, value: Real) -> None:
+    def __init__(self, value: Form) -> None:
         self.squares: list[Polynomial] = []
         self.balls: list[tuple[Node | int, Polynomial | None]] = []
         self.known: dict[Node, Fraction] = {}
@@ -69,7 +66,7 @@ class _Tower:
 
     # -- reals as fractions ------------------------------------------------------------------------
 
-    def fraction(self, value: Real) -> Fraction:
+    def fraction(self, value: Form) -> Fraction:
         """Numerator and denominator (not 0) of a real."""
         scale = fmpz(1)
         for c in value.terms.values():
@@ -104,14 +101,14 @@ class _Tower:
     def _node(self, node: Node) -> Fraction:
         if node not in self.known:
             if isinstance(node, Sqrt):
-                top, bottom = self.fraction(node.args[0])  # type: ignore[arg-type]
+                top, bottom = self.fraction(node.args[0])
                 # s = sqrt(N / D) is t / D with t = s D, t^2 = N D
                 self.known[node] = self._radical(self.times(top, bottom), node, bottom), bottom
             elif isinstance(node, Product):
-                (a, b), (c, d) = (self.fraction(factor) for factor in node.args)  # type: ignore[arg-type]
+                (a, b), (c, d) = (self.fraction(factor) for factor in node.args)
                 self.known[node] = self.times(a, c), self.times(b, d)
             elif isinstance(node, Inverse):
-                top, bottom = self.fraction(node.args[0])  # type: ignore[arg-type]
+                top, bottom = self.fraction(node.args[0])
                 self.known[node] = bottom, top
             else:
                 assert isinstance(node, Root)
@@ -231,7 +228,7 @@ def _primitive(top: Polynomial, bottom: Polynomial) -> Fraction:
     return {m: c // common for m, c in top.items()}, {m: c // common for m, c in bottom.items()}
 
 
-def _field(value: Real) -> tuple[fmpq_poly, Node] | None:
+def _field(value: Form) -> tuple[fmpq_poly, Node] | None:
     """Polynomial and first power of the one root of higher degree that a real is made of, if there is any."""
     found = {key for key, _ in value.generators() if not isinstance(key, int | Sqrt)}
     if not found:
@@ -243,7 +240,7 @@ def _field(value: Real) -> tuple[fmpq_poly, Node] | None:
     return fmpq_poly(list(coefficients)), Root.make(coefficients, index, 1)
 
 
-def _radicands(value: Real) -> set[int]:
+def _radicands(value: Form) -> set[int]:
     """The integers whose square roots a real is made of."""
     found: set[int] = set()
     waiting, done = [value], set()
@@ -255,7 +252,7 @@ def _radicands(value: Real) -> set[int]:
             elif atom not in done:
                 done.add(atom)
                 if isinstance(atom, Sqrt | Product | Inverse):
-                    waiting += atom.args  # type: ignore[arg-type]
+                    waiting += atom.args
     return found
 
 

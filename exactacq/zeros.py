@@ -16,7 +16,7 @@ from flint import arb, arb_series, ctx, fmpq, fmpz
 
 from exactacq.atoms import Generators, Node
 from exactacq.errors import Undecided
-from exactacq.numerals import ball_sign
+from exactacq.numerals import ball_sign, decimal_string
 from exactacq.reals import Real
 
 if TYPE_CHECKING:
@@ -89,7 +89,7 @@ class Zero(Node):
         """A decimal: there is no closed form."""
         from sympy import Float
 
-        return Float(Real.of_atom(self).decimal(SHOWN_DIGITS), SHOWN_DIGITS)
+        return Float(decimal_string(self.precise_ball, SHOWN_DIGITS), SHOWN_DIGITS)
 
 
 def zeros_between(

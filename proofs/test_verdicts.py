@@ -13,7 +13,7 @@ import pytest
 
 from exactacq import Length, gallery
 from exactacq.claims import CLAIMS, Case, Claim, Statement, Status, Subject, verdict
-from exactacq.claims.tallies import largest_distance
+from exactacq.claims.tallies import Tally, largest_distance
 from exactacq.generators import random_octagons
 from exactacq.random_scenes import random_scene
 
@@ -90,5 +90,5 @@ def test_the_numbers_of_theorem_1() -> None:
 )
 def test_which_bounds_of_theorem_2_break(name: str, broken: set[str]) -> None:
     """As values, whatever the case that a bound is for."""
-    tally = example(name).tally
+    tally = example(name).shared(Tally)
     assert {k for k, value in tally.length_bounds().items() if tally.run.length > value} == broken

@@ -15,7 +15,7 @@ from exactacq.claims.model import SILENT, found
 from exactacq.claims.sights import overlooked
 from exactacq.claims.sightseer import farthest_keeps_the_bound
 from exactacq.claims.sweeps import bare_walk, hops, is_convex
-from exactacq.claims.tallies import differs, largest_distance, straight_length, theorem_1
+from exactacq.claims.tallies import Tally, differs, largest_distance, straight_length, theorem_1
 from exactacq.claims.trees import arrivals, circled, tree_flaw
 from exactacq.claims.walks import is_circuit, moves, node_at, stays, traversals
 
@@ -128,7 +128,7 @@ class TestSightseerCounts:
 class TestSweepCounts:
     def test_figure_4(self) -> None:
         """O1, O2, O4, O5 and O6 cross the M-line, O3 lies in strip 2; O1, O4 and O6 are met again."""
-        tally = example("figure4").tally
+        tally = example("figure4").shared(Tally)
         assert tally.counts == (5, 0, 1, 0)
         assert tally.pairs == 5 * 4
         names = [tally.run.obstacles[k].label for k in tally.met_again]
@@ -140,8 +140,8 @@ class TestSweepCounts:
         """One obstacle touches a line from the west, one from the east, one lies on both sides of it."""
         shapes = [Circle((2, 2), 1), box(3, 4, 4, 5), box(2, 6, 4, 7)]
         case = Case(Scene(shapes, terrain=Terrain(6, 9), radius=3))
-        assert case.tally.counts == (1, 1, 1)
-        assert differs(case.spreader, case.tally.visit_bounds()) is None
+        assert case.shared(Tally).counts == (1, 1, 1)
+        assert differs(case.spreader, case.shared(Tally).visit_bounds()) is None
 
     def test_a_wrong_value_is_named(self) -> None:
         case = example("m25")
@@ -154,11 +154,11 @@ class TestSweepCounts:
         ways = [straight_length(case.spreader, d) for d in case.spreader.sweeping.diversions]
         assert all(a < b for a, b in pairwise(ways))
         assert not any(e.kind in ("hit", "cross") and "M-line" in e.note for e in case.spreader.events)
-        bound = case.tally.met_again_bound()
-        assert bound - case.tally.far * 2 < case.spreader.length < bound
-        assert case.tally.stays_in_strips
-        assert not case.tally.overtaken
-        assert case.tally.proved_length() == bound
+        bound = case.shared(Tally).met_again_bound()
+        assert bound - case.shared(Tally).far * 2 < case.spreader.length < bound
+        assert case.shared(Tally).stays_in_strips
+        assert not case.shared(Tally).overtaken
+        assert case.shared(Tally).proved_length() == bound
 
     def test_hops(self) -> None:
         """The bar crosses lines 1 to 3: each time from one crossing point to the next."""

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import Any, TypeVar
 
 import networkx as nx
 
@@ -20,8 +20,7 @@ from exactacq.seed_spreader import seed_spreader
 from exactacq.sightseer import sightseer
 from exactacq.trace import Run
 
-if TYPE_CHECKING:
-    from exactacq.claims.tallies import Tally
+Made = TypeVar("Made")
 
 
 class Outcome(Enum):
@@ -112,12 +111,16 @@ class Case:
         """The terrain as the audit sees it: the M-line, and what blocks it."""
         return Field(self.spreader, self.world)
 
-    @cached_property
-    def tally(self) -> Tally:
-        """What the bounds on a sweep are made of, counted anew."""
-        from exactacq.claims.tallies import Tally
+    def shared(self, make: Callable[[Case], Made]) -> Made:
+        """What several checks of the case need, made of it once."""
+        if make not in self._shared:
+            self._shared[make] = make(self)
+        made: Made = self._shared[make]
+        return made
 
-        return Tally(self)
+    @cached_property
+    def _shared(self) -> dict[Any, Any]:
+        return {}
 
     @property
     def swept_to_the_end(self) -> bool:

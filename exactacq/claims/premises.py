@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from exactacq.claims.model import Case
+from exactacq.claims.tallies import Tally
 from exactacq.links import START
 
 
@@ -30,8 +31,10 @@ def _is_plain(case: Case) -> bool:
 _SEATED = Premise("model (a), S on a boundary", _is_seated)
 _LINKED = Premise("model (a)", lambda case: case.is_mutually_visible)
 _ANY = Premise("all sweeps", lambda _: True)
-_DIRECT = Premise("no known obstacle met on diversions", lambda case: not case.tally.diversions_meet_known)
-_CLEAR = Premise("clear of the border", lambda case: case.tally.is_clear)
+_DIRECT = Premise(
+    "no known obstacle met on diversions", lambda case: not case.shared(Tally).diversions_meet_known
+)
+_CLEAR = Premise("clear of the border", lambda case: case.shared(Tally).is_clear)
 _BOTH = Premise("both of (9) and (10)", lambda case: _DIRECT.holds(case) and _CLEAR.holds(case))
 
 PREMISES = {

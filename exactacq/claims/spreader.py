@@ -13,7 +13,7 @@ from exactacq.claims.sweeps import (
     is_convex,
     progress_flaw,
 )
-from exactacq.claims.tallies import HALF, reach, straight_length
+from exactacq.claims.tallies import HALF, Tally, reach, straight_length
 from exactacq.claims.walks import is_circuit, stays
 from exactacq.lengths import Length
 from exactacq.scene import Scene
@@ -93,7 +93,7 @@ def acquires_the_lone_convex(case: Case) -> Finding:
 
 def _alone(case: Case) -> list[int]:
     """Convex obstacles clear of the border that share their strip with no point of another."""
-    tally, bodies = case.tally, case.spreader.obstacles
+    tally, bodies = case.shared(Tally), case.spreader.obstacles
     extents = [tally.extent(k) for k in range(len(bodies))]
     lone = []
     for k in sorted(set(range(len(bodies))) - tally.crossing):

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from exactacq.claims.model import SILENT, Case, Claim, Finding, Statement, Subject, flaw, found
-from exactacq.claims.tallies import differs, theorem_1, theorem_1_printed
+from exactacq.claims.tallies import Tally, differs, theorem_1, theorem_1_printed
 from exactacq.lengths import Length
 from exactacq.trace import Run
 
@@ -39,17 +39,17 @@ def _keeps(case: Case, name: str, recounted: Callable[[Run], Length]) -> Finding
 
 def keeps_lemma_3(case: Case) -> Finding:
     """The visits are at most (4)."""
-    return _visits(case, case.tally.visit_bounds()["(4)"])
+    return _visits(case, case.shared(Tally).visit_bounds()["(4)"])
 
 
 def keeps_corrected_lemma_3(case: Case) -> Finding:
     """The visits are at most (4), what is met again and overtaken aims; a wider form across strips."""
-    return _visits(case, case.tally.proved_visits())
+    return _visits(case, case.shared(Tally).proved_visits())
 
 
 def _visits(case: Case, most: Length) -> Finding:
-    wrong = differs(case.spreader, case.tally.visit_bounds())
-    return flaw(wrong) if wrong else _within(Length(case.tally.visits), most)
+    wrong = differs(case.spreader, case.shared(Tally).visit_bounds())
+    return flaw(wrong) if wrong else _within(Length(case.shared(Tally).visits), most)
 
 
 def keeps_theorem_2(case: Case) -> Finding:
@@ -58,12 +58,12 @@ def keeps_theorem_2(case: Case) -> Finding:
     (9) and (11) are for diversions that meet no known obstacle, (10) and (11) for obstacles clear of the
     border.
     """
-    run, values = case.spreader, case.tally.length_bounds()
+    run, values = case.spreader, case.shared(Tally).length_bounds()
     if (wrong := differs(run, values)) is not None:
         return flaw(wrong)
-    if not case.tally.is_clear:
+    if not case.shared(Tally).is_clear:
         del values["(10)"], values["(11)"]
-    if case.tally.diversions_meet_known:
+    if case.shared(Tally).diversions_meet_known:
         for name in {"(9)", "(11)"} & set(values):
             del values[name]
     broken = [name for name, value in values.items() if run.length > value]
@@ -73,7 +73,7 @@ def keeps_theorem_2(case: Case) -> Finding:
 
 def keeps_corrected_theorem_2(case: Case) -> Finding:
     """P is at most (6), or (10) clear of the border, with what is met again and what far diversions add."""
-    run, tally = case.spreader, case.tally
+    run, tally = case.spreader, case.shared(Tally)
     wrong = differs(run, {"T2 corrected": tally.met_again_bound()})
     return flaw(wrong) if wrong else _within(run.length, tally.proved_length())
 
@@ -83,7 +83,7 @@ def is_the_m_line(case: Case) -> Finding:
     run = case.spreader
     if any(event.kind in ("hit", "cross", "divert") for event in run.events):
         return SILENT
-    value = case.tally.base
+    value = case.shared(Tally).base
     wrong = differs(run, {"(8)": value})
     return flaw(wrong) if wrong else found(run.length == value, f"P = {run.length}, (8) is {value}")
 
