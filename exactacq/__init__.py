@@ -2,30 +2,30 @@
 
 from typing import TYPE_CHECKING, Any
 
-from exactacq.audit import audit
+from exactacq.audit.run import audit
 from exactacq.errors import AuditError, ExactacqError, FormatError, InvalidScene, Undecided
-from exactacq.lengths import Length
-from exactacq.links import visibility_graph
-from exactacq.loading import load
-from exactacq.points import Point
-from exactacq.ports import JSON, SVG, offer
-from exactacq.reals import Real
-from exactacq.scene import Scene
-from exactacq.seed_spreader import seed_spreader
-from exactacq.shapes import Circle, Outline, Polygon, Terrain
-from exactacq.sightseer import sightseer
-from exactacq.sweep import sweep
-from exactacq.trace import Run
-from exactacq.vision.isovist import Isovist, isovist
+from exactacq.files.load import load
+from exactacq.geometry.points import Point
+from exactacq.numbers.length import Length
+from exactacq.numbers.real import Real
+from exactacq.scene.ports import JSON, SVG, offer
+from exactacq.scene.scene import Scene
+from exactacq.scene.shapes import Circle, Outline, Polygon, Terrain
+from exactacq.sensing.view_events import sweep
+from exactacq.strategies.run import Run
+from exactacq.strategies.seed_spreader.strategy import seed_spreader
+from exactacq.strategies.sightseer.strategy import sightseer
+from exactacq.visibility.isovist import Isovist, isovist
+from exactacq.visibility.links import visibility_graph
 
-offer(SVG, Scene, "exactacq.figures", "svg")
-offer(SVG, Run, "exactacq.figures", "svg")
-offer(SVG, Isovist, "exactacq.views_svg", "svg")
-offer(JSON, Run, "exactacq.run_json", "run_to_json")
+offer(SVG, Scene, "exactacq.output.figures", "svg")
+offer(SVG, Run, "exactacq.output.figures", "svg")
+offer(SVG, Isovist, "exactacq.output.isovist_svg", "svg")
+offer(JSON, Run, "exactacq.output.run_json", "run_to_json")
 
 if TYPE_CHECKING:
-    from exactacq.figures import figure
-    from exactacq.run_json import load_run
+    from exactacq.output.figures import figure
+    from exactacq.output.run_json import load_run
 
 __all__ = [
     "AuditError",
@@ -57,11 +57,11 @@ __all__ = [
 def __getattr__(name: str) -> Any:
     """Load what draws or reads runs when it is first asked for: matplotlib takes most of a second."""
     if name == "figure":
-        from exactacq.figures import figure
+        from exactacq.output.figures import figure
 
         return figure
     if name == "load_run":
-        from exactacq.run_json import load_run
+        from exactacq.output.run_json import load_run
 
         return load_run
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -16,20 +16,20 @@ from flint import fmpq
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from exactacq import gallery as scenes
-from exactacq.audit import audit
-from exactacq.campaign.command import verify
+from exactacq.audit.run import audit
 from exactacq.errors import ExactacqError, FormatError, InvalidScene
-from exactacq.loading import load
-from exactacq.numerals import rational
-from exactacq.output import FIGURES, PAGES, TRACES, check_output, write_whole
-from exactacq.report import comparison, console, run_report, scene_list, scene_report
-from exactacq.scene import Scene
-from exactacq.search.command import search
-from exactacq.seed_spreader import TargetChoice, seed_spreader
-from exactacq.shapes import Terrain
-from exactacq.sightseer import sightseer
-from exactacq.trace import Run
+from exactacq.files import gallery as scenes
+from exactacq.files.load import load
+from exactacq.files.whole_files import FIGURES, PAGES, TRACES, check_output, write_whole
+from exactacq.numbers.rationals import rational
+from exactacq.output.report import comparison, console, run_report, scene_list, scene_report
+from exactacq.scene.scene import Scene
+from exactacq.scene.shapes import Terrain
+from exactacq.strategies.run import Run
+from exactacq.strategies.seed_spreader.strategy import TargetChoice, seed_spreader
+from exactacq.strategies.sightseer.strategy import sightseer
+from exactacq.study.campaign.command import verify
+from exactacq.study.search.command import search
 
 REFUSED, INTERNAL, INTERRUPTED = 2, 1, 130
 """Exit statuses: bad input or a file that cannot be written; a fault of exactacq itself; control-C."""
@@ -139,14 +139,14 @@ def explore(
         raise FormatError(f"{scene}: the scene has no radius of vision: give one with --radius R")
     run = _explored(world, range_, strategy, lookahead, target)
     if figure is not None:
-        from exactacq.figures import save  # matplotlib takes long to import
+        from exactacq.output.figures import save  # matplotlib takes long to import
 
         try:
             save(run, figure, length)
         except ValueError as error:
             raise FormatError(f"--at: {error}") from None
     if animate is not None:
-        from exactacq.animation import frames_of, page
+        from exactacq.output.animation.page import frames_of, page
 
         write_whole(animate, page(run, frames_of(run)).encode())
     if check_run:
@@ -194,7 +194,7 @@ def compare(
     spread = _explored(corner, range_, Strategy.SEED_SPREADER)
     console().print(comparison(seen, spread))
     if figure is not None:
-        from exactacq.figures import save_pair
+        from exactacq.output.figures import save_pair
 
         save_pair(seen, spread, figure)
         print(f"figure written to {figure}")
@@ -238,7 +238,7 @@ def gallery(
     elif figure is None:
         console().print(scene_report(scenes.scene(name)))
     else:
-        from exactacq.figures import save
+        from exactacq.output.figures import save
 
         save(scenes.scene(name), figure)
         print(f"figure written to {figure}")
@@ -249,7 +249,7 @@ app.command()(search)
 
 
 def _draw_gallery(folder: Path) -> None:
-    from exactacq.figures import save
+    from exactacq.output.figures import save
 
     folder.mkdir(exist_ok=True)
     for name in scenes.names():

@@ -11,11 +11,12 @@ from pathlib import Path
 
 import pytest
 
-from exactacq import Length, gallery
-from exactacq.claims import CLAIMS, Case, Claim, Statement, Status, Subject, verdict
-from exactacq.claims.tallies import Tally, largest_distance
-from exactacq.generators import random_octagons
-from exactacq.random_scenes import random_scene
+from exactacq import Length
+from exactacq.files import gallery
+from exactacq.files.octagons import random_octagons
+from exactacq.study.claims import CLAIMS, Case, Claim, Statement, Status, Subject, verdict
+from exactacq.study.claims.tallies import Tally, largest_distance
+from exactacq.study.random_scenes import random_scene
 
 SEEDS = range(24)
 RADII = (4, 10)

@@ -30,7 +30,7 @@ from numpy.typing import NDArray
 from oracles import TAU, Disc, Room, World, cross, unit
 
 from exactacq import Circle, Point, Scene
-from exactacq.curves import Arc
+from exactacq.geometry.curves import Arc
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]

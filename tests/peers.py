@@ -12,7 +12,7 @@ import pyvispoly
 from flint import fmpq
 
 from exactacq import Scene
-from exactacq.numerals import rational
+from exactacq.numbers.rationals import rational
 
 Corner = Sequence[object]
 WORD = 1 << 30

@@ -23,7 +23,7 @@ import shapely
 from numpy.typing import NDArray
 
 from exactacq import Scene
-from exactacq.curves import Arc, Curve
+from exactacq.geometry.curves import Arc, Curve
 
 Floats = NDArray[np.float64]
 

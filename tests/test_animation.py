@@ -18,20 +18,34 @@ from typing import Any
 import pytest
 from chromium import Chromium, binary
 
-from exactacq import FormatError, figures, gallery, isovist
-from exactacq.animation import FAR, LIMIT, SIZE, Changes, Frame, Paper, Stop, chosen, frames_of, page, stops
-from exactacq.curves import Arc, Curve, Segment
-from exactacq.lengths import Length
-from exactacq.path import Event
-from exactacq.points import Point
-from exactacq.reals import Real
-from exactacq.scene import Scene
-from exactacq.seed_spreader import seed_spreader
-from exactacq.shapes import Circle, Outline, Polygon, Terrain
-from exactacq.sightseer import sightseer
-from exactacq.trace import Run
+from exactacq import FormatError, isovist
+from exactacq.files import gallery
+from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.points import Point
+from exactacq.numbers.length import Length
+from exactacq.numbers.real import Real
+from exactacq.output.animation.page import (
+    FAR,
+    LIMIT,
+    SIZE,
+    Changes,
+    Frame,
+    Paper,
+    Stop,
+    chosen,
+    frames_of,
+    page,
+    stops,
+)
+from exactacq.output.figures import draw as figures
+from exactacq.scene.scene import Scene
+from exactacq.scene.shapes import Circle, Outline, Polygon, Terrain
+from exactacq.sensing.path import Event
+from exactacq.strategies.run import Run
+from exactacq.strategies.seed_spreader.strategy import seed_spreader
+from exactacq.strategies.sightseer.strategy import sightseer
 
-CODE = Path(__file__).parent.parent / "exactacq"
+CODE = Path(__file__).parent.parent / "exactacq" / "output" / "animation"
 HOSTILE = (
     '</script><script>window.hacked = 1</script><img src=x onerror="window.hacked = 2">',
     "<!--<script>\u2028${window.hacked = 3}`$data $policy",
@@ -380,7 +394,7 @@ def test_what_a_user_writes_is_in_the_block_of_data_only(room: Run) -> None:
     assert "hacked" not in before + after
     assert "<" not in block
     assert [o["name"] for o in json.loads(block)["obstacles"]][:2] == list(HOSTILE)
-    script = (CODE / "animation.js").read_text("utf-8")
+    script = (CODE / "page.js").read_text("utf-8")
     for danger in ("innerHTML", "outerHTML", "insertAdjacentHTML", "document.write", "eval(", "Function("):
         assert danger not in script
 
@@ -398,7 +412,7 @@ def contrast(one: str, other: str) -> float:
 
 
 def test_colours_are_those_of_the_figures_and_can_be_told_apart() -> None:
-    colours = dict(re.findall(r"--([a-z]+): (#[0-9a-f]{6});", (CODE / "animation.css").read_text("utf-8")))
+    colours = dict(re.findall(r"--([a-z]+): (#[0-9a-f]{6});", (CODE / "page.css").read_text("utf-8")))
     own = {name: getattr(figures, name.upper()) for name in ("ink", "paper", "fill", "edge", "view")}
     assert colours | own | {"robot": figures.HIT} == colours
     for text, ground in (("ink", "paper"), ("soft", "paper"), ("ink", "fill"), ("ink", "ground")):

@@ -1,89 +1,126 @@
-"""ARCHITECTURE.md: every module is in the picture, and imports only from what is below it or to its right."""
+"""The picture in ARCHITECTURE.md is the code: it lists every file, and imports point down or to the right."""
 
 from __future__ import annotations
 
 import ast
 import re
-from fnmatch import fnmatch
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
-FREE = {"", "errors"}
-"""What everything may import: the package's own names, and the errors."""
-COLUMN = 37
-"""Where the picture says what a row is for."""
+PACKAGE = ROOT / "exactacq"
+SCREEN = 60
+"""Lines that the picture may take."""
+LONGEST = 600
+"""Lines that a file may have."""
 
 
-def patterns(text: str) -> list[str]:
-    """The modules of the picture from top to bottom, and from left to right."""
+def pictured(text: str) -> list[str]:
+    """The files in the order of the picture; a name ending in / opens a folder, of rooms or in a room."""
     found: list[str] = []
+    room = ""
     for line in re.search(r"```\n(.*?)```", text, re.S)[1].splitlines():
-        folder = ""
-        for word in line[:COLUMN].replace("|", " ").split():
-            folder = word.rpartition("/")[0] or folder
-            found.append(word if "/" in word or not folder else f"{folder}/{word}")
+        if header := re.match(r"(\w+)/", line):
+            room = header[1]
+            continue
+        room = room if line.startswith(" ") else ""
+        folder = room
+        for name in line.split():
+            if name.endswith("/"):
+                folder = f"{room}/{name[:-1]}"
+            else:
+                found.append(f"{folder}/{name}" if folder else name)
     return found
 
 
-def modules() -> dict[str, set[str]]:
-    """What each module imports of the package when it is loaded; a package goes by its own name."""
-    package = ROOT / "exactacq"
-    files = {named(path.relative_to(package)): path for path in package.rglob("*.py")}
-    return {name: imports(path.read_text(encoding="utf-8"), set(files)) for name, path in files.items()}
-
-
-def named(path: Path) -> str:
-    return "/".join(path.with_suffix("").parts).removesuffix("__init__").rstrip("/")
+def files() -> dict[str, Path]:
+    """Every file of the package by its path without the suffix; a package by its folder's."""
+    found = {}
+    for path in PACKAGE.rglob("*.py"):
+        name = "/".join(path.relative_to(PACKAGE).with_suffix("").parts)
+        found[name.removesuffix("/__init__")] = path
+    del found["__init__"]
+    return found
 
 
 def imports(text: str, known: set[str]) -> set[str]:
+    """What a file imports of the package, wherever the statement stands: in functions and for types too."""
     found = set()
-    for node in ast.parse(text).body:
-        if isinstance(node, ast.ImportFrom) and node.module and node.module.startswith("exactacq"):
-            base = node.module.split(".")[1:]
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.ImportFrom):
+            assert node.level == 0, "imports are absolute"
+        if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "exactacq":
+            base = "/".join((node.module or "").split(".")[1:])
             for alias in node.names:
-                name = "/".join([*base, alias.name])
-                found.add(name if name in known else "/".join(base))
+                name = f"{base}/{alias.name}".strip("/")
+                found.add(name if name in known else base)
+        if isinstance(node, ast.Import):
+            found |= {a.name for a in node.names if a.name.startswith("exactacq")}
     return found
 
 
 def place(name: str, order: list[str]) -> int | None:
-    """Where a module stands, by its name or else by a pattern; a package stands where its modules do."""
-    if name in order:
-        return order.index(name)
-    return next((k for k, p in enumerate(order) if fnmatch(name, p) or p == f"{name}/*"), None)
+    """Where a file stands; a package stands where its first file does."""
+    return next((k for k, p in enumerate(order) if p == name or p.startswith(f"{name}/")), None)
 
 
-def violations(order: list[str], found: dict[str, set[str]]) -> list[str]:
+def violations(order: list[str], used: dict[str, set[str]]) -> list[str]:
     wrong = []
-    for name, used in found.items():
-        if name in FREE | {"__main__", "vision"}:
-            continue
-        here = place(name, order)
-        if here is None:
-            wrong.append(f"{name} is not in the picture")
-            continue
-        for other in sorted(used - FREE):
-            there = place(other, order)
-            together = there == here and "*" in order[here]
-            if there is None or (there <= here and not together):
+    for name, others in used.items():
+        for other in others:
+            if other.startswith(f"{name}/"):
+                continue  # A package offers what is in it.
+            here, there = place(name, order), place(other, order)
+            if here is None or there is None or not here < there:
                 wrong.append(f"{name} imports {other}")
     return wrong
 
 
+def used() -> dict[str, set[str]]:
+    known = files()
+    return {name: imports(path.read_text(encoding="utf-8"), set(known)) for name, path in known.items()}
+
+
 def test_the_picture_is_true() -> None:
-    order, found = patterns((ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")), modules()
+    order = pictured((ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8"))
+    found = used()
+    packages = {name for name in found if any(other.startswith(f"{name}/") for other in found)}
+    assert sorted(order) == sorted(set(found) - packages)
     assert violations(order, found) == []
-    assert [p for k, p in enumerate(order) if k not in {place(name, order) for name in found}] == []
 
 
-def test_a_module_that_imports_from_above_is_found() -> None:
-    order = patterns(f"```\n{'top  side':{COLUMN}}the top\n  |\n{'low/*':{COLUMN}}below\nlow/a  b\n```")
-    assert order == ["top", "side", "low/*", "low/a", "low/b"]
-    found = {"top": {"side", "errors"}, "side": {"low/c"}, "low/c": {"low/a", "low/d"}, "low/d": set()}
-    assert violations(order, {**found, "low/a": {"low/b"}, "low/b": set()}) == []
-    assert violations(order, {"side": {"top"}, "low/a": {"low/c"}, "new": set()}) == [
-        "side imports top",
-        "low/a imports low/c",
-        "new is not in the picture",
-    ]
+def test_the_audit_shares_nothing_with_what_it_checks() -> None:
+    """Of the rooms that make runs it knows the run and its path."""
+    makers = ("visibility/", "sensing/", "strategies/")
+    known = {other for name, others in used().items() if name.startswith("audit") for other in others}
+    assert {name for name in known if name.startswith(makers)} == {"sensing/path", "strategies/run"}
+
+
+def test_the_picture_fits_a_screen() -> None:
+    text = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
+    lines = re.search(r"```\n(.*?)```", text, re.S)[1].splitlines()
+    assert len(lines) <= SCREEN
+    assert max(map(len, lines)) <= 110
+
+
+def test_no_file_is_long() -> None:
+    assert [name for name, path in files().items() if len(path.read_text().splitlines()) > LONGEST] == []
+
+
+def test_a_wrong_order_shows() -> None:
+    order = pictured("```\nabove/  what stands above\n    one  two\n    inner/  three\nbelow/\n    four\n```")
+    assert order == ["above/one", "above/two", "above/inner/three", "below/four"]
+    fine = {"above/one": {"above/two", "below"}, "above/inner": {"above/inner/three"}}
+    assert violations(order, fine) == []
+    wrong = {"above/two": {"above/one"}, "below/four": {"above/inner"}, "below/five": {"below/four"}}
+    assert len(violations(order, wrong)) == 3
+
+
+def test_late_imports_and_those_for_types_are_seen() -> None:
+    text = """
+if TYPE_CHECKING:
+    from exactacq.a import b
+def f():
+    from exactacq.c.d import e
+    import exactacq.g
+"""
+    assert imports(text, {"a", "c/d", "c/d/e"}) == {"a", "c/d/e", "exactacq.g"}

@@ -12,10 +12,10 @@ from pathlib import Path
 import pytest
 
 import exactacq as xa
-from exactacq.boundary import Boundary
-from exactacq.curves import Segment
-from exactacq.lengths import Length
-from exactacq.scene import Scene
+from exactacq.geometry.curves import Segment
+from exactacq.numbers.length import Length
+from exactacq.scene.boundary_walk import Boundary
+from exactacq.scene.scene import Scene
 
 Q = Fraction
 DATA = Path(__file__).parent / "data" / "arcs"

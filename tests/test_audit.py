@@ -22,14 +22,14 @@ from strategies import EPS, Terrain, box, build, degenerate_terrain, random_terr
 from test_laws_of_runs import crowded_room, run_of
 
 import exactacq as xa
-from exactacq.audit import audit
-from exactacq.audit_views import Lookout, World, point_at, point_near, visible
-from exactacq.curves import Arc, Segment
+from exactacq.audit.run import audit
+from exactacq.audit.world import Lookout, World, point_at, point_near, visible
 from exactacq.errors import AuditError
-from exactacq.lengths import Length
-from exactacq.path import Event, Path, Piece
-from exactacq.points import Point
-from exactacq.trace import Run
+from exactacq.geometry.curves import Arc, Segment
+from exactacq.geometry.points import Point
+from exactacq.numbers.length import Length
+from exactacq.sensing.path import Event, Path, Piece
+from exactacq.strategies.run import Run
 
 Q = Fraction
 SIGHTS = ("sight", "acquire", "lose", "regain")
@@ -39,7 +39,7 @@ SIDE = [Point(2, -2), Point(6, -2), Point(6, 2), Point(2, 2)]
 
 @dataclass(frozen=True)
 class KnownPart:
-    """As `exactacq.vision.knowledge.Known`."""
+    """As `exactacq.sensing.map.Known`."""
 
     edge: int
     start: Point

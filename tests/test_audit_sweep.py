@@ -19,15 +19,15 @@ from sweeps import rectangle, swept_scene
 
 import exactacq as xa
 from exactacq import Circle, Polygon, Scene, Terrain
-from exactacq.audit import audit
-from exactacq.claims.model import Subject
-from exactacq.curves import Curve, Segment
+from exactacq.audit.run import audit
 from exactacq.errors import AuditError
-from exactacq.lengths import Length
-from exactacq.path import Event, Path, Piece
-from exactacq.points import Point
-from exactacq.random_scenes import random_scene
-from exactacq.trace import Run
+from exactacq.geometry.curves import Curve, Segment
+from exactacq.geometry.points import Point
+from exactacq.numbers.length import Length
+from exactacq.sensing.path import Event, Path, Piece
+from exactacq.strategies.run import Run
+from exactacq.study.claims.model import Subject
+from exactacq.study.random_scenes import random_scene
 
 SWEPT = (
     "case1", "case2", "case3", "e3", "figure3", "figure4", "m14", "m15", "m18", "m20-3", "m20-6", "m20-8",
@@ -483,7 +483,7 @@ class TestDiversions:
 
 
 class TestComponents:
-    """Components as `exactacq.components` does not make them."""
+    """Components as `exactacq.scene.terrain_components` does not make them."""
 
     @staticmethod
     def _with(run: Run, change: Callable[[list[Any]], Sequence[Any]]) -> Run:

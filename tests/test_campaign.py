@@ -20,16 +20,16 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
-from exactacq.campaign import command, judging
-from exactacq.campaign.coordinator import conduct
-from exactacq.campaign.judging import Record, judge
-from exactacq.campaign.settings import CampaignError, Settings, Task, claims_at, parts
-from exactacq.campaign.store import Store
-from exactacq.campaign.summary import faults, tallies, unfinished
-from exactacq.claims.model import Case, Claim, Finding, Outcome, Statement, Subject
 from exactacq.errors import AuditError, FormatError, Undecided
-from exactacq.formats.json_scene import parse_json, scene_of, scene_to_json
-from exactacq.random_scenes import random_scene
+from exactacq.files.scene_json import parse_json, scene_of, scene_to_json
+from exactacq.study.campaign import command, judging
+from exactacq.study.campaign.coordinator import conduct
+from exactacq.study.campaign.judging import Record, judge
+from exactacq.study.campaign.settings import CampaignError, Settings, Task, claims_at, parts
+from exactacq.study.campaign.store import Store
+from exactacq.study.campaign.summary import faults, tallies, unfinished
+from exactacq.study.claims.model import Case, Claim, Finding, Outcome, Statement, Subject
+from exactacq.study.random_scenes import random_scene
 
 MARK = "EXACTACQ_TEST_MARK"
 """Names the file that a planted check leaves when it kills its process, so that it does so only once."""
@@ -319,7 +319,7 @@ class TestFile:
     def test_of_another_version_is_refused(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         path = tmp_path / "campaign.sqlite"
         opened(QUICK, path).__exit__(None, None, None)
-        monkeypatch.setattr("exactacq.campaign.settings.version", lambda _: "0.0.1")
+        monkeypatch.setattr("exactacq.study.campaign.settings.version", lambda _: "0.0.1")
         with pytest.raises(CampaignError, match=r"made with version .*, not 0\.0\.1"):
             opened(QUICK, path)
 

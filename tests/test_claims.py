@@ -8,16 +8,17 @@ from itertools import pairwise
 
 import pytest
 
-from exactacq import Circle, FormatError, Length, Outline, Polygon, Scene, Terrain, gallery
-from exactacq.claims import CLAIMS, Case, Outcome, Statement, Status, Subject, claim, verdict
-from exactacq.claims.coverage import times_walked
-from exactacq.claims.model import SILENT, found
-from exactacq.claims.sights import overlooked
-from exactacq.claims.sightseer import farthest_keeps_the_bound
-from exactacq.claims.sweeps import bare_walk, hops, is_convex
-from exactacq.claims.tallies import Tally, differs, largest_distance, straight_length, theorem_1
-from exactacq.claims.trees import arrivals, circled, tree_flaw
-from exactacq.claims.walks import is_circuit, moves, node_at, stays, traversals
+from exactacq import Circle, FormatError, Length, Outline, Polygon, Scene, Terrain
+from exactacq.files import gallery
+from exactacq.study.claims import CLAIMS, Case, Outcome, Statement, Status, Subject, claim, verdict
+from exactacq.study.claims.coverage import times_walked
+from exactacq.study.claims.model import SILENT, found
+from exactacq.study.claims.sights import overlooked
+from exactacq.study.claims.sightseer import farthest_keeps_the_bound
+from exactacq.study.claims.sweeps import bare_walk, hops, is_convex
+from exactacq.study.claims.tallies import Tally, differs, largest_distance, straight_length, theorem_1
+from exactacq.study.claims.trees import arrivals, circled, tree_flaw
+from exactacq.study.claims.walks import is_circuit, moves, node_at, stays, traversals
 
 ROWS = [
     *("SS-1", "SS-2", "SS-3", "SS-4", "SS-5", "SS-6", "SS-7", "L1", "L2", "T1"),

@@ -15,8 +15,9 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from exactacq import cli, gallery
-from exactacq.output import write_whole
+from exactacq import cli
+from exactacq.files import gallery
+from exactacq.files.whole_files import write_whole
 
 ROOT = Path(__file__).parents[1]
 EMPTY_DXF = "0\nSECTION\n2\nENTITIES\n0\nENDSEC\n0\nEOF\n"

@@ -10,12 +10,12 @@ import shapely
 from sweeps import rectangle, swept_scene
 
 from exactacq import Circle, Outline, Point, Polygon, Real, Scene, Terrain
-from exactacq.blocking import Blocking
-from exactacq.components import Component, Ground, ground_of
-from exactacq.curves import Segment
-from exactacq.mline import MLine
-from exactacq.numerals import rational
-from exactacq.vision.table import EdgeTable
+from exactacq.geometry.curves import Segment
+from exactacq.numbers.rationals import rational
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.scene.terrain_components import Component, Ground, ground_of
+from exactacq.strategies.seed_spreader.blocked import Blocking
+from exactacq.strategies.seed_spreader.mline import MLine
 
 
 def ground(shapes: list[object], width: object, height: object) -> Ground:

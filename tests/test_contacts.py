@@ -14,7 +14,8 @@ from shapely import LineString
 from shapely import Point as ShapelyPoint
 from shapely import Polygon as ShapelyPolygon
 
-from exactacq.contacts import (
+from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.intersections import (
     ContactKind,
     Family,
     FamilyKind,
@@ -26,11 +27,10 @@ from exactacq.contacts import (
     spans,
     winding,
 )
-from exactacq.curves import Arc, Curve, Segment
-from exactacq.points import Location, Point
-from exactacq.reals import Real, rational
-from exactacq.scene import shape_edges
-from exactacq.shapes import Circle, Outline, Polygon
+from exactacq.geometry.points import Location, Point
+from exactacq.numbers.real import Real, rational
+from exactacq.scene.scene import shape_edges
+from exactacq.scene.shapes import Circle, Outline, Polygon
 
 HAIR = Fraction(1, 10**60)
 BULGES = tuple(map(Fraction, ("1/2", "-1/2", "1", "-1", "2", "-2", "1/3", "-3")))

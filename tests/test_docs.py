@@ -16,8 +16,9 @@ from types import ModuleType
 import pytest
 
 import exactacq
-from exactacq import Undecided, gallery
-from exactacq.claims.model import Case, Claim, Finding, Outcome, Statement, Status, Subject, verdict
+from exactacq import Undecided
+from exactacq.files import gallery
+from exactacq.study.claims.model import Case, Claim, Finding, Outcome, Statement, Status, Subject, verdict
 
 DOCS = Path(__file__).parent.parent / "docs"
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in DOCS.glob("*.md")}

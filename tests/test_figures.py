@@ -19,19 +19,20 @@ from matplotlib.collections import PathCollection
 from matplotlib.path import Path as Outline
 from sweeps import swept_scene
 
-from exactacq import FormatError, InvalidScene, gallery
-from exactacq.components import ground_of
-from exactacq.curves import Arc, Segment
-from exactacq.figures import AWAY, figure, pair, save, save_pair, svg
-from exactacq.figures_sweep import Sweep, component_region
-from exactacq.points import Point
-from exactacq.reals import fmpq
-from exactacq.scene import Scene
-from exactacq.seed_spreader import seed_spreader
-from exactacq.shapes import Circle, Polygon, Terrain
-from exactacq.sightseer import sightseer
-from exactacq.strokes import Region, Stroke
-from exactacq.trace import Run
+from exactacq import FormatError, InvalidScene
+from exactacq.files import gallery
+from exactacq.geometry.curves import Arc, Segment
+from exactacq.geometry.points import Point
+from exactacq.numbers.real import fmpq
+from exactacq.output.figures.draw import AWAY, figure, pair, save, save_pair, svg
+from exactacq.output.figures.sweep import Sweep, component_region
+from exactacq.output.strokes import Region, Stroke
+from exactacq.scene.scene import Scene
+from exactacq.scene.shapes import Circle, Polygon, Terrain
+from exactacq.scene.terrain_components import ground_of
+from exactacq.strategies.run import Run
+from exactacq.strategies.seed_spreader.strategy import seed_spreader
+from exactacq.strategies.sightseer.strategy import sightseer
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -86,7 +87,7 @@ def bezier_points(path: Outline) -> np.ndarray:
 
 @pytest.mark.parametrize("bulge", ["1/1000000", "1/7", "-1/3", "1", "-1", "5", "-1000"])
 def test_arcs_are_drawn_within_a_millionth_of_their_radius(bulge: str) -> None:
-    from exactacq.numerals import rational
+    from exactacq.numbers.rationals import rational
 
     arc = Arc.from_bulge(Point(1, 2), Point(4, -3), rational(bulge))
     path = Stroke.of(arc).part(0, 1)
@@ -221,7 +222,7 @@ def test_svg_is_the_same_in_every_process_and_under_every_setting(circles: Run) 
     with mpl.rc_context({"lines.linewidth": 9, "font.size": 30, "axes.grid": True, "svg.fonttype": "none"}):
         assert svg(circles) == here
     code = "import exactacq as xa; print(xa.figures.svg(xa.sightseer(xa.load('circles'))), end='')"
-    code = f"import sys, exactacq.figures; sys.stdout.reconfigure(encoding='utf-8'); {code}"
+    code = f"import sys, exactacq.output.figures; sys.stdout.reconfigure(encoding='utf-8'); {code}"
     environment = {**os.environ, "PYTHONHASHSEED": "12345"}
     there = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, env=environment, timeout=60, check=True
@@ -243,7 +244,7 @@ def test_save_writes_every_type_twice_the_same(
 
 
 def test_unknown_type_is_refused_before_drawing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("exactacq.figures.figure", lambda _: pytest.fail("was drawn"))
+    monkeypatch.setattr("exactacq.output.figures.draw.figure", lambda _: pytest.fail("was drawn"))
     with pytest.raises(FormatError, match=r"must end in \.svg, \.pdf, \.png"):
         save(Scene(), tmp_path / "run.jpeg")
     assert not list(tmp_path.iterdir())

@@ -11,12 +11,12 @@ from flint import fmpq
 from hypothesis import given
 from hypothesis import strategies as st
 
-from exactacq.formats.arcs import arc_corners, cosine_sine, simplest_between
-from exactacq.formats.chains import Chain, Corner, root_above, scientific_above
-from exactacq.formats.dxf import default_tolerance
-from exactacq.formats.joints import open_cusps
-from exactacq.formats.stitching import stitch
-from exactacq.numerals import rational
+from exactacq.files.dxf.chains import Chain, Corner, root_above, scientific_above
+from exactacq.files.dxf.cusps import open_cusps
+from exactacq.files.dxf.load import default_tolerance
+from exactacq.files.dxf.rational_arcs import arc_corners, cosine_sine, simplest_between
+from exactacq.files.dxf.stitching import stitch
+from exactacq.numbers.rationals import rational
 
 decimals = st.integers(-(10**9), 10**9).map(lambda n: fmpq(n, 10**6))
 degrees = st.integers(-720 * 10**6, 720 * 10**6).map(lambda n: fmpq(n, 10**6))

@@ -14,12 +14,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from exactacq.errors import FormatError, InvalidScene
-from exactacq.formats import load
-from exactacq.scene import Scene
-from exactacq.shapes import Circle, Outline, Polygon, Shape
+from exactacq.files.by_suffix import load
+from exactacq.scene.scene import Scene
+from exactacq.scene.shapes import Circle, Outline, Polygon, Shape
 
 DATA = Path(__file__).parent / "data"
-PLATE = Path(__file__).parents[1] / "exactacq" / "data" / "issue42.dxf"
+PLATE = Path(__file__).parents[1] / "exactacq" / "files" / "data" / "issue42.dxf"
 FAR = (10**6, 10**6)
 MIRRORED = {"extrusion": (0, 0, -1)}
 

@@ -11,11 +11,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from exactacq.errors import ExactacqError, FormatError, InvalidScene
-from exactacq.formats import load, scene_to_json
-from exactacq.points import Point
-from exactacq.reals import rational
-from exactacq.scene import Scene
-from exactacq.shapes import Circle, Outline, Polygon, Shape, Terrain
+from exactacq.files.by_suffix import load, scene_to_json
+from exactacq.geometry.points import Point
+from exactacq.numbers.real import rational
+from exactacq.scene.scene import Scene
+from exactacq.scene.shapes import Circle, Outline, Polygon, Shape, Terrain
 
 SQUARE = '{"boundary": [[2, -1], [4, -1], [4, 1], [2, 1]]}'
 
@@ -140,7 +140,7 @@ def test_written_and_read_again_a_scene_is_equal(
 
 
 def test_an_irrational_start_cannot_be_written() -> None:
-    from exactacq.reals import Real
+    from exactacq.numbers.real import Real
 
     with pytest.raises(FormatError, match="start is not a rational point"):
         scene_to_json(Scene([], start=Point(Real(2).sqrt(), 0)))

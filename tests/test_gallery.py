@@ -13,12 +13,12 @@ import shapely
 from oracles import GRAZE, Disc, Floats, Room, World, boundary_samples, world
 
 import exactacq as xa
-from exactacq import gallery
-from exactacq.curves import Arc
 from exactacq.errors import FormatError
-from exactacq.generators import random_octagons
-from exactacq.lengths import Length
-from exactacq.reals import Real
+from exactacq.files import gallery
+from exactacq.files.octagons import random_octagons
+from exactacq.geometry.curves import Arc
+from exactacq.numbers.length import Length
+from exactacq.numbers.real import Real
 
 STEP = 0.25
 """Spacing of samples in figures whose radius is about 10; what the tests ask for holds by more than this."""

@@ -11,8 +11,8 @@ from strategies import degenerate_terrain, random_terrain
 
 import exactacq as xa
 from exactacq import Length, Point, Real, Undecided
-from exactacq.curves import Arc, Segment
-from exactacq.generic import transcendental
+from exactacq.geometry.curves import Arc, Segment
+from exactacq.numbers.transcendental import transcendental
 
 Q = Fraction
 ROOT2 = Real(2).sqrt()

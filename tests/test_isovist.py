@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 import pytest
 
 from exactacq import Circle, InvalidScene, Length, Outline, Point, Polygon, Real, Scene, isovist
-from exactacq.generators import random_octagons
+from exactacq.files.octagons import random_octagons
 
 SQUARE = Polygon([(1, -1), (2, -1), (2, 1), (1, 1)])
 ROOM = Circle((0, 0), 5)

@@ -23,8 +23,8 @@ from strategies import EPS, Pair, Similarity, Terrain, box, reversed_order
 
 import exactacq as xa
 from exactacq.errors import InvalidScene
-from exactacq.lengths import Length
-from exactacq.points import Point
+from exactacq.geometry.points import Point
+from exactacq.numbers.length import Length
 
 Q = Fraction
 LONG = settings.get_current_profile_name() == "long"

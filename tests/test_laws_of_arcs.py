@@ -20,11 +20,11 @@ from strategies import Similarity, Terrain, arc_terrain, build, reversed_order
 from test_laws import LONG, is_valid, refined, weights
 
 import exactacq as xa
-from exactacq.claims.model import Subject
 from exactacq.errors import Undecided
-from exactacq.lengths import Length
-from exactacq.random_scenes import arc_scene
-from exactacq.trace import Run
+from exactacq.numbers.length import Length
+from exactacq.strategies.run import Run
+from exactacq.study.claims.model import Subject
+from exactacq.study.random_scenes import arc_scene
 
 Q = Fraction
 EXAMPLES = settings(max_examples=120 if LONG else 12)

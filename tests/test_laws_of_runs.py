@@ -29,8 +29,8 @@ from test_laws import (
 
 import exactacq as xa
 from exactacq.errors import InvalidScene
-from exactacq.lengths import Length
-from exactacq.trace import Run
+from exactacq.numbers.length import Length
+from exactacq.strategies.run import Run
 
 Q = Fraction
 TWO_EDGES = (

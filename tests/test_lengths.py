@@ -15,13 +15,13 @@ from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from exactacq.angles import _cosine_of_pi
-from exactacq.curves import Arc
 from exactacq.errors import FormatError, Undecided
-from exactacq.lengths import Length
-from exactacq.numerals import rational
-from exactacq.points import Point
-from exactacq.reals import Real
+from exactacq.geometry.curves import Arc
+from exactacq.geometry.points import Point
+from exactacq.numbers.angles import _cosine_of_pi
+from exactacq.numbers.length import Length
+from exactacq.numbers.rationals import rational
+from exactacq.numbers.real import Real
 
 ORACLE_BITS = 4400
 # A random sum of a few terms of small height that is below this is 0: the laws only need a referee.

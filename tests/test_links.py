@@ -31,8 +31,8 @@ from strategies import (
 
 import exactacq as xa
 from exactacq.errors import InvalidScene
-from exactacq.lengths import Length
-from exactacq.reals import Real
+from exactacq.numbers.length import Length
+from exactacq.numbers.real import Real
 
 Q = Fraction
 LAW_EXAMPLES = 60 if settings.get_current_profile_name() == "long" else 3

@@ -27,7 +27,7 @@ from stepping import Stepper
 from strategies import POLYGONS, degenerate_terrain, random_terrain
 
 from exactacq import Circle, Outline, Point, Polygon, Run, Scene, sightseer
-from exactacq.curves import Segment
+from exactacq.geometry.curves import Segment
 
 Q = Fraction
 SQUARE = Scene([Polygon([(2, -1), (4, -1), (4, 1), (2, 1)])])

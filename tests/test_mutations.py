@@ -13,13 +13,14 @@ from typing import Any
 
 import pytest
 
-from exactacq import bounds, gallery
-from exactacq.boundary import Boundary
-from exactacq.claims import CLAIMS, Case, Outcome, Statement
-from exactacq.lengths import Length
-from exactacq.scout import Scout
-from exactacq.surveyor import Surveyor
-from exactacq.vision.shares import Shares
+from exactacq.files import gallery
+from exactacq.numbers.length import Length
+from exactacq.scene.boundary_walk import Boundary
+from exactacq.sensing.leg_views import Shares
+from exactacq.strategies import bounds
+from exactacq.strategies.seed_spreader.robot import Surveyor
+from exactacq.strategies.sightseer.robot import Scout
+from exactacq.study.claims import CLAIMS, Case, Outcome, Statement
 
 Patch = pytest.MonkeyPatch
 

@@ -7,7 +7,7 @@ from fractions import Fraction
 import pytest
 
 from exactacq import Length
-from exactacq.output import readable
+from exactacq.files.whole_files import readable
 
 
 def angle(t: Fraction) -> Length:

@@ -9,8 +9,8 @@ import pytest
 from strategies import POLYGONS, Similarity, degenerate_terrain, random_terrain
 
 from exactacq import Length, Point, Polygon, Scene, isovist
-from exactacq.generators import random_octagons
-from exactacq.points import Location
+from exactacq.files.octagons import random_octagons
+from exactacq.geometry.points import Location
 
 peers = pytest.importorskip("peers", reason="needs pyvispoly, an optional test dependency")
 

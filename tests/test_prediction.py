@@ -13,12 +13,12 @@ from random import Random
 import numpy as np
 import pytest
 
-from exactacq.contacts import line_contacts
-from exactacq.curves import Arc, Curve, Segment
-from exactacq.points import Point
-from exactacq.prediction import sees_later
-from exactacq.prediction_growth import growth_sign
-from exactacq.reals import Real, fmpq, roots
+from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.intersections import line_contacts
+from exactacq.geometry.points import Point
+from exactacq.numbers.real import Real, fmpq, roots
+from exactacq.strategies.seed_spreader.prediction.decide import sees_later
+from exactacq.strategies.seed_spreader.prediction.growth import growth_sign
 
 EPS = fmpq(1, 10**40)
 FAR = fmpq(100)

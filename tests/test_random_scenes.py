@@ -10,13 +10,13 @@ from hashlib import sha256
 import pytest
 from flint import fmpq
 
-from exactacq.claims.model import Case, Subject
-from exactacq.components import ground_of
-from exactacq.curves import Arc
-from exactacq.formats.json_scene import scene_to_json
-from exactacq.points import Location, Point
-from exactacq.random_scenes import MOST, arc_scene, random_scene
-from exactacq.scene import Obstacle, Scene
+from exactacq.files.scene_json import scene_to_json
+from exactacq.geometry.curves import Arc
+from exactacq.geometry.points import Location, Point
+from exactacq.scene.scene import Obstacle, Scene
+from exactacq.scene.terrain_components import ground_of
+from exactacq.study.claims.model import Case, Subject
+from exactacq.study.random_scenes import MOST, arc_scene, random_scene
 
 COUNT = 120
 DIGESTS = {

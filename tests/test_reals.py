@@ -17,10 +17,10 @@ from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from exactacq import reals
 from exactacq.errors import FormatError, Undecided
-from exactacq.numerals import rational
-from exactacq.reals import Real, roots
+from exactacq.numbers import real as reals
+from exactacq.numbers.rationals import rational
+from exactacq.numbers.real import Real, roots
 
 ORACLE_BITS = 4400
 # The expressions below have small height and degree: what is smaller than this is 0.

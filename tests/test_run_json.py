@@ -21,18 +21,18 @@ from exactacq import (
     Real,
     Run,
     Scene,
-    gallery,
     load_run,
     seed_spreader,
     sightseer,
 )
-from exactacq.claims.model import Subject
-from exactacq.encoding import Decoder, Encoder
 from exactacq.errors import Undecided
-from exactacq.generators import random_octagons
-from exactacq.random_scenes import random_scene
-from exactacq.reals import roots
-from exactacq.run_json import VERSION
+from exactacq.files import gallery
+from exactacq.files.octagons import random_octagons
+from exactacq.numbers.number_json import Decoder, Encoder
+from exactacq.numbers.real import roots
+from exactacq.output.run_json import VERSION
+from exactacq.study.claims.model import Subject
+from exactacq.study.random_scenes import random_scene
 
 
 def curve_data(piece):

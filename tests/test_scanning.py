@@ -8,11 +8,12 @@ from random import Random
 
 import pytest
 
-from exactacq import Circle, InvalidScene, Length, Outline, Point, Polygon, Scene, gallery, sightseer
-from exactacq.figures_scan import limit_figure
-from exactacq.generators import random_octagons
-from exactacq.reals import fmpq
-from exactacq.scanning import inscribed, polygon_limit, polygonal, vertex_scan
+from exactacq import Circle, InvalidScene, Length, Outline, Point, Polygon, Scene, sightseer
+from exactacq.files import gallery
+from exactacq.files.octagons import random_octagons
+from exactacq.numbers.real import fmpq
+from exactacq.output.figures.scan import limit_figure
+from exactacq.strategies.vertex_scan import inscribed, polygon_limit, polygonal, vertex_scan
 
 Spot = tuple[fmpq, fmpq]
 

@@ -13,16 +13,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 from shapely import Polygon as ShapelyPolygon
 
-from exactacq.boxes import BoxIndex, Separator, bounds
-from exactacq.contacts import contacts
-from exactacq.curves import Arc
 from exactacq.errors import FormatError, InvalidScene
-from exactacq.lengths import Length
-from exactacq.points import Location, Point
-from exactacq.reals import Real, rational
-from exactacq.scene import Scene, shape_edges
-from exactacq.shapes import Circle, Outline, Polygon, Terrain
-from exactacq.validation import LISTED
+from exactacq.geometry.box_index import BoxIndex, Separator, bounds
+from exactacq.geometry.curves import Arc
+from exactacq.geometry.intersections import contacts
+from exactacq.geometry.points import Location, Point
+from exactacq.numbers.length import Length
+from exactacq.numbers.real import Real, rational
+from exactacq.scene.scene import Scene, shape_edges
+from exactacq.scene.shapes import Circle, Outline, Polygon, Terrain
+from exactacq.scene.validation import LISTED
 
 HAIR = Fraction(1, 10**60)
 ROOM = Polygon([(-10, -10), (10, -10), (10, 10), (-10, 10)], name="room")

@@ -14,17 +14,17 @@ from flint import fmpq
 from typer.testing import CliRunner
 
 import exactacq as xa
-from exactacq import gallery
-from exactacq.claims.model import Case, Finding, Outcome, Statement, Subject
 from exactacq.errors import FormatError, InvalidScene
-from exactacq.numerals import rational
-from exactacq.search import Budget, Draft, Goal, Referee, Search, goal, goal_names, shrink
-from exactacq.search.blind import hypothesis_search
-from exactacq.search.command import search
-from exactacq.search.drafts import Seat, is_convex
-from exactacq.search.moves import MOVES, Rules, mutate, rounded
-from exactacq.search.referee import BROKEN, judged
-from exactacq.search.writing import number, scene_text
+from exactacq.files import gallery
+from exactacq.numbers.rationals import rational
+from exactacq.study.claims.model import Case, Finding, Outcome, Statement, Subject
+from exactacq.study.search import Budget, Draft, Goal, Referee, Search, goal, goal_names, shrink
+from exactacq.study.search.blind import hypothesis_search
+from exactacq.study.search.command import search
+from exactacq.study.search.drafts import Seat, is_convex
+from exactacq.study.search.moves import MOVES, Rules, mutate, rounded
+from exactacq.study.search.referee import BROKEN, judged
+from exactacq.study.search.writing import number, scene_text
 
 GALLERY = Path(gallery.__file__).parent / "data" / "gallery"
 APP = typer.Typer()
@@ -300,7 +300,7 @@ def test_the_sightseers_bounds_speak_of_model_a_only() -> None:
 
 
 def test_every_claim_with_a_check_is_a_goal() -> None:
-    from exactacq.claims import CLAIMS
+    from exactacq.study.claims import CLAIMS
 
     for claim in CLAIMS:
         if claim.printed.check is not None:

@@ -11,13 +11,13 @@ from sweeps import rectangle, swept_scene
 
 import exactacq as xa
 from exactacq import Circle, Length, Polygon, Scene, Terrain
-from exactacq.blocking import Blocking
-from exactacq.bounds import census
 from exactacq.errors import InvalidScene
-from exactacq.mline import MLine
-from exactacq.numerals import rational
-from exactacq.trace import Run
-from exactacq.vision.table import EdgeTable
+from exactacq.numbers.rationals import rational
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.strategies.bounds import census
+from exactacq.strategies.run import Run
+from exactacq.strategies.seed_spreader.blocked import Blocking
+from exactacq.strategies.seed_spreader.mline import MLine
 
 
 def labels(run: Run, numbers: object) -> list[str]:

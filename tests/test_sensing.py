@@ -14,18 +14,18 @@ from strategies import Terrain, degenerate_terrain, random_terrain, terrains
 
 import exactacq as xa
 from exactacq import Circle, Outline, Point, Polygon, Real, Scene
-from exactacq.curves import Segment
 from exactacq.errors import InvalidScene
-from exactacq.lengths import Length
-from exactacq.memory import Memory
-from exactacq.path import Event, Piece
-from exactacq.trace import Run
-from exactacq.vision.intervals import Cover, Interval
-from exactacq.vision.isovist import isovist
-from exactacq.vision.knowledge import Map
-from exactacq.vision.rails import Rail
-from exactacq.vision.table import EdgeTable
-from exactacq.vision.targets import Targets
+from exactacq.geometry.curve_parameter import Rail
+from exactacq.geometry.curves import Segment
+from exactacq.geometry.interval_union import Cover, Interval
+from exactacq.numbers.length import Length
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.sensing.history import Memory
+from exactacq.sensing.map import Map
+from exactacq.sensing.path import Event, Piece
+from exactacq.sensing.targets import Targets
+from exactacq.strategies.run import Run
+from exactacq.visibility.isovist import isovist
 
 Q = Fraction
 

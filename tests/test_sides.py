@@ -12,10 +12,10 @@ from random import Random
 
 import pytest
 
-from exactacq.points import Point
-from exactacq.reals import Real, fmpq, rational
-from exactacq.vision.sectors import Rolling, Sliding, Spokes, Turning
-from exactacq.vision.sides import Sides, rough
+from exactacq.geometry.points import Point
+from exactacq.numbers.real import Real, fmpq, rational
+from exactacq.sensing.side_filter import Sides, rough
+from exactacq.visibility.line_families import Rolling, Sliding, Spokes, Turning
 
 Q = Fraction
 LENGTHS = [1, Q(1, 10**6), Q(1, 10**20), Q(1, 10**60), 10**9]

@@ -11,7 +11,7 @@ from stepping_spreader import Spread, spread_scene
 
 import exactacq as xa
 from exactacq import Polygon, Scene, Terrain
-from exactacq.trace import Run
+from exactacq.strategies.run import Run
 
 
 def generic_scene(rng: Random) -> Scene:

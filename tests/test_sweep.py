@@ -10,13 +10,13 @@ from strategies import degenerate_terrain, random_terrain
 
 import exactacq as xa
 from exactacq import Circle, Point, Polygon, Scene
-from exactacq.between import rational_between
-from exactacq.curves import Arc, Segment
 from exactacq.errors import InvalidScene
-from exactacq.memory import Memory
-from exactacq.path import Piece
-from exactacq.sweep import Change, Sweep, SweepCell, sweep
-from exactacq.vision.outline import ViewKind
+from exactacq.geometry.curves import Arc, Segment
+from exactacq.numbers.between import rational_between
+from exactacq.sensing.history import Memory
+from exactacq.sensing.path import Piece
+from exactacq.sensing.view_events import Change, Sweep, SweepCell, sweep
+from exactacq.visibility.outline import ViewKind
 
 BITS = 600
 """Points made in two ways, as roots of different polynomials, count as equal if so many bits agree."""

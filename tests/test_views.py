@@ -11,13 +11,13 @@ import pytest
 from strategies import degenerate_terrain, random_terrain
 
 from exactacq import Circle, Outline, Point, Polygon, Real, Scene, isovist
-from exactacq.contacts import line_contacts
-from exactacq.curves import Arc, Curve, Segment
-from exactacq.numerals import rational
-from exactacq.points import Location, distance_sq
-from exactacq.vision import facets
-from exactacq.vision.table import EdgeTable
-from exactacq.vision.views import seen_from
+from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.intersections import line_contacts
+from exactacq.geometry.points import Location, distance_sq
+from exactacq.numbers.rationals import rational
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.visibility import front_faces as facets
+from exactacq.visibility.visible_boundary import seen_from
 
 Q = Fraction
 TINY = Q(1, 10**60)

@@ -9,16 +9,16 @@ import pytest
 from flint import fmpq
 
 from exactacq import Circle, Outline, Point, Polygon, Scene, visibility_graph
-from exactacq.between import rational_between
-from exactacq.contacts import Family, nearest_points
-from exactacq.curves import Segment
-from exactacq.links import Links
-from exactacq.reals import Real
-from exactacq.vision.chords import Chord
-from exactacq.vision.clearance import is_free
-from exactacq.vision.families import free_pieces
-from exactacq.vision.legs import parts_of
-from exactacq.vision.table import EdgeTable
+from exactacq.geometry.curves import Segment
+from exactacq.geometry.intersections import Family, nearest_points
+from exactacq.numbers.between import rational_between
+from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.sensing.legs import parts_of
+from exactacq.visibility.chords import Chord
+from exactacq.visibility.free_segment import is_free
+from exactacq.visibility.free_translates import free_pieces
+from exactacq.visibility.links import Links
 
 TINY = Fraction(1, 10**60)
 

@@ -11,15 +11,15 @@ import mpmath
 import pytest
 from flint import arb, ctx, fmpq
 
-from exactacq.curves import Arc, Curve, Segment
-from exactacq.encoding import Encoder
 from exactacq.errors import FormatError, Undecided
-from exactacq.points import Point
-from exactacq.reals import Real, roots
-from exactacq.vision.chords import chord_at, of_length
-from exactacq.vision.sectors import Rolling, Sector, Turning
-from exactacq.vision.view_lengths import of_length_on
-from exactacq.zeros import Zero, zeros_between
+from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.points import Point
+from exactacq.numbers.function_zeros import Zero, zeros_between
+from exactacq.numbers.number_json import Encoder
+from exactacq.numbers.real import Real, roots
+from exactacq.sensing.view_length import of_length_on
+from exactacq.visibility.chords import chord_at, of_length
+from exactacq.visibility.line_families import Rolling, Sector, Turning
 
 TURNING = Turning((fmpq(0), fmpq(0)), (fmpq(1), fmpq(0)), fmpq(-1), fmpq(1))
 ROLLING = Rolling((fmpq(0), fmpq(0)), (fmpq(0), fmpq(-1)), fmpq(0), fmpq(1))

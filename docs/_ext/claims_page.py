@@ -9,8 +9,11 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
-from exactacq import figures, gallery
-from exactacq.claims.model import (
+from exactacq.errors import Undecided
+from exactacq.files import gallery
+from exactacq.output.figures import draw as figures
+from exactacq.strategies.run import Run
+from exactacq.study.claims.model import (
     Case,
     Claim,
     Finding,
@@ -21,9 +24,7 @@ from exactacq.claims.model import (
     Verdict,
     verdict,
 )
-from exactacq.errors import Undecided
-from exactacq.random_scenes import random_scene
-from exactacq.trace import Run
+from exactacq.study.random_scenes import random_scene
 
 STRATEGIES = {Subject.SIGHTSEER: "Sightseer", Subject.SEED_SPREADER: "Seed Spreader"}
 FOLDER = "_generated"

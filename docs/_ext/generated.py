@@ -15,9 +15,11 @@ import claims_page
 import tightest
 
 import exactacq as xa
-from exactacq import claims, figures, gallery
-from exactacq.claims.model import Case, Subject
-from exactacq.figures_scan import limit_figure
+from exactacq.files import gallery
+from exactacq.output.figures import draw as figures
+from exactacq.output.figures.scan import limit_figure
+from exactacq.study import claims
+from exactacq.study.claims.model import Case, Subject
 
 FOLDER = "_generated"
 SCENES = 12

@@ -6,9 +6,9 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from exactacq.claims.model import Case
-from exactacq.claims.premises import PREMISES
-from exactacq.trace import Bound, Run
+from exactacq.strategies.run import Bound, Run
+from exactacq.study.claims.model import Case
+from exactacq.study.claims.premises import PREMISES
 
 
 class Entry(NamedTuple):

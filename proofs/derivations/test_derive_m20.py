@@ -9,7 +9,8 @@ import pytest
 from formulas import PRINTED, height, i, n, ns, p_max, pairs, perimeters, r, radius, strip, width
 from sympy import Expr, Min, Poly, Rational, Symbol, expand, floor, limit, oo, real_roots, summation
 
-from exactacq import gallery, seed_spreader
+from exactacq import seed_spreader
+from exactacq.files import gallery
 
 k, m = Symbol("k", integer=True, positive=True), Symbol("m", integer=True, positive=True)
 TENTH, THICK = Rational(1, 10), Rational(1, 100)

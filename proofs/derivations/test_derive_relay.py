@@ -8,7 +8,7 @@ from scenes import relay
 from sympy import Expr, Poly, Rational, Symbol, expand, limit, oo, real_roots
 
 from exactacq import Length, Run, seed_spreader
-from exactacq.points import distance
+from exactacq.geometry.points import distance
 
 k = Symbol("k", integer=True, positive=True)
 LEAST = 4

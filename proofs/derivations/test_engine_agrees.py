@@ -6,8 +6,9 @@ import pytest
 from formulas import PRINTED, d_max, height, n, ns, p_max, pairs, perimeters, r, radius, strip, width
 from sympy import Expr, Integer, Rational, Symbol, expand
 
-from exactacq import Length, Run, gallery, seed_spreader, sightseer
-from exactacq.bounds import census
+from exactacq import Length, Run, seed_spreader, sightseer
+from exactacq.files import gallery
+from exactacq.strategies.bounds import census
 
 SWEPT = ["case2", "case3", "figure4", "m14", "m18", "m20-3"]
 

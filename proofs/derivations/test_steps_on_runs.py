@@ -9,9 +9,10 @@ import pytest
 from flint import fmpq
 from scenes import overlapping_links, relay, trapped_end
 
-from exactacq import Length, Run, gallery, seed_spreader, sightseer
-from exactacq.path import Event
-from exactacq.points import Point, distance
+from exactacq import Length, Run, seed_spreader, sightseer
+from exactacq.files import gallery
+from exactacq.geometry.points import Point, distance
+from exactacq.sensing.path import Event
 
 SWEPT = ["case1", "case2", "case3", "e3", "figure3", "figure4", "m14", "m15", "m18", "m20-6", "m25"]
 HALF = fmpq(1, 2)

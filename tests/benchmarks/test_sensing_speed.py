@@ -20,11 +20,11 @@ from flint import fmpq
 from stepping import Stepper
 
 import exactacq as xa
-from exactacq.generators import random_octagons
-from exactacq.points import Location
-from exactacq.sweep import Sweep
-from exactacq.vision.sensing import Senses
-from exactacq.vision.table import EdgeTable
+from exactacq.files.octagons import random_octagons
+from exactacq.geometry.points import Location
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.sensing.sensor import Senses
+from exactacq.sensing.view_events import Sweep
 
 SEED = 1
 POINTS = 40

@@ -8,8 +8,8 @@ from __future__ import annotations
 import pytest
 
 import exactacq as xa
-from exactacq.generators import random_octagons
-from exactacq.links import Links
+from exactacq.files.octagons import random_octagons
+from exactacq.visibility.links import Links
 
 SEED = 1
 

@@ -12,7 +12,7 @@ from math import ceil
 import pytest
 
 import exactacq as xa
-from exactacq.generators import random_octagons
+from exactacq.files.octagons import random_octagons
 
 SEED = 1
 RADIUS = 10

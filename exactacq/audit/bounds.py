@@ -1,0 +1,190 @@
+"""The audit of links and bounds: their values again, from end points and the paper's formulas."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from flint import arb, ctx
+
+from exactacq.audit.measure import BITS, agrees, ball_sum
+from exactacq.audit.sweeps import Field
+from exactacq.audit.world import World
+from exactacq.errors import AuditError
+from exactacq.geometry.curves import Arc, Segment
+from exactacq.geometry.intersections import nearest_points
+from exactacq.geometry.points import Point
+from exactacq.numbers.length import Length
+from exactacq.numbers.real import Real
+from exactacq.strategies.run import Run, TreeLink
+
+VISITS = ("(4)", "L3 corrected")
+"""Bounds of the number of visits, not of a length."""
+
+
+def link_name(link: TreeLink) -> str:
+    return f"the link from {link.source} to {link.target}"
+
+
+def check_links(run: Run) -> None:
+    """Links are as long as their segments, within the radius, and add up to the straight pieces."""
+    total = Length(0)
+    for link in run.links:
+        if not agrees(link.length, ball_sum([Segment(link.leave, link.hit)])):
+            raise AuditError(f"{link_name(link)} is not {link.length.decimal(20)}... long")
+        if link.length > run.radius:
+            raise AuditError(f"{link_name(link)} is longer than the radius")
+        total = total + link.length * link.traversals
+    straight = ball_sum([piece.curve for piece in run.path if piece.kind == "straight"])
+    if not agrees(total, straight):
+        raise AuditError(f"the links walked add up to {total.decimal(20)}..., the straight pieces do not")
+
+
+def check_bounds(run: Run, values: Mapping[str, arb]) -> None:
+    """Each bound has the value of its formula, and holds if and only if it says so."""
+    names = [bound.name for bound in run.bounds]
+    if names != list(values):
+        raise AuditError(f"the bounds are {names}, not {list(values)}")
+    way = ball_sum([piece.curve for piece in run.path])
+    visits = 0 if run.sweeping is None else len(run.sweeping.encounters)
+    for bound in run.bounds:
+        value = values[bound.name]
+        of_visits = bound.name in VISITS
+        length = arb(visits) if of_visits else way
+        if not agrees(bound.value, value):
+            raise AuditError(f"bound {bound.name} is {bound.value.decimal(20)}..., not {value.str(20)}")
+        # Where balls cannot tell the two apart they may be equal, which only exact lengths decide.
+        exact = Length(visits) if of_visits else run.length
+        holds = True if length < value else False if length > value else exact <= bound.value
+        if bound.holds is not holds:
+            raise AuditError(f"bound {bound.name} says {bound.holds}, but holds is {holds}")
+        with ctx.workprec(BITS):
+            ratio = length / value if value != 0 else arb("nan")
+        if not abs(ratio - arb(bound.ratio)) < 1e-12 and (ratio.is_finite() or bound.ratio == bound.ratio):
+            raise AuditError(f"bound {bound.name} has the ratio {bound.ratio}, not {ratio.str(17)}")
+
+
+def sightseer_values(run: Run, world: World) -> dict[str, arb]:
+    """The paper's (1) and (2), and the forms that hold; S-S1 is the way from a free start, v a link.
+
+    (1)  2 (n - 1) min(R, d_max) + 3/2 sum p + (n - 2)/2 p_max;  (2)  the same with R for the minimum;
+    T1 corrected  S-S1 + (2 n - 3) min(R, v_max) + 3/2 sum p - p_last/2 + (n - 2)/2 p_max, or S-S1 + p_1.
+    """
+    obstacles, n = run.scene.obstacles, len(run.scene.obstacles)
+    if not n:
+        return {}
+    with ctx.workprec(BITS):
+        perimeters = [ball_sum(obstacle.edges) for obstacle in obstacles]
+        reach = arb(run.radius)
+        lengths = [(link.source, ball_sum([Segment(link.leave, link.hit)])) for link in run.links]
+        approach = sum((length for source, length in lengths if source == "S"), arb(0))
+        steps = [length for source, length in lengths if source != "S"]
+        largest = _greatest(perimeters)
+        around = sum(perimeters, arb(0)) * 3 / 2 + largest * (n - 2) / 2
+        last = perimeters[run.visits[-1]] if run.visits else arb(0)
+        step = reach.min(_greatest(steps)) if steps else arb(0)
+        corrected = approach + (step * (2 * n - 3) + around - last / 2 if n > 1 else perimeters[0])
+        wide = 2 * (n - 1) * reach + around
+        return {
+            "(1)": 2 * (n - 1) * _clipped_distance(run, world) + around,
+            "(2)": wide,
+            "T1 corrected": corrected,
+            "(2) + S-S1": wide + approach,
+        }
+
+
+def spreader_values(run: Run, field: Field) -> dict[str, arb]:
+    """The paper's (4)-(6) and (8)-(11), and the forms of Lemma 3 and Theorem 2 that hold.
+
+    (4)  n + n n_0 + 1/2 sum n_j (n_j - 1);
+    (5)  A + r (w + A) + 2 n w + 3 sum p + 2 n n_0 p_max + p_max sum n_j (n_j - 1);
+    (6)  the same with A + B + r A + 2 n R for the first terms;  (8)  A + B + r A;
+    (9)  (6) without the terms with p_max;  (10)  half of what (6) has of p;  (11)  both;
+    L3 corrected  (4) + re, the number of times that known obstacles blocked the M-line;
+    T2 corrected  (6) + the p of those, or (10) + half of it where no obstacle meets the border, + twice what
+                  diversions are longer than R one way.
+    """
+    assert run.sweeping is not None
+    a, b, reach, n = field.height, field.width, run.radius, len(run.obstacles)
+    r, w = len(field.lines) - 1, min(run.radius, field.width)
+    crossing = {mark.owner for mark in field.marks if mark.owner is not None}
+    counts = Counter(_strip(field, k) for k in range(n) if k not in crossing)
+    counts[0] = len(crossing)
+    pairs = sum(count * (count - 1) for count in counts.values())
+    with ctx.workprec(BITS):
+        perimeters = [ball_sum(body.edges) for body in run.obstacles]
+        total, largest = sum(perimeters, arb(0)), _greatest([*perimeters, arb(0)])
+        hops = largest * (2 * n * len(crossing) + pairs)
+        again = sum((perimeters[k] for k in run.sweeping.again), arb(0))
+        ways = [ball_sum([Segment(d.leave, d.hit)]) for d in run.sweeping.diversions]
+        beyond = sum(((way - arb(reach)).max(arb(0)) for way in ways), arb(0))
+        visits = arb(n + n * len(crossing)) + arb(pairs) / 2
+        sweep = arb(a + b + r * a)
+        wide = sweep + arb(2 * n * reach)
+        part = arb(1) / 2 if all(body.closed for body in run.obstacles) else arb(1)
+        return {
+            "(4)": visits,
+            "L3 corrected": visits + len(run.sweeping.again),
+            "(5)": arb(a + r * (w + a) + 2 * n * w) + 3 * total + hops,
+            "(6)": wide + 3 * total + hops,
+            "(8)": sweep,
+            "(9)": wide + 3 * total,
+            "(10)": wide + total * 3 / 2 + hops / 2,
+            "(11)": wide + total * 3 / 2,
+            "T2 corrected": wide + 2 * beyond + 3 * part * total + part * hops + part * again,
+        }
+
+
+def _strip(field: Field, k: int) -> int:
+    """The strip that a component lies in that does not cross the M-line: the first that reaches its east."""
+    component: Any = field.run.obstacles[k]
+    curves = [part.curve for shore in (component.shore, *component.hidden) for part in shore]
+    points = [end for curve in curves for end in (curve.start, curve.end)]
+    for curve in curves:
+        if isinstance(curve, Arc):
+            east = Point(curve.center.x + curve.radius, curve.center.y)
+            points += [east] if curve.contains(east) else []
+    far = max(point.x for point in points)
+    return next(j for j, x in enumerate(field.lines) if far <= x)
+
+
+def _greatest(balls: Sequence[arb]) -> arb:
+    found = balls[0]
+    for ball in balls[1:]:
+        found = found.max(ball)
+    return found
+
+
+def _clipped_distance(run: Run, world: World) -> arb:
+    """The largest closest distance between two obstacles, or the radius if that is less.
+
+    Only pairs whose boxes do not keep them below the largest so far need an exact distance.
+    """
+    ranges = [world.edges_of(o.index) for o in run.scene.obstacles]
+    hulls = np.array([[*world.boxes[r, :2].min(axis=0), *world.boxes[r, 2:].max(axis=0)] for r in ranges])
+    best = Real(0)
+    for i, hull in enumerate(hulls):
+        reach = np.hypot(*np.maximum(hull[2:] - hulls[:, :2], hulls[:, 2:] - hull[:2]).T) * (1 + 1e-12)
+        for j in range(i):
+            if reach[j] >= float(best):
+                best = max(best, _distance(world, ranges[i], ranges[j]))
+                if best.compare(run.radius) >= 0:
+                    return arb(run.radius)
+    return best.ball(BITS)
+
+
+def _distance(world: World, first: Iterable[int], second: Sequence[int]) -> Real:
+    """The closest distance between two obstacles, given by their edges."""
+    least: Real | None = None
+    for a in first:
+        gaps = np.maximum(
+            world.boxes[second, :2] - world.boxes[a, 2:], world.boxes[a, :2] - world.boxes[second, 2:]
+        )
+        for gap, b in zip(np.hypot(*np.maximum(gaps, 0).T), second, strict=True):
+            if least is None or gap**2 * (1 - 1e-12) <= float(least):
+                for pair in nearest_points(world.edges[a], world.edges[b]):
+                    least = pair.distance_sq if least is None else min(least, pair.distance_sq)
+    assert least is not None
+    return least.sqrt()

@@ -1,0 +1,271 @@
+"""The audit of what a run knows: its maps in themselves, and against what its path sees."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from random import Random
+from typing import Any, NamedTuple
+
+from flint import arb, ctx, fmpq
+
+from exactacq.audit.measure import (
+    BITS,
+    SIGHTS,
+    Body,
+    Tracks,
+    agrees,
+    ball_of,
+    ball_to,
+    event_name,
+    event_position,
+    passes,
+    place_text,
+    rational_on,
+    refined,
+    same,
+)
+from exactacq.audit.world import Lookout, World, point_at, point_near, visible
+from exactacq.errors import AuditError
+from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.points import Point
+from exactacq.numbers.rationals import rational
+from exactacq.sensing.path import Event
+from exactacq.strategies.run import Run
+
+MOMENTS = 6
+"""Events at which the map is checked, besides the end."""
+ASIDE = fmpq(1, 10**11)
+"""How far beside the ends of known parts targets are taken: an end that is farther off is found."""
+
+
+class _Moment(NamedTuple):
+    """A name for messages, whole pieces so far, the place if it is inside the next one, and the map there."""
+
+    name: str
+    after: int
+    inside: Point | None
+    chart: Any
+
+
+class Knowledge:
+    """The maps of a run, checked in themselves and against what the path sees."""
+
+    def __init__(self, run: Run, world: World, bodies: Sequence[Body], tracks: Tracks, rng: Random) -> None:
+        self.run, self.world, self.tracks, self.rng = run, world, tracks, rng
+        self.bodies = bodies
+        self.on = [None if track is None else track.edge for track in tracks]
+        self.lookout = Lookout(world, run.radius, [piece.curve for piece in run.path], self.on)
+        self.events = {(e.kind, e.obstacle): e for e in run.events if e.kind in ("sight", "acquire")}
+        chosen = sorted(rng.sample(range(len(run.events)), min(MOMENTS, len(run.events))))
+        self.moments = [
+            _Moment(f"the map at {event_name(run, event)}", event.after, _inside(event), run.map_at(event))
+            for event in (run.events[k] for k in chosen)
+        ]
+        self.moments.append(_Moment("the final map", len(run.path), None, run.map))
+
+    # -- maps in themselves ------------------------------------------------------------------------
+
+    def check_maps(self) -> None:
+        """Each map's parts are in order, and its lists and lengths are what they add up to."""
+        for name, _, _, chart in self.moments:
+            states = [self._check_parts(name, chart, body) for body in self.bodies]
+            for kind, claimed in (("acquired", chart.acquired), ("incomplete", chart.incomplete)):
+                expected = [i for i, state in enumerate(states) if state == kind]
+                if list(claimed) != expected:
+                    raise AuditError(
+                        f"{name}: {kind} obstacles are {list(claimed)}, the parts say {expected}"
+                    )
+            if sorted(chart.seen) != sorted((*chart.acquired, *chart.incomplete)):
+                raise AuditError(f"{name}: seen obstacles are {list(chart.seen)}")
+
+    def _check_parts(self, name: str, chart: Any, body: Body) -> str:
+        """Parts of one obstacle are on their edges, in order and apart; returns what they make of it."""
+        total, before = arb(0), (-1, arb(0))
+        i, parts = body.number, chart.known(body.number)
+        ends = []
+        for part in parts:
+            edge = body.curves[part.edge]
+            ends_text = f"from {place_text(part.start)} to {place_text(part.end)}"
+            where = f"{name}: the part of obstacle {i} {ends_text}"
+            if not (passes(edge, part.start) and passes(edge, part.end)):
+                raise AuditError(f"{where} is not on edge {part.edge}")
+            low, high = span(edge, part)
+            if high < low:
+                raise AuditError(f"{where} runs against edge {part.edge}")
+            if part.edge < before[0] or (part.edge == before[0] and not before[1] < low):
+                raise AuditError(f"{where} is not beyond the one before")
+            with ctx.workprec(BITS):
+                before, total = (part.edge, high), total + high - low
+            ends += [p for p in (part.start, part.end) if not (same(p, edge.start) or same(p, edge.end))]
+        if not agrees(chart.known_length(i), total):
+            raise AuditError(f"{name}: the known length of obstacle {i} is not that of its parts")
+        whole = [is_whole(body.curves[part.edge], part) for part in parts]
+        if len(whole) == len(body.curves) and all(whole):
+            return "acquired"
+        frontier = [point for k, point in chart.frontier if k == i]
+        for end in ends:
+            if not any(same(end, point) for point in frontier):
+                raise AuditError(f"{name}: {place_text(end)} of obstacle {i} is missing in the frontier")
+        return "incomplete" if parts else "unseen"
+
+    # -- maps against the path ---------------------------------------------------------------------
+
+    def check_targets(self, samples: int) -> None:
+        """Sampled boundary points are known when, and only when, some place of the path has seen them."""
+        for i, target in self._targets(samples):
+            first = self.lookout.first(target)
+            where = f"the point {place_text(target)} of obstacle {i}"
+            for name, after, inside, chart in self.moments:
+                seen = self._is_seen(target, first, after, inside)
+                if chart.knows(i, target) and not seen:
+                    raise AuditError(f"{name} knows {where}, which no place of the path so far sees")
+                if seen and not chart.knows(i, target):
+                    raise AuditError(f"{name} lacks {where}, which the path sees from piece {first}")
+            self._check_sight(i, target, first, where)
+
+    def _check_sight(self, i: int, target: Point, first: int | None, where: str) -> None:
+        """A point is not seen before its obstacle's sight, and not after it is acquired."""
+        sight, acquire = self.events.get(("sight", i)), self.events.get(("acquire", i))
+        if sight is not None and first is not None:
+            last = sight.after if sight.inside else sight.after - 1
+            early = self._before(last, sight.point)
+            if first < last or (early is not None and self._is_seen(target, first, last, early)):
+                raise AuditError(f"{event_name(self.run, sight)} is late: piece {first} sees {where} before")
+        if acquire is not None and not self._is_seen(target, first, acquire.after, _inside(acquire)):
+            raise AuditError(f"{event_name(self.run, acquire)} is early: {where} was not seen so far")
+
+    def _before(self, k: int, point: Point) -> Point | None:
+        """A place on piece k shortly before a point of it, or None if that is not on the piece."""
+        if k < 0:
+            return None
+        curve, track = self.run.path[k].curve, self.tracks[k]
+        if isinstance(curve, Segment):
+            return curve.part(curve.start, point).point(1 - ASIDE)
+        assert track is not None
+        place = point_near(self.world.edges[track.edge], point, -ASIDE if track.forward else ASIDE)
+        if place is None or not curve.contains(place):
+            return None
+        return place if curve.full or curve.part(curve.start, point).contains(place) else None
+
+    def _is_seen(self, target: Point, first: int | None, after: int, inside: Point | None) -> bool:
+        """Whether the path sees a target in its first pieces, or on the next one up to a place inside it.
+
+        *first* is the first piece that sees it.
+        """
+        if first is not None and first < after:
+            return True
+        if inside is None:
+            return after == 0 and visible(self.world, self.run.radius, target, self.run.start)
+        if first != after:
+            return False
+        curve = self.run.path[after].curve
+        part = curve.part(curve.start, inside)
+        return Lookout(self.world, self.run.radius, [part], [self.on[after]]).first(target) is not None
+
+    def _targets(self, samples: int) -> Iterator[tuple[int, Point]]:
+        """Obstacles with rational points of their boundaries: anywhere, and beside ends of known parts."""
+        for _ in range(samples if self.bodies else 0):
+            body = self.rng.choice(self.bodies)
+            k = self.rng.randrange(len(body.curves))
+            edge, share = self.world.edges[body.edges[k]], fmpq(self.rng.randrange(1 << 10), 1 << 10)
+            place = point_on(edge, body.curves[k], share)
+            if place is not None:
+                yield body.number, place
+        ends = [
+            (i, part.edge, end)
+            for moment in self.moments
+            for i in moment.chart.incomplete
+            for part in moment.chart.known(i)
+            for end in (part.start, part.end)
+        ]
+        for i, k, end in self.rng.sample(ends, min(samples // 2, len(ends))):
+            edge, curve = self.world.edges[self.bodies[i].edges[k]], self.bodies[i].curves[k]
+            beside = [point_near(edge, end, shift) for shift in (-ASIDE, ASIDE)]
+            for place in (*beside, end if end.rational else None):
+                if place is not None and curve.contains(place):
+                    yield i, place
+
+    def check_in_sight(self, samples: int) -> None:
+        """At sampled places between events, obstacles are in sight if and only if the events say so."""
+        lookouts: dict[int, Lookout] = {}
+        for _ in range(samples):
+            place = self._anywhere()
+            if place is None:
+                continue
+            k, point = place
+            states = self._states(k, point)
+            for i in self.rng.sample(sorted(states), min(3, len(states))):
+                body = self.bodies[i]
+                lookout = lookouts.setdefault(
+                    i, Lookout(self.world, self.run.radius, body.curves, body.edges)
+                )
+                if (lookout.first(point) is not None) != states[i]:
+                    claim = "in sight" if states[i] else "out of sight"
+                    raise AuditError(
+                        f"obstacle {i} is not {claim} from {place_text(point)} on piece {k}, as events say"
+                    )
+
+    def _anywhere(self) -> tuple[int, Point] | None:
+        """A random piece and a rational point on it, None if there is none at hand."""
+        if not self.run.path:
+            return None
+        k = self.rng.randrange(len(self.run.path))
+        curve, track = self.run.path[k].curve, self.tracks[k]
+        share = fmpq(self.rng.randrange(1, 1 << 10), 1 << 10)
+        if isinstance(curve, Segment):
+            point = rational_on(curve, share)
+            return None if point is None else (k, point)
+        assert track is not None
+        place = point_at(self.world.edges[track.edge], share)
+        return None if place is None or not curve.contains(place) else (k, place)
+
+    def _states(self, k: int, point: Point) -> dict[int, bool]:
+        """Whether each obstacle, but for acquired ones, is in sight at a place; empty at an event's place."""
+        curve = self.run.path[k].curve
+        here = refined(lambda bits: ball_to(curve, point, bits))
+        states: dict[int, bool | None] = dict.fromkeys(range(len(self.bodies)), False)
+        for event in self.run.events:
+            if event.kind not in SIGHTS or event.after > k:
+                continue
+            assert event.obstacle is not None
+            if event.after == k and event.inside:
+                there = event_position(self.run, event)[1]
+                if there > here:
+                    continue
+                if not there < here:
+                    return {}
+            if states[event.obstacle] is not None:
+                in_sight = event.kind in ("sight", "regain")
+                states[event.obstacle] = None if event.kind == "acquire" else in_sight
+        return {i: state for i, state in states.items() if state is not None}
+
+
+def _inside(event: Event) -> Point | None:
+    return event.point if event.inside else None
+
+
+def point_on(edge: Curve, part: Curve, share: fmpq) -> Point | None:
+    """A rational point at about a share of a part of an edge of the scene, None if there is none at hand."""
+    if part is edge:
+        return point_at(edge, share)
+    place = point_near(edge, part.start, rational(float(ball_of(part, BITS))) * share)
+    return place if place is not None and part.contains(place) else None
+
+
+def is_whole(edge: Curve, part: Any) -> bool:
+    ends = same(part.start, edge.start) and same(part.end, edge.end)
+    return ends and (part.whole or not (isinstance(edge, Arc) and edge.full))
+
+
+def span(edge: Curve, part: Any) -> tuple[arb, arb]:
+    """Where a part of an edge begins and ends, as lengths along the edge.
+
+    On a full circle, whose ends are one point, a single first point ends where it begins.
+    """
+    single = same(part.start, part.end) and not is_whole(edge, part)
+    low = refined(lambda bits: ball_to(edge, part.start, bits))
+    if single:
+        return low, low
+    if same(part.end, edge.end):
+        return low, refined(lambda bits: ball_of(edge, bits))
+    return low, refined(lambda bits: ball_to(edge, part.end, bits))

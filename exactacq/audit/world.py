@@ -1,0 +1,584 @@
+"""Which curves in free space see a point, decided from the point's side: the audit's own eyes.
+
+From a rational point q every direction is a ray. The critical rays lead to ends of edges and curves, touch
+arcs, or lead to where a curve passes the range. Between two of them nothing changes: a curve, which enters no
+interior, is met by all rays of the cell or by none, within range or beyond, before or behind what blocks.
+So a curve sees q if and only if it does along a critical ray or along one ray of each cell.
+
+Floats with margins settle most pairs of a ray and a curve; the rest is decided exactly along the ray. Nothing
+is shared with `exactacq.visibility` and `exactacq.sensing`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cmp_to_key
+from itertools import accumulate, pairwise
+from math import atan2, cos, hypot, pi, sin, tan
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+from flint import fmpq
+from numpy.typing import NDArray
+
+from exactacq.geometry.box_index import BoxIndex, bounds
+from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.intersections import contacts, line_contacts
+from exactacq.geometry.points import Location, Point
+from exactacq.numbers.rationals import nearest_float, rational
+from exactacq.numbers.real import Real
+from exactacq.scene.scene import Scene
+
+Floats: TypeAlias = NDArray[np.float64]
+Bools: TypeAlias = NDArray[np.bool_]
+Ints: TypeAlias = NDArray[np.int64]
+
+TIE_BITS = 256
+"""Numbers that differ by less are taken for candidates of a tie."""
+EPS = 2.0**-48
+"""Relative error of a product with an offset from q (rounded once: 2^-53) and a ray (2^-50), with room."""
+APART = 2.0**-44
+"""Angles farther apart than this are ordered by their floats, whose error is below 2^-50."""
+TINY = 1e-290
+"""Added to margins: covers what underflow loses."""
+
+
+class World:
+    """The edges of a scene with their boxes, and the exact test whether a way is blocked."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.obstacles = scene.obstacles
+        self.edges: list[Curve] = [edge for obstacle in scene.obstacles for edge in obstacle.edges]
+        self.owner = [obstacle.index for obstacle in scene.obstacles for _ in obstacle.edges]
+        self.first = [0, *accumulate(len(obstacle.edges) for obstacle in scene.obstacles)]
+        self.boxes = bounds(self.edges)
+        self.index = BoxIndex(self.boxes)
+        self.points: list[Point] = []
+        self._numbers: dict[object, int] = {}
+        self.ends = self.number_ends(self.edges)
+
+    def number_ends(self, curves: Iterable[Curve]) -> Ints:
+        """Numbers in ``points`` of the starts and ends of curves: one number for one place, if that shows."""
+        pairs = [(self._number(curve.start), self._number(curve.end)) for curve in curves]
+        return np.array(pairs, dtype=np.int64).reshape(-1, 2)
+
+    def _number(self, point: Point) -> int:
+        number = self._numbers.setdefault(point.key, len(self.points))
+        if number == len(self.points):
+            self.points.append(point)
+        return number
+
+    def edges_of(self, i: int) -> list[int]:
+        """Numbers of the edges of an obstacle."""
+        return list(range(self.first[i], self.first[i + 1]))
+
+    def blocker(
+        self,
+        origin: Point,
+        direction: Point,
+        upto: object,
+        edges: Iterable[int] | None = None,
+        starting: Collection[int] = (),
+        ending: Collection[int] = (),
+    ) -> tuple[int, Point] | None:
+        """An obstacle and a point of its interior on the way to ``origin + upto direction``, or None.
+
+        Exact: where the way meets no edge it does not change sides, so the middle between two contacts
+        decides. *edges* are those that the way can meet; all edges near it if None. Those *starting* and
+        *ending* the way are known to pass through its ends.
+        """
+        end = Real(upto)
+        near = self.near(Segment(origin, origin + direction * end)) if edges is None else edges
+        cuts: list[Real] = [Real(0)]
+        owners: set[int] = set()
+        for e in near:
+            met = line_contacts(origin, direction, self.edges[e])
+            at_start = _single(met, Real(0)) if e in starting else None
+            at_end = _single(met, end) if e in ending else None
+            cuts += [t for t in met if t is not at_start and t is not at_end and 0 < t < end]
+            owners.add(self.owner[e])
+        cuts.sort()
+        for a, b in pairwise([*cuts, end]):
+            if a != b:
+                middle = origin + direction * between(a, b)
+                for k in sorted(owners):
+                    if self.obstacles[k].locate(middle) is Location.INSIDE:
+                        return k, middle
+        return None
+
+    def near(self, way: Curve) -> list[int]:
+        """The edges whose boxes meet that of a way."""
+        (window,) = bounds([way])
+        return [int(e) for e in self.index.query(*window)]
+
+    def passing(self, point: Point, near: Sequence[int]) -> list[int]:
+        """The edges among *near* that contain a point: two at a vertex, and none in the open."""
+        x, y = point.xy
+        boxes = self.boxes[list(near)]
+        inside = (boxes[:, 0] <= x) & (x <= boxes[:, 2]) & (boxes[:, 1] <= y) & (y <= boxes[:, 3])
+        return [e for e, box in zip(near, inside, strict=True) if box and self.edges[e].passes(point)]
+
+
+class Ray:
+    """A direction: a float unit vector within 2^-50 of it, and the exact vector, made on demand.
+
+    ``aim`` is the number of the point that is one such vector away, if it has one.
+    """
+
+    def __init__(self, unit: tuple[float, float], exact: Callable[[], Point], aim: int | None = None) -> None:
+        self.unit, self.exact = unit, exact
+        self.angle = atan2(unit[1], unit[0])
+        self.aim = aim
+
+
+class Range(NamedTuple):
+    """Float bounds of the distances at which rays meet curves; arrays of shape (rays, columns).
+
+    ``low`` is infinite where there is certainly no contact ahead; ``sure`` says that the curve is certainly
+    crossed, between its ends, ahead.
+    """
+
+    low: Floats
+    high: Floats
+    sure: Bools
+
+
+class Hits(NamedTuple):
+    """The same for several kinds of curves: each column's curve, and whether it is an arc's far root."""
+
+    low: Floats
+    high: Floats
+    sure: Bools
+    curve: Ints
+    far: Bools
+
+
+class Lookout:
+    """Curves in free space, in order, of which `first` finds the first that sees a point within the radius.
+
+    ``on`` names for each curve the scene's edge on which it lies, or None. Curves must not enter interiors.
+    """
+
+    def __init__(
+        self, world: World, radius: fmpq, curves: Sequence[Curve], on: Sequence[int | None] | None = None
+    ) -> None:
+        self.world, self.radius = world, radius
+        names = [None] * len(curves) if on is None else on
+        distinct: dict[object, int] = {}
+        for k, curve in enumerate(curves):
+            distinct.setdefault(_identity(curve), k)
+        self.numbers = sorted(distinct.values())
+        self.curves = [curves[k] for k in self.numbers]
+        self.on = [names[k] for k in self.numbers]
+        self.boxes = bounds(self.curves)
+        self.ends = world.number_ends(self.curves)
+        self.at: dict[int, set[int]] = {}
+        for pair, e in zip(self.ends.tolist(), self.on, strict=True):
+            if e is not None:
+                for number in pair:
+                    self.at.setdefault(number, set()).add(e)
+
+    def first(self, point: Point) -> int | None:
+        """Number of the first curve that sees a rational point of the closed free space, or None.
+
+        Milliseconds where few pairs of ray and curve need exact numbers.
+        """
+        near = _within(self.boxes, point, self.radius)
+        if not len(near):
+            return None
+        view = _View(self, point, near)
+        seen, unsure = view.verdicts()
+        certain = np.flatnonzero(seen)
+        limit = int(certain[0]) if len(certain) else len(near)
+        numbers = [self.numbers[int(k)] for k in near]
+        for k in range(limit):
+            if any(view.sees_along(int(ray), k) for ray in np.flatnonzero(unsure[:, k])):
+                return numbers[k]
+        return numbers[limit] if limit < len(near) else None
+
+
+def visible(world: World, radius: fmpq, a: Point, b: Point) -> bool:
+    """Whether two free points see each other within the radius."""
+    offset = b - a
+    if offset.norm_sq().compare(radius * radius) > 0:
+        return False
+    return a == b or world.blocker(a, offset, 1) is None
+
+
+def _identity(curve: Curve) -> object:
+    """Equal for curves that are equal point sets, as far as that shows."""
+    ends = frozenset((curve.start.key, curve.end.key))
+    if isinstance(curve, Segment):
+        return ends
+    a, b = (curve.start.key, curve.end.key) if curve.ccw else (curve.end.key, curve.start.key)
+    return a, b, curve.center.key, curve.radius_sq, curve.full
+
+
+def _single(met: Sequence[Real], value: Real) -> Real | None:
+    """The only one of some numbers that balls do not part from a value."""
+    near = [t for t in met if t is value or (t - value).ball(TIE_BITS).contains(0)]
+    return near[0] if len(near) == 1 else None
+
+
+def between(a: Real, b: Real) -> object:
+    """A number strictly between, rational if floats can tell the two apart."""
+    low, high = float(a), float(b)
+    middle = (low + high) / 2
+    if low < middle < high:
+        return rational(middle)
+    return (a + b) / 2
+
+
+def _within(boxes: Floats, point: Point, radius: fmpq) -> Ints:
+    """The boxes that can hold points within the radius of a point."""
+    xy = np.array(point.xy)
+    apart = np.maximum(np.maximum(boxes[:, :2] - xy, xy - boxes[:, 2:]), 0.0)
+    size = np.abs(boxes).max(axis=1) + np.abs(xy).max()
+    return np.flatnonzero(np.hypot(*apart.T) <= nearest_float(radius) * (1 + EPS) + size * EPS)
+
+
+# -- the view from one point -----------------------------------------------------------------------
+
+
+@dataclass
+class _View:
+    """All rays from q, and how they meet the edges and the curves within range."""
+
+    lookout: Lookout
+    q: Point
+    near: Ints
+
+    def __post_init__(self) -> None:
+        world, radius = self.lookout.world, self.lookout.radius
+        self.reach = nearest_float(radius)
+        self.curves = [self.lookout.curves[k] for k in self.near]
+        self.edge_numbers = [int(e) for e in _within(world.boxes, self.q, radius)]
+        self.edges = [world.edges[e] for e in self.edge_numbers]
+        self.own = world.passing(self.q, self.edge_numbers)
+        ends = np.concatenate((world.ends[self.edge_numbers], self.lookout.ends[self.near]))
+        self.targets = np.unique(ends)
+        self.offsets = {int(k): self._offset(world.points[k]) for k in self.targets}
+        self.rays = _with_cells(self._critical())
+
+    # -- rays --------------------------------------------------------------------------------------
+
+    def _critical(self) -> list[Ray]:
+        """The critical rays, and the east so that there is at least one."""
+        rays = [Ray((1.0, 0.0), lambda: Point(1, 0))]
+        for number, offset in self.offsets.items():
+            rays += self._ray_to(self.lookout.world.points[number], offset, number)
+        for point in self._range_crossings():
+            rays += self._ray_to(point, self._offset(point))
+        arcs = (curve for curve in (*self.edges, *self.curves) if isinstance(curve, Arc))
+        for arc in {(arc.center.key, arc.radius_sq): arc for arc in arcs}.values():
+            rays += [_ray(vector) for vector in _tangents(self.q, arc)]
+        return rays
+
+    def _ray_to(self, point: Point, offset: tuple[float, float], aim: int | None = None) -> list[Ray]:
+        """The ray to a point; none to q itself."""
+        unit = _unit(*offset)
+        return [] if unit is None else [Ray(unit, lambda: point - self.q, aim)]
+
+    def _range_crossings(self) -> Iterator[Point]:
+        q, radius = self.q, self.lookout.radius
+        east = Point(q.x + radius, q.y)
+        circle = Arc(east, east, q, radius * radius, ccw=True, full=True)
+        boxes, xy = self.lookout.boxes[self.near], np.array(q.xy)
+        extent = np.hypot(*np.maximum(np.abs(boxes[:, :2] - xy), np.abs(boxes[:, 2:] - xy)).T)
+        size = np.abs(boxes).max(axis=1) + np.abs(xy).max()
+        for k in np.flatnonzero(extent + size * EPS >= self.reach * (1 - EPS)):
+            yield from (contact.start for contact in contacts(self.curves[k], circle))
+
+    def _offset(self, point: Point) -> tuple[float, float]:
+        """point - q, exactly, then rounded once."""
+        return _rounded(point.x - self.q.x), _rounded(point.y - self.q.y)
+
+    # -- verdicts ----------------------------------------------------------------------------------
+
+    def verdicts(self) -> tuple[Bools, Bools]:
+        """Which curves certainly see q, and which pairs (ray, curve) floats leave open."""
+        units = np.array([ray.unit for ray in self.rays])
+        world, own = self.lookout.world, [self.edge_numbers.index(e) for e in self.own]
+        edges = self._hits(units, self.edges, world.ends[self.edge_numbers], own)
+        curves = self._hits(units, self.curves, self.lookout.ends[self.near], ())
+        possible, certain = self._blocks(units, edges)
+        nearest = np.argmin(possible, axis=1)[:, None]
+        rest = possible.copy()
+        np.put_along_axis(rest, nearest, np.inf, axis=1)
+        free = np.where(
+            nearest == self._partners(edges, curves)[None, :],
+            rest.min(axis=1, keepdims=True),
+            np.take_along_axis(possible, nearest, axis=1),
+        )
+        inside, outside = self.reach * (1 - EPS), self.reach * (1 + EPS)
+        yes = curves.sure & (curves.high < free) & (curves.high < inside)
+        no = (curves.low > certain[:, None]) | (curves.low > outside)
+        seen = np.zeros(len(self.curves), dtype=bool)
+        np.logical_or.at(seen, curves.curve, yes.any(axis=0))
+        unsure = np.zeros((len(self.rays), len(self.curves)), dtype=bool)
+        rows, columns = np.nonzero(~no & ~yes)
+        unsure[rows, curves.curve[columns]] = True
+        self._possible_edges = edges
+        return seen, unsure
+
+    def _partners(self, edges: Hits, curves: Hits) -> Ints:
+        """For each column of the curves, the column of the edge on which the curve lies, or -1."""
+        numbers = [self.edge_numbers[int(e)] for e in edges.curve]
+        places = {pair: c for c, pair in enumerate(zip(numbers, edges.far.tolist(), strict=True))}
+        on = [self.lookout.on[int(self.near[k])] for k in curves.curve]
+        pairs = zip(on, curves.far.tolist(), strict=True)
+        return np.array([-1 if e is None else places.get((e, far), -1) for e, far in pairs])
+
+    def _blocks(self, units: Floats, edges: Hits) -> tuple[Floats, Floats]:
+        """(possible, certain): distances at which each edge column may block, and where a ray surely does.
+
+        An edge that is crossed has an interior on one side of it.
+        """
+        possible = edges.low
+        certain = np.where(edges.sure, edges.high, np.inf).min(axis=1, initial=np.inf)
+        entering, leaving = self._starts(units)
+        possible = np.hstack((possible, np.where(leaving, np.inf, -np.inf)[:, None]))
+        return possible, np.where(entering, 0.0, certain)
+
+    def _starts(self, units: Floats) -> tuple[Bools, Bools]:
+        """Which rays certainly enter the interior at q, and which certainly stay out of it at first."""
+        count = len(units)
+        if not self.own:
+            return np.zeros(count, dtype=bool), np.ones(count, dtype=bool)
+        tangents = [_tangent(self.lookout.world.edges[e], self.q) for e in self.own]
+        turn = tangents[0].cross(tangents[-1])
+        if len(tangents) == 2 and self.lookout.world.edges[self.own[0]].end != self.q:
+            turn = -turn
+        if turn.sign() == 0 and tangents[0].dot(tangents[-1]).sign() < 0:
+            return np.zeros(count, dtype=bool), np.zeros(count, dtype=bool)
+        sides = _cross(np.array([_ray(tangent).unit for tangent in tangents])[:, None], units)
+        left: Bools = sides > EPS
+        right: Bools = sides < -EPS
+        if turn.sign() > 0:
+            return np.logical_and.reduce(left), np.logical_or.reduce(right)
+        return np.logical_or.reduce(left), np.logical_and.reduce(right)
+
+    # -- contacts in floats ------------------------------------------------------------------------
+
+    def _hits(self, units: Floats, curves: Sequence[Curve], ends: Ints, own: Sequence[int]) -> Hits:
+        """Contacts of all rays with curves; those of *own* curves at q itself are left out."""
+        straight = np.array([k for k, c in enumerate(curves) if isinstance(c, Segment)], dtype=np.int64)
+        round_ = np.array([k for k, c in enumerate(curves) if isinstance(c, Arc)], dtype=np.int64)
+        spots = np.array([[self.offsets[int(k)] for k in pair] for pair in ends]).reshape(-1, 2, 2)
+        parts = [_segment_hits(units, spots[straight, 0], spots[straight, 1])]
+        parts[0].low[:, np.isin(straight, own)] = np.inf
+        parts[0].sure[:, np.isin(straight, own)] = False
+        arcs = [c for c in curves if isinstance(c, Arc)]
+        centers = np.array([self._offset(arc.center) for arc in arcs]).reshape(-1, 2)
+        shape = np.array([(_rounded(a.radius), 1 if a.ccw else -1, a.full) for a in arcs]).reshape(-1, 3)
+        chords = spots[round_, 0], np.array([_vector(arc) for arc in arcs]).reshape(-1, 2)
+        for far in (False, True):
+            parts.append(_arc_hits(units, centers, shape, chords, np.isin(round_, own), far))
+        columns = np.concatenate((straight, round_, round_))
+        return Hits(
+            low=np.hstack([part.low for part in parts]),
+            high=np.hstack([part.high for part in parts]),
+            sure=np.hstack([part.sure for part in parts]),
+            curve=columns,
+            far=np.arange(len(columns)) >= len(curves),
+        )
+
+    # -- exact -------------------------------------------------------------------------------------
+
+    def sees_along(self, ray: int, k: int) -> bool:
+        """Whether a curve has a point on a ray that sees q: exact."""
+        direction, curve, aim = self.rays[ray].exact(), self.curves[k], self.rays[ray].aim
+        found = line_contacts(self.q, direction, curve)
+        ending = set() if aim is None else self.lookout.at.get(aim, set())
+        if aim in self.lookout.ends[self.near[k]]:
+            found = [Real(1) if t is _single(found, Real(1)) else t for t in found]
+        ahead = [t for t in found if t >= 0]
+        if not ahead:
+            return False
+        through = isinstance(curve, Segment) and len(ahead) < len(found)
+        nearest = Real(0) if through else ahead[0]
+        if (nearest * nearest * direction.norm_sq()).compare(self.lookout.radius**2) > 0:
+            return False
+        edges = self._possible_edges
+        met = np.unique(edges.curve[edges.low[ray] < np.inf])
+        numbers = {self.edge_numbers[e] for e in met} | set(self.own)
+        if nearest.rational != 1:
+            ending = set()
+        world = self.lookout.world
+        return world.blocker(self.q, direction, nearest, sorted(numbers), self.own, ending) is None
+
+
+def _rounded(value: Real) -> float:
+    exact = value.rational
+    return float(value) if exact is None else nearest_float(exact)
+
+
+def _unit(x: float, y: float) -> tuple[float, float] | None:
+    size = hypot(x, y)
+    return (x / size, y / size) if size else None
+
+
+def _ray(vector: Point) -> Ray:
+    unit = _unit(_rounded(vector.x), _rounded(vector.y))
+    assert unit is not None
+    return Ray(unit, lambda: vector)
+
+
+def _vector(arc: Arc) -> tuple[float, float]:
+    return _rounded(arc.end.x - arc.start.x), _rounded(arc.end.y - arc.start.y)
+
+
+def _tangent(edge: Curve, q: Point) -> Point:
+    return edge.direction if isinstance(edge, Segment) else edge.tangent(q)
+
+
+def _tangents(q: Point, arc: Arc) -> list[Point]:
+    """The directions from q that touch the circle: L c +- r left(c), c to its centre, L^2 = c^2 - r^2."""
+    c = arc.center - q
+    square = c.norm_sq() - arc.radius_sq
+    side = square.sign()
+    if side < 0:
+        return []
+    if side == 0:
+        return [c.left(), -c.left()]
+    along, across = c * square.sqrt(), c.left() * arc.radius
+    return [along + across, along - across]
+
+
+def _with_cells(critical: Iterable[Ray]) -> list[Ray]:
+    """The critical rays, counterclockwise, equal ones once, each followed by one of the cell behind it."""
+    ordered: list[Ray] = []
+    for ray in sorted(critical, key=cmp_to_key(_compare)):
+        if not ordered or _compare(ordered[-1], ray):
+            ordered.append(ray)
+    found = []
+    for ray, after in zip(ordered, [*ordered[1:], ordered[0]], strict=True):
+        gap = (after.angle - ray.angle) % (2 * pi) or 2 * pi
+        found += [ray, _middle(ray.angle + gap / 2) if gap > APART else _halfway(ray, after)]
+    return found
+
+
+def _compare(a: Ray, b: Ray) -> int:
+    """Order by the angle in (-pi, pi]: rounding keeps the signs of coordinates, so none leaves that range."""
+    if abs(a.angle - b.angle) > APART:
+        return -1 if a.angle < b.angle else 1
+    return -a.exact().cross(b.exact()).sign()
+
+
+def _middle(angle: float) -> Ray:
+    """A ray within a cell; the float vector is the exact one."""
+    unit = cos(angle), sin(angle)
+    return Ray(unit, lambda: Point(*unit))
+
+
+def _halfway(a: Ray, b: Ray) -> Ray:
+    """A ray between two that floats cannot tell apart: the sum of vectors of about equal length."""
+    u, v = a.exact(), b.exact()
+    scale = rational(hypot(*u.xy) / hypot(*v.xy))
+    return Ray(a.unit, lambda: u + v * scale)
+
+
+def _cross(a: Floats, b: Floats) -> Floats:
+    found: Floats = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+    return found
+
+
+def _segment_hits(units: Floats, starts: Floats, ends: Floats) -> Range:
+    """Where rays meet segments from s to e: t = s x e / (u x e - u x s), if u x s and u x e differ in sign.
+
+    If one of the two signs is uncertain, the contact is near that end; if both are, anywhere between.
+    """
+    a, b = np.hypot(*starts.T), np.hypot(*ends.T)
+    s, e = _cross(units[:, None], starts), _cross(units[:, None], ends)
+    ds, de = EPS * a + TINY, EPS * b + TINY
+    unsure_s, unsure_e = np.abs(s) <= ds, np.abs(e) <= de
+    crossed = ~unsure_s & ~unsure_e & ((s > 0) != (e > 0))
+    missed = ~unsure_s & ~unsure_e & ((s > 0) == (e > 0))
+    with np.errstate(all="ignore"):
+        t = _cross(starts, ends) / (e - s)
+        slack = (EPS * a * b + np.abs(t) * (ds + de)) / (np.abs(e - s) - ds - de) + TINY
+        chord = np.hypot(*(ends - starts).T) * (1 + EPS)
+        near_s, near_e = 2 * ds * chord / (np.abs(e) - de), 2 * de * chord / (np.abs(s) - ds)
+    # Where neither end is certain the segment points at q, or away from it.
+    both = unsure_s & unsure_e
+    at_s, at_e = unsure_s & ~both, unsure_e & ~both
+    ahead_s, ahead_e = (units @ starts.T) > 0, (units @ ends.T) > 0
+    facing = np.where(ahead_s & ahead_e, np.minimum(a, b) * (1 - EPS), 0.0)
+    with np.errstate(invalid="ignore"):
+        low = np.where(crossed, t - slack, np.where(at_s, a - near_s, np.where(at_e, b - near_e, facing)))
+        high = np.where(crossed, t + slack, np.inf)
+    behind = np.where(crossed, high < 0, np.where(at_s, ~ahead_s & (near_s < a / 2), False))
+    behind |= (at_e & ~ahead_e & (near_e < b / 2)) | (both & ~ahead_s & ~ahead_e & (a > 0) & (b > 0))
+    low = np.where(np.isnan(low), -np.inf, low)
+    high = np.where(np.isnan(high), np.inf, high)
+    gone = missed | behind
+    return Range(np.where(gone, np.inf, low), np.where(gone, np.inf, high), crossed & ~gone & (low > 0))
+
+
+def _arc_hits(
+    units: Floats, centers: Floats, shape: Floats, chords: tuple[Floats, Floats], own: Bools, far: bool
+) -> Range:
+    """Where rays meet arcs for the near or the far root t = u.c -+ sqrt(r^2 - (u x c)^2).
+
+    A contact is on the arc if it lies on the arc's side of the chord. On an own circle the roots are 0,
+    which is left out, and 2 u.c.
+    """
+    radius, sense, full = shape[:, 0], shape[:, 1], shape[:, 2] > 0
+    starts, along = chords
+    size = np.hypot(*centers.T) + radius
+    b, h = units @ centers.T, _cross(units[:, None], centers)
+    error = 4 * EPS * size * size + TINY
+    square = (radius - h) * (radius + h)
+    real = square > error
+    root = np.sqrt(np.maximum(square, 0.0))
+    with np.errstate(all="ignore"):
+        slack = np.where(real, error / root, np.sqrt(np.maximum(square, 0.0) + error)) + 4 * EPS * size
+    t = np.where(real, b + (root if far else -root), b)
+    if own.any():
+        t = np.where(own, 2 * b, t)
+        slack = np.where(own, 8 * EPS * size, slack)
+    width = np.hypot(*along.T)
+    side = sense * (_cross(along, units[:, None]) * t - _cross(along, starts))
+    margin = width * (slack + 4 * EPS * (np.abs(t) + np.hypot(*starts.T))) + TINY
+    low, high = t - slack, t + slack
+    gone = (square < -error) | (high < 0) | (~full & (side > margin))
+    if own.any():
+        gone = np.where(own, (high < 0) | (~full & (side > margin)) | (not far), gone)
+    sure = (real | own) & (full | (side < -margin)) & (low > 0) & ~gone
+    return Range(np.where(gone, np.inf, low), np.where(gone, np.inf, high), sure)
+
+
+# -- targets ---------------------------------------------------------------------------------------
+
+
+def point_at(edge: Curve, share: fmpq) -> Point | None:
+    """A rational point at about a share of an edge of the scene, from the tangent of half the angle."""
+    if isinstance(edge, Segment):
+        return edge.point(share)
+    return _turned(edge, nearest_float(share) * _angle(edge, edge.end))
+
+
+def point_near(edge: Curve, point: Point, shift: fmpq) -> Point | None:
+    """A rational point of an edge about *shift* beyond a point of it, None beyond the edge's ends."""
+    if isinstance(edge, Arc):
+        return _turned(edge, _angle(edge, point, full=0.0) + nearest_float(shift) / float(edge.radius))
+    along = (point - edge.start).dot(edge.direction) / edge.direction.norm_sq()
+    share = rational(float(along)) + shift / rational(float(edge.length))
+    return edge.point(share) if 0 <= share <= 1 else None
+
+
+def _angle(arc: Arc, point: Point, full: float = 2 * pi) -> float:
+    """The angle from an arc's start to a point of it in the arc's sense, in floats; *full* at the start."""
+    (a, b), (c, d) = ((p - arc.center).xy for p in (arc.start, point))
+    angle = atan2(a * d - b * c, a * c + b * d) % (2 * pi)
+    return (angle if arc.ccw else -angle % (2 * pi)) or full
+
+
+def _turned(arc: Arc, angle: float) -> Point | None:
+    """The arc's start, turned by about an angle in its sense, if that is on the arc."""
+    half = rational(tan(angle / 2 if arc.ccw else -angle / 2))
+    cosine, sine = (1 - half * half) / (1 + half * half), 2 * half / (1 + half * half)
+    radial = arc.start - arc.center
+    point = arc.center + radial * cosine + radial.left() * sine
+    return point if arc.contains(point) else None

@@ -1,0 +1,264 @@
+"""The entities of a DXF file, read through ezdxf, as chains and circles with rational data."""
+
+from __future__ import annotations
+
+import logging
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from itertools import chain
+from pathlib import Path
+from typing import Any
+
+import ezdxf
+from ezdxf import recover
+from flint import fmpq
+
+from exactacq.errors import FormatError
+from exactacq.files.dxf.chains import Chain, Corner
+from exactacq.files.dxf.rational_arcs import arc_corners
+from exactacq.files.source import MAX_EDGES, one_line, read_bytes
+from exactacq.numbers.rationals import rational
+from exactacq.scene.shapes import Circle
+
+MAX_ENTITIES = 2 * MAX_EDGES
+"""Most entities and vertices of a file, counted before ezdxf starts: it takes about 2 KB for each."""
+MAX_LINES = 20 * MAX_EDGES
+"""Most lines of a file, two for each value: ezdxf takes 7 microseconds and 100 bytes for each."""
+MAX_DEPTH = 16
+"""Deepest nesting of blocks that is followed; drawings have two or three levels, a loop has no end."""
+BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
+_OPENING = re.compile(rb"(?:\xef\xbb\xbf)?\s*(?:999[ \t]*\r?\n[^\n]*\n\s*)*0[ \t]*\r?\n[ \t]*SECTION\s")
+_ENTITY = re.compile(rb"\n[ \t]*0[ \t]*\r?\n[ \t]*[A-Z]")
+
+# Without a handler Python prints what ezdxf mends to standard error; the scene's notes count it.
+logging.getLogger("ezdxf").addHandler(logging.NullHandler())
+
+
+@dataclass(slots=True)
+class Drawing:
+    """What a drawing holds: chains, circles (each with its place in the file), and the rest by name."""
+
+    path: Path
+    chains: list[Chain] = field(default_factory=list)
+    circles: list[tuple[int, Circle]] = field(default_factory=list)
+    dropped: Counter[str] = field(default_factory=Counter)
+    notes: list[str] = field(default_factory=list)
+    layers: Counter[str] = field(default_factory=Counter)
+    """Number of entities of each layer, in the file's spelling, selected or not."""
+
+    def skip(self, entity: Any, reason: str) -> None:
+        """Count an entity of a block that ezdxf cannot place."""
+        self.dropped[f"{entity.dxftype()} in a block"] += 1
+
+    def extent(self) -> tuple[tuple[fmpq, fmpq], tuple[fmpq, fmpq]]:
+        """The box of all vertices and circles (bulges may reach beyond it)."""
+        corners = [(c.x, c.y) for chain in self.chains for c in chain.corners]
+        for _, circle in self.circles:
+            (x, y), r = circle.center, circle.radius
+            corners += [(x - r, y - r), (x + r, y + r)]
+        xs, ys = [x for x, _ in corners], [y for _, y in corners]
+        return (min(xs), min(ys)), (max(xs), max(ys))
+
+    def layer_list(self) -> str:
+        """The layers with their counts of entities, the fullest first."""
+        named = [f"{one_line(repr(name))} ({count})" for name, count in self.layers.most_common(12)]
+        return ", ".join(named) + (" and others" if len(self.layers) > 12 else "")
+
+
+def read_drawing(path: str | Path, layers: Iterable[str] | None) -> Drawing:
+    """The model space of a DXF file, all layers or those named (in any case).
+
+    Raises `FormatError` for what is no complete DXF file, or holds no such layer. Linear in the file.
+    """
+    drawing = Drawing(Path(path))
+    document = _open(path, drawing)
+    selected = None if layers is None else _Layers(layers)
+    count = 0
+    try:
+        for entity, layer in _entities(document.modelspace(), drawing):
+            count += 1
+            if count > MAX_ENTITIES:
+                raise FormatError(f"its blocks expand to more than {MAX_ENTITIES} entities; export one part")
+            drawing.layers[layer] += 1
+            if selected is None or selected.take(layer):
+                _Reader(drawing, count).read(entity)
+    except FormatError:
+        raise
+    except Exception as error:  # ezdxf reads lazily: a damaged entity shows only here, in many ways
+        raise FormatError(f"a damaged entity ({one_line(error)}); save or export it again") from None
+    if selected is not None and (missing := selected.missing()):
+        raise FormatError(f"no layer {one_line(repr(missing[0]))}; it has {drawing.layer_list()}")
+    return drawing
+
+
+class _Layers:
+    """A choice of layers; DXF does not tell upper from lower case."""
+
+    def __init__(self, names: Iterable[str]) -> None:
+        self.names = {name.casefold(): name for name in ([names] if isinstance(names, str) else names)}
+        self.seen: set[str] = set()
+
+    def take(self, layer: str) -> bool:
+        self.seen.add(layer.casefold())
+        return layer.casefold() in self.names
+
+    def missing(self) -> list[str]:
+        return [name for key, name in self.names.items() if key not in self.seen]
+
+
+def _open(path: str | Path, drawing: Drawing) -> Any:
+    data = read_bytes(path)
+    if not data.startswith(BINARY) and not _OPENING.match(data):
+        raise FormatError("not a DXF file (no SECTION at its beginning); export the drawing as DXF")
+    if not data.rstrip(b" \t\r\n\x00\x1a").endswith(b"EOF"):
+        raise FormatError("the DXF file is truncated (no EOF at its end); export the drawing again")
+    if data.startswith(BINARY):
+        lines, entities = len(data) // 8, 0
+    else:
+        lines, entities = data.count(b"\n"), sum(1 for _ in _ENTITY.finditer(data))
+    for number, most, what in ((entities, MAX_ENTITIES, "entities"), (lines, MAX_LINES, "lines")):
+        if number > most:
+            raise FormatError(f"{number} {what} are more than the {most} that are read; export one part")
+    del data
+    try:
+        try:
+            return ezdxf.readfile(path)
+        except ezdxf.DXFStructureError:
+            document, auditor = recover.readfile(path)
+            mended, left = len(auditor.fixes), len(auditor.errors)
+            drawing.notes.append(
+                f"the file is damaged: {mended} flaws were mended on reading, {left} were not"
+            )
+            return document
+    except Exception as error:  # ezdxf raises what its parsers meet: ValueError, IndexError, struct.error
+        reason = one_line(error)
+        raise FormatError(f"not a readable DXF file ({reason}); export the drawing again") from None
+
+
+def _entities(layout: Iterable[Any], drawing: Drawing) -> Iterator[tuple[Any, str]]:
+    """(entity, layer), blocks expanded; layer "0" in a block is the layer of its reference."""
+    expanded = 0
+    stack: list[tuple[Iterator[Any], str | None, int]] = [(iter(layout), None, 0)]
+    while stack:
+        entities, outer, depth = stack[-1]
+        entity = next(entities, None)
+        if entity is None:
+            stack.pop()
+            continue
+        layer = str(entity.dxf.get("layer", "0"))
+        layer = outer if outer is not None and layer == "0" else layer
+        if entity.dxftype() != "INSERT":
+            yield entity, layer
+        elif depth >= MAX_DEPTH:
+            raise FormatError(f"blocks are nested more than {MAX_DEPTH} deep (one in itself?); explode them")
+        else:
+            expanded += entity.mcount
+            if expanded > MAX_ENTITIES:
+                raise FormatError(f"it refers to blocks more than {MAX_ENTITIES} times; export one part")
+            copies = entity.multi_insert() if entity.mcount > 1 else [entity]
+            skipped = drawing.skip
+            content = chain.from_iterable(c.virtual_entities(skipped_entity_callback=skipped) for c in copies)
+            stack.append((content, layer, depth + 1))
+    if expanded:
+        drawing.notes.append(
+            f"expanded {expanded} block references; their content is placed in double precision"
+        )
+
+
+class _Reader:
+    """One entity into the drawing."""
+
+    def __init__(self, drawing: Drawing, order: int) -> None:
+        self.drawing, self.order = drawing, order
+
+    def read(self, entity: Any) -> None:
+        kind = entity.dxftype()
+        read = {
+            "LINE": self._line,
+            "ARC": self._arc,
+            "CIRCLE": self._circle,
+            "LWPOLYLINE": self._lwpolyline,
+            "POLYLINE": self._polyline,
+        }.get(kind)
+        reason = kind if read is None else read(entity)
+        if reason:
+            self.drawing.dropped[reason] += 1
+
+    def _label(self, entity: Any) -> str:
+        handle = entity.dxf.get("handle")
+        return f"{entity.dxftype()} {handle}" if handle else f"{entity.dxftype()} no. {self.order}"
+
+    def _add(self, entity: Any, corners: list[Corner], closed: bool = False, stated: bool = True) -> None:
+        self.drawing.chains.append(Chain(self._label(entity), corners, self.order, closed, stated))
+
+    def _line(self, entity: Any) -> str | None:
+        ends = (entity.dxf.start, entity.dxf.end)
+        self._add(entity, [Corner(_exact(p.x), _exact(p.y), fmpq(0)) for p in ends])
+        return None
+
+    def _arc(self, entity: Any) -> str | None:
+        flip = _mirror(entity)
+        if flip is None:
+            return "ARC in a tilted plane"
+        radius = _exact(entity.dxf.radius)
+        if radius <= 0:
+            return "ARC of no radius"
+        center = (_exact(entity.dxf.center.x) * flip, _exact(entity.dxf.center.y))
+        start, end = _exact(entity.dxf.start_angle), _exact(entity.dxf.end_angle)
+        if flip < 0:
+            start, end = 180 - end, 180 - start
+        corners = arc_corners(center, radius, start, end)
+        if corners is None:
+            self.drawing.circles.append((self.order, Circle(center, radius, self._label(entity))))
+        else:
+            self._add(entity, corners, stated=False)
+        return None
+
+    def _circle(self, entity: Any) -> str | None:
+        flip = _mirror(entity)
+        if flip is None:
+            return "CIRCLE in a tilted plane"
+        radius = _exact(entity.dxf.radius)
+        if radius <= 0:
+            return "CIRCLE of no radius"
+        center = (_exact(entity.dxf.center.x) * flip, _exact(entity.dxf.center.y))
+        self.drawing.circles.append((self.order, Circle(center, radius, self._label(entity))))
+        return None
+
+    def _lwpolyline(self, entity: Any) -> str | None:
+        return self._bulged(entity, entity.get_points("xyb"), bool(entity.closed))
+
+    def _polyline(self, entity: Any) -> str | None:
+        spline_fit = 4
+        if not (entity.is_2d_polyline or entity.is_3d_polyline):
+            return "POLYLINE mesh"
+        if entity.dxf.get("flags", 0) & spline_fit:
+            return "spline-fitted POLYLINE"
+        flat = entity.is_2d_polyline
+        places = [(v.dxf.location, v.dxf.get("bulge", 0.0) if flat else 0.0) for v in entity.vertices]
+        return self._bulged(entity, [(p.x, p.y, bulge) for p, bulge in places], bool(entity.is_closed), flat)
+
+    def _bulged(
+        self, entity: Any, rows: Iterable[tuple[float, float, float]], closed: bool, flat: bool = True
+    ) -> str | None:
+        flip = _mirror(entity) if flat else 1
+        if flip is None:
+            return f"{entity.dxftype()} in a tilted plane"
+        corners = [Corner(_exact(x) * flip, _exact(y), _exact(b) * flip) for x, y, b in rows]
+        if len(corners) < 2:
+            return f"{entity.dxftype()} of fewer than two vertices"
+        self._add(entity, corners, closed)
+        return None
+
+
+def _exact(value: float) -> fmpq:
+    """The shortest decimal that denotes a double, exactly; `FormatError` for NaN and infinities."""
+    return rational(repr(float(value)))
+
+
+def _mirror(entity: Any) -> int | None:
+    """1 or -1 as x keeps or changes its sign in the entity's coordinates; None if its plane is tilted."""
+    x, y, z = entity.dxf.get("extrusion", (0.0, 0.0, 1.0))
+    return None if x or y or not z else 1 if z > 0 else -1

@@ -1,0 +1,121 @@
+"""Arcs given by centre, radius and angles in degrees, as edges with rational ends and a rational bulge.
+
+The ends of such an arc are irrational as a rule, so an edge near it is chosen: ends rounded to
+decimals as fine as a double resolves, the bulge to the simplest fraction within 2^-50 of its size. The shifts
+recorded in the corners are proven bounds. Ends at multiples of 90 degrees and semicircles are exact.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import cache, lru_cache
+
+from flint import fmpq
+
+from exactacq.files.dxf.chains import Corner, root_above
+from exactacq.numbers.length import Length
+from exactacq.numbers.rationals import rational
+
+DECIMALS = 16
+"""Significant decimals kept of computed coordinates, counted from the largest coordinate on the circle."""
+BULGE_BITS = 50
+FIXED_BITS = 128
+TERMS = 60
+HALVING_DEGREES = 270
+"""Longer arcs are halved: the circle through two close ends would magnify their rounding."""
+
+
+def arc_corners(center: tuple[fmpq, fmpq], radius: fmpq, start: fmpq, end: fmpq) -> list[Corner] | None:
+    """The counterclockwise arc between two angles (degrees) as an open chain, or None for the full circle.
+
+    *radius* > 0. An angle of 0 modulo 360 from start to end means the full circle, as in DXF.
+    """
+    included = end - start
+    included -= (included / 360).floor() * 360
+    if included == 0:
+        return None
+    parts = 2 if included > HALVING_DEGREES else 1
+    angles = [start + included * i / parts for i in range(parts + 1)]
+    corners = [_corner(center, radius, angle) for angle in angles]
+    for corner in corners[:-1]:
+        corner.bulge, corner.bulge_shift = _bulge(included / parts)
+    return corners
+
+
+def _corner(center: tuple[fmpq, fmpq], radius: fmpq, degrees: fmpq) -> Corner:
+    reach = max(abs(center[0]), abs(center[1])) + radius
+    unit = fmpq(1)
+    while unit <= reach:
+        unit *= 10
+    while unit > reach:
+        unit /= 10
+    unit /= 10 ** (DECIMALS - 1)
+    (cosine, sine), error = cosine_sine(degrees)
+    exact = (center[0] + radius * cosine, center[1] + radius * sine)
+    x, y = ((c / unit + fmpq(1, 2)).floor() * unit for c in exact)
+    return Corner(x, y, fmpq(0), root_above((x - exact[0]) ** 2 + (y - exact[1]) ** 2) + 2 * radius * error)
+
+
+def _bulge(included: fmpq) -> tuple[fmpq, fmpq]:
+    """The tangent of a quarter of the angle (degrees, at most 270), and a bound of the error."""
+    if included == 180:
+        return fmpq(1), fmpq(0)
+    (cosine, sine), error = cosine_sine(included / 4)
+    low, high = (sine - error) / (cosine + error), (sine + error) / (cosine - error)
+    middle = (low + high) / 2
+    slack = middle / 2**BULGE_BITS
+    value = simplest_between(middle - slack, middle + slack)
+    return value, max(high - value, value - low)
+
+
+@cache
+def _pi() -> fmpq:
+    return Length.turns(1, fmpq(1, 2)).enclosure(FIXED_BITS + 8)[0]
+
+
+@lru_cache(maxsize=1 << 12)
+def _first_quadrant(degrees: fmpq) -> tuple[fmpq, fmpq]:
+    one = 1 << FIXED_BITS
+    angle = int((_pi() * degrees / 180 * one).floor())
+    sums, term = [one, 0], one
+    for n in range(1, TERMS):
+        term = (term * angle >> FIXED_BITS) // n
+        sums[n % 2] += -term if n % 4 >= 2 else term
+    return fmpq(sums[0], one), fmpq(sums[1], one)
+
+
+def cosine_sine(degrees: fmpq) -> tuple[tuple[fmpq, fmpq], fmpq]:
+    """Rationals near the cosine and the sine of an angle in degrees, and a bound of either error.
+
+    Multiples of 90 are exact. Otherwise Taylor's series in fixed point for the rest x < pi/2: each term is
+    cut off twice, so its error is e_n <= 2 + e_(n-1) x / n < 4 units, 240 for all `TERMS`; what follows them
+    (x^60 / 60! < 2^-230) and the error of the angle are below two units each; 2^8 units cover the sum.
+    """
+    turned = degrees - (degrees / 360).floor() * 360
+    quadrant = int((turned / 90).floor())
+    rest = turned - 90 * quadrant
+    cosine, sine = _first_quadrant(rest) if rest else (fmpq(1), fmpq(0))
+    for _ in range(quadrant):
+        cosine, sine = -sine, cosine
+    return (cosine, sine), fmpq(1, 1 << (FIXED_BITS - 8)) if rest else fmpq(0)
+
+
+def simplest_between(low: fmpq, high: fmpq) -> fmpq:
+    """The fraction of least denominator in [low, high], 0 <= low <= high.
+
+    A descent of the Stern-Brocot tree by continued fractions; ValueError for another interval.
+    """
+    if low > high or low < 0:
+        raise ValueError(f"not an interval of numbers >= 0: [{low}, {high}]")
+    terms = []
+    a, b = Fraction(int(low.p), int(low.q)), Fraction(int(high.p), int(high.q))
+    while True:
+        whole = -(-a.numerator // a.denominator)
+        if whole <= b:
+            break
+        terms.append(whole - 1)
+        a, b = 1 / (b - (whole - 1)), 1 / (a - (whole - 1))
+    value = Fraction(whole)
+    for term in reversed(terms):
+        value = term + 1 / value
+    return rational(value)

@@ -1,0 +1,240 @@
+"""Loose pieces become closed loops: ends within the tolerance are joined, what stays open is left out.
+
+Ends are clustered exactly (a grid of cells as wide as the tolerance proposes, squared distances decide). A
+cluster of two ends is a joint; three or more ends make a branch point, where no loop is traced through: a
+path that leaves a branch point and comes back to it is a loop, any other path that ends at one is open.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from flint import fmpq
+
+from exactacq.files.dxf.chains import Chain, Corner, distance_above
+
+
+@dataclass(slots=True)
+class Stitched:
+    """The closed loops in the order of their first piece, and what was done and left out on the way."""
+
+    loops: list[Chain] = field(default_factory=list)
+    joined: int = 0
+    """Ends that were moved onto another one."""
+    largest: fmpq = field(default_factory=lambda: fmpq(0))
+    """Upper bound of the largest such move."""
+    short_edges: int = 0
+    """Edges not longer than the tolerance, taken out."""
+    duplicates: int = 0
+    """Pieces or loops equal to an earlier one, taken out."""
+    flat: int = 0
+    """Loops of fewer than three straight edges, taken out: they enclose nothing."""
+    open_chains: list[list[Chain]] = field(default_factory=list)
+    """Paths that do not close, as their pieces."""
+    branches: list[tuple[fmpq, fmpq]] = field(default_factory=list)
+    """Points where three or more ends meet."""
+
+    def joint(self, corner: Corner, target: Corner) -> None:
+        """Move a corner onto another one, and keep count."""
+        moved = corner.move_to(target)
+        if moved:
+            self.joined += 1
+            self.largest = max(self.largest, moved)
+
+
+def stitch(chains: Iterable[Chain], tolerance: fmpq) -> Stitched:
+    """Join *chains* (which are altered) into loops; near linear in the edges if they exceed the tolerance."""
+    done = Stitched()
+    pieces: list[Chain] = []
+    loops: dict[int, Chain] = {}
+    for chain in chains:
+        _drop_short_edges(chain, tolerance, done)
+        if chain.edges > 0:
+            pieces.append(chain)
+    nodes = _join_ends([p for p in pieces if not p.closed], tolerance, done)
+    pieces = _without_duplicates([p for p in pieces if not _collapsed(p, done)], done)
+    at_node: defaultdict[int, list[tuple[int, int]]] = defaultdict(list)
+    for i, piece in enumerate(pieces):
+        if piece.closed:
+            loops[i] = piece
+        else:
+            for side in (0, 1):
+                at_node[nodes[id(piece), side]].append((i, side))
+    done.branches = [_place(pieces, ends[0]) for ends in at_node.values() if len(ends) > 2]
+    used: set[int] = set()
+    for i, piece in enumerate(pieces):
+        if piece.closed or i in used:
+            continue
+        path, closed = _trace(pieces, nodes, at_node, i)
+        used.update(j for j, _ in path)
+        if closed:
+            loops[i] = _merge(pieces, path)
+        else:
+            done.open_chains.append([pieces[j] for j, _ in path])
+    found = [loops[i] for i in sorted(loops)]
+    for loop in found:
+        _drop_short_edges(loop, fmpq(0), done)
+    solid = [loop for loop in found if len(loop.corners) > 2 - any(c.bulge for c in loop.corners)]
+    done.flat = len(found) - len(solid)
+    done.loops = _without_duplicates(solid, done)
+    return done
+
+
+def _drop_short_edges(chain: Chain, tolerance: fmpq, done: Stitched) -> None:
+    """Merge neighbouring corners within the tolerance; a chain whose ends meet becomes closed.
+
+    An edge of more than a semicircle is no short edge, unless its ends are equal: then it has no shape.
+    """
+    kept = chain.corners[:1]
+    for corner in chain.corners[1:]:
+        if _is_short(kept[-1], corner, tolerance):
+            _merge_corners(kept[-1], corner, done)
+        else:
+            kept.append(corner)
+    if len(kept) > 2 and not chain.closed and distance_above(kept[-1], kept[0]) <= tolerance:
+        done.joint(kept[-1], kept[0])
+        kept[0].shift = max(kept[0].shift, kept.pop().shift)
+        chain.closed = True
+    elif chain.closed and len(kept) > 1 and _is_short(kept[-1], kept[0], tolerance):
+        done.short_edges += 1
+        done.joint(kept[-1], kept[0])
+        kept[0].shift = max(kept[0].shift, kept.pop().shift)
+    chain.corners = kept
+
+
+def _is_short(start: Corner, end: Corner, tolerance: fmpq) -> bool:
+    equal = start.x == end.x and start.y == end.y
+    return bool(equal or (abs(start.bulge) <= 1 and distance_above(start, end) <= tolerance))
+
+
+def _merge_corners(kept: Corner, corner: Corner, done: Stitched) -> None:
+    """Take out the edge between two corners: the first one's place, the second one's edge."""
+    done.short_edges += 1
+    done.joint(corner, kept)
+    kept.bulge, kept.bulge_shift = corner.bulge, corner.bulge_shift
+    kept.shift = max(kept.shift, corner.shift)
+
+
+def _join_ends(pieces: list[Chain], tolerance: fmpq, done: Stitched) -> dict[tuple[int, int], int]:
+    """Cluster the ends and move each onto its cluster's first stated end; the cluster of (id, side)."""
+    ends = [(piece, side, piece.corners[-side]) for piece in pieces for side in (0, 1)]
+    parent = list(range(len(ends)))
+
+    def root(i: int) -> int:
+        while parent[i] != i:
+            parent[i] = i = parent[parent[i]]
+        return i
+
+    for i, j in _close_pairs([corner for _, _, corner in ends], tolerance):
+        a, b = root(i), root(j)
+        parent[max(a, b)] = min(a, b)
+    clusters: defaultdict[int, list[int]] = defaultdict(list)
+    for i in range(len(ends)):
+        clusters[root(i)].append(i)
+    for members in clusters.values():
+        target = ends[min(members, key=lambda i: (not ends[i][0].stated, i))][2]
+        for i in members:
+            done.joint(ends[i][2], target)
+    return {(id(piece), side): root(i) for i, (piece, side, _) in enumerate(ends)}
+
+
+def _collapsed(piece: Chain, done: Stitched) -> bool:
+    """Whether a piece of one edge lost its length when its ends were joined."""
+    first, last = piece.corners[0], piece.corners[-1]
+    gone = piece.edges == 1 and not piece.closed and first.x == last.x and first.y == last.y
+    done.short_edges += gone
+    return gone
+
+
+def _close_pairs(corners: list[Corner], tolerance: fmpq) -> Iterable[tuple[int, int]]:
+    """Pairs of indices of corners at most the tolerance apart; equal corners are linked in a row."""
+    first: dict[tuple[fmpq, fmpq], int] = {}
+    cells: defaultdict[tuple[int, int], list[int]] = defaultdict(list)
+    for i, corner in enumerate(corners):
+        j = first.setdefault((corner.x, corner.y), i)
+        if j != i:
+            yield j, i
+            continue
+        if not tolerance:
+            continue
+        column, row = (int((c / tolerance).floor()) for c in (corner.x, corner.y))
+        for dx in (-1, 0, 1):
+            for dy in (-1, 0, 1):
+                for k in cells.get((column + dx, row + dy), ()):
+                    other = corners[k]
+                    if (other.x - corner.x) ** 2 + (other.y - corner.y) ** 2 <= tolerance**2:
+                        yield k, i
+        cells[column, row].append(i)
+
+
+def _trace(
+    pieces: list[Chain],
+    nodes: dict[tuple[int, int], int],
+    at_node: dict[int, list[tuple[int, int]]],
+    first: int,
+) -> tuple[list[tuple[int, int]], bool]:
+    """The path through a piece as (piece, side it is entered at), and whether it closes."""
+    path = [(first, 0)]
+    for _ in range(2):
+        while True:
+            last, entered = path[-1]
+            node = nodes[id(pieces[last]), 1 - entered]
+            if node == nodes[id(pieces[path[0][0]]), path[0][1]]:
+                return path, True
+            if len(at_node[node]) != 2:
+                break
+            here, there = at_node[node]
+            path.append(there if here == (last, 1 - entered) else here)
+        path = [(i, 1 - side) for i, side in reversed(path)]
+    return path, False
+
+
+def _merge(pieces: list[Chain], path: list[tuple[int, int]]) -> Chain:
+    """One closed chain from a path of open ones; a joint keeps the larger of the two shifts."""
+    corners: list[Corner] = []
+    last: fmpq = fmpq(0)
+    for i, side in path:
+        walked = pieces[i].backwards() if side else pieces[i].corners
+        walked[0].shift = max(walked[0].shift, last)
+        last = walked[-1].shift
+        corners += walked[:-1]
+    corners[0].shift = max(corners[0].shift, last)
+    first = pieces[min(path)[0]]
+    label = first.label if len(path) == 1 else f"loop from {first.label}"
+    return Chain(label, corners, first.order, closed=True)
+
+
+def _without_duplicates(chains: list[Chain], done: Stitched) -> list[Chain]:
+    """The chains without those that equal an earlier one, in either direction and from any corner."""
+    seen: set[tuple[object, ...]] = set()
+    kept = []
+    for chain in chains:
+        key = _key(chain)
+        if key in seen:
+            done.duplicates += 1
+        else:
+            seen.add(key)
+            kept.append(chain)
+    return kept
+
+
+def _key(chain: Chain) -> tuple[object, ...]:
+    rows = [(c.x, c.y, c.bulge) for c in chain.corners]
+    if not chain.closed:
+        rows[-1] = (*rows[-1][:2], fmpq(0))
+        turned = [(c.x, c.y, c.bulge) for c in chain.backwards()]
+        return tuple(min(rows, turned))
+    n = len(rows)
+    backwards = [(*rows[-i % n][:2], -rows[-(i + 1) % n][2]) for i in range(n)]
+    ways = []
+    for way in (rows, backwards):
+        least = min(way)
+        ways += [tuple(way[i:] + way[:i]) for i in range(n) if way[i] == least]
+    return ("closed", *min(ways))
+
+
+def _place(pieces: list[Chain], end: tuple[int, int]) -> tuple[fmpq, fmpq]:
+    corner = pieces[end[0]].corners[-end[1]]
+    return corner.x, corner.y

@@ -1,0 +1,29 @@
+"""One way in: a file, or a scene of the gallery by its name."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+from exactacq.errors import FormatError
+from exactacq.files import gallery
+from exactacq.files.by_suffix import load as load_file
+from exactacq.scene.scene import Scene
+
+
+def load(name: str | os.PathLike[str], **options: Any) -> Scene:
+    """The scene in a file, or else the gallery scene of that name.
+
+    *options* (start, layers, outer, tolerance, union) are for drawings: see `exactacq.files.by_suffix.load`.
+    Raises `FormatError` if there is neither, and what reading and validation raise.
+    """
+    text = os.fspath(name)
+    if "\0" in text or os.path.lexists(text):
+        return load_file(text, **options)
+    if text in gallery.names():
+        if options:
+            raise FormatError(f"{text}: a gallery scene takes no options for drawings; leave them out")
+        return gallery.scene(text)
+    if os.path.splitext(text)[1]:
+        return load_file(text, **options)
+    raise FormatError(f"{text}: no such file or gallery scene; `exactacq gallery` lists the scenes")

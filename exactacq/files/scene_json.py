@@ -1,0 +1,221 @@
+"""JSON scenes, read and written without a rounding.
+
+A number's literal text is its value ("0.1" is 1/10); rationals are strings "p/q". Written and read again, a
+scene is the same scene: shapes, names, start, terrain, enclosure, radius and notes.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any, NoReturn
+
+from flint import fmpq
+
+from exactacq.errors import FormatError
+from exactacq.files.source import MAX_EDGES, check_edges, one_line, read_bytes
+from exactacq.numbers.rationals import rational
+from exactacq.scene.scene import Scene
+from exactacq.scene.shapes import Circle, Outline, Polygon, Shape, Terrain
+
+MAX_COMMAS = 8 * MAX_EDGES
+"""A vertex brings at most three commas: more than this in a file cannot be a scene that is taken."""
+SCENE_KEYS = ("name", "start", "radius", "terrain", "enclosure", "obstacles", "notes")
+SHAPE_KEYS = ("name", "boundary", "circle")
+
+
+class _Literal(str):
+    """The text of a JSON number, told apart from a JSON string."""
+
+    __slots__ = ()
+    is_json_number = True
+
+
+def load_json(path: str | Path, start: tuple[fmpq, fmpq] | None = None) -> Scene:
+    """The scene in a JSON file; *start*, if given, overrides the file's.
+
+    Raises `FormatError` (with the place in the file) for what is no such JSON, `InvalidScene` for a scene
+    that breaks the rules. Linear in the file.
+    """
+    data = read_bytes(path)
+    if data.count(b",") > MAX_COMMAS:
+        raise FormatError(f"more than {MAX_EDGES} edges; give a smaller scene")
+    return scene_of(parse_json(data), start)
+
+
+def parse_json(data: bytes) -> Any:
+    """JSON data, numbers as the text that stands in the file; `FormatError` for what is no JSON."""
+    try:
+        return json.loads(
+            data.decode("utf-8-sig"),
+            parse_float=_Literal,
+            parse_int=_Literal,
+            parse_constant=_Literal,
+            object_pairs_hook=_object,
+        )
+    except UnicodeDecodeError as error:
+        raise FormatError(f"byte {error.start} is not UTF-8; save the file as UTF-8 JSON") from None
+    except json.JSONDecodeError as error:
+        place = f"line {error.lineno}, column {error.colno}"
+        raise FormatError(f"{place}: not JSON ({one_line(error.msg)}); correct the file") from None
+    except RecursionError:
+        raise FormatError("nested too deeply; a scene has five levels") from None
+
+
+def scene_of(document: Any, start: tuple[fmpq, fmpq] | None = None) -> Scene:
+    """The scene that parsed JSON describes: see `load_json`."""
+    parts = _scene_parts(document)
+    check_edges(sum(_edge_count(s) for s in (*parts["obstacles"], parts["enclosure"])))
+    if start is not None:
+        parts["start"] = start
+    return Scene(**parts)
+
+
+def scene_to_json(scene: Scene) -> dict[str, Any]:
+    """A JSON-ready dict that `load_json` reads back as an equal scene: ints, or strings "p/q".
+
+    Raises `FormatError` if the start is not rational.
+    """
+    document: dict[str, Any] = {}
+    if scene.name is not None:
+        document["name"] = scene.name
+    if scene.start is not None:
+        place = scene.start.rational
+        if place is None:
+            raise FormatError("the start is not a rational point: a JSON scene cannot hold it")
+        document["start"] = [_written(c) for c in place]
+    if scene.radius is not None:
+        document["radius"] = _written(scene.radius)
+    if scene.terrain is not None:
+        terrain = scene.terrain
+        document["terrain"] = {"width": _written(terrain.width), "height": _written(terrain.height)}
+    if scene.enclosure is not None:
+        shape = _shape_to_json(scene.enclosure)
+        document["enclosure"] = shape["boundary"] if list(shape) == ["boundary"] else shape
+    document["obstacles"] = [_shape_to_json(shape) for shape in scene.shapes]
+    if scene.notes:
+        document["notes"] = list(scene.notes)
+    return document
+
+
+# -- writing ---------------------------------------------------------------------------------------
+
+
+def _written(value: fmpq) -> int | str:
+    return int(value.p) if value.q == 1 else f"{value.p}/{value.q}"
+
+
+def _shape_to_json(shape: Shape) -> dict[str, Any]:
+    document: dict[str, Any] = {} if shape.name is None else {"name": shape.name}
+    if isinstance(shape, Circle):
+        center = [_written(c) for c in shape.center]
+        document["circle"] = {"center": center, "radius": _written(shape.radius)}
+        return document
+    outline = isinstance(shape, Outline)
+    rows = [[_written(c) for c in (vertex if vertex[2] else vertex[:2])] for vertex in shape.vertices]
+    if outline and rows and not any(bulge for _, _, bulge in shape.vertices):
+        rows[0].append(0)  # a bulge, even 0, says that this is an Outline
+    document["boundary"] = rows
+    return document
+
+
+# -- reading ---------------------------------------------------------------------------------------
+
+
+def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """A JSON object without repeated keys."""
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        keys = [key for key, _ in pairs]
+        twice = next(key for key in keys if keys.count(key) > 1)
+        raise FormatError(f"the key {one_line(repr(twice))} stands twice in one object; keep one")
+    return found
+
+
+def _scene_parts(document: Any) -> dict[str, Any]:
+    _keys(document, "the scene", SCENE_KEYS)
+    if "obstacles" not in document:
+        raise FormatError('the scene has no "obstacles"; give a list (it may be empty)')
+    parts: dict[str, Any] = {"start": None, "radius": None, "terrain": None, "enclosure": None}
+    if (start := document.get("start")) is not None:
+        parts["start"] = _numbers(start, "start", (2,))
+    if (radius := document.get("radius")) is not None:
+        parts["radius"] = _number(radius, "radius")
+    if (terrain := document.get("terrain")) is not None:
+        _keys(terrain, "terrain", ("width", "height"), required=("width", "height"))
+        parts["terrain"] = Terrain(*(_number(terrain[k], f"terrain.{k}") for k in ("width", "height")))
+    if (wall := document.get("enclosure")) is not None:
+        shape = {"boundary": wall} if isinstance(wall, list) else wall
+        parts["enclosure"] = _shape(shape, "enclosure")
+    obstacles = _list(document["obstacles"], "obstacles")
+    parts["obstacles"] = [_shape(shape, f"obstacles[{i}]") for i, shape in enumerate(obstacles)]
+    parts["name"] = _text(document.get("name"), "name")
+    notes = [_text(n, f"notes[{i}]") for i, n in enumerate(_list(document.get("notes", []), "notes"))]
+    parts["notes"] = tuple(note for note in notes if note is not None)
+    return parts
+
+
+def _shape(value: Any, place: str) -> Shape:
+    _keys(value, place, SHAPE_KEYS)
+    name = _text(value.get("name"), f"{place}.name")
+    if ("boundary" in value) == ("circle" in value):
+        raise FormatError(f'{place}: a shape has either a "boundary" or a "circle"')
+    if "circle" in value:
+        circle, inner = value["circle"], f"{place}.circle"
+        _keys(circle, inner, ("center", "radius"), required=("center", "radius"))
+        center = _numbers(circle["center"], f"{inner}.center", (2,))
+        return Circle(center, _number(circle["radius"], f"{inner}.radius"), name)
+    rows = _list(value["boundary"], f"{place}.boundary")
+    vertices = [_numbers(row, f"{place}.boundary[{i}]", (2, 3)) for i, row in enumerate(rows)]
+    if any(len(vertex) == 3 for vertex in vertices):
+        return Outline(vertices, name)
+    return Polygon(vertices, name)
+
+
+def _edge_count(shape: Shape | None) -> int:
+    return 0 if shape is None else 1 if isinstance(shape, Circle) else len(shape.vertices)
+
+
+def _number(value: Any, place: str) -> fmpq:
+    if not isinstance(value, str):
+        _refuse(place, "a number", value)
+    try:
+        return rational(str(value))
+    except FormatError as error:
+        raise FormatError(f'{place}: {one_line(error)}; write an integer, a decimal or "p/q"') from None
+
+
+def _numbers(value: Any, place: str, counts: tuple[int, ...]) -> tuple[fmpq, ...]:
+    row = _list(value, place)
+    if len(row) not in counts:
+        needed = "[x, y]" if counts == (2,) else "[x, y] or [x, y, bulge]"
+        raise FormatError(f"{place}: {needed} is needed, not {len(row)} values")
+    return tuple(_number(number, f"{place}[{i}]") for i, number in enumerate(row))
+
+
+def _list(value: Any, place: str) -> list[Any]:
+    if not isinstance(value, list):
+        _refuse(place, "a list", value)
+    return value
+
+
+def _text(value: Any, place: str) -> str | None:
+    if value is not None and (not isinstance(value, str) or isinstance(value, _Literal)):
+        _refuse(place, "a text", value)
+    return None if value is None else str(value)
+
+
+def _keys(value: Any, place: str, known: Iterable[str], required: Iterable[str] = ()) -> None:
+    if not isinstance(value, dict):
+        _refuse(place, "an object", value)
+    if unknown := [key for key in value if key not in known]:
+        raise FormatError(f"{place}: unknown key {one_line(repr(unknown[0]))}; known are {', '.join(known)}")
+    if missing := [key for key in required if key not in value]:
+        raise FormatError(f'{place}: "{missing[0]}" is missing')
+
+
+def _refuse(place: str, needed: str, value: Any) -> NoReturn:
+    kinds: dict[type, str] = {dict: "an object", list: "a list", bool: "true or false", _Literal: "a number"}
+    found = "null" if value is None else kinds.get(type(value), "a text")
+    raise FormatError(f"{place}: {needed} is needed, not {found}")

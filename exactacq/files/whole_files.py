@@ -1,0 +1,90 @@
+"""What leaves the library: lengths in words of bounded size, and files written whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Collection
+from pathlib import Path
+
+from exactacq.errors import FormatError
+from exactacq.numbers.length import Length
+from exactacq.numbers.real import Real
+
+FIGURES = (".svg", ".pdf", ".png")
+"""File types of figures."""
+TRACES = (".json",)
+"""File types of traces."""
+PAGES = (".html",)
+"""File types of animated pages."""
+
+BITS_PER_CHARACTER = 4
+"""More than the 3.33 bits of a decimal digit."""
+
+
+def readable(length: Length, limit: int, digits: int) -> tuple[str, ...]:
+    """The closed form, if it has at most *limit* characters, and ``≈`` the decimal value.
+
+    A whole number is its own decimal value and comes alone. Forms of more radicals than *limit* are not even
+    written out, which would take seconds: k distinct radicals take more than k characters. Nor are forms of
+    numbers so long that their digits alone are too many.
+    """
+    decimal = length.decimal(digits)
+    if "e" not in decimal and "." in decimal:
+        decimal = decimal.rstrip("0").rstrip(".")
+    closed = str(length) if all(_is_short(number, limit) for number in length.numbers) else ""
+    if closed == decimal:
+        return (closed,)
+    return (closed, f"≈ {decimal}") if 0 < len(closed) <= limit else (f"≈ {decimal}",)
+
+
+def _is_short(number: Real, limit: int) -> bool:
+    return len(number.generators()) <= limit and number.height_bound() <= BITS_PER_CHARACTER * limit
+
+
+def check_output(path: str | os.PathLike[str], suffixes: Collection[str]) -> Path:
+    """The path, if a file of one of the *suffixes* can be written there; `FormatError` otherwise.
+
+    To be called before long work starts, so that a bad name does not cost the result. Writes nothing.
+    """
+    target = Path(path)
+    if "\0" in str(target):
+        raise FormatError(f"{str(target)!r}: not a file name")
+    if target.suffix.lower() not in suffixes:
+        raise FormatError(f"{target}: a file name must end in {', '.join(suffixes)}")
+    if target.is_dir():
+        raise FormatError(f"{target}: this is a directory; give the name of a file")
+    folder = target.parent
+    if not folder.is_dir():
+        raise FormatError(f"{target}: there is no directory {folder}; make it first")
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise FormatError(f"{target}: the directory {folder} cannot be written to")
+    return target
+
+
+def write_whole(path: str | os.PathLike[str], data: bytes) -> None:
+    """Write a file through a temporary one beside it and a rename: readers see the old or the new file.
+
+    Raises `OSError`; nothing is left behind then.
+    """
+    target = Path(path)
+    handle, temporary = tempfile.mkstemp(prefix=f".{target.name[:40]}.", suffix=".part", dir=target.parent)
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        Path(temporary).chmod(_mode(target))
+        Path(temporary).replace(target)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise
+
+
+def _mode(target: Path) -> int:
+    """Permissions as if the file had been opened for writing: those it has, or the process's default."""
+    if target.exists():
+        return target.stat().st_mode & 0o777
+    mask = os.umask(0)
+    os.umask(mask)
+    return 0o666 & ~mask

@@ -1,0 +1,1 @@
+"""Points, curves, where they meet, and places on a curve in order."""

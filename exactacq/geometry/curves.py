@@ -1,0 +1,220 @@
+"""Segments and circular arcs: directed pieces of boundaries and paths.
+
+On an obstacle's boundary the blocked side is on the left, so a counterclockwise arc is convex (the
+obstacle fills the circle's inside) and a clockwise arc is concave.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TypeAlias
+
+from flint import fmpq
+
+from exactacq.geometry.points import Orientation, Point, distance, orientation
+from exactacq.numbers.length import Length
+from exactacq.numbers.rationals import rational
+from exactacq.numbers.real import Real
+from exactacq.numbers.transcendental import transcendental, turned
+
+
+class Segment:
+    """The straight piece from ``start`` to ``end``."""
+
+    def __init__(self, start: Point, end: Point) -> None:
+        self.start, self.end = start, end
+
+    @cached_property
+    def direction(self) -> Point:
+        """The vector from start to end."""
+        return self.end - self.start
+
+    @cached_property
+    def length(self) -> Length:
+        """Euclidean length."""
+        return Length(distance(self.start, self.end))
+
+    def point(self, u: object) -> Point:
+        """The point at the rational fraction *u* of the way, 0 <= u <= 1."""
+        offset: Point = self.direction * _fraction(u)
+        return self.start + offset
+
+    def after(self, length: Length) -> Point:
+        """The point after a length, which is algebraic or, by Baker's theorem, transcendental."""
+        known = length == Length(length.algebraic)
+        way = length.algebraic if known else transcendental(Real, length.ball)
+        offset: Point = self.direction * (way / self.length.algebraic)
+        return self.start + offset
+
+    def contains(self, point: Point) -> bool:
+        """Whether a point *of the supporting line* lies on the closed segment."""
+        along = self.direction
+        offset = (point - self.start).dot(along)
+        return offset.sign() >= 0 and offset.compare(along.norm_sq()) <= 0
+
+    def passes(self, point: Point) -> bool:
+        """Whether the closed segment contains the point."""
+        return self.direction.cross(point - self.start).sign() == 0 and self.contains(point)
+
+    def may_pass(self, point: Point, bits: int) -> bool:
+        """False only if balls of that precision prove that the closed segment does not contain the point."""
+        offset, along = point - self.start, self.direction
+        if along.cross(offset).clear_sign(bits):
+            return False
+        forward = offset.dot(along)
+        return forward.clear_sign(bits) >= 0 and (forward - along.norm_sq()).clear_sign(bits) <= 0
+
+    def part(self, start: Point, end: Point) -> Segment:
+        """The piece between two of its points."""
+        return Segment(start, end)
+
+    def reversed(self) -> Segment:
+        """The same piece walked the other way."""
+        return Segment(self.end, self.start)
+
+    def __repr__(self) -> str:
+        return f"Segment({self.start!r}, {self.end!r})"
+
+
+class Arc:
+    """The arc of a circle from ``start`` to ``end``, counterclockwise if ``ccw``.
+
+    ``center`` (rational) and ``radius_sq`` (rational) give the supporting circle. Any angle in (0, 2 pi]:
+    equal ends (by identity or by value) mean the full circle.
+    """
+
+    def __init__(
+        self, start: Point, end: Point, center: Point, radius_sq: fmpq, ccw: bool, full: bool = False
+    ) -> None:
+        self.start, self.end, self.center = start, end, center
+        self.radius_sq, self.ccw, self.full = radius_sq, ccw, full
+
+    @classmethod
+    def from_bulge(cls, start: Point, end: Point, bulge: fmpq) -> Arc:
+        """The arc whose included angle is ``4 atan(bulge)``; start and end rational, bulge not 0."""
+        chord = end - start
+        center = start + chord * fmpq(1, 2) + chord.left() * ((1 - bulge * bulge) / (4 * bulge))
+        radius_sq = rational((start - center).norm_sq())
+        return cls(start, end, center, radius_sq, bulge > 0)
+
+    @cached_property
+    def radius(self) -> Real:
+        """Radius of the supporting circle."""
+        return Real(self.radius_sq).sqrt()
+
+    @cached_property
+    def turn(self) -> tuple[Real, Real]:
+        """Cosine and sine of the angle from start to end, measured in the arc's own sense."""
+        a, b = self.start - self.center, self.end - self.center
+        sine = a.cross(b) / self.radius_sq
+        return a.dot(b) / self.radius_sq, sine if self.ccw else -sine
+
+    @cached_property
+    def length(self) -> Length:
+        """Radius times angle."""
+        if self.full:
+            return Length.turns(self.radius)
+        a, b = (self.start, self.end) if self.ccw else (self.end, self.start)
+        a, b = a - self.center, b - self.center
+        return Length.between(self.radius, (a.x, a.y), (b.x, b.y), self.radius_sq)
+
+    def contains(self, point: Point) -> bool:
+        """Whether a point *of the supporting circle* lies on the closed arc.
+
+        A counterclockwise arc lies to the right of its chord, whatever its angle.
+        """
+        if self.full:
+            return True
+        side = orientation(self.start, self.end, point)
+        return side != (Orientation.COUNTERCLOCKWISE if self.ccw else Orientation.CLOCKWISE)
+
+    def on_circle(self, point: Point) -> bool:
+        """Whether the supporting circle contains the point."""
+        return (point - self.center).norm_sq().compare(self.radius_sq) == 0
+
+    def passes(self, point: Point) -> bool:
+        """Whether the closed arc contains the point."""
+        return self.on_circle(point) and self.contains(point)
+
+    def may_pass(self, point: Point, bits: int) -> bool:
+        """False only if balls of that precision prove that the closed arc does not contain the point."""
+        if abs(((point - self.center).norm_sq() - self.radius_sq).ball(bits)) > 0:
+            return False
+        side = (self.end - self.start).cross(point - self.start)
+        wrong = (side if self.ccw else -side).ball(bits) > 0
+        return self.full or not wrong
+
+    def point(self, u: object) -> Point:
+        """A point that moves from start (u = 0) to end (u = 1), for rational *u*.
+
+        The quarter-angle tangent grows in proportion to u (on a full circle: on each half), so the
+        point is algebraic though not at the same fraction of the length.
+        """
+        fraction = _fraction(u)
+        radial = self.start - self.center
+        tangent = Real(fraction) * self._quarter_tangent
+        if self.full:
+            if fraction > fmpq(1, 2):
+                radial, fraction = -radial, fraction - fmpq(1, 2)
+            tangent = Real(2 * fraction)
+        if not self.ccw:
+            tangent = -tangent
+        square = tangent * tangent
+        half_cos, half_sin = (1 - square) / (1 + square), 2 * tangent / (1 + square)
+        cosine = half_cos * half_cos - half_sin * half_sin
+        sine: Real = 2 * half_cos * half_sin
+        return self.center + radial * cosine + radial.left() * sine
+
+    @cached_property
+    def _quarter_tangent(self) -> Real:
+        if self.full:
+            return Real(1)
+        cosine, sine = self.turn
+        half_cos = ((1 + cosine) / 2).sqrt() * (-1 if sine.sign() < 0 else 1)
+        return ((1 - cosine) / 2).sqrt() / (1 + half_cos)
+
+    def after(self, length: Length) -> Point:
+        """The point after a length of the arc; ValueError for a sum of angles that are no simple fractions.
+
+        With an algebraic part the coordinates are transcendental: by Baker's theorem so is e to the power of
+        an algebraic number that is not 0, times algebraic powers of algebraic numbers
+        (`exactacq.numbers.transcendental`).
+        """
+        sense = 1 if self.ccw else -1
+        radial = self.start - self.center
+        if length.algebraic.sign():
+            vector = turned((radial.x, radial.y), sense, length.ball, self.radius.ball)
+            return self.center + Point(*vector)
+        direction = length.direction(self.radius)
+        if direction is None:
+            raise ValueError(f"no coordinates are known for the place after {length} of an arc")
+        cosine, sine = direction
+        return self.center + radial * cosine + radial.left() * (sine * sense)
+
+    def tangent(self, point: Point) -> Point:
+        """Direction of travel (not normalised) at a point of the arc."""
+        radial = point - self.center
+        return radial.left() if self.ccw else -radial.left()
+
+    def part(self, start: Point, end: Point) -> Arc:
+        """The piece between two of its points, in the arc's sense; equal points give the full circle."""
+        whole = start is end or start == end
+        return Arc(start, end, self.center, self.radius_sq, self.ccw, full=whole)
+
+    def reversed(self) -> Arc:
+        """The same piece walked the other way."""
+        return Arc(self.end, self.start, self.center, self.radius_sq, not self.ccw, self.full)
+
+    def __repr__(self) -> str:
+        sense = "ccw" if self.ccw else "cw"
+        return f"Arc({self.start!r}, {self.end!r}, center={self.center!r}, {sense})"
+
+
+Curve: TypeAlias = "Segment | Arc"
+
+
+def _fraction(u: object) -> fmpq:
+    fraction = rational(u)
+    if not 0 <= fraction <= 1:
+        raise ValueError(f"a parameter lies in [0, 1], not {fraction}")
+    return fraction

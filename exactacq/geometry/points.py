@@ -1,0 +1,143 @@
+"""Points and vectors with exact coordinates, and the orientation predicate."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from enum import IntEnum
+
+from flint import fmpq
+
+from exactacq.numbers.real import Real, real
+
+
+class Orientation(IntEnum):
+    """Which way three points turn."""
+
+    CLOCKWISE = -1
+    COLLINEAR = 0
+    COUNTERCLOCKWISE = 1
+
+
+class Location(IntEnum):
+    """Where a point lies with respect to a closed region."""
+
+    OUTSIDE = -1
+    BOUNDARY = 0
+    INSIDE = 1
+
+
+class Point:
+    """A point (or vector) of the plane; equality and lexicographic order are exact."""
+
+    __slots__ = ("x", "y")
+
+    def __init__(self, x: object, y: object) -> None:
+        self.x = x if type(x) is Real else real(x) if type(x) is fmpq else Real(x)
+        self.y = y if type(y) is Real else real(y) if type(y) is fmpq else Real(y)
+
+    @classmethod
+    def of(cls, value: Point | Sequence[object]) -> Point:
+        """A point from a Point or a pair of numbers."""
+        return value if isinstance(value, Point) else cls(*value)
+
+    @property
+    def rational(self) -> tuple[fmpq, fmpq] | None:
+        """Both coordinates as rationals, or None."""
+        x, y = self.x.rational, self.y.rational
+        return None if x is None or y is None else (x, y)
+
+    @property
+    def xy(self) -> tuple[float, float]:
+        """The nearest floats: for drawing and pruning only."""
+        return float(self.x), float(self.y)
+
+    @property
+    def key(self) -> tuple[object, object]:
+        """Structural identity: equal keys are equal points."""
+        return self.x.key, self.y.key
+
+    def __add__(self, other: Point) -> Point:
+        return Point(self.x + other.x, self.y + other.y)
+
+    def __sub__(self, other: Point) -> Point:
+        return Point(self.x - other.x, self.y - other.y)
+
+    def __mul__(self, factor: object) -> Point:
+        return Point(self.x * factor, self.y * factor)
+
+    def __truediv__(self, divisor: object) -> Point:
+        return Point(self.x / divisor, self.y / divisor)
+
+    def __neg__(self) -> Point:
+        return Point(-self.x, -self.y)
+
+    def dot(self, other: Point) -> Real:
+        """Scalar product."""
+        a, b, c, d = self.x.rational, self.y.rational, other.x.rational, other.y.rational
+        if a is None or b is None or c is None or d is None:
+            return self.x * other.x + self.y * other.y
+        return real(a * c + b * d)
+
+    def cross(self, other: Point) -> Real:
+        """z of the vector product: positive if *other* lies counterclockwise of self."""
+        a, b, c, d = self.x.rational, self.y.rational, other.x.rational, other.y.rational
+        if a is None or b is None or c is None or d is None:
+            return self.x * other.y - self.y * other.x
+        return real(a * d - b * c)
+
+    def norm_sq(self) -> Real:
+        """Squared length."""
+        x, y = self.x.rational, self.y.rational
+        if x is None or y is None:
+            return self.x * self.x + self.y * self.y
+        return real(x * x + y * y)
+
+    def left(self) -> Point:
+        """The vector turned by a quarter, counterclockwise."""
+        return Point(-self.y, self.x)
+
+    def compare(self, other: Point) -> int:
+        """Lexicographic order: x, then y."""
+        return self.x.compare(other.x) or self.y.compare(other.y)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Point):
+            return NotImplemented
+        if self is other:
+            return True
+        if self.x.rational is None or other.x.rational is None:
+            # Ordinates that clearly differ spare the proof that abscissas are equal.
+            a, b = self.y.ball(64), other.y.ball(64)
+            if a < b or a > b:
+                return False
+        return self.compare(other) == 0
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __iter__(self):  # type: ignore[no-untyped-def]
+        return iter((self.x, self.y))
+
+    def __str__(self) -> str:
+        return f"({self.x}, {self.y})"
+
+    def __repr__(self) -> str:
+        return f"Point({self.x!r}, {self.y!r})"
+
+
+def orientation(a: Point, b: Point, c: Point) -> Orientation:
+    """The turn of a -> b -> c."""
+    return Orientation((b - a).cross(c - a).sign())
+
+
+def distance_sq(a: Point, b: Point) -> Real:
+    """Squared distance."""
+    return (a - b).norm_sq()
+
+
+def distance(a: Point, b: Point) -> Real:
+    """Euclidean distance; without a nested root where the direction is seen to be rational."""
+    across, up = b.x - a.x, b.y - a.y
+    slope = across.rational_ratio(up)
+    if slope is not None:
+        return abs(up) * Real(1 + slope * slope).sqrt()
+    return (across * across + up * up).sqrt()

@@ -1,0 +1,1 @@
+"""Exact numbers and lengths: how they are decided, printed and written."""

@@ -1,0 +1,30 @@
+"""A short rational between two reals: places that stand for a cell are chosen by it."""
+
+from __future__ import annotations
+
+from math import floor, frexp
+
+from flint import fmpq, fmpz
+
+from exactacq.numbers.rationals import nearest_float
+from exactacq.numbers.real import Real
+
+
+def rational_between(low: Real, high: Real) -> fmpq:
+    """A short rational strictly between two reals, near their middle; floats propose it where they can."""
+    first, last = low.rational, high.rational
+    if first is not None and last is not None:
+        a, b = nearest_float(first), nearest_float(last)
+        if b - a > 1e-9:
+            scale = 1 << max(4 - frexp(b - a)[1], 0)
+            between = fmpq(floor((a + b) / 2 * scale), scale)
+            if first < between < last:
+                return between
+    bits = 64
+    while True:
+        (_, left_end), (right_end, _) = low.enclosure(bits), high.enclosure(bits)
+        gap = right_end - left_end
+        if gap > 0:
+            scale = fmpz(2) ** (int((1 / gap).ceil().bit_length()) + 3)
+            return fmpq(((left_end + right_end) / 2 * scale).floor(), scale)
+        bits *= 2

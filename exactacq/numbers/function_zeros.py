@@ -1,0 +1,181 @@
+"""Simple zeros of algebraic functions that have no convenient polynomial: found and refined by balls.
+
+Eliminating the radicals of a function over a field of high degree would take polynomials that nobody can
+factor. Its simple zeros need none: where the slope has a sign, a change of the function's own sign proves
+exactly one zero, and interval Newton steps refine it (Moore, Kearfott, Cloud, Introduction to Interval
+Analysis, chapter 8). Intervals are dyadic cells, whatever the range that is asked for, so that one zero is
+one number.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Iterator
+from typing import TYPE_CHECKING, Any, Protocol
+
+from flint import arb, arb_series, ctx, fmpq, fmpz
+
+from exactacq.errors import Undecided
+from exactacq.numbers.atoms import Generators, Node
+from exactacq.numbers.rationals import ball_sign, decimal_string
+from exactacq.numbers.real import Real
+
+if TYPE_CHECKING:
+    import sympy
+
+BITS = 256
+"""Working precision of the search, and the least with which a zero is refined."""
+NARROWEST = fmpq(1, fmpz(2) ** 100)
+"""Cells of this width that show neither a sign nor a slope hold a double zero, or are taken to."""
+SHOWN_DIGITS = 30
+"""Decimals that stand for a zero where a closed form is asked for."""
+
+
+class Function(Protocol):
+    """A real function of one variable, analytic wherever its slope is finite."""
+
+    @property
+    def key(self) -> Hashable:
+        """Structural identity: equal keys are the same function."""
+
+    @property
+    def degree(self) -> int:
+        """Upper bound of the degrees of the zeros over the rationals."""
+
+    @property
+    def height(self) -> float:
+        """Upper bound of the absolute logarithmic heights of the zeros, base 2."""
+
+    def __call__(self, t: Any) -> Any:
+        """The value at a Real; or, at the working precision, at an arb or an arb_series.
+
+        Exact at a Real. On a ball an enclosure, not finite (or ValueError, for a series) where it has none.
+        """
+
+
+class Zero(Node):
+    """The one zero of a function between two rationals: there its slope has a sign, and about one size."""
+
+    __slots__ = ()
+    args: tuple[Function, fmpq, fmpq]
+
+    @classmethod
+    def make(cls, *args: Any) -> Node:
+        """Of a function and the ends of the cell, as `zeros_between` proves them."""
+        function, low, high = args
+        return cls._intern((cls, function.key, low, high), args)
+
+    def _evaluate(self, bits: int) -> arb:
+        """Newton steps from the cell, or from the last ball; each gains a bit until rounding errors are met.
+
+        With m <= |f'| <= M in a ball of radius r around c, f(c) / f' has radius at most r (M/m - 1) / 2.
+        """
+        function, low, high = self.args
+        with ctx.workprec(max(bits, BITS)):
+            ball = self._ball if self._bits else _cell(low, high)
+            while True:
+                middle = ball.mid()
+                finer = middle - function(middle) / _slope(function, ball)
+                if not finer.rad() < ball.rad() / 2:
+                    return ball
+                ball = finer.intersection(ball)
+
+    def _bound(self) -> float:
+        return self.args[0].height
+
+    def _collect(self) -> Generators:
+        return frozenset({(self, self.args[0].degree)})
+
+    def sympy(self) -> sympy.Expr:
+        """A decimal: there is no closed form."""
+        from sympy import Float
+
+        return Float(decimal_string(self.precise_ball, SHOWN_DIGITS), SHOWN_DIGITS)
+
+
+def zeros_between(
+    function: Function, low: Real, high: Real, sign_at: Callable[[Real], int] | None = None
+) -> list[Real]:
+    """The zeros strictly between two numbers, ascending; the function is real and finite from low to high.
+
+    *sign_at* knows an easier way to the function's exact sign at the two ends.
+    `Undecided` at a double zero, and where the slope is infinite at an end at which the function is 0 (or
+    both nearly so). Which side of an end a zero lies on is asked of the function at that end: it is exact,
+    and no comparison of numbers of large degree.
+    """
+    begin, end = low.enclosure(BITS)[0], high.enclosure(BITS)[1]
+    cells = [(fmpq(n), fmpq(n + 1)) for n in range(int(begin.floor()), int(end.ceil()))][::-1]
+    found: list[Real] = []
+    while cells:
+        left, right = cells.pop()
+        if right < begin or left > end:
+            continue
+        with ctx.workprec(BITS):
+            cell = _cell(left, right)
+            slope = _slope(function, cell)
+            if _excludes_zero(function, cell, slope):
+                continue
+            steady = slope.abs_upper() < 2 * slope.abs_lower()
+        if steady:
+            found += _zero_in(function, left, right, low, high, sign_at)
+        elif right - left < NARROWEST:
+            raise Undecided(
+                f"{function} is stationary, or begins or ends, about at 0 near {float(left):.15g}"
+            )
+        else:
+            middle = (left + right) / 2
+            cells += [(middle, right), (left, middle)]
+    return found
+
+
+def _zero_in(
+    function: Function,
+    left: fmpq,
+    right: fmpq,
+    low: Real,
+    high: Real,
+    sign_at: Callable[[Real], int] | None,
+) -> Iterator[Real]:
+    """The zero of a monotone function in [left, right), if there is one strictly between low and high."""
+    before, after = _sign(function, Real(left)), _sign(function, Real(right))
+    if before == 0:
+        zero = Real(left)
+        if zero.compare(low) > 0 and zero.compare(high) < 0:
+            yield zero
+    elif before * after < 0:
+        begins = low.compare(left) <= 0 or (
+            low.compare(right) < 0 and _sign(function, low, sign_at) == before
+        )
+        ends = high.compare(right) >= 0 or (
+            high.compare(left) > 0 and _sign(function, high, sign_at) == after
+        )
+        if begins and ends:
+            yield Real.of_atom(Zero.make(function, left, right))
+
+
+def _sign(function: Function, t: Real, exact: Callable[[Real], int] | None = None) -> int:
+    """The sign of a value: by a ball, and exactly if that does not tell."""
+    with ctx.workprec(BITS):
+        sign = ball_sign(function(t.working_ball(BITS)))
+    return sign or (int(function(t).sign()) if exact is None else exact(t))
+
+
+def _excludes_zero(function: Function, cell: arb, slope: arb) -> bool:
+    """Whether a function has no zero in a cell, by its enclosure or by the mean value theorem."""
+    if ball_sign(function(cell)):
+        return True
+    middle = cell.mid()
+    return ball_sign(function(middle) + slope * (cell - middle)) != 0
+
+
+def _slope(function: Function, cell: arb) -> arb:
+    """Enclosure of the derivative; not finite where that has none."""
+    try:
+        return function(arb_series([cell, 1], prec=2))[1]
+    except ValueError:
+        # A denominator contains 0.
+        return arb.nan()
+
+
+def _cell(low: fmpq, high: fmpq) -> arb:
+    """The interval between two dyadic rationals as a ball."""
+    return arb((low + high) / 2, (high - low) / 2)

@@ -1,0 +1,585 @@
+"""Exact real algebraic numbers: linear forms over radicals, decided by balls and a height bound.
+
+A `Real` is a rational, or a sum ``c_1 a_1 + ... + c_k a_k`` with rational ``c_i`` over *atoms*: 1,
+square roots of integers, and interned nodes (square roots, products and inverses of Reals, roots of
+integer polynomials).  Equal expressions share their atoms, so symbolic ties cancel term by term.
+
+How a sign is decided, in this order:
+
+1. rationals at once; a form without terms is 0;
+2. balls of 64, 128 and 256 bits that exclude 0;
+3. zero test.  Square roots of integers whose pairwise products are no squares are linearly
+   independent over Q, and so are the powers of one root below its degree: such forms are 0 only if
+   they cancel.  Any other form x has
+   degree at most D (the product of the degrees of its distinct radicals and roots) and logarithmic
+   height at most h (bounded along the expression); Liouville's inequality says x = 0 or
+   |x| >= 2^(-D h), so a ball of that precision decides (Waldschmidt, Diophantine Approximation on
+   Linear Algebraic Groups, section 3.5);
+4. only after zero is excluded, refinement until the ball has a sign.
+
+Beyond `ZERO_TEST_BITS` the zero test gives up with `Undecided`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterable, Mapping
+from decimal import Decimal
+from fractions import Fraction
+from math import isnan, log2, prod
+from typing import TYPE_CHECKING, Any
+
+from flint import arb, ctx, fmpq, fmpq_poly, fmpz, fmpz_poly
+
+from exactacq.errors import Undecided
+from exactacq.numbers.atoms import (
+    Atom,
+    Generators,
+    Inverse,
+    Product,
+    Sqrt,
+    atom_ball,
+    atom_generators,
+    atom_height,
+    atom_sympy,
+)
+from exactacq.numbers.linear_forms import (
+    content,
+    denested,
+    field_element,
+    field_of,
+    irreducible_roots,
+    is_surd,
+    merged,
+    plus,
+    polynomial,
+    square_root,
+)
+from exactacq.numbers.norm_test import vanishes
+from exactacq.numbers.rationals import (
+    ball_sign,
+    decimal_string,
+    enclose,
+    nearest_float,
+    nonfinite,
+    rational,
+    round_to_float,
+    sympy_rational,
+)
+from exactacq.numbers.transcendental import generic_in, sign_at
+
+if TYPE_CHECKING:
+    import sympy
+
+__all__ = ["FILTER_BITS", "ZERO_TEST_BITS", "Real", "fmpq", "rational", "real", "roots"]
+
+FILTER_BITS = (64, 128, 256)
+"""Precisions of the balls that are tried before the zero test: most signs show at the first."""
+ZERO_TEST_BITS = 1 << 23
+"""Largest precision of the zero test: there an operation takes about a tenth of a second."""
+TRIAL_BITS = 1 << 16
+"""Precision that is tried where the zero test would be too long: what is not zero shows long before."""
+TOWER_BITS = 1 << 12
+"""Zero tests that would take more bits go by norms first (see `exactacq.numbers.norm_test`)."""
+EXPAND_TERMS = 64
+"""A product of two radical sums is multiplied out up to this many terms."""
+
+ZERO, ONE = fmpq(0), fmpq(1)
+
+
+class Real:
+    """An exact real algebraic number.
+
+    ``Real(value)`` takes what `rational` takes.  Arithmetic with numbers is exact, `sqrt` of a
+    negative number raises ValueError, division by zero ZeroDivisionError.  Comparisons form a
+    total order, in which infinities are the ends and a NaN has no place (all comparisons but ``!=`` are
+    False, as for floats), and raise `Undecided` beyond the documented limits.  Bools are not numbers
+    here.  An irrational Real is not hashable: equal values may have different expressions.
+    """
+
+    __slots__ = ("_ball", "_bits", "_sign", "_terms", "rational")
+
+    rational: fmpq | None
+    """The value if the form is rational, else None (a hidden rational stays hidden). Not to be assigned."""
+    _ball: arb
+    _bits: int
+    _sign: int | None
+    _terms: Mapping[Atom, fmpq]
+
+    def __new__(cls, value: object = 0) -> Real:
+        return value if isinstance(value, Real) else real(rational(value))
+
+    @classmethod
+    def _form(cls, terms: Mapping[Atom, fmpq]) -> Real:
+        if not terms or (len(terms) == 1 and 1 in terms):
+            return real(terms.get(1, ZERO))
+        self = object.__new__(cls)
+        self.rational, self._terms, self._bits, self._sign = None, terms, 0, None
+        return self
+
+    @classmethod
+    def of_atom(cls, atom: Atom) -> Real:
+        """The real that an atom stands for."""
+        return cls._form({atom: ONE})
+
+    @classmethod
+    def sum(cls, values: Iterable[Real]) -> Real:
+        """The exact sum; linear in the number of terms."""
+        terms: dict[Atom, fmpq] = {}
+        for value in values:
+            for atom, c in value._terms.items():
+                terms[atom] = terms.get(atom, ZERO) + c
+        return cls._form({a: c for a, c in terms.items() if c})
+
+    def __getattr__(self, name: str) -> Any:
+        # Most rationals never need the form: it is made when it is first asked for.
+        if name != "_terms":
+            raise AttributeError(name)
+        self._terms = {1: self.rational} if self.rational else {}
+        return self._terms
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Caches stay behind: balls cannot be pickled, and atoms must be interned where they arrive.
+        return Real._form, (dict(self._terms),)
+
+    # -- structure ---------------------------------------------------------------------------
+
+    @property
+    def terms(self) -> Mapping[Atom, fmpq]:
+        """The linear form: coefficients by atom (1, the radicand of a square root, or a node)."""
+        return self._terms
+
+    @property
+    def key(self) -> Hashable:
+        """Equal keys mean equal values (not conversely): the structural identity."""
+        return self.rational if self.rational is not None else frozenset(self._terms.items())
+
+    # -- arithmetic --------------------------------------------------------------------------
+
+    def __add__(self, other: object) -> Real:
+        right = other if type(other) is Real else _coerce(other)
+        if right is None:
+            return NotImplemented
+        a, b = self.rational, right.rational
+        if a is not None and b is not None:
+            return real(a + b)
+        return Real._form(plus(self._terms, right._terms, ONE))
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Real:
+        return self._scaled(-ONE)
+
+    def __pos__(self) -> Real:
+        return self
+
+    def __abs__(self) -> Real:
+        return -self if self.sign() < 0 else self
+
+    def __sub__(self, other: object) -> Real:
+        right = other if type(other) is Real else _coerce(other)
+        if right is None:
+            return NotImplemented
+        a, b = self.rational, right.rational
+        if a is not None and b is not None:
+            return real(a - b)
+        return Real._form(plus(self._terms, right._terms, -ONE))
+
+    def __rsub__(self, other: object) -> Real:
+        left = _coerce(other)
+        return NotImplemented if left is None else left - self
+
+    def _scaled(self, q: fmpq) -> Real:
+        if self.rational is not None:
+            return real(self.rational * q)
+        return Real._form({a: c * q for a, c in self._terms.items()} if q else {})
+
+    def affine(self, factor: fmpq, offset: fmpq) -> Real:
+        """offset + factor * self, in one step."""
+        if self.rational is not None:
+            return real(offset + factor * self.rational)
+        if not factor:
+            return real(offset)
+        if len(self._terms) == 1 and offset:
+            ((atom, c),) = self._terms.items()
+            return Real._form({atom: c * factor, 1: offset})
+        terms = {atom: c * factor for atom, c in self._terms.items()}
+        whole = terms.pop(1, None)
+        whole = offset if whole is None else whole + offset
+        if whole:
+            terms[1] = whole
+        return Real._form(terms)
+
+    def __mul__(self, other: object) -> Real:
+        right = other if type(other) is Real else _coerce(other)
+        if right is None:
+            return NotImplemented
+        a, b = self.rational, right.rational
+        if a is not None:
+            return real(a * b) if b is not None else right._scaled(a)
+        if b is not None:
+            return self._scaled(b)
+        field = field_of(self._terms)
+        if field is not None and field == field_of(right._terms):
+            product = polynomial(self._terms) * polynomial(right._terms)
+            return Real._form(field_element(field, product % fmpq_poly(list(field[0]))))
+        few = len(self._terms) == 1 or len(right._terms) == 1
+        surds = is_surd(self._terms) and is_surd(right._terms)
+        if len(self._terms) * len(right._terms) <= EXPAND_TERMS and (few or surds):
+            return Real.sum(
+                _atom_product(a, b)._scaled(p * q)
+                for a, p in self._terms.items()
+                for b, q in right._terms.items()
+            )
+        return _node_product(self, right)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: object) -> Real:
+        right = other if type(other) is Real else _coerce(other)
+        if right is None:
+            return NotImplemented
+        if right.rational is not None:
+            if not right.rational:
+                raise ZeroDivisionError("division of an exact real by zero")
+            return self._scaled(1 / right.rational)
+        if self.key == right.key:
+            return real(ONE)
+        return self * right._inverse()
+
+    def __rtruediv__(self, other: object) -> Real:
+        left = _coerce(other)
+        return NotImplemented if left is None else left / self
+
+    def _inverse(self) -> Real:
+        if self.sign() == 0:
+            raise ZeroDivisionError("division of an exact real by zero")
+        if len(self._terms) <= 2 and is_surd(self._terms):
+            (a, p), (b, q) = (*self._terms.items(), (1, ZERO))[:2]
+            conjugate = Real._form({a: p, b: -q} if q else {a: p})
+            norm = p * p * a - q * q * b
+            if norm:  # 0 if a and b are one radical, with a square factor that trial division missed
+                return conjugate._scaled(1 / norm)
+        field = field_of(self._terms)
+        if field is not None:
+            _, inverse, _ = polynomial(self._terms).xgcd(fmpq_poly(list(field[0])))
+            return Real._form(field_element(field, inverse))
+        if len(self._terms) == 1:
+            ((atom, c),) = self._terms.items()
+            if isinstance(atom, Inverse):
+                inner = atom.args[0]
+                assert isinstance(inner, Real)
+                return inner._scaled(1 / c)
+            return Real.of_atom(Inverse.make(Real.of_atom(atom)))._scaled(1 / c)
+        return Real.of_atom(Inverse.make(self))
+
+    def __pow__(self, exponent: int) -> Real:
+        if exponent < 0:
+            return 1 / self ** (-exponent)
+        result, base = Real(1), self
+        while exponent:
+            if exponent & 1:
+                result = result * base
+            base, exponent = base * base if exponent > 1 else base, exponent >> 1
+        return result
+
+    def sqrt(self) -> Real:
+        """The non-negative square root; ValueError for a negative number."""
+        q = self.rational
+        if q is not None and q > 0:
+            return Real._form(square_root(q))
+        sign = self.sign()
+        if sign < 0:
+            raise ValueError(f"square root of the negative number {self.decimal(20)}")
+        if sign == 0:
+            return Real(0)
+        plain = denested(self._terms)
+        return _sqrt_node(self) if plain is None else Real._form(plain)
+
+    def rational_ratio(self, other: Real) -> fmpq | None:
+        """The rational q with self = q * other if the forms show it, else None (also where other is 0)."""
+        if len(self._terms) != len(other._terms) and self._terms:
+            return None
+        ratio = ZERO
+        for atom, c in self._terms.items():
+            below = other._terms.get(atom)
+            if below is None or (ratio and c != ratio * below):
+                return None
+            ratio = c / below
+        return ratio if other._terms else None
+
+    # -- order -------------------------------------------------------------------------------
+
+    def sign(self) -> int:
+        """-1, 0 or 1, decided exactly; raises `Undecided` beyond `ZERO_TEST_BITS`."""
+        if self.rational is not None:
+            return int(self.rational > 0) - int(self.rational < 0)
+        if self._sign is None:
+            self._sign = self._decide_sign()
+        return self._sign
+
+    def _decide_sign(self) -> int:
+        for bits in FILTER_BITS:
+            if sign := ball_sign(self.ball(bits)):
+                return sign
+        if is_surd(self._terms):
+            fewer = merged(self._terms)
+            if len(fewer) < len(self._terms):
+                return Real._form(fewer).sign()
+        elif (tau := generic_in(self)) is not None:
+            return sign_at(self, tau)
+        elif field_of(self._terms) is None:
+            limit = self._separation_bits()
+            zero = vanishes(self) if limit > TOWER_BITS else None
+            if zero:
+                return 0
+            bits = 2 * FILTER_BITS[-1]
+            while zero is None:
+                ball = self.ball(bits)
+                if sign := ball_sign(ball):
+                    return sign
+                if ball.abs_upper() < arb(2) ** -limit:
+                    return 0
+                if limit > ZERO_TEST_BITS and bits >= TRIAL_BITS:
+                    raise Undecided(
+                        f"sign of {decimal_string(self.ball, 20)}...: excluding 0 would take {limit} bits, "
+                        f"more than {ZERO_TEST_BITS}"
+                    )
+                bits = min(2 * bits, limit + limit // 4 + 4096) if bits < limit else 2 * bits
+        bits = 2 * FILTER_BITS[-1]
+        while not (sign := ball_sign(self.ball(bits))):
+            bits *= 2
+        return sign
+
+    def height_bound(self) -> float:
+        """Upper bound of the absolute logarithmic height, base 2 (Waldschmidt, section 3.2)."""
+        if self.rational is not None:
+            return float(self.rational.height_bits())
+        parts = (c.height_bits() + atom_height(a) for a, c in self._terms.items())
+        return float(sum(parts)) + log2(len(self._terms))
+
+    def generators(self) -> Generators:
+        """The distinct radicals and roots of the expression, with their degrees."""
+        if self.rational is not None:
+            return frozenset()
+        return frozenset().union(*(atom_generators(a) for a in self._terms))
+
+    def _separation_bits(self) -> int:
+        """If the value is not 0, its absolute value is at least 2 to the minus this (stage 3)."""
+        degree = prod(d for _, d in self.generators())
+        return int(min(degree, 1 << 60) * (self.height_bound() + 1)) + 8
+
+    def compare(self, other: object) -> int:
+        """-1, 0 or 1 as self is less than, equal to or greater than *other*, which may be infinite.
+
+        TypeError for what is no number, ValueError for a NaN, `Undecided` beyond `ZERO_TEST_BITS`.
+        """
+        if type(other) is Real:
+            a, b = self.rational, other.rational
+            if a is not None and b is not None:
+                return -1 if a < b else int(a != b)
+        order: int | None = self._order(other)
+        if order is NotImplemented:
+            raise TypeError(f"cannot compare an exact real with {type(other).__name__}")
+        if order is None:
+            raise ValueError("cannot compare an exact real with NaN")
+        return order
+
+    def _order(self, other: object) -> Any:
+        """The sign of self - other; None for a NaN, NotImplemented for what is no number."""
+        if self is other:
+            return 0
+        right = other if isinstance(other, Real) else None
+        if right is None:
+            special = nonfinite(other)
+            if special is not None:
+                return None if isnan(special) else -1 if special > 0 else 1
+            right = _coerce(other)
+            if right is None:
+                return NotImplemented
+        if self.rational is not None and right.rational is not None:
+            return -1 if self.rational < right.rational else int(self.rational != right.rational)
+        left_ball, right_ball = self.ball(64), right.ball(64)
+        if left_ball < right_ball:
+            return -1
+        if left_ball > right_ball:
+            return 1
+        if self._is_root and right._is_root:
+            # Two positive roots that 64 bits cannot tell apart: their squares have a quarter of the degree.
+            return (self * self - right * right).sign()
+        return (self - right).sign()
+
+    def clear_sign(self, bits: int) -> int:
+        """The sign if a ball of *bits* working bits shows it, else 0; rationals show theirs."""
+        return self.sign() if self.rational is not None else ball_sign(self.ball(bits))
+
+    def overlaps(self, other: Real) -> bool:
+        """Whether two numbers may be equal: balls leave it open, or rationals are."""
+        a, b = self.rational, other.rational
+        if a is not None and b is not None:
+            return bool(a == b)
+        return all(self.ball(bits).overlaps(other.ball(bits)) for bits in FILTER_BITS)
+
+    @property
+    def _is_root(self) -> bool:
+        """Whether the form is a positive multiple of one square root."""
+        if len(self._terms) != 1:
+            return False
+        ((atom, c),) = self._terms.items()
+        return isinstance(atom, Sqrt) and c > 0
+
+    def __eq__(self, other: object) -> bool:
+        order = self._order(other)
+        return NotImplemented if order is NotImplemented else order == 0
+
+    def __lt__(self, other: object) -> bool:
+        order = self._order(other)
+        return NotImplemented if order is NotImplemented else order is not None and order < 0
+
+    def __le__(self, other: object) -> bool:
+        order = self._order(other)
+        return NotImplemented if order is NotImplemented else order is not None and order <= 0
+
+    def __gt__(self, other: object) -> bool:
+        order = self._order(other)
+        return NotImplemented if order is NotImplemented else order is not None and order > 0
+
+    def __ge__(self, other: object) -> bool:
+        order = self._order(other)
+        return NotImplemented if order is NotImplemented else order is not None and order >= 0
+
+    def __hash__(self) -> int:
+        if self.rational is None:
+            raise TypeError("an irrational Real is not hashable: use .key for structural identity")
+        return hash(self.rational)
+
+    def __bool__(self) -> bool:
+        return self.sign() != 0
+
+    # -- values ------------------------------------------------------------------------------
+
+    def ball(self, bits: int) -> arb:
+        """An enclosing ball computed with *bits* working bits (more if cached)."""
+        if self._bits >= bits:
+            return self._ball
+        with ctx.workprec(bits):
+            return self.working_ball(bits)
+
+    def working_ball(self, bits: int) -> arb:
+        """As `ball`, where the caller has set the working precision to *bits*."""
+        if self._bits < bits:
+            if self.rational is not None:
+                ball = arb(self.rational)
+            else:
+                ball = arb(0)
+                for atom, c in self._terms.items():
+                    ball += arb(c) * atom_ball(atom, bits) if atom != 1 else arb(c)
+            self._ball, self._bits = ball, bits
+        return self._ball
+
+    def enclosure(self, bits: int) -> tuple[fmpq, fmpq]:
+        """Rational (low, high) around the value, at most 2^-bits apart; exact if rational."""
+        if self.rational is not None:
+            return self.rational, self.rational
+        return enclose(self.ball, bits)
+
+    def __float__(self) -> float:
+        """The nearest float, ties to even; OverflowError beyond the largest float, as for Fraction."""
+        if self.rational is not None:
+            return nearest_float(self.rational)
+        return round_to_float(self.ball, lambda middle: self == middle) + 0.0
+
+    def rough(self) -> float:
+        """A float near the value: to draw or to sort, never to decide."""
+        return nearest_float(self.rational) if self.rational is not None else float(self.ball(64).mid())
+
+    def decimal(self, digits: int) -> str:
+        """The value with *digits* significant digits, correctly rounded to one unit in the last."""
+        if not ball_sign(self.ball(FILTER_BITS[-1])) and self.sign() == 0:
+            return "0"
+        return decimal_string(self.ball, digits)
+
+    def sympy(self) -> sympy.Expr:
+        """The closed form as a sympy expression."""
+        from sympy import Add
+
+        return Add(*(sympy_rational(c) * atom_sympy(a) for a, c in self._terms.items()))
+
+    def latex(self) -> str:
+        """The closed form in LaTeX."""
+        from sympy import latex
+
+        return str(latex(self.sympy()))
+
+    def __str__(self) -> str:
+        return str(self.rational) if self.rational is not None else str(self.sympy())
+
+    def __repr__(self) -> str:
+        return f"Real({str(self)!r})" if self.rational is not None else f"<Real {self.decimal(15)}>"
+
+
+def real(q: fmpq) -> Real:
+    """A rational as a Real, without any check: the commonest of all steps."""
+    self = object.__new__(Real)
+    self.rational, self._bits, self._sign = q, 0, None
+    return self
+
+
+def _coerce(value: object) -> Real | None:
+    """A number as a Real, None for what is no number (bools included); FormatError if it is not finite."""
+    if type(value) is fmpq:
+        return real(value)
+    if isinstance(value, Real):
+        return value
+    if isinstance(value, (int, fmpz, fmpq, Fraction, float, Decimal)) and not isinstance(value, bool):
+        return real(rational(value))
+    return None
+
+
+def _atom_product(a: Atom, b: Atom) -> Real:
+    if isinstance(a, int) and isinstance(b, int):
+        if a == 1 or b == 1:
+            return Real.of_atom(a * b) if a * b != 1 else Real(1)
+        return Real._form(square_root(fmpq(fmpz(a) * b)))
+    if a == 1 or b == 1:
+        return Real.of_atom(b if a == 1 else a)
+    if a is b and isinstance(a, Sqrt):
+        square = a.args[0]
+        assert isinstance(square, Real)
+        return square
+    return _node_product(Real.of_atom(a), Real.of_atom(b))
+
+
+def _node_product(a: Real, b: Real) -> Real:
+    (p, first), (q, second) = _primitive(a), _primitive(b)
+    return Real.of_atom(Product.make(first, second))._scaled(p * q)
+
+
+def _primitive(x: Real) -> tuple[fmpq, Real]:
+    """(c, y) with x = c y, the same y for all rational multiples of x."""
+    divisor = content(x._terms)
+    if x._terms[min(x._terms, key=hash)] < 0:
+        divisor = -divisor
+    return divisor, x._scaled(1 / divisor)
+
+
+def _sqrt_node(x: Real) -> Real:
+    """sqrt of a form, its rational content taken out as far as it is a square."""
+    divisor = content(x._terms)
+    ((radicand, factor),) = square_root(divisor).items()
+    assert isinstance(radicand, int)
+    return Real.of_atom(Sqrt.make(x._scaled(fmpq(radicand) / divisor)))._scaled(factor)
+
+
+def roots(coefficients: Iterable[object]) -> list[Real]:
+    """All distinct real roots, ascending, of ``c_0 + c_1 x + ...`` with rational coefficients.
+
+    Rational and quadratic roots come in closed form.  ValueError for the zero polynomial.
+    """
+    values = [rational(c) for c in coefficients]
+    common = fmpz(1)
+    for c in values:
+        common = common.lcm(c.q)
+    whole = fmpz_poly([(c * common).p for c in values])
+    if whole.degree() < 0:
+        raise ValueError("every number is a root of the zero polynomial")
+    return sorted(Real._form(root) for factor, _ in whole.factor()[1] for root in irreducible_roots(factor))

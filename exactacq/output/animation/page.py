@@ -1,0 +1,403 @@
+"""One self-contained page that plays a run: the growing map, the view, the path and the events.
+
+The page is HTML with its script, style and data inside: it loads nothing, and its content security policy
+allows that one script and that one style only (by their hashes). Whatever a user can write, names above all,
+is in a block of JSON and reaches the document as text. Nothing is decided on the page: it shows what exact
+frames say, and moves the robot between them along the path in floats.
+
+Lengths and places on the page are in page units, `SIZE` to the longer side of the scene, y downwards, with
+`DECIMALS` decimals: the drawing is as sharp for a scene of 10^-50 as for one of 10^50.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+import math
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from importlib.resources import files
+from itertools import groupby
+from string import Template
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from exactacq.errors import FormatError
+from exactacq.files.whole_files import readable
+from exactacq.geometry.curves import Curve, Segment
+from exactacq.geometry.points import Point
+from exactacq.numbers.length import Length
+from exactacq.output.figures.sweep import Sweep, window
+from exactacq.output.strokes import Region, Stroke
+from exactacq.scene.scene import Scene
+from exactacq.sensing.path import Event
+from exactacq.strategies.run import Run
+
+LIMIT = 2000
+"""Most frames of a page: a few megabytes, and a list of events that a browser scrolls without effort."""
+SIZE, DECIMALS = 1000, 4
+"""Page units along the longer side of a scene, and decimals: seven digits of the scene's size."""
+MARGIN, SLIMMEST = 0.06, 0.3
+"""Free border, and the least ratio of the drawing's sides, as parts of the scene's longer side."""
+FAR = 10 * SIZE
+"""Page units to the right, to the left, up and down that no window shows."""
+FLAT = 1e6
+"""Page units: browsers lose larger circles, whose arcs in view differ from a line by less than 0.3."""
+WIDEST = 2 * math.pi / 3
+"""Angle of one arc: by rounding, the centre of a wider one would move much further than its ends."""
+FINEST = 1e-9
+"""Size over distance from the origin of a scene that is about to be lost in floating point."""
+CLOSED_FORM = 40
+"""Closed forms of at most this many characters are shown, the decimal value of others."""
+PASSING = {"lose", "regain"}
+"""Kinds of events that are the first to be left out."""
+NUMBERED = re.compile(r"(^from |^to |^back to |\b(?=obstacle ))(?:obstacle )?(\d+)\b")
+"""An obstacle's number in a note, and what is kept of the words before."""
+STRATEGIES = {"sightseer": "Sightseer Strategy", "seed-spreader": "Seed Spreader Strategy"}
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """What the robot knows and sees at one place of its path, and the events that happen there.
+
+    ``known`` holds the known stretches of an obstacle's boundary by its index (a single known point is a
+    segment of length 0), ``frontier`` the ends of known stretches beyond which a boundary is unknown,
+    ``view`` the closed outline of the isovist, and ``acquired`` the obstacles whose whole boundary is known.
+    Stretches that are the same object as in the frame before cost nothing.
+    """
+
+    at: Length
+    place: Point
+    events: Sequence[Event]
+    known: Mapping[int, Sequence[Curve]]
+    frontier: Sequence[Point]
+    view: Sequence[Curve]
+    acquired: Sequence[int] = ()
+
+
+@dataclass(slots=True)
+class Stop:
+    """A place where something changes: an end of a path piece, or where events happen.
+
+    ``after`` whole pieces lie behind.
+    """
+
+    after: int
+    place: Point
+    events: list[Event]
+
+    @property
+    def rank(self) -> int:
+        """The less the more important: 2 without events, 1 if things only go out of sight or come back."""
+        kinds = {event.kind for event in self.events}
+        return 0 if kinds - PASSING else 1 if kinds else 2
+
+
+def stops(run: Run) -> list[Stop]:
+    """The distinct places along the path, in order; events at the same place share a stop."""
+    found: list[Stop] = []
+    grouped = {after: list(events) for after, events in groupby(run.events, key=lambda event: event.after)}
+    for after, end in enumerate([run.start, *(piece.end for piece in run.path)]):
+        found.append(Stop(after, end, []))
+        for event in grouped.get(after, ()):
+            if event.point != found[-1].place:
+                found.append(Stop(after, event.point, []))
+            found[-1].events.append(event)
+    return found
+
+
+def chosen(found: Sequence[Stop], limit: int) -> list[Stop]:
+    """At most *limit* stops: the important ones, and of those that do not all fit an even choice.
+
+    Both ends are kept. ValueError for a limit below 2.
+    """
+    if limit < 2:
+        raise ValueError(f"an animation has at least 2 frames, not {limit}")
+    last = len(found) - 1
+    ranks = [0 if k in (0, last) else stop.rank for k, stop in enumerate(found)]
+    kept: list[int] = []
+    for rank in sorted(set(ranks)):
+        group, room = [k for k, own in enumerate(ranks) if own == rank], limit - len(kept)
+        if len(group) > room:
+            group = [group[k * (len(group) - 1) // max(room - 1, 1)] for k in range(room)]
+        kept += group
+    return [found[k] for k in sorted(kept)]
+
+
+def frames_of(run: Run, limit: int = LIMIT) -> Iterator[Frame]:
+    """A frame for each stop of a run, one at a time; at most *limit* (2 or more) of them, see `chosen`.
+
+    Cost: one map and one view a frame.
+    """
+    lengths = iter([piece.length for piece in run.path])
+    walked, after = Length(0), 0
+    for stop in chosen(stops(run), limit):
+        while after < stop.after:
+            walked, after = walked + next(lengths), after + 1
+        at = walked + stop.events[-1].beyond if stop.events else walked
+        moment = stop.events[-1] if stop.events else walked
+        learnt, view = run.map_at(moment), run.view_at(moment)
+        known = {i: run.obstacles[i].edges for i in learnt.acquired} | {
+            i: [part.curve or Segment(part.start, part.end) for part in learnt.known(i)]
+            for i in learnt.incomplete
+        }
+        frontier = [point for _, point in learnt.frontier]
+        outline = [piece.curve for piece in view.pieces]
+        yield Frame(at, stop.place, stop.events, known, frontier, outline, learnt.acquired)
+
+
+def page(run: Run, frames: Iterable[Frame]) -> str:
+    """The page as HTML text; equal runs and frames give the same text.
+
+    *frames* (see `frames_of`) run along the path from its start to its end; they are consumed one by one.
+    Raises `ValueError` if there are none, `FormatError` for a scene that is `FINEST` times its distance from
+    the origin or less.
+    """
+    # In a block of JSON only "<" could end the block or open a comment; the rest is ASCII by `dumps`.
+    data = json.dumps(_data(run, frames), separators=(",", ":")).replace("<", "\\u003c")
+    skeleton, style, script = (
+        files("exactacq.output.animation").joinpath(f"page.{kind}").read_text("utf-8")
+        for kind in ("html", "css", "js")
+    )
+    allowed = f"script-src {_hash(script)}; style-src {_hash(style)}"
+    policy = f"default-src 'none'; {allowed}; base-uri 'none'; form-action 'none'"
+    return Template(skeleton).substitute(policy=policy, style=style, script=script, data=data)
+
+
+def _hash(text: str) -> str:
+    """How a content security policy names the one inline script or style it allows."""
+    return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"
+
+
+def _data(run: Run, frames: Iterable[Frame]) -> dict[str, Any]:
+    """What the script shows, as JSON data; `page.js` reads it."""
+    sweep, names = Sweep.of(run), list(run.names())
+    paper = Paper.of(run.scene, run.start, float(run.radius), sweep is not None)
+    numbers = {id(event): number for number, event in enumerate(run.events, 1)}
+    known, shown, events = Changes(paper), [], []
+    acquired: dict[int, int] = {}
+    for number, frame in enumerate(frames):
+        known.advance(frame.known)
+        for index in frame.acquired:
+            acquired.setdefault(index, number)
+        for event in frame.events:
+            note = _named(event.note, names)
+            events.append([numbers[id(event)], event.kind, event.obstacle, note, number])
+        shown.append(
+            {
+                "at": paper.length(float(frame.at)),
+                "exact": " ".join(readable(frame.at, CLOSED_FORM, 8)) if frame.events else None,
+                "place": paper.point(frame.place.xy),
+                "frontier": [paper.point(point.xy) for point in frame.frontier],
+                "view": paper.outline(frame.view),
+            }
+        )
+    if not shown:
+        raise ValueError("an animation has at least one frame")
+    count, terrain = len(stops(run)), run.scene.terrain
+    title = STRATEGIES.get(run.strategy, run.strategy)
+    return {
+        "title": f"{title}: {run.scene.name}" if run.scene.name else title,
+        "length": " ".join(readable(run.length, CLOSED_FORM, 8)),
+        "radius": " ".join(readable(Length(run.radius), CLOSED_FORM, 6)),
+        "happened": len(run.events),
+        "left_out": [len(shown), count] if len(shown) < count else None,
+        "scale": paper.scale,
+        "box": paper.box,
+        "terrain": None if terrain is None else paper.rectangle(float(terrain.width), float(terrain.height)),
+        "obstacles": [
+            _obstacle(paper, run, number, region, acquired.get(number))
+            for number, region in enumerate(_regions(run, sweep))
+        ],
+        **_sweep(paper, sweep),
+        "start": paper.point(run.start.xy),
+        "path": list(_path(paper, run)),
+        "frames": shown,
+        "known": known.entries(),
+        "events": events,
+    }
+
+
+def _regions(run: Run, sweep: Sweep | None) -> list[Region]:
+    """The regions of the run's obstacles."""
+    return [Region.of(obstacle) for obstacle in run.scene.obstacles] if sweep is None else sweep.regions
+
+
+def _obstacle(paper: Paper, run: Run, number: int, region: Region, acquired: int | None) -> dict[str, Any]:
+    body, heart, depth = run.obstacles[number], *region.heart()
+    (left, _), (right, top) = region.box
+    is_wall = run.sweeping is None and run.scene.obstacles[number].is_enclosure
+    # The enclosure blocks what lies beyond its outline, off the paper too: the window may be wider.
+    beyond = f"M{-FAR} {-FAR}H{FAR}V{FAR}H{-FAR}Z" if is_wall else ""
+    return {
+        "name": body.label,
+        "outline": paper.loop(region.strokes) + beyond,
+        "perimeter": paper.length(float(body.perimeter)),
+        "heart": None if is_wall else [*paper.point(heart), paper.length(depth)],
+        "above": paper.point((float(left + right) / 2, float(top))),
+        "acquired": acquired,
+    }
+
+
+def _sweep(paper: Paper, sweep: Sweep | None) -> dict[str, Any]:
+    """The M-line, the obstacles that are partly out of reach, and the diversions as runs of path pieces."""
+    if sweep is None:
+        return {"mline": "", "beyond": "", "diversions": []}
+    beyond = [o for o in sweep.ground.obstacles if not sweep.is_whole(o.index)]
+    return {
+        "mline": paper.line(sweep.line),
+        "beyond": "".join(paper.outline(obstacle.edges) for obstacle in beyond),
+        "diversions": [[detour.pieces.start, detour.pieces.stop] for detour in sweep.detours],
+    }
+
+
+def _path(paper: Paper, run: Run) -> Iterator[list[float]]:
+    """Each piece as the path length and the place at its end, and radius, angle and turn of an arc."""
+    ends = Length.running_decimals((piece.length for piece in run.path), 17)[1:]
+    for piece, end in zip(run.path, ends, strict=True):
+        stroke = Stroke.of(piece.curve)
+        entry = [paper.length(float(end)), *paper.point(stroke.end)]
+        radius = paper.length(stroke.radius)
+        if stroke.center is not None and radius < FLAT:
+            entry += [radius, round(-stroke.angle, 9), round(-stroke.sweep, 9)]
+        yield entry
+
+
+def _named(note: str, names: Sequence[str]) -> str:
+    """A note in which an obstacle is called by its name, not by its index."""
+
+    def called(found: re.Match[str]) -> str:
+        number = int(found[2])
+        return f"{found[1]}{names[number]}" if number < len(names) else found[0]
+
+    return NUMBERED.sub(called, note)
+
+
+@dataclass(frozen=True)
+class Paper:
+    """The page's coordinates: where the drawing's upper left corner lies, units to a length, and its size."""
+
+    corner: tuple[float, float]
+    scale: float
+    box: list[float]
+
+    @classmethod
+    def of(cls, scene: Scene, start: Point, radius: float, swept: bool = False) -> Paper:
+        """Paper that shows the obstacles, the terrain and the start; little beyond it if *swept*."""
+        corners = [corner for obstacle in scene.obstacles for corner in Region.of(obstacle).box]
+        corners.append(np.array(start.xy))
+        if scene.terrain is not None and swept:
+            corners = window(scene.terrain, corners)
+        elif scene.terrain is not None:
+            corners += [np.zeros(2), np.array([float(scene.terrain.width), float(scene.terrain.height)])]
+        low, high = np.min(corners, axis=0), np.max(corners, axis=0)
+        if not (high - low).any():
+            low, high = low - radius, high + radius
+        size = float(np.max(high - low))
+        if not size > np.max(np.abs((low, high))) * FINEST:
+            raise FormatError("too small to be drawn so far from the origin; move the scene closer")
+        lack = np.maximum(size * SLIMMEST - (high - low), 0) / 2 + size * MARGIN
+        low, high = low - lack, high + lack
+        scale = SIZE / size
+        box = [_rounded(float(side) * scale) for side in high - low]
+        return cls((float(low[0]), float(high[1])), scale, box)
+
+    def point(self, place: tuple[float, float]) -> list[float]:
+        """A place on the page."""
+        (x, y), (left, top) = place, self.corner
+        return [_rounded((x - left) * self.scale), _rounded((top - y) * self.scale)]
+
+    def length(self, value: float) -> float:
+        """A length on the page."""
+        return _rounded(value * self.scale)
+
+    def rectangle(self, width: float, height: float) -> list[float]:
+        """Left, top, width and height of a rectangle that stands on the origin."""
+        return [*self.point((0, height)), self.length(width), self.length(height)]
+
+    def line(self, curves: Iterable[Curve]) -> str:
+        """SVG path data of curves; those that meet are drawn in one go."""
+        return self._chain(map(Stroke.of, curves))
+
+    def _chain(self, strokes: Iterable[Stroke]) -> str:
+        data, last = "", ""
+        for stroke in strokes:
+            start, end = (" ".join(map(str, self.point(p))) for p in (stroke.start, stroke.end))
+            if start != last:
+                data += f"M{start}"
+            data, last = data + self._onward(stroke, end), end
+        return data
+
+    def outline(self, curves: Iterable[Curve]) -> str:
+        """SVG path data of a closed loop; empty if there are no curves."""
+        return self.loop(map(Stroke.of, curves))
+
+    def loop(self, strokes: Iterable[Stroke]) -> str:
+        """SVG path data of a closed loop of strokes; empty if there are none."""
+        data = self._chain(strokes)
+        return data and data + "Z"
+
+    def _onward(self, stroke: Stroke, end: str) -> str:
+        """From the stroke's start to its end; in arcs of at most `WIDEST`."""
+        radius = self.length(stroke.radius)
+        if stroke.center is None or radius >= FLAT:
+            return f"L{end}"
+        count = stroke.steps(WIDEST)
+        places = [" ".join(map(str, self.point(stroke.at(k / count)))) for k in range(1, count)]
+        return "".join(f"A{radius} {radius} 0 0 {int(stroke.sweep < 0)} {place}" for place in (*places, end))
+
+
+def _rounded(value: float) -> float:
+    """To `DECIMALS` decimals; whole numbers as integers, which are shorter in JSON."""
+    rounded = round(value, DECIMALS)
+    return int(rounded) if rounded == int(rounded) else rounded
+
+
+class Changes:
+    """The known stretches of all frames, each once, where one that is drawn the same is the same."""
+
+    def __init__(self, paper: Paper) -> None:
+        self._paper, self._frame = paper, 0
+        self._now: dict[int, Strokes] = {}
+        self._all: list[list[Any]] = []
+
+    def advance(self, known: Mapping[int, Sequence[Curve]]) -> None:
+        """The next frame."""
+        unknown = Strokes([], {}, {})
+        for obstacle in sorted(self._now.keys() | known.keys()):
+            before, curves = self._now.get(obstacle, unknown), known.get(obstacle, ())
+            if curves is not before.curves:
+                self._now[obstacle] = self._changed(obstacle, before, curves)
+        self._frame += 1
+
+    def _changed(self, obstacle: int, before: Strokes, curves: Sequence[Curve]) -> Strokes:
+        """The stretches of one obstacle in this frame; those that end are closed."""
+        now = Strokes(curves, {}, {})
+        for curve in curves:
+            # Most stretches run between the very points of the frame before, which is kept till then.
+            ends = id(curve.start), id(curve.end)
+            data = before.drawn.get(ends) or self._paper.line([curve])
+            now.drawn[ends] = data
+            entry = now.entries.get(data) or before.entries.get(data)
+            if entry is None:
+                entry = [obstacle, self._frame, None, self._paper.length(float(curve.length)), data]
+                self._all.append(entry)
+            now.entries[data] = entry
+        for data in before.entries.keys() - now.entries.keys():
+            before.entries[data][2] = self._frame
+        return now
+
+    def entries(self) -> list[list[Any]]:
+        """Obstacle, first frame, frame after the last (None if there is none), length and drawing of each."""
+        return self._all
+
+
+class Strokes(NamedTuple):
+    """What is known of one obstacle: curves, drawings by the identity of the ends, entries by drawing."""
+
+    curves: Sequence[Curve]
+    drawn: dict[tuple[int, int], str]
+    entries: dict[str, list[Any]]

@@ -1,0 +1,135 @@
+"""What pictures of a sweep show besides: the M-line, its crossing points, diversions, components as regions.
+
+In floats: for drawing only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from exactacq.geometry.curves import Segment
+from exactacq.output.strokes import Region, Stroke
+from exactacq.scene.edge_table import EdgeTable, Floats
+from exactacq.scene.shapes import Terrain
+from exactacq.scene.terrain_components import Component, Ground
+from exactacq.strategies.run import Run
+from exactacq.strategies.seed_spreader.blocked import Blocking
+from exactacq.strategies.seed_spreader.mline import MLine
+
+BEYOND = 0.12
+"""Of an obstacle that crosses the border this share of the terrain's longer side is shown beyond it."""
+
+Spot = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Detour:
+    """A diversion from ``leave`` (D) to ``hit`` (Q; None if it was not reached), its pieces of the path."""
+
+    leave: Spot
+    hit: Spot | None
+    pieces: range
+
+
+class Sweep:
+    """What the Seed Spreader's terrain looks like to a run."""
+
+    def __init__(self, run: Run, ground: Ground) -> None:
+        assert run.sweeping is not None
+        self.terrain, self.ground = ground.terrain, ground
+        mline = MLine(ground.terrain, run.radius)
+        self.line: Sequence[Segment] = mline.pieces
+        self.width = float(mline.width)
+        crossings = mline.crossings(Blocking(ground, EdgeTable(run.scene.obstacles)))
+        self.crossings = list(dict.fromkeys(crossing.stop.point.xy for crossing in crossings))
+        self.arrives = bool(run.path) and run.path[-1].end == mline.pieces[-1].end
+        self.detours = [Detour(d.leave.xy, d.hit.xy, range(d.first, d.last)) for d in run.sweeping.diversions]
+        starts = [event for event in run.events if event.kind == "divert"]
+        # One at most: an obstacle closes the way there or back, and the run ends.
+        for event in starts[len(self.detours) :]:
+            self.detours.append(Detour(event.point.xy, None, range(event.after, len(run.path))))
+        self.regions = [component_region(component, ground.terrain) for component in ground.components]
+
+    @classmethod
+    def of(cls, run: Run) -> Sweep | None:
+        """The sweep of a run of the Seed Spreader, else None."""
+        return None if run.ground is None else cls(run, run.ground)
+
+    @property
+    def corners(self) -> list[Spot]:
+        """The corners of the M-line, S and T included."""
+        return [self.line[0].start.xy, *(piece.end.xy for piece in self.line)]
+
+    @property
+    def away(self) -> set[int]:
+        """The numbers of the pieces of the path that belong to diversions."""
+        return {number for detour in self.detours for number in detour.pieces}
+
+    def is_whole(self, obstacle: int) -> bool:
+        """Whether an obstacle of the scene lies within the border and in reach."""
+        parts = self.ground.of(obstacle)
+        return len(parts) == 1 and parts[0].closed and bool(parts[0].shore)
+
+
+def window(terrain: Terrain, corners: Iterable[Floats]) -> list[Floats]:
+    """The terrain's corners, and those of obstacles as far as they are shown."""
+    size = np.array([float(terrain.width), float(terrain.height)])
+    slack = BEYOND * size.max()
+    return [np.zeros(2), size, *(np.clip(corner, -slack, size + slack) for corner in corners)]
+
+
+def component_region(component: Component, terrain: Terrain) -> Region:
+    """A component as a region: where its boundary ends at the border, it is closed along that."""
+    return Region.around(list(_around(component, terrain)))
+
+
+def _around(component: Component, terrain: Terrain) -> Iterator[Stroke]:
+    shores = [[part.curve for part in shore] for shore in (component.shore, *component.hidden) if shore]
+    if component.closed:
+        yield from (Stroke.of(curve) for shore in shores for curve in shore)
+        return
+    border = _Border(float(terrain.width), float(terrain.height))
+    left, shore = shores[1:], shores[0]
+    while True:
+        yield from (Stroke.of(curve) for curve in shore)
+        here = shore[-1].end.xy
+        # From the end of a boundary the border is blocked counterclockwise, as far as the next start of one.
+        following = min([shores[0], *left], key=lambda other: border.ahead(here, other[0].start.xy))
+        yield from border.along(here, following[0].start.xy)
+        if following is shores[0]:
+            return
+        left, shore = [other for other in left if other is not following], following
+
+
+class _Border:
+    """The border counterclockwise from the SW corner, by its length."""
+
+    def __init__(self, width: float, height: float) -> None:
+        self.corners: list[Spot] = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)]
+        self.marks = [0.0, width, width + height, 2 * width + height]
+        self.length = 2 * (width + height)
+
+    def at(self, spot: Spot) -> float:
+        """The length of the border from the SW corner to a spot on it."""
+        (x, y), (width, height) = spot, self.corners[2]
+        gaps = [abs(y), abs(x - width), abs(y - height), abs(x)]
+        on = [x, width + y, 2 * width + height - x, self.length - y]
+        return on[int(np.argmin(gaps))]
+
+    def ahead(self, spot: Spot, other: Spot) -> float:
+        """The length of the border from one spot on to another."""
+        return (self.at(other) - self.at(spot)) % self.length
+
+    def along(self, spot: Spot, other: Spot) -> Iterator[Stroke]:
+        """The border from one spot on to another."""
+        gap, at = self.ahead(spot, other), self.at(spot)
+        ways = [
+            ((mark - at) % self.length, corner) for mark, corner in zip(self.marks, self.corners, strict=True)
+        ]
+        stops = [spot, *(corner for way, corner in sorted(ways) if 0 < way < gap), other]
+        for p, q in pairwise(stops):
+            yield Stroke(p, q, float(np.hypot(q[0] - p[0], q[1] - p[1])))

@@ -1,0 +1,208 @@
+"""Runs and scenes in words and tables, for a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from flint import fmpq
+from rich.console import Console, Group, RenderableType
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
+
+from exactacq.files.whole_files import readable
+from exactacq.geometry.curves import Arc
+from exactacq.geometry.points import Point
+from exactacq.numbers.length import Length
+from exactacq.numbers.real import Real
+from exactacq.scene.scene import Scene
+from exactacq.strategies.bounds import census
+from exactacq.strategies.run import Run, Sweeping
+
+CLOSED_FORM = 60
+"""Closed forms of at most this many characters are shown; longer ones are in the trace."""
+STRATEGIES = {"sightseer": "Sightseer Strategy", "seed-spreader": "Seed Spreader Strategy"}
+ROWS = 60
+"""Most rows of a table, and most names of a list; a trace has them all."""
+
+
+def console() -> Console:
+    """Standard output as given: no markup, no guesses; 110 columns where it is not a terminal."""
+    out = Console(highlight=False, markup=False, emoji=False)
+    return out if out.is_terminal else Console(highlight=False, markup=False, emoji=False, width=110)
+
+
+def run_report(run: Run) -> RenderableType:
+    """What a run did, in the order: visits and links, length, bounds, what was missed, import notes."""
+    names = list(run.names())
+    parts: list[RenderableType] = [
+        Text(f"{STRATEGIES[run.strategy]} on {run.scene.name or 'a scene'}", style="bold"),
+        f"S = {_place(run.start)}, R = {_rational(run.radius)}, {_counted(len(run.obstacles), 'obstacle')}",
+        "",
+    ]
+    if run.sweeping is not None:
+        parts += _sweep(run, run.sweeping, names)
+    if run.visits:
+        parts += [_links(run, names), ""] if run.links else []
+        parts.append(_listed("order of visits", (names[k] for k in run.visits), " → "))
+    parts.append(Text.assemble("length  ", ("  ".join(readable(run.length, CLOSED_FORM, 20)), "bold")))
+    if run.bounds:
+        parts += ["", _bounds(run)]
+    return Group(*parts, *_missed(run, names), *_notes(run.scene))
+
+
+def comparison(first: Run, second: Run) -> RenderableType:
+    """Two runs on one scene side by side: how long, whom they visited and know, and how near the bounds."""
+    runs = (first, second)
+    table = _table("", *(STRATEGIES[run.strategy] for run in runs))
+    ratio = float(second.length) / float(first.length) if first.length.sign() else float("nan")
+    counts = [(len(run.visits), len(run.map.acquired), len(run.obstacles)) for run in runs]
+    rows: dict[str, list[str]] = {
+        "length": ["\n".join(readable(run.length, CLOSED_FORM // 2, 12)) for run in runs],
+        "visits": [f"{visits} of {count}" for visits, _, count in counts],
+        "acquired": [f"{known} of {count}" for _, known, count in counts],
+        "never seen": [str(len(run.unseen)) for run in runs],
+        "diversions": ["-" if run.sweeping is None else str(len(run.sweeping.diversions)) for run in runs],
+    }
+    for name, cells in rows.items():
+        table.add_row(name, *cells)
+    for number in range(max(len(run.bounds) for run in runs)):
+        bounds = [run.bounds[number] if number < len(run.bounds) else None for run in runs]
+        table.add_row(
+            "bounds" if number == 0 else "",
+            *("" if b is None else f"{b.name}: {b.ratio:.4f}{'' if b.holds else ' BROKEN'}" for b in bounds),
+        )
+    title = Text(f"Both strategies on {first.scene.name or 'a scene'}", style="bold")
+    return Group(title, "", table, "", f"Seed Spreader / Sightseer  {ratio:.6f}")
+
+
+def scene_report(scene: Scene) -> RenderableType:
+    """What a valid scene holds."""
+    edges = [edge for obstacle in scene.obstacles for edge in obstacle.edges]
+    arcs = sum(isinstance(edge, Arc) for edge in edges)
+    total = Length.sum(obstacle.perimeter for obstacle in scene.obstacles)
+    solid = sum(not obstacle.is_enclosure for obstacle in scene.obstacles)
+    table = Table.grid(padding=(0, 2))
+    rows = {
+        "obstacles": f"{solid}" + (", and the enclosure" if scene.enclosure is not None else ""),
+        "edges": f"{_counted(len(edges) - arcs, 'segment')}, {_counted(arcs, 'arc')}",
+        "perimeters": "  ".join(readable(total, CLOSED_FORM, 20)),
+        "start": _place(scene.start) if scene.start is not None else "none: give one with --start X,Y",
+        "radius": _rational(scene.radius) if scene.radius is not None else "none: give one with --radius R",
+    }
+    if scene.terrain is not None:
+        rows["terrain"] = f"{_rational(scene.terrain.width)} x {_rational(scene.terrain.height)}"
+    for row in rows.items():
+        table.add_row(*row)
+    return Group(Text(f"{scene.name or 'scene'}: OK", style="bold"), table, *_notes(scene))
+
+
+def scene_list(scenes: dict[str, str]) -> RenderableType:
+    """The gallery's names and what they show."""
+    table = Table.grid(padding=(0, 2))
+    for name, line in scenes.items():
+        table.add_row(Text(name, style="bold"), line)
+    return table
+
+
+def _sweep(run: Run, sweeping: Sweeping, names: list[str]) -> Iterator[RenderableType]:
+    """How the Seed Spreader ended, its diversions, and what it met."""
+    yield f"ended because {run.events[-1].note}"
+    if run.ground is not None:
+        counts = census(run.ground, run.radius)
+        for what, numbers in (("inside strips", counts.inside), ("crossing the M-line", counts.crossing)):
+            yield f"{what}  {sum(numbers)}: by strip {', '.join(map(str, numbers))}"
+    yield (
+        _listed("met", (names[k] for k in sweeping.encounters), " → ")
+        if sweeping.encounters
+        else "met nothing"
+    )
+    if sweeping.again:
+        yield _listed("met again on the M-line", (names[k] for k in sweeping.again), ", ")
+    if sweeping.unreached:
+        yield _listed("cannot be reached, parts of obstacles", map(str, sweeping.unreached), ", ")
+    if sweeping.diversions:
+        table = _table("diversion", "obstacle", "from D", "to Q", "because")
+        for order, d in enumerate(sweeping.diversions[:ROWS], 1):
+            table.add_row(str(order), names[d.obstacle], _place(d.leave), _place(d.hit), d.reason)
+        yield table
+    yield ""
+
+
+def _links(run: Run, names: list[str]) -> Table:
+    table = _table("visit", "obstacle", "from", "leave", "hit", "link", "walked")
+    for order, link in enumerate(run.links[:ROWS], 1):
+        source = link.source if isinstance(link.source, str) else names[link.source]
+        length = "\n".join(readable(link.length, CLOSED_FORM // 2, 12))
+        ends = _place(link.leave), _place(link.hit)
+        times = "once" if link.traversals == 1 else "twice"
+        table.add_row(str(order), names[link.target], source, *ends, length, times)
+    if len(run.links) > ROWS:
+        table.add_row("...", f"{len(run.links) - ROWS} more: see --trace")
+    return table
+
+
+def _bounds(run: Run) -> Table:
+    table = _table("bound", "value", "holds", "length / bound", "")
+    for bound in run.bounds:
+        value = "\n".join(readable(bound.value, CLOSED_FORM // 2, 12))
+        holds = "yes" if bound.holds else "NO"
+        table.add_row(bound.name, value, holds, f"{bound.ratio:.6f}", bound.source)
+    return table
+
+
+def _missed(run: Run, names: list[str]) -> Iterator[RenderableType]:
+    if run.complete:
+        return
+    yield ""
+    left = "seen, but never visited" if run.sweeping is None else "not wholly known"
+    for which, what in ((run.unseen, "never seen"), (run.unvisited, left)):
+        if which:
+            yield Text(_listed(what, (names[k] for k in which), ", "), style="bold red")
+    if run.sweeping is not None:
+        return
+    yield (
+        f"So this scene does not satisfy the paper's model (a) for R = {_rational(run.radius)}: "
+        "no chain of links of at most R leads from S to every obstacle."
+    )
+
+
+def _notes(scene: Scene) -> Iterator[RenderableType]:
+    if scene.notes:
+        yield ""
+        yield "import notes"
+        for note in scene.notes:
+            yield Padding(f"- {note}", (0, 0, 0, 2), expand=False)
+
+
+def _table(*columns: str) -> Table:
+    table = Table(box=None, padding=(0, 3, 0, 0), header_style="bold", pad_edge=False)
+    for column in columns:
+        table.add_column(column, overflow="fold")
+    return table
+
+
+def _listed(what: str, names: Iterable[str], separator: str) -> str:
+    every = list(names)
+    more = f"{separator}... {len(every) - ROWS} more" if len(every) > ROWS else ""
+    return f"{what}  {separator.join(every[:ROWS])}{more}"
+
+
+def _place(point: Point) -> str:
+    return f"({_number(point.x)}, {_number(point.y)})"
+
+
+def _number(value: Real) -> str:
+    """A coordinate: rational if that is short, else six digits."""
+    exact = str(value.rational) if value.rational is not None else ""
+    return exact if 0 < len(exact) <= 8 else f"{float(value):.6g}"
+
+
+def _rational(value: fmpq) -> str:
+    """A number as given, unless that takes too much room."""
+    exact = str(value)
+    return exact if len(exact) <= CLOSED_FORM // 2 else f"≈ {Real(value).decimal(12)}"
+
+
+def _counted(count: int, what: str) -> str:
+    return f"{count} {what}" + "s" * (count != 1)

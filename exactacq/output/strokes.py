@@ -1,0 +1,276 @@
+"""Boundary and path pieces as floats and Bezier curves: for drawing only, nothing is decided here."""
+
+from __future__ import annotations
+
+import math
+from collections import defaultdict
+from collections.abc import Hashable, Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from matplotlib.path import Path as Outline
+
+from exactacq.geometry.curves import Arc, Curve
+from exactacq.scene.edge_table import Floats
+from exactacq.scene.scene import Obstacle
+
+MOVE, LINE, BEZIER, CLOSE = (
+    int(code) for code in (Outline.MOVETO, Outline.LINETO, Outline.CURVE4, Outline.CLOSEPOLY)
+)
+BEND = math.pi / 8
+"""Largest angle of an arc that one cubic Bezier curve stands for: it strays by less than 1e-7 radii."""
+SAMPLE = math.pi / 24
+"""Angle between the points of an arc that label placement keeps clear of."""
+
+
+@dataclass(frozen=True, slots=True)
+class Stroke:
+    """A curve in floats. An arc starts at ``angle`` (from its centre) and turns by ``sweep``, signed.
+
+    Points of an arc are reckoned from its start, not its centre: nearly straight arcs lose no digits.
+    """
+
+    start: tuple[float, float]
+    end: tuple[float, float]
+    length: float
+    center: tuple[float, float] | None = None
+    radius: float = 0.0
+    angle: float = 0.0
+    sweep: float = 0.0
+
+    @classmethod
+    def of(cls, curve: Curve) -> Stroke:
+        """The stroke of an exact curve."""
+        start, end, length = curve.start.xy, curve.end.xy, float(curve.length)
+        if not isinstance(curve, Arc):
+            return cls(start, end, length)
+        center, radius = curve.center.xy, float(curve.radius)
+        radial = curve.start - curve.center
+        angle = math.atan2(float(radial.y), float(radial.x))
+        sweep = length / radius if curve.ccw else -length / radius
+        return cls(start, end, length, center, radius, angle, sweep)
+
+    def at(self, u: float) -> tuple[float, float]:
+        """The point at the fraction *u* of the length; the ends are the curve's own."""
+        if u in (0, 1):
+            return self.end if u else self.start
+        if self.center is None:
+            return tuple(s + u * (e - s) for s, e in zip(self.start, self.end, strict=True))  # type: ignore[return-value]
+        half = self.sweep * u / 2
+        chord = 2 * self.radius * math.sin(half)
+        return (
+            self.start[0] - chord * math.sin(self.angle + half),
+            self.start[1] + chord * math.cos(self.angle + half),
+        )
+
+    def heading(self, u: float) -> float:
+        """Direction of travel, as an angle."""
+        if self.center is None:
+            return math.atan2(self.end[1] - self.start[1], self.end[0] - self.start[0])
+        return self.angle + self.sweep * u + math.copysign(math.pi / 2, self.sweep)
+
+    def steps(self, bend: float = BEND) -> int:
+        """Into how many parts of at most *bend* the stroke falls; a straight one into one."""
+        return max(1, math.ceil(abs(self.sweep) / bend - 1e-9))
+
+    def points(self, count: int | None = None) -> Floats:
+        """*count* + 1 points, ends included; by default enough to show where an arc runs."""
+        count = count or self.steps(SAMPLE)
+        return np.array([self.at(k / count) for k in range(count + 1)])
+
+    def nodes(self, first: float = 0.0, last: float = 1.0) -> tuple[list[tuple[float, float]], list[int]]:
+        """Vertices and codes of the part between two fractions, without its first point."""
+        if self.center is None:
+            return [self.at(last)], [LINE]
+        count = max(1, math.ceil(abs(self.sweep) * (last - first) / BEND - 1e-9))
+        handle = 4 / 3 * math.tan(abs(self.sweep) * (last - first) / count / 4) * self.radius
+        vertices = []
+        for k in range(count):
+            u, v = (first + (last - first) * step / count for step in (k, k + 1))
+            (ax, ay), (bx, by), a, b = self.at(u), self.at(v), self.heading(u), self.heading(v)
+            vertices += [
+                (ax + handle * math.cos(a), ay + handle * math.sin(a)),
+                (bx - handle * math.cos(b), by - handle * math.sin(b)),
+                (bx, by),
+            ]
+        return vertices, [BEZIER] * len(vertices)
+
+    def part(self, first: float, last: float) -> Outline:
+        """The piece between two fractions as a drawable path."""
+        vertices, codes = self.nodes(first, last)
+        return Outline([self.at(first), *vertices], [MOVE, *codes])
+
+    def covers(self, points: Floats, headings: Floats, tolerance: float) -> Any:
+        """Which of the points lie on this stroke and run along it, in either sense."""
+        if self.center is None:
+            start, along = np.array(self.start), np.subtract(self.end, self.start)
+            size = max(float(np.hypot(*along)), tolerance)
+            offset = points - start
+            forward = offset @ along / size
+            aside = (offset[:, 0] * along[1] - offset[:, 1] * along[0]) / size
+            parallel = np.abs(np.sin(headings - self.heading(0))) < 1e-6
+            within = (forward > -tolerance) & (forward < size + tolerance)
+            return (np.abs(aside) < tolerance) & within & parallel
+        offset = points - np.array(self.center)
+        turned = (np.arctan2(offset[:, 1], offset[:, 0]) - self.angle) * math.copysign(1, self.sweep)
+        slack = tolerance / self.radius
+        within = np.mod(turned + slack, 2 * math.pi) < abs(self.sweep) + 2 * slack
+        return (np.abs(np.hypot(offset[:, 0], offset[:, 1]) - self.radius) < tolerance) & within
+
+
+@dataclass(frozen=True, slots=True)
+class Region:
+    """An obstacle's outline in floats: ``outline`` of ``strokes`` closes on itself, ``points`` run along it,
+    ``box`` (lower left, upper right) holds it."""
+
+    strokes: Sequence[Stroke]
+    outline: Outline
+    points: Floats
+    box: tuple[Floats, Floats]
+
+    @classmethod
+    def of(cls, obstacle: Obstacle) -> Region:
+        """The region that an obstacle's boundary runs around."""
+        return cls.around([Stroke.of(edge) for edge in obstacle.edges])
+
+    @classmethod
+    def around(cls, strokes: Sequence[Stroke]) -> Region:
+        """The region that a loop of strokes runs around."""
+        outline = closed(strokes)
+        extents = outline.get_extents()
+        box = np.array(extents.min, dtype=float), np.array(extents.max, dtype=float)
+        return cls(strokes, outline, np.concatenate([s.points()[:-1] for s in strokes]), box)
+
+    def heart(self) -> tuple[tuple[float, float], float]:
+        """A point well inside, and its distance to the boundary: the best of a grid."""
+        low, high = self.box
+        shares = (np.arange(24) + 0.5) / 24
+        columns, rows = (low[k] + shares * (high[k] - low[k]) for k in (0, 1))
+        grid = np.stack(np.meshgrid(columns, rows), -1).reshape(-1, 2)
+        grid = np.vstack((grid, (low + high) / 2))
+        inside = Outline(self.points).contains_points(grid)
+        if not inside.any():
+            return (float(low[0] + high[0]) / 2, float(low[1] + high[1]) / 2), 0.0
+        grid = grid[inside]
+        depth = clearance(grid, self.points, np.roll(self.points, -1, axis=0))
+        off_centre = np.hypot(*((grid - (low + high) / 2) / np.maximum(high - low, 1e-300)).T)
+        best = int(np.argmax(depth * (1 - 0.1 * off_centre)))
+        return (float(grid[best, 0]), float(grid[best, 1])), float(depth[best])
+
+
+@dataclass(frozen=True, slots=True)
+class Steps:
+    """A path in short steps: of each the drawable piece, the path length, place and heading at its middle,
+    and the number of its stroke."""
+
+    pieces: list[Outline]
+    times: Floats
+    mids: Floats
+    headings: Floats
+    owners: Floats
+
+    @classmethod
+    def of(cls, strokes: Sequence[Stroke], count: int) -> Steps:
+        """About *count* steps of a path that has a length."""
+        total = sum(stroke.length for stroke in strokes)
+        pieces, times, mids, headings, owners = [], [], [], [], []
+        done = 0.0
+        for number, stroke in enumerate(strokes):
+            parts = max(1, round(stroke.length / total * count)) if stroke.length else 0
+            for k in range(parts):
+                pieces.append(stroke.part(k / parts, (k + 1) / parts))
+                middle = (k + 0.5) / parts
+                times.append(done + middle * stroke.length)
+                mids.append(stroke.at(middle))
+                headings.append(stroke.heading(middle))
+                owners.append(number)
+            done += stroke.length
+        return cls(pieces, np.array(times), np.array(mids), np.array(headings), np.array(owners))
+
+    def ranks(self, strokes: Sequence[Stroke], places: Sequence[Hashable], tolerance: float) -> Any:
+        """How often each step's middle was passed before, by earlier strokes along the same curve.
+
+        Only strokes at the same of the *places* are compared.
+        """
+        groups: dict[Hashable, list[int]] = defaultdict(list)
+        for number, place in enumerate(places):
+            groups[place].append(number)
+        ranks = np.zeros(len(self.owners), dtype=int)
+        for members in groups.values():
+            steps = np.flatnonzero(np.isin(self.owners, members))
+            for number in members:
+                later = steps[self.owners[steps] > number]
+                if len(later):
+                    ranks[later] += strokes[number].covers(self.mids[later], self.headings[later], tolerance)
+        return ranks
+
+
+@dataclass(slots=True)
+class Room:
+    """Where labels fit into a rectangle: clear of segments and of other labels, rather not in a block."""
+
+    low: Floats
+    high: Floats
+    starts: Floats
+    ends: Floats
+    blocks: Sequence[Region]
+    labels: list[tuple[float, float]] = field(default_factory=list)
+
+    def beside(self, place: tuple[float, float], reach: float) -> tuple[float, float]:
+        """The clearest spot at about a distance from a place.
+
+        Clear of lines, other labels and the border; rather in the open than inside an obstacle.
+        """
+        turns = np.arange(16) * math.pi / 8
+        rays = np.stack((np.cos(turns), np.sin(turns)), 1)
+        spots = np.concatenate([np.array(place) + rays * reach * k for k in (1, 1.3)])
+        nearest = np.clip(place, np.minimum(self.starts, self.ends), np.maximum(self.starts, self.ends))
+        near = np.hypot(*(nearest - place).T) < 4 * reach
+        room = clearance(spots, self.starts[near], self.ends[near])
+        room = np.minimum(room, 0.6 * self.apart(spots))
+        border = np.minimum(spots - self.low, self.high - spots).min(axis=1)
+        room = np.minimum(np.minimum(room, 1.2 * border), 1.5 * reach)
+        room -= 0.02 * reach * np.repeat((0, 1), len(turns)) + 0.6 * reach * self._blocked(spots)
+        best = spots[int(np.argmax(room))]
+        return float(best[0]), float(best[1])
+
+    def apart(self, spots: Floats) -> Any:
+        """Distance of each spot to the nearest label so far."""
+        if not self.labels:
+            return np.full(len(spots), np.inf)
+        gaps = spots[:, None] - np.array(self.labels)
+        return np.hypot(gaps[..., 0], gaps[..., 1]).min(axis=1)
+
+    def _blocked(self, spots: Floats) -> Any:
+        """Which spots lie in a block."""
+        blocked = np.zeros(len(spots), dtype=bool)
+        low, high = spots.min(axis=0), spots.max(axis=0)
+        for region in self.blocks:
+            least, most = region.box
+            if (most > low).all() and (least < high).all():
+                blocked |= Outline(region.points).contains_points(spots)
+        return blocked
+
+
+def closed(strokes: Iterable[Stroke]) -> Outline:
+    """The closed outline of a loop of strokes."""
+    vertices: list[tuple[float, float]] = []
+    codes: list[int] = []
+    for stroke in strokes:
+        if not vertices:
+            vertices, codes = [stroke.start], [MOVE]
+        more, kinds = stroke.nodes()
+        vertices, codes = vertices + more, codes + kinds
+    return Outline([*vertices, vertices[0]], [*codes, CLOSE])
+
+
+def clearance(points: Floats, starts: Floats, ends: Floats) -> Floats:
+    """Distance of each point to the nearest of the segments."""
+    least = np.full(len(points), np.inf)
+    for start, end in zip(starts, ends, strict=True):
+        along = end - start
+        size = float(along @ along)
+        share = np.clip((points - start) @ along / size, 0, 1) if size else np.zeros(len(points))
+        least = np.minimum(least, np.hypot(*(points - start - share[:, None] * along).T))
+    return least

@@ -1,0 +1,1 @@
+"""The world: shapes, the rules for them, boundaries, terrains, and the table of all edges."""

@@ -1,0 +1,161 @@
+"""The scene's edges as flat arrays: exact curves beside their float images, which only prune.
+
+``roundoff`` bounds the error of every float coordinate and of every difference of two of them; the
+margins of the pruning code are multiples of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Sequence
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from flint import fmpq
+from numpy.typing import NDArray
+
+from exactacq.geometry.box_index import BoxIndex, box
+from exactacq.geometry.coordinates import raw
+from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.points import Point
+from exactacq.scene.scene import Obstacle
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.intp]
+
+STRAIGHT, CONVEX, CONCAVE = 0, 1, -1
+NEAR_KEPT = 64
+BITS = 64
+"""Precision of the balls that tell which edges are not near a point."""
+
+
+class EdgeTable:
+    """All boundary edges of a scene, numbered obstacle by obstacle.
+
+    Edge ``e`` starts at vertex ``e`` and ends at vertex ``next[e]``; the edge of a full circle has
+    no vertex. Built in near linear time.
+    """
+
+    def __init__(self, obstacles: Sequence[Obstacle]) -> None:
+        self.obstacles = obstacles
+        self.curves: list[Curve] = [edge for o in obstacles for edge in o.edges]
+        counts = [len(o.edges) for o in obstacles]
+        self.owner: Ints = np.repeat(np.arange(len(obstacles)), counts)
+        self.owners: list[int] = self.owner.tolist()
+        self.numbers: list[int] = [k for count in counts for k in range(count)]
+        firsts = np.cumsum([0, *counts])
+        self.first: Ints = firsts[:-1]
+        self.next: Ints = np.arange(1, len(self.curves) + 1)
+        self.next[firsts[1:] - 1] = firsts[:-1]
+        self.vertices = [_pair(c.start) for c in self.curves]
+        self.kind = np.array([_kind(c) for c in self.curves], dtype=np.int8)
+        self.full = np.array([isinstance(c, Arc) and c.full for c in self.curves], dtype=bool)
+        self.start = _array([_floats(v) for v in self.vertices])
+        self.end = self.start[self.next] if len(self.curves) else self.start
+        circles = [
+            (*_floats(_pair(c.center)), float(c.radius)) if isinstance(c, Arc) else (0.0, 0.0, 0.0)
+            for c in self.curves
+        ]
+        table = _array(circles, 3)
+        self.center, self.radius = table[:, :2], table[:, 2]
+        self.boxes: Floats = _array([box(c) for c in self.curves], 4)
+        self._near: dict[tuple[tuple[float, float], tuple[float, float], float], Ints] = {}
+        self.magnitude = float(np.abs(self.boxes).max(initial=0.0))
+        self.roundoff = 2.0**-50 * max(self.magnitude, float(self.radius.max(initial=0.0)))
+
+    @cached_property
+    def index(self) -> BoxIndex:
+        """Spatial index over the edges' boxes."""
+        return BoxIndex(self.boxes)
+
+    @cached_property
+    def circles(self) -> dict[int, int]:
+        """For every arc the number of the first arc on its circle."""
+        numbers: dict[Hashable, int] = {}
+        return {
+            e: numbers.setdefault((*raw(curve.center), curve.radius_sq), e)
+            for e, curve in enumerate(self.curves)
+            if isinstance(curve, Arc)
+        }
+
+    def edges_of(self, obstacle: int) -> range:
+        """The edges of one obstacle."""
+        first = int(self.first[obstacle])
+        return range(first, first + len(self.obstacles[obstacle].edges))
+
+    def edges_at(self, point: Point) -> tuple[int, ...]:
+        """The edges through a point of a boundary: at a vertex the incoming one, then the outgoing one.
+
+        None for a point that is on no boundary.
+        """
+        x, y = point.xy
+        near = self.near((x, y), (x, y), 0.0).tolist()
+        found = [e for e in near if self.curves[e].may_pass(point, BITS) and self.curves[e].passes(point)]
+        if len(found) == 2 and self.curves[found[0]].start == point:
+            found.reverse()
+        return tuple(found)
+
+    def roundoff_at(self, *places: tuple[float, float]) -> float:
+        """The bound for differences of the table's coordinates and places, which may lie far outside."""
+        return max(self.roundoff, *(2.0**-50 * max(abs(x), abs(y)) for x, y in places))
+
+    def near(self, low: tuple[float, float], high: tuple[float, float], reach: float) -> Ints:
+        """The edges whose boxes come within *reach* of the box from *low* to *high*.
+
+        The last answers are kept: the pencils of a corner ask alike, and so do the ways along an edge.
+        """
+        found = self._near.get((low, high, reach))
+        if found is None:
+            if len(self._near) >= NEAR_KEPT:
+                self._near.clear()
+            r = reach + 8 * self.roundoff_at(low, high)
+            found = self.index.query(low[0] - r, low[1] - r, high[0] + r, high[1] + r)
+            found.flags.writeable = False
+            self._near[low, high, reach] = found
+        return found
+
+    def distance_bounds(self, x: float, y: float, edges: Ints) -> Floats:
+        """Lower bounds of the distances from a point to edges."""
+        a, b = self.start[edges], self.end[edges]
+        along = b - a
+        offset = np.array((x, y)) - a
+        size = np.maximum((along**2).sum(axis=1), 1e-300)
+        u = np.clip((offset * along).sum(axis=1) / size, 0.0, 1.0)
+        straight = np.hypot(*(offset - u[:, None] * along).T)
+        low, high = self.boxes[edges, :2], self.boxes[edges, 2:]
+        gap = np.maximum(np.maximum(low - (x, y), (x, y) - high), 0.0)
+        to_box = np.hypot(gap[:, 0], gap[:, 1])
+        spoke = np.hypot(x - self.center[edges, 0], y - self.center[edges, 1])
+        curved = np.maximum(to_box, np.abs(spoke - self.radius[edges]))
+        bound = np.where(self.kind[edges] == STRAIGHT, straight, curved)
+        bounds: Floats = np.maximum(bound * (1 - 1e-14) - 8 * self.roundoff, 0.0)
+        return bounds
+
+
+def quotient(top: Floats | float, bottom: Floats) -> Floats:
+    """A quotient by numbers of at least 0, without a warning where it is huge or infinite.
+
+    There it is an error that leaves everything unsure, or no number that anything is decided by.
+    """
+    with np.errstate(over="ignore"):
+        return top / np.maximum(bottom, 1e-300)
+
+
+def _kind(curve: Curve) -> int:
+    if isinstance(curve, Segment):
+        return STRAIGHT
+    return CONVEX if curve.ccw else CONCAVE
+
+
+def _pair(point: Any) -> tuple[fmpq, fmpq]:
+    pair = point.rational
+    assert pair is not None, "boundary vertices and centres are rational"
+    return pair  # type: ignore[no-any-return]
+
+
+def _floats(pair: tuple[fmpq, fmpq]) -> tuple[float, float]:
+    return float(pair[0]), float(pair[1])
+
+
+def _array(rows: Sequence[Sequence[float]], width: int = 2) -> Floats:
+    return np.array(rows, dtype=float).reshape(len(rows), width)

@@ -1,0 +1,150 @@
+"""The world: obstacles with exact boundaries, an optional enclosure and terrain, and the start."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from functools import cached_property
+
+from flint import fmpq
+
+from exactacq.geometry.box_index import DIRECTIONS
+from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.intersections import locate, signed_area, spans
+from exactacq.geometry.points import Location, Point
+from exactacq.numbers.length import Length
+from exactacq.numbers.rationals import rational
+from exactacq.numbers.real import Real
+from exactacq.scene.ports import SVG, made
+from exactacq.scene.shapes import Circle, Shape, Terrain
+from exactacq.scene.validation import validate
+
+
+class Obstacle:
+    """A closed loop with the blocked side on its left: counterclockwise, the enclosure clockwise.
+
+    ``edges[0]`` starts at the shape's first vertex, also if the shape was given in the other sense. A circle
+    is one full arc from its east point. Obstacles are compared by identity and are not changed once made.
+    """
+
+    def __init__(self, index: int, shape: Shape, edges: Sequence[Curve], is_enclosure: bool = False) -> None:
+        self.index, self.shape, self.is_enclosure = index, shape, is_enclosure
+        self.name, self.closed = shape.name, True
+        self.edges = tuple(edges)
+
+    @classmethod
+    def of(cls, index: int, shape: Shape, is_enclosure: bool = False) -> Obstacle:
+        """The loop exactly as the shape gives it, in its own sense."""
+        return cls(index, shape, shape_edges(shape), is_enclosure)
+
+    def oriented(self) -> Obstacle:
+        """The same loop with the blocked side on the left, decided by the exact sign of the area."""
+        if (signed_area(self.edges).sign() > 0) != self.is_enclosure:
+            return self
+        edges = tuple(edge.reversed() for edge in reversed(self.edges))
+        return Obstacle(self.index, self.shape, edges, self.is_enclosure)
+
+    @property
+    def label(self) -> str:
+        """The name, or "O" and the number from 1."""
+        return self.name or ("wall" if self.is_enclosure else f"O{self.index + 1}")
+
+    @cached_property
+    def perimeter(self) -> Length:
+        """Length of the boundary."""
+        return Length.sum(edge.length for edge in self.edges)
+
+    @cached_property
+    def area(self) -> Length:
+        """Area of the obstacle; of the enclosure, the area of the room."""
+        area = signed_area(self.edges)
+        return -area if self.is_enclosure else area
+
+    def locate(self, point: Point) -> Location:
+        """INSIDE if the point is strictly on the blocked side."""
+        return locate(self.edges, point, ccw=not self.is_enclosure)
+
+    def __repr__(self) -> str:
+        name = f" {self.name!r}" if self.name else ""
+        kind = "enclosure" if self.is_enclosure else "obstacle"
+        return f"<{kind} {self.index}{name}: {len(self.edges)} edges>"
+
+
+class Scene:
+    """A validated world.
+
+    Raises `InvalidScene`, which lists every violation found. *start* is a pair of numbers or a `Point`;
+    *notes* are what an importer wants to tell the user. ``obstacles`` holds the shapes in the given order and
+    the enclosure last; ``shapes`` and ``enclosure`` are what was given. Not to be changed once made.
+    """
+
+    def __init__(
+        self,
+        obstacles: Iterable[Shape] = (),
+        start: Point | Sequence[object] | None = None,
+        *,
+        terrain: Terrain | None = None,
+        enclosure: Shape | None = None,
+        radius: object = None,
+        name: str | None = None,
+        notes: Iterable[str] = (),
+    ) -> None:
+        self.shapes = tuple(obstacles)
+        self.start = None if start is None else Point.of(start)
+        self.terrain, self.enclosure = terrain, enclosure
+        self.radius: fmpq | None = None if radius is None else rational(radius)
+        self.name, self.notes = name, tuple(notes)
+        loops = [Obstacle.of(index, shape) for index, shape in enumerate(self.shapes)]
+        if enclosure is not None:
+            loops.append(Obstacle.of(len(loops), enclosure, is_enclosure=True))
+        validate(loops, self.start, self.radius, self.terrain)
+        self.obstacles = tuple(loop.oriented() for loop in loops)
+
+    def meets_border(self) -> list[int]:
+        """Indices of the obstacles, the enclosure aside, that are not strictly inside the terrain.
+
+        Empty without a terrain. Decided without square roots for rational data.
+        """
+        terrain = self.terrain
+        if terrain is None:
+            return []
+        inner = (o for o in self.obstacles if not o.is_enclosure)
+        return [o.index for o in inner if not all(_strictly_inside(edge, terrain) for edge in o.edges)]
+
+    def _repr_svg_(self) -> str:
+        return str(made(SVG, self))
+
+    def __repr__(self) -> str:
+        name = f" {self.name!r}" if self.name else ""
+        return f"<Scene{name}: {len(self.obstacles)} obstacles>"
+
+
+def shape_edges(shape: Shape) -> tuple[Curve, ...]:
+    """The boundary as curves in the shape's own sense; edge i starts at vertex i, and vertices are shared.
+
+    Nothing is checked: a degenerate shape gives degenerate curves.
+    """
+    if isinstance(shape, Circle):
+        center = Point(*shape.center)
+        east = Point(shape.center[0] + shape.radius, shape.center[1])
+        return (Arc(east, east, center, shape.radius * shape.radius, ccw=True, full=True),)
+    points = [Point(x, y) for x, y, _ in shape.vertices]
+    ends = [*points[1:], *points[:1]]
+    return tuple(
+        Arc.from_bulge(start, end, bulge) if bulge else Segment(start, end)
+        for start, end, (_, _, bulge) in zip(points, ends, shape.vertices, strict=True)
+    )
+
+
+def _strictly_inside(edge: Curve, terrain: Terrain) -> bool:
+    """Whether 0 < x < width and 0 < y < height on the whole edge."""
+    walls = (Real(0), Real(0), Real(terrain.width), Real(terrain.height))
+    for wall, (x, y) in zip(walls, DIRECTIONS, strict=True):
+        sign = x + y
+        for point in (edge.start, edge.end):
+            if sign * (point.x if x else point.y).compare(wall) >= 0:
+                return False
+        if isinstance(edge, Arc) and spans(edge, (x, y)):
+            room = (wall - (edge.center.x if x else edge.center.y)) * sign
+            if room.sign() <= 0 or (room * room).compare(edge.radius_sq) <= 0:
+                return False
+    return True

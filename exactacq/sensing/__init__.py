@@ -1,0 +1,1 @@
+"""What a path sees: the visibility complex, the sensor, the map and its history."""

@@ -1,0 +1,329 @@
+"""Beams: the families of views of one feature, edge or corner, and how they are swept.
+
+A beam is a cell of a pencil with what its lines meet. Its strands are the families of views between two of
+the three: what is met behind, the contact, what is met ahead. Two kinds of single lines join them: one along
+a straight edge shows that edge end on, from beyond its end; a *pinched* line that grazes several features
+shows what no neighbouring line does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from flint import fmpq
+
+from exactacq.geometry.coordinates import Vector, cross, dot, minus, raw
+from exactacq.geometry.curve_parameter import Rail
+from exactacq.geometry.curves import Curve, Segment
+from exactacq.geometry.points import Point, distance_sq
+from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import EdgeTable, Ints
+from exactacq.sensing.side_filter import Sides
+from exactacq.sensing.view_families import Glance, Ranges, Role, Side, Strand
+from exactacq.visibility.chords import meet
+from exactacq.visibility.features import Feature, features, leaving
+from exactacq.visibility.free_segment import walk_line
+from exactacq.visibility.line_families import Sector, Sliding, Spokes, corner_sectors, quarters
+from exactacq.visibility.line_names import Anchor, Namer, Names
+from exactacq.visibility.rotational_sweep import Cell, Passed, Pencil, pencil
+
+
+@dataclass(slots=True)
+class Beam:
+    """A cell of a pencil with what its lines meet; None where nothing is met within reach.
+
+    Normals have nothing ``behind`` and do not go back: they start at the contact, which lies on an edge. So
+    does the contact of a convex arc; a corner counts as the start of the edge that follows it. ``anchor``
+    names what tangents touch, ``names`` the first and the last line (see `line_names`), ``passed`` what they
+    pass.
+    """
+
+    sector: Sector
+    low: Real
+    high: Real
+    behind: Side | None
+    contact: Side
+    ahead: Side | None
+    goes_back: bool
+    anchor: Anchor | None = None
+    names: tuple[Names, Names] = ((), ())
+    passed: tuple[Passed, Passed] = ((), ())
+    _bundles: tuple[Bundle, ...] | None = None
+
+    @property
+    def sides(self) -> list[Side]:
+        """What its lines meet or touch."""
+        return [side for side in (self.behind, self.contact, self.ahead) if side is not None]
+
+    def bundles(self) -> tuple[Bundle, ...]:
+        """The glances of its strands; made at the first call, as most beams are never asked."""
+        if self._bundles is None:
+            self._bundles = tuple(Bundle(strand.sides, strand) for strand in self.strands())
+        return self._bundles
+
+    def strands(self) -> Iterator[Strand]:
+        """The families of views between any two of the three."""
+        for one, other in (
+            (self.behind, self.ahead),
+            (self.behind, self.contact),
+            (self.contact, self.ahead),
+        ):
+            if one is not None and other is not None:
+                yield Strand(
+                    self.sector,
+                    self.low,
+                    self.high,
+                    (one, other),
+                    self.names,
+                    passed=self.passed,
+                    anchor=self.anchor if self.goes_back else None,
+                )
+
+
+@dataclass(slots=True)
+class Ray:
+    """A single line: from ``place`` it shows edge ``shown`` from one point of a run to the other.
+
+    The place lies on edge ``edge``, or in free space within reach (None); what lies between sees the run too.
+    """
+
+    place: Point
+    edge: int | None
+    run: tuple[Point, Point]
+    shown: int
+
+
+class Bundle:
+    """The glances of one strand, cut to the range when they are first asked for."""
+
+    __slots__ = ("_source", "sides")
+
+    def __init__(self, sides: tuple[Side, Side], source: Strand | list[Glance]) -> None:
+        self.sides = sides
+        self._source = source
+
+    def glances(self, ranges: Ranges) -> list[Glance]:
+        """The families within range."""
+        if isinstance(self._source, Strand):
+            self._source = ranges.glances(self._source)
+        return self._source
+
+
+class Family:
+    """The beams and single rays of one feature, edge or corner; *single* are the bundles of the rays."""
+
+    def __init__(self, beams: tuple[Beam, ...], rays: tuple[Ray, ...], single: Iterable[Bundle]) -> None:
+        self.beams, self.rays = beams, rays
+        self._beams_on: dict[int, list[Beam | Bundle]] = {}
+        self._on: dict[int, list[tuple[Bundle, int]]] = {}
+        sources: list[Beam | Bundle] = [*beams, *single]
+        for source in sources:
+            for e in {side.edge for side in source.sides if not side.fixed}:
+                self._beams_on.setdefault(e, []).append(source)
+
+    def on(self, edge: int) -> Sequence[tuple[Bundle, int]]:
+        """The bundles with a side on an edge, with the number of that side; not if it stays at a corner."""
+        if edge not in self._beams_on:
+            return ()
+        if edge not in self._on:
+            self._on[edge] = [
+                (bundle, k)
+                for source in self._beams_on[edge]
+                for bundle in (source.bundles() if isinstance(source, Beam) else (source,))
+                for k, side in enumerate(bundle.sides)
+                if side.edge == edge and not side.fixed
+            ]
+        return self._on[edge]
+
+    @cached_property
+    def sides(self) -> Sides:
+        """The beams as `Sides`."""
+        return Sides([(beam.sector, beam.low, beam.high) for beam in self.beams])
+
+    @cached_property
+    def ray_sides(self) -> Sides:
+        """The lines of the rays as `Sides`."""
+        return Sides.of_lines([(ray.place, ray.run[0]) for ray in self.rays])
+
+
+class Sweeper:
+    """Sweeps the families of one scene within one radius. It keeps none of them."""
+
+    def __init__(self, table: EdgeTable, radius: fmpq) -> None:
+        self.table, self.radius = table, radius
+        self.reach = float(radius) * (1 + 1e-12)
+        self.ranges = Ranges([Rail(curve) for curve in table.curves], radius, table.roundoff, table.circles)
+        self._namer = Namer(table)
+
+    @cached_property
+    def features(self) -> list[Feature]:
+        """Convex corners and arcs."""
+        return features(self.table)
+
+    def normals(self, e: int) -> Family:
+        """The normals of an edge."""
+        return self._family(self._normals(e))
+
+    def tangents(self, k: int) -> Family:
+        """The tangent lines of a feature, and the single lines that join them."""
+        return self._family(*self._tangents(self.features[k]))
+
+    def corner_normals(self, k: int) -> Family:
+        """The normals of the boundary at a feature that is a corner."""
+        return self._family(self._corner_normals(self.features[k]))
+
+    def _family(self, beams: Iterable[Beam], rays: Iterable[Ray] = ()) -> Family:
+        """Beams and rays, and what the rays show to edges."""
+        beams, rays = tuple(beams), tuple(rays)
+        single: list[Bundle] = []
+        for ray in rays:
+            if ray.edge is not None:
+                ends = self.ranges.along(ray.place, self.ranges.rails[ray.edge], ray.run, ray.shown)
+                sides = Side(ray.edge, Role.CONTACT), Side(ray.shown, Role.AHEAD)
+                single.append(Bundle(sides, [Glance((ray.edge, ray.shown), *end) for end in ends]))
+        return Family(beams, rays, single)
+
+    # -- the families ------------------------------------------------------------------------------
+
+    def _tangents(self, feature: Feature) -> tuple[list[Beam], list[Ray]]:
+        """The tangent lines of a feature, and the single lines that join them."""
+        contact = Side(feature.edges[-1], Role.CONTACT, fixed=not feature.round)
+        sweeps = [pencil(self.table, s, feature.edges, self.reach) for s in feature.sectors]
+        beams = [self._beam(feature, s.sector, cell, contact) for s in sweeps for cell in s.cells]
+        rays = [ray for s in sweeps for t in s.pinches for ray in self._pinched(s.sector, t, feature.edges)]
+        return beams, [*rays, *self._end_on(feature, sweeps[0], sweeps[-1])]
+
+    def _beam(self, feature: Feature, sector: Sector, cell: Cell, contact: Side) -> Beam:
+        behind = None if cell.behind is None else Side(cell.behind, Role.BEHIND)
+        ahead = None if cell.ahead is None else Side(cell.ahead, Role.AHEAD)
+        first, last = (
+            self._namer.names(feature, sector, t, passed)
+            for t, passed in zip((cell.low, cell.high), cell.bounds, strict=True)
+        )
+        anchor = self._namer.anchor(feature)
+        return Beam(
+            sector, cell.low, cell.high, behind, contact, ahead, True, anchor, (first, last), cell.bounds
+        )
+
+    def _normals(self, e: int) -> Iterator[Beam]:
+        """The views along the normals of an edge."""
+        for sector in normals(self.table.curves[e]):
+            sweep = pencil(self.table, sector, (e,), self.reach)
+            yield from (_outward(sector, cell, Side(e, Role.CONTACT)) for cell in sweep.cells)
+
+    def _corner_normals(self, feature: Feature) -> Iterator[Beam]:
+        """The views from a convex corner along the normals of the boundary there."""
+        incoming, outgoing = feature.edges
+        ax, ay = leaving(self.table.curves[incoming], at_end=True)
+        bx, by = leaving(self.table.curves[outgoing], at_end=False)
+        corner = Side(outgoing, Role.CONTACT, fixed=True)
+        for sector in corner_sectors(feature.center, (ay, -ax), (by, -bx)):
+            sweep = pencil(self.table, sector, feature.edges, self.reach)
+            anchor = self._namer.anchor(feature)
+            yield from (_outward(sector, cell, corner, anchor) for cell in sweep.cells)
+
+    # -- single lines ------------------------------------------------------------------------------
+
+    def _end_on(self, feature: Feature, first: Pencil, last: Pencil) -> Iterator[Ray]:
+        """The straight edges beside a feature as seen along their own lines, from where these first end."""
+        incoming, outgoing = self._beside(feature)
+        for e, sweep, cell, ahead in (
+            (incoming, first, first.cells[0], True),
+            (outgoing, last, last.cells[-1], False),
+        ):
+            edge, met = self.table.curves[e], cell.ahead if ahead else cell.behind
+            if not isinstance(edge, Segment):
+                continue
+            t, passed = (cell.low, cell.bounds[0]) if ahead else (cell.high, cell.bounds[1])
+            contact, direction = sweep.sector.touch(t)
+            if not ahead:
+                direction = -direction
+            far = None if met is None else meet(contact, direction, self.table.curves[met], 1)
+            if any(side or number not in (e, self.table.next[e]) for number, side, _ in passed):
+                # The line grazes what may block its neighbours: it goes on by itself.
+                walk = walk_line(self.table, sweep.sector, t, self.reach)[ahead]
+                far, met = (abs(walk.hits[-1][0]), walk.hits[-1][1]) if walk.blocked else (None, None)
+            if far is None:
+                far = self.radius / direction.norm_sq().sqrt()
+            place = contact + direction * far
+            yield Ray(place, met, (edge.end, edge.start) if ahead else (edge.start, edge.end), e)
+
+    def _beside(self, feature: Feature) -> tuple[int, int]:
+        """The edges into and out of a feature; an arc's neighbours only where they go on in its direction.
+
+        Elsewhere they meet it at a corner of its own, and the arc stands for itself.
+        """
+        if not feature.round:
+            return feature.edges[0], feature.edges[1]
+        (e,) = feature.edges
+        curves = self.table.curves
+        before, after = int(self._previous[e]), int(self.table.next[e])
+        ends = leaving(curves[before], at_end=True), leaving(curves[e], at_end=False)
+        incoming = before if _continues(*ends) else e
+        ends = leaving(curves[e], at_end=True), leaving(curves[after], at_end=False)
+        return incoming, after if _continues(*ends) else e
+
+    @cached_property
+    def _previous(self) -> Ints:
+        """The edge before each edge."""
+        before = np.zeros(len(self.table.curves), dtype=np.intp)
+        before[self.table.next] = np.arange(len(before))
+        return before
+
+    def _pinched(self, sector: Sector, t: Real, own: tuple[int, ...]) -> Iterator[Ray]:
+        """What the touched points and edges of a line that grazes several features show of each other."""
+        behind, ahead = walk_line(self.table, sector, t, self.reach)
+        contact, direction = sector.touch(t)
+        met = [*reversed(behind.hits), (Real(0), own[-1]), *ahead.hits]
+        runs: list[tuple[int, Point, Point]] = []
+        for e in dict.fromkeys(e for _, e in met):
+            points = [contact + direction * tau for tau, f in met if f == e]
+            if isinstance(self.table.curves[e], Segment):
+                runs.append((e, points[0], points[-1]))
+            else:
+                runs += [(e, point, point) for point in points]
+        for e, start, end in runs:
+            for f, low, high in runs:
+                if e == f:
+                    continue
+                for place in (start, end) if start != end else (start,):
+                    near, far = (low, high) if _nearer(place, low, high) else (high, low)
+                    if place != near:
+                        yield Ray(place, e, (near, far), f)
+        step = direction * (self.radius / direction.norm_sq().sqrt())
+        for walk, place in ((behind, contact - step), (ahead, contact + step)):
+            if not walk.blocked:
+                for f, low, high in runs:
+                    near, far = (low, high) if _nearer(place, low, high) else (high, low)
+                    if place != near:
+                        yield Ray(place, None, (near, far), f)
+
+
+def normals(curve: Curve) -> Iterator[Sector]:
+    """The normals of a boundary edge on its free side."""
+    start, end = raw(curve.start), raw(curve.end)
+    if isinstance(curve, Segment):
+        yield Sliding(start, minus(end, start), fmpq(0), fmpq(1), leftward=False)
+        return
+    center = raw(curve.center)
+    first, last = minus(start, center), None if curve.full else minus(end, center)
+    if not curve.ccw and last is not None:
+        first, last = last, first
+    for base, low, high in quarters(first, last):
+        yield Spokes(center, base, low, high, radius_sq=curve.radius_sq, outward=curve.ccw)
+
+
+def _outward(sector: Sector, cell: Cell, start: Side, anchor: Anchor | None = None) -> Beam:
+    ahead = None if cell.ahead is None else Side(cell.ahead, Role.AHEAD)
+    return Beam(sector, cell.low, cell.high, None, start, ahead, False, anchor, passed=cell.bounds)
+
+
+def _continues(a: Vector, b: Vector) -> bool:
+    return bool(cross(a, b) == 0 and dot(a, b) > 0)
+
+
+def _nearer(place: Point, a: Point, b: Point) -> bool:
+    return distance_sq(place, a).compare(distance_sq(place, b)) <= 0

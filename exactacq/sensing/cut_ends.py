@@ -1,0 +1,75 @@
+"""From where the end of an obstacle's part is seen.
+
+Where a terrain's border cuts an edge, or an edge along the border follows, the last point that counts is no
+feature of the scene: no family of lines tells when it comes into range. Its own view does: sight is mutual.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from itertools import pairwise
+
+from flint import fmpq
+
+from exactacq.geometry.coordinates import raw
+from exactacq.geometry.curves import Curve, Segment
+from exactacq.geometry.intersections import contacts
+from exactacq.geometry.interval_union import Interval
+from exactacq.geometry.points import Point, distance_sq
+from exactacq.numbers.between import rational_between
+from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.sensing.legs import Leg
+from exactacq.visibility.free_segment import is_free
+from exactacq.visibility.outline import outline
+from exactacq.visibility.visible_boundary import View
+
+
+class Lookout:
+    """A point of edge ``edge``, at parameter ``u`` of its rail, that looks around within a radius."""
+
+    def __init__(self, table: EdgeTable, radius: fmpq, edge: int, u: Real, point: Point) -> None:
+        self.table, self.radius, self.edge = table, radius, edge
+        self.pin = Interval(u, point, u, point)
+        self.point = point
+
+    def sees(self, place: Point) -> bool:
+        """Whether a free place is seen."""
+        if distance_sq(self.point, place).compare(self.radius * self.radius) > 0:
+            return False
+        if place == self.point:
+            return True
+        return not self._view.buries(raw(place - self.point)) and is_free(self.table, self.point, place)
+
+    def along(self, leg: Leg) -> list[Interval]:
+        """The parts of a leg that are seen, as closed intervals; single places count."""
+        left, bottom, right, top = leg.box
+        x, y, r = *self.point.xy, float(self.radius) * (1 + 1e-9) + 8 * self.table.roundoff_at(self.point.xy)
+        if left > x + r or right < x - r or bottom > y + r or top < y - r:
+            return []
+        cuts = [(leg.span.low, leg.span.start), (leg.span.high, leg.span.end)]
+        for curve in self._outline:
+            for contact in contacts(leg.curve, curve):
+                cuts += [(leg.rail.parameter(p), p) for p in (contact.start, contact.end)]
+        # A full circle's start is at 0, and at the top for a leg that ends there: that end is a cut anyway.
+        cuts = [cut for cut in cuts if leg.span.low <= cut[0] <= leg.span.high]
+        cuts.sort(key=lambda cut: cut[0])
+        cuts = [c for k, c in enumerate(cuts) if k == 0 or cuts[k - 1][0].compare(c[0]) < 0]
+        inside = [self.sees(leg.rail.point(rational_between(a[0], b[0]))) for a, b in pairwise(cuts)]
+        found: list[Interval] = []
+        for k, (u, p) in enumerate(cuts):
+            if k > 0 and inside[k - 1]:
+                found[-1] = Interval(found[-1].low, found[-1].start, u, p)
+            elif (k < len(inside) and inside[k]) or self.sees(p):
+                found.append(Interval(u, p, u, p))
+        return found
+
+    @cached_property
+    def _view(self) -> View:
+        return View(self.table, self.point, self.radius, None)
+
+    @cached_property
+    def _outline(self) -> list[Curve]:
+        """The view's outline, and the single rays that see more than their neighbours."""
+        rays = [Segment(self.point, ray.end) for ray in self._view.rays if ray.beyond or ray.along]
+        return [piece.curve for piece in outline(self._view)] + [*rays]

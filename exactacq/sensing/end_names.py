@@ -1,0 +1,110 @@
+"""What holds the ends of views, so that points made in two ways are known to be one without a proof.
+
+From a given place, the point of an edge past a corner, or past a circle on its left or right, is one point,
+whether the view from that place tells of it or a glance that passes there. So is the point of an edge as far
+away as the range, ahead or back along the edge.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+
+from flint import fmpq
+
+from exactacq.geometry.curve_parameter import Rail
+from exactacq.geometry.curves import Arc
+from exactacq.geometry.interval_union import Interval
+from exactacq.geometry.points import Point
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.sensing.view_families import End, Glance, Pin, Strand
+from exactacq.visibility.visible_boundary import Hold, View
+
+RANGE = "range"
+BITS = 128
+"""Signs are read from balls of this precision, or not at all."""
+
+
+class Seen:
+    """What is seen from a place; *own* are the edges through the place, if known."""
+
+    def __init__(
+        self,
+        table: EdgeTable,
+        rails: list[Rail],
+        place: Point,
+        radius: fmpq,
+        own: tuple[int, ...] | None,
+    ) -> None:
+        self.table, self.place = table, place
+        self._view = View(table, place, radius, own)
+        self._rails = rails
+
+    @cached_property
+    def spans(self) -> dict[int, list[Interval]]:
+        """The closed intervals that are seen of each edge, by its number."""
+        return {
+            e: [i for a, b in parts for i in Interval.between(self._rails[e], a, b)]
+            for e, parts in self._view.seen().items()
+        }
+
+    def tell(self, end: End, glance: Glance, side: int) -> None:
+        """Take note of an extreme view of a glance from this place that is as long as the range.
+
+        Told before anything is asked, it spares the proof that the same end of what is seen is at the range.
+        """
+        e, point = glance.edges[1 - side], end.points[1 - side]
+        self._view.tight.update(self._holds(e, point, False, glance.strand))
+
+    def pinned(self, end: End, glance: Glance, side: int) -> End:
+        """An extreme view of a glance from this place, its other end the view's own point if it is one."""
+        e, point = glance.edges[1 - side], end.points[1 - side]
+        for hold in self._holds(e, point, end.tight, glance.strand):
+            pin = self._held.get(hold)
+            # A full circle's start has two parameters: a glance over it keeps the one on its side.
+            if pin is not None and (pin[1] - end.places[1 - side]).clear_sign(BITS) == 0:
+                here = end.points[side], end.places[side]
+                (p, u), (q, v) = (here, pin) if side == 0 else (pin, here)
+                return End(end.t, (p, q), (u, v), end.tight)
+        return end
+
+    @cached_property
+    def _held(self) -> dict[Hold, Pin]:
+        """The ends of what is seen, by what holds them."""
+        found: dict[Hold, Pin] = {}
+        for e, intervals in self.spans.items():
+            curve = self.table.curves[e]
+            for i in intervals:
+                for point, u in ((i.start, i.low), (i.end, i.high)):
+                    if point is curve.start or point is curve.end:
+                        # A line through the corner may meet the edge again: there its name is another's.
+                        continue
+                    if self._view.is_at_range(point):
+                        found[e, RANGE, self._onward(e, point)] = point, u
+                    found.update((hold, (point, u)) for hold in self._view.holds(e, point))
+        return {hold: pin for hold, pin in found.items() if hold[1] != RANGE or hold[2]}
+
+    def _holds(self, e: int, point: Point, tight: bool, strand: Strand | None) -> Iterator[Hold]:
+        if tight:
+            yield e, RANGE, self._onward(e, point)
+        if strand is None or strand.anchor is None:
+            return
+        kind, number = strand.anchor
+        if kind == "circle":
+            yield e, strand.anchor, self._turn(number, point)
+        elif not any(one.fixed for one in strand.sides):
+            # Only past the corner: from there the lines of the glance show different points.
+            yield e, strand.anchor, 0
+
+    def _onward(self, e: int, point: Point) -> int:
+        """1 or -1 as a point of an edge lies to one side or the other from here; 0 if balls do not tell."""
+        curve = self.table.curves[e]
+        if isinstance(curve, Arc):
+            return self._turn(e, point)
+        return (point - self.place).dot(curve.direction).clear_sign(BITS)
+
+    def _turn(self, arc: int, point: Point) -> int:
+        """1 or -1 as an arc's centre is to the left or right of the line from here to a point; as above."""
+        curve = self.table.curves[arc]
+        assert isinstance(curve, Arc)
+        return (point - self.place).cross(curve.center - self.place).clear_sign(BITS)

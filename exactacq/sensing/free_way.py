@@ -1,0 +1,377 @@
+"""What a way through free space crosses: the glances of a straight piece of the path.
+
+The beams of the scene's features and edges are free lines. Where such a line crosses the way, inside its free
+part, the robot looks along it both ways: past the contact, at the contact, or, on an edge's normal, at
+the foot. Cut where the line passes an end of the way, a beam crosses it everywhere or nowhere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import cmp_to_key
+from itertools import pairwise
+from math import hypot
+from typing import Any, TypeAlias
+
+import numpy as np
+from flint import fmpq
+
+from exactacq.geometry.coordinates import dot, minus, raw
+from exactacq.geometry.curves import Arc, Segment
+from exactacq.geometry.intersections import line_contacts
+from exactacq.geometry.interval_union import Cover
+from exactacq.geometry.points import Point, distance_sq
+from exactacq.numbers.between import rational_between
+from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.sensing.complex_edges import Beam, Ray
+from exactacq.sensing.end_names import Seen
+from exactacq.sensing.legs import Leg
+from exactacq.sensing.side_filter import Sides, rough
+from exactacq.sensing.view_families import End, Glance, Pin, Role, Side, Strand
+from exactacq.sensing.visibility_complex import Sightlines
+from exactacq.visibility.chords import meet
+from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes
+from exactacq.visibility.line_names import Names
+from exactacq.visibility.rotational_sweep import pencil
+
+Cut: TypeAlias = "tuple[Real, Pin | None, Names]"
+"""A parameter where a beam is cut, the point of the way there, and the names of the line."""
+
+BITS = 256
+"""Precision of the balls that propose ties."""
+
+
+class Crossing:
+    """The glances at some edges from one straight way: a span of a rail in closed free space.
+
+    *view* tells what is seen from an end of the way.
+    """
+
+    def __init__(
+        self,
+        sightlines: Sightlines,
+        leg: Leg,
+        wanted: frozenset[int],
+        view: Callable[[Point, None], Seen],
+    ) -> None:
+        self.sightlines, self.span, self.wanted, self.view = sightlines, leg.span, wanted, view
+        self.touches: frozenset[Any] = frozenset(leg.touches)
+        self.rail = rail = leg.rail
+        self.piece = Segment(leg.span.start, leg.span.end)
+        self.line = rail.curve
+        self.places = [rough(p) for p in (leg.span.start, leg.span.end)]
+        self.ranges = sightlines.ranges.with_way(rail, leg.touches)
+        self.way = len(self.ranges.rails) - 1
+        self.slack = 256 * self.ranges.roundoff
+        self._through: dict[int, tuple[Sector, list[tuple[Pin, list[Real]]]]] = {}
+
+    def glances(self) -> Iterator[Glance]:
+        """All glances at wanted edges whose first side lies on the way."""
+        (ax, ay), (bx, by) = self.places
+        box = np.array((min(ax, bx), min(ay, by), max(ax, bx), max(ay, by)))
+        families = list(self.sightlines.near(box, self.wanted))
+        beams = [beam for family in families for beam in family.beams]
+        for k, certain in self._crossing(Sides.joined([family.sides for family in families])):
+            yield from self._across(beams[k], certain)
+        rays = [ray for family in families for ray in family.rays]
+        for k, _ in self._crossing(Sides.joined([family.ray_sides for family in families])):
+            if rays[k].shown in self.wanted:
+                yield from self._along(rays[k])
+        yield from self._normals()
+        yield from self._own_line()
+
+    def _crossing(self, sides: Sides) -> Iterator[tuple[int, bool]]:
+        """The beams that do not leave the whole way on one side; True if all their lines cross it."""
+        one, other = (sides.of(x, y, self.slack) for x, y in self.places)
+        for k in np.flatnonzero((one != other) | (one == 0)).tolist():
+            yield k, bool(one[k] and other[k])
+
+    def _across(self, beam: Beam, certain: bool) -> Iterator[Glance]:
+        """The glances along a beam's lines; *certain* if each of them passes between the ends of the way."""
+        if not any(side.edge in self.wanted for side in beam.sides):
+            return
+        if not beam.sector.round and beam.anchor in self.touches:
+            # Every line through a corner that the way touches crosses it there and shows nothing else.
+            return
+        cuts: list[Cut] = [(beam.low, None, beam.names[0]), (beam.high, None, beam.names[1])]
+        if not certain:
+            cuts = self._cuts(beam)
+        for (low, first, called), (high, last, named) in pairwise(cuts):
+            role = self._role(beam, rational_between(low, high))
+            if role is None:
+                continue
+            here = Side(self.way, role)
+            for other in self._shown(beam, role):
+                names, pins = (called, named), (first, last)
+                passed = (
+                    beam.passed[0] if low is beam.low else (),
+                    beam.passed[1] if high is beam.high else (),
+                )
+                strand = Strand(
+                    beam.sector,
+                    low,
+                    high,
+                    (here, other),
+                    names,
+                    pins,
+                    passed,
+                    beam.anchor if beam.goes_back else None,
+                )
+                yield from self.ranges.glances(strand)
+
+    def _shown(self, beam: Beam, role: Role) -> list[Side]:
+        """The wanted sides that a beam shows from behind or ahead of its contact."""
+        shown = (beam.contact, beam.ahead if role is Role.BEHIND else beam.behind)
+        return [side for side in shown if side is not None and side.edge in self.wanted]
+
+    def _cuts(self, beam: Beam) -> list[Cut]:
+        """A beam's ends, and the parameters between them of the lines through the way's ends, in order."""
+        lines: list[tuple[Real, Pin]] = []
+        ends = self._through_ends(beam.sector)
+        # All normals of an arc pass its centre. If one end of the way is there, the line through the other
+        # one is the way's own, and its neighbours cross the way in the centre.
+        centers = [pin for pin, _ in ends if _is_center(beam.sector, pin[0])]
+        if centers:
+            ends = [(centers[0], through) for _, through in ends]
+        for pin, through in ends:
+            for t in through:
+                same = next((k for k, (known, _) in enumerate(lines) if known.overlaps(t)), None)
+                if same is None:
+                    lines.append((t, pin))
+                elif beam.anchor in self.touches or self._is_own(beam.sector, t, lines[same][0]):
+                    lines[same] = t, self._pin_of_own(beam, beam.sector.touch(t)[0])
+                else:
+                    lines.append((t, pin))
+        low, high = (
+            (t, self._pin_at(beam, t, names), names)
+            for t, names in zip((beam.low, beam.high), beam.names, strict=True)
+        )
+        inner = [line for line in lines if self._is_inside(beam, *line)]
+        inner.sort(key=cmp_to_key(_by_parameter))
+        cuts = [low]
+        for t, pin in inner:
+            if t.compare(cuts[-1][0]) != 0:
+                cuts.append((t, pin, ()))
+        return [*cuts, high]
+
+    def _through_ends(self, sector: Sector) -> list[tuple[Pin, list[Real]]]:
+        """The way's ends with the parameters of a sector's lines through them; kept, as beams share it."""
+        kept = self._through.get(id(sector))
+        if kept is None:
+            span = self.span
+            pins = (span.start, span.low), (span.end, span.high)
+            kept = self._through[id(sector)] = sector, [(pin, sector.through(pin[0])) for pin in pins]
+        return kept[1]
+
+    def _is_own(self, sector: Sector, t: Real, other: Real) -> bool:
+        """Whether the lines through the way's ends, which look the same, are one: the way's own line."""
+        if isinstance(sector, Rolling):
+            return self._is_tangent(Point(*sector.center), dot(sector.base, sector.base))
+        return isinstance(sector, Spokes) and t.compare(other) == 0
+
+    def _is_tangent(self, center: Point, radius_sq: fmpq) -> bool:
+        """Whether the way's line touches a circle."""
+        along = self.line.end - self.line.start
+        height = along.cross(center - self.line.start)
+        excess: Real = height * height - along.norm_sq() * radius_sq
+        return excess.sign() == 0
+
+    def _is_inside(self, beam: Beam, t: Real, pin: Pin) -> bool:
+        """Whether a line through a point of the way lies strictly inside a beam.
+
+        A way often ends on a line that bounds a beam. That is asked of the point: comparing parameters would
+        take a root more. If the way's own line bounds the beam, its name tells.
+        """
+        for bound, side, names in ((beam.low, 1, beam.names[0]), (beam.high, -1, beam.names[1])):
+            if t.overlaps(bound):
+                if any(name in self.touches for name, _ in names):
+                    return False
+                contact, direction = beam.sector.touch(bound)
+                if direction.cross(pin[0] - contact).sign() == 0:
+                    return False
+            if t.compare(bound) != side:
+                return False
+        return True
+
+    def _pin_at(self, beam: Beam, t: Real, names: Names) -> Pin | None:
+        """The point of the way on a line that bounds a beam, where it need not be computed."""
+        is_own = any(name in self.touches for name, _ in names)
+        # No parameter: the end may be the point about which the lines turn.
+        near = [
+            pin
+            for pin, through in self._through_ends(beam.sector)
+            if not through or any(t.overlaps(u) for u in through)
+        ]
+        if not near and not is_own:
+            return None
+        contact, direction = beam.sector.touch(t)
+        if is_own:
+            return contact, self.rail.parameter(contact)
+        on_line = [pin for pin in near if direction.cross(pin[0] - contact).sign() == 0]
+        if len(on_line) == 2:
+            return self._pin_of_own(beam, contact)
+        return on_line[0] if on_line else None
+
+    def _pin_of_own(self, beam: Beam, contact: Point) -> Pin:
+        """Where the lines of a beam near one that is the way's own cross the way.
+
+        Tangents do so near their contact, normals of an arc in its centre.
+        """
+        place = Point(*beam.sector.center) if isinstance(beam.sector, Spokes) else contact
+        return place, self.rail.parameter(place)
+
+    def _role(self, beam: Beam, t: fmpq) -> Role | None:
+        """On which side of the contact the line crosses the way within its free part, if it does."""
+        contact, direction = beam.sector.touch(Real(t))
+        met = line_contacts(contact, direction, self.piece)
+        if not met or met[0].sign() == 0:
+            return None
+        side = met[0].sign()
+        role = Role.AHEAD if side > 0 else Role.BEHIND
+        if not self._shown(beam, role):
+            return None
+        wall = beam.ahead if side > 0 else beam.behind
+        if wall is None:
+            # Nothing was met within reach; normals do not go back from their edge.
+            return role if side > 0 or beam.goes_back else None
+        limit = meet(contact, direction, self.ranges.curve(wall.edge), side)
+        return role if (limit - met[0]).sign() * side >= 0 else None
+
+    def _along(self, ray: Ray) -> Iterator[Glance]:
+        """A single line that crosses the way between its place and the run that it shows."""
+        direction = ray.run[0] - ray.place
+        met = line_contacts(ray.place, direction, self.piece)
+        if not met:
+            return
+        for place in {id(m): m for m in (met[0], met[-1])}.values():
+            if place.sign() < 0 or place.compare(1) > 0:
+                continue
+            point = ray.place + direction * place
+            for first, last in self.ranges.along(point, self.ranges.rails[self.way], ray.run, ray.shown):
+                yield Glance((self.way, ray.shown), first, last)
+
+    def _own_line(self) -> Iterator[Glance]:
+        """The views along the way itself: of its ends, of corners it touches, and of what lies beyond."""
+        table, span = self.sightlines.table, self.span
+        shown = [(e, p) for p in (span.start, span.end) for e in _edges_near(table, p)]
+        along = self.line.end - self.line.start
+        shown += [*self._beyond(span.end, along), *self._beyond(span.start, -along)]
+        for e, point in self._touched():
+            # Its line may touch things beyond its ends too; those at an end are there already.
+            u = self.rail.parameter(point)
+            if _certainly(span.low, u) and _certainly(u, span.high):
+                shown.append((e, point))
+        for e, point in shown:
+            if e in self.wanted:
+                place = self.ranges.rails[e].parameter(point)
+                near = self._within(point)
+                ends = [End(Real(0), (p, point), (u, place)) for p, u in near]
+                if ends:
+                    yield Glance((self.way, e), ends[0], ends[-1])
+
+    def _touched(self) -> Iterator[tuple[int, Point]]:
+        """The corners and the tangent points of wanted edges on the way's line, named or not."""
+        table, start = self.sightlines.table, self.line.start
+        along = self.line.end - start
+        (x, y), (dx, dy) = rough(start), rough(along)
+        slack = self.slack * hypot(dx, dy)
+        for e in self.wanted:
+            left, bottom, right, top = table.boxes[e]
+            sides = [(cx - x) * dy - (cy - y) * dx for cx in (left, right) for cy in (bottom, top)]
+            if min(sides) > slack or max(sides) < -slack:
+                continue
+            curve = table.curves[e]
+            for number, corner in ((e, curve.start), (int(table.next[e]), curve.end)):
+                if ("corner", number) in self.touches or along.cross(corner - start).sign() == 0:
+                    yield e, corner
+            if isinstance(curve, Arc):
+                named = ("circle", table.circles[e]) in self.touches
+                if named or self._is_tangent(curve.center, curve.radius_sq):
+                    foot = start + along * ((curve.center - start).dot(along) / along.norm_sq())
+                    if curve.contains(foot):
+                        yield e, foot
+
+    def _beyond(self, end: Point, onward: Point) -> Iterator[tuple[int, Point]]:
+        """What the way's line meets beyond an end, as far as it is seen from there."""
+        table = self.sightlines.table
+        own = _edges_near(table, end)
+        (x, y), (dx, dy) = rough(end), rough(onward)
+        size = hypot(dx, dy)
+        for e, intervals in self.view(end, None).spans.items():
+            curve = table.curves[e]
+            low, high = table.boxes[e, :2], table.boxes[e, 2:]
+            corners = [(cx - x, cy - y) for cx in (low[0], high[0]) for cy in (low[1], high[1])]
+            ahead = max(cx * dx + cy * dy for cx, cy in corners)
+            sides = [cx * dy - cy * dx for cx, cy in corners]
+            slack = self.slack * size
+            if e not in self.wanted or ahead < -slack or min(sides) > slack or max(sides) < -slack:
+                continue
+            if e in own:
+                # The line meets an edge at its end only there, unless it runs along it.
+                if isinstance(curve, Segment) and len(line_contacts(end, onward, curve)) == 2:
+                    far = max((curve.start, curve.end), key=lambda p: (p - end).dot(onward))
+                    yield e, far
+                continue
+            for share in line_contacts(end, onward, curve):
+                if share.sign() > 0:
+                    point = end + onward * share
+                    rail = self.ranges.rails[e]
+                    u = rail.parameter(point)
+                    # A full circle's start is at 0 and at the top.
+                    full = isinstance(curve, Arc) and curve.full
+                    places = [u, rail.top] if full and u.sign() == 0 else [u]
+                    if any(Cover(tuple(intervals)).contains(place) for place in places):
+                        yield e, point
+
+    def _within(self, point: Point) -> list[Pin]:
+        """The ends of the part of the way within range of a point of its line."""
+        span, square = self.span, self.ranges.square
+        ends = [(span.start, span.low), (span.end, span.high)]
+        far = [distance_sq(p, point).compare(square) > 0 for p, _ in ends]
+        if not any(far):
+            return ends
+        along = self.line.end - self.line.start
+        step = along * (self.ranges.radius / along.norm_sq().sqrt())
+        for k, place in enumerate((point - step, point + step)):
+            if far[k]:
+                u = self.rail.parameter(place)
+                if u.compare(span.low) < 0 or u.compare(span.high) > 0:
+                    return []
+                ends[k] = place, u
+        return ends
+
+    def _normals(self) -> Iterator[Glance]:
+        """The views along the normals of the way itself, to both sides."""
+        start, end = raw(self.line.start), raw(self.line.end)
+        low, high = self.span.low, self.span.high
+        here = Side(self.way, Role.CONTACT)
+        for leftward in (True, False):
+            sector = Sliding(start, minus(end, start), low, high, leftward=leftward)
+            sweep = pencil(self.sightlines.table, sector, (), self.sightlines.reach)
+            for cell in sweep.cells:
+                if cell.ahead is not None and cell.ahead in self.wanted:
+                    sides = here, Side(cell.ahead, Role.AHEAD)
+                    strand = Strand(sector, cell.low, cell.high, sides, passed=cell.bounds)
+                    yield from self.ranges.glances(strand)
+
+
+def _edges_near(table: EdgeTable, point: Point) -> list[int]:
+    """The edges that balls do not part from a point: the end of a way lies on a boundary, or it does not."""
+    x, y = point.xy
+    near = (int(e) for e in table.near((x, y), (x, y), 0.0))
+    return [e for e in near if table.curves[e].may_pass(point, BITS)]
+
+
+def _is_center(sector: Sector, point: Point) -> bool:
+    """Whether a point is the centre of the arc to which a sector's lines are normal."""
+    return isinstance(sector, Spokes) and point == Point(*sector.center)
+
+
+def _by_parameter(a: tuple[Real, Pin], b: tuple[Real, Pin]) -> int:
+    return a[0].compare(b[0])
+
+
+def _certainly(low: Real, high: Real) -> bool:
+    """Whether balls tell that one number is less than another."""
+    return (high - low).clear_sign(BITS) > 0

@@ -1,0 +1,205 @@
+"""Memory: the sensing of a whole path, piece by piece, and the map as it was at any moment of it.
+
+What a piece added is kept as the edges that changed, so a run remembers every moment in memory proportional
+to what was learned.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence, Set
+from dataclasses import dataclass
+
+from flint import fmpq
+
+from exactacq.geometry.curves import Curve, Segment
+from exactacq.geometry.interval_union import Cover
+from exactacq.geometry.points import Point
+from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.scene.scene import Scene
+from exactacq.scene.terrain_components import Ground
+from exactacq.sensing.legs import Leg, legs_of, parts_of
+from exactacq.sensing.map import Body, Map
+from exactacq.sensing.path import Piece
+from exactacq.sensing.sensor import Ahead, Kind, Senses
+from exactacq.sensing.targets import Targets
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """A notice placed on the path: after ``after`` whole pieces, or inside the piece of that number."""
+
+    kind: Kind
+    obstacle: int
+    place: Point
+    note: str
+    after: int
+    inside: bool
+
+
+class Memory:
+    """What a robot has learned on its way so far, with all ``reports``. *radius* is rational and positive.
+
+    On a *ground* its components take the place of the scene's obstacles.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        radius: fmpq,
+        table: EdgeTable | None = None,
+        ground: Ground | None = None,
+    ) -> None:
+        self.scene, self.radius, self.ground = scene, radius, ground
+        self._table = EdgeTable(scene.obstacles) if table is None else table
+        self.bodies: Sequence[Body] = scene.obstacles if ground is None else ground.components
+        targets = None if ground is None else Targets.of_components(ground.components, self._table, radius)
+        self._senses = Senses(self._table, radius, targets)
+        self.reports: list[Report] = []
+        # The parameters of the reports' places, and on which leg of the piece they are: numbers that glances
+        # share, so that ties with them are free.
+        self._parameters: dict[tuple[int, int], tuple[Point, Real, int]] = {}
+        self._looked: tuple[Piece | None, Ahead | None] = None, None
+        self._walked: dict[tuple[int, int], Piece] = {}
+        self._retraced: set[int] = set()
+        self._learned: list[dict[int, Cover]] = []
+        self._legs: list[list[Leg]] = []
+
+    @classmethod
+    def of(
+        cls, scene: Scene, radius: fmpq, start: Point, path: Iterable[Piece], ground: Ground | None = None
+    ) -> Memory:
+        """The memory of a robot that walked a path."""
+        memory = cls(scene, radius, ground=ground)
+        memory.begin(start)
+        for piece in path:
+            memory.walk(piece)
+        return memory
+
+    @property
+    def seen(self) -> set[int]:
+        """The obstacles of which some point is known by now."""
+        return self._senses.seen
+
+    def begin(self, start: Point) -> list[Report]:
+        """Look around at the start."""
+        notices, learned = self._senses.look_around(start)
+        self._learned.append(learned)
+        return self._reported([Report(n.kind, n.obstacle, n.place, n.note, 0, False) for n in notices])
+
+    def walk(self, piece: Piece) -> list[Report]:
+        """Take in all that a piece of the path shows; the reports in the order in which they come."""
+        known, ahead = self._looked
+        legs = [ahead.leg] if ahead is not None and known is piece else self._legs_of(piece)
+        count, reports, retraced = len(self._legs), [], self._is_retraced(piece)
+        learned: dict[int, Cover] = {}
+        for k, leg in enumerate(legs):
+            took = ahead if ahead is not None and leg is ahead.leg else self._senses.ahead(leg, retraced)
+            notices, more = self._senses.follow(took)
+            learned.update(more)
+            for n in notices:
+                self._parameters[count, id(n.place)] = n.place, n.u, k
+                at_start = k == 0 and leg.order(n.u, leg.first) == 0
+                at_end = k == len(legs) - 1 and leg.order(n.u, leg.last) == 0
+                after = count + 1 if at_end and not at_start else count
+                inside = not (at_start or at_end)
+                reports.append(Report(n.kind, n.obstacle, n.place, n.note, after, inside))
+        self._learned.append(learned)
+        self._legs.append(legs)
+        if retraced:
+            self._retraced.add(count)
+        return self._reported(reports)
+
+    def _is_retraced(self, piece: Piece) -> bool:
+        """Whether a straight piece was walked before, the other way.
+
+        It shows what is known, in other forms of the same numbers: ties that need no proof.
+        """
+        if piece.obstacle is not None:
+            return False
+        self._walked[id(piece.start), id(piece.end)] = piece
+        return (id(piece.end), id(piece.start)) in self._walked
+
+    def _legs_of(self, piece: Piece) -> list[Leg]:
+        owner = piece.obstacle
+        if owner is not None and self.ground is not None:
+            owner = self.ground.components[owner].obstacle.index
+        return legs_of(self._table, self._senses.rails, owner, piece.curve, piece.touches)
+
+    def parts(self, way: Segment) -> list[Segment]:
+        """The parts of a straight way of which each is one leg (see `ahead`)."""
+        return [part for _, part in parts_of(self._table, way)]
+
+    def ahead(self, piece: Piece) -> Ahead:
+        """What a straight piece will tell when it is walked next."""
+        (leg,) = self._legs_of(piece)
+        self._looked = piece, self._senses.ahead(leg)
+        return self._looked[1]
+
+    def map_ahead(self, ahead: Ahead, u: Real, place: Point, obstacles: Set[int]) -> Map:
+        """The map of some obstacles as it will be at a place of a piece that was looked along."""
+        return self._map(ahead.covers(u, place, obstacles))
+
+    def near(self, box: tuple[float, float, float, float]) -> set[int]:
+        """The obstacles with an edge whose box is within the radius of a box."""
+        x, y, right, top = box
+        return self._senses.targets.near(self._table.near((x, y), (right, top), float(self.radius)).tolist())
+
+    def visible(self, place: Point, obstacle: int) -> list[Curve]:
+        """What is in sight of an obstacle from a place; a single point is a piece without length."""
+        rails = self._senses.rails
+        return [
+            Segment(i.start, i.start) if i.low.compare(i.high) == 0 else rails[e].curve.part(i.start, i.end)
+            for e, i in self._senses.visible(place, obstacle)
+        ]
+
+    @property
+    def now(self) -> Map:
+        """The map as it is."""
+        return self._map(dict(self._senses.covers))
+
+    @property
+    def in_sight(self) -> Set[int]:
+        """The obstacles in sight, acquired ones aside."""
+        return self._senses.in_sight
+
+    @property
+    def acquired(self) -> Set[int]:
+        """The obstacles that are wholly known."""
+        return self._senses.acquired
+
+    def after(self, count: int) -> Map:
+        """The map after the first *count* pieces."""
+        return self._map(self._covers(count))
+
+    def within(self, count: int, place: Point) -> Map:
+        """The map when the robot is at a place inside piece number *count*."""
+        covers = self._covers(count)
+        if count in self._retraced:
+            # What it shows is known, in other forms of the same numbers.
+            return self._map(covers)
+        reported = self._parameters.get((count, id(place)))
+        for k, leg in enumerate(self._legs[count]):
+            if reported is not None and k < reported[2]:
+                covers.update(self._senses.known_after(leg, covers))
+                continue
+            u = leg.rail.parameter(place) if reported is None else reported[1]
+            if leg.span.low.compare(u) <= 0 and leg.span.high.compare(u) >= 0:
+                if leg.order(u, leg.first) > 0:
+                    covers.update(self._senses.known_within(leg, leg.upto(u, place), covers))
+                break
+            covers.update(self._senses.known_after(leg, covers))
+        return self._map(covers)
+
+    def _reported(self, reports: list[Report]) -> list[Report]:
+        self.reports += reports
+        return reports
+
+    def _covers(self, count: int) -> dict[int, Cover]:
+        covers: dict[int, Cover] = {}
+        for learned in self._learned[: count + 1]:
+            covers.update(learned)
+        return covers
+
+    def _map(self, covers: dict[int, Cover]) -> Map:
+        return Map(self.bodies, self._senses.targets, self._senses.rails, covers)

@@ -1,0 +1,314 @@
+"""Shares: all that one leg shows of some obstacles, each glance with where on the leg it is seen from.
+
+A leg is on a boundary edge, where the glances are kept by the scene's sightlines, or a straight way through
+free space, which crosses them. The views from the two ends of the leg belong to what it shows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import chain
+from typing import TypeAlias
+
+from exactacq.errors import Undecided
+from exactacq.geometry.interval_union import EMPTY, Cover, Interval
+from exactacq.geometry.points import Point, distance_sq
+from exactacq.numbers.between import rational_between
+from exactacq.numbers.real import Real
+from exactacq.sensing.cut_ends import Lookout
+from exactacq.sensing.end_names import Seen
+from exactacq.sensing.free_way import Crossing
+from exactacq.sensing.legs import Leg
+from exactacq.sensing.targets import Targets
+from exactacq.sensing.view_families import End, Glance, Pin, Ranges
+from exactacq.sensing.visibility_complex import Sightlines
+
+Covers: TypeAlias = "Mapping[int, Cover]"
+"""What is known of each edge, by its number; nothing is known of an edge that is missing."""
+
+
+@dataclass(slots=True)
+class Share:
+    """A glance of a leg: where it is seen from, and which part of edge ``edge`` it shows."""
+
+    source: Interval
+    edge: int
+    shown: Interval
+    glance: Glance
+    side: int
+
+    @classmethod
+    def of(cls, glance: Glance, side: int) -> Share:
+        """The share of a glance whose one side lies on the leg."""
+        a, b = glance.first, glance.last
+        source, shown = (
+            Interval.of(a.places[k], a.points[k], b.places[k], b.points[k]) for k in (side, 1 - side)
+        )
+        return cls(source, glance.edges[1 - side], shown, glance, side)
+
+    def cut(self, glance: Glance) -> Share:
+        """The share of a part of its glance, whose sides run as its own do: nothing is to be compared."""
+        first, a, b = self.glance.first, glance.first, glance.last
+        source, shown = (
+            Interval(a.places[k], a.points[k], b.places[k], b.points[k])
+            if whole.low is first.places[k]
+            else Interval(b.places[k], b.points[k], a.places[k], a.points[k])
+            for whole, k in ((self.source, self.side), (self.shown, 1 - self.side))
+        )
+        return Share(source, self.edge, shown, glance, self.side)
+
+
+class Shares:
+    """What a leg shows of some obstacles.
+
+    *view* gives what is seen from a point, with the edges through it if these are known.
+    """
+
+    def __init__(
+        self,
+        sightlines: Sightlines,
+        targets: Targets,
+        leg: Leg,
+        obstacles: Collection[int],
+        view: Callable[[Point, tuple[int, ...] | None], Seen],
+        of: dict[int, list[Share]] | None = None,
+        ends: dict[int, list[tuple[Lookout, Interval]]] | None = None,
+    ) -> None:
+        self.sightlines, self.targets, self.leg = sightlines, targets, leg
+        self.obstacles, self.view = obstacles, view
+        self.of = self._found() if of is None else of
+        self.ends = self._seen_ends() if ends is None else ends
+
+    def _found(self) -> dict[int, list[Share]]:
+        parts: list[tuple[int, Glance, int, None]] = []
+        for glance, side in self._glances():
+            for k, target in self.targets.on(glance.edges[1 - side]):
+                if k in self.obstacles:
+                    part = self._ranges.clipped(glance, 1 - side, target.span)
+                    if part is not None:
+                        parts.append((k, part, side, None))
+        return self._shares(parts, self.leg, self.obstacles)
+
+    def _shares(
+        self,
+        parts: Iterable[tuple[int, Glance, int, Share | None]],
+        leg: Leg,
+        obstacles: Collection[int],
+    ) -> dict[int, list[Share]]:
+        """What of some glances, or of their shares, is seen from a leg; views from its ends share points."""
+        cuts: list[tuple[int, Glance, int, Share | None]] = []
+        for k, glance, side, whole in parts:
+            cut = self._ranges.clipped(glance, side, leg.span)
+            if cut is not None:
+                cuts.append((k, cut, side, whole))
+                for end in (cut.first, cut.last):
+                    view = self._view_from(end, side, leg) if end.tight else None
+                    if view is not None:
+                        view.tell(end, cut, side)
+        found: dict[int, list[Share]] = {k: [] for k in obstacles}
+        for k, cut, side, whole in cuts:
+            first, last = (self._pinned(end, cut, side, leg) for end in (cut.first, cut.last))
+            part = Glance(cut.edges, first, last, cut.strand)
+            found[k].append(Share.of(part, side) if whole is None else whole.cut(part))
+        return found
+
+    def _seen_ends(self) -> dict[int, list[tuple[Lookout, Interval]]]:
+        """From where the ends of obstacles are seen that are cut by a border."""
+        lookouts = self.targets.lookouts
+        return {
+            k: [(end, part) for end in lookouts[k] for part in end.along(self.leg)]
+            for k in self.obstacles
+            if k in lookouts
+        }
+
+    def _pinned(self, end: End, glance: Glance, side: int, leg: Leg) -> End:
+        view = self._view_from(end, side, leg)
+        return end if view is None else view.pinned(end, glance, side)
+
+    def _view_from(self, end: End, side: int, leg: Leg) -> Seen | None:
+        """What is seen from where an extreme view begins, if that is an end of the leg."""
+        u = end.places[side]
+        place = leg.start if u is leg.first else leg.end if u is leg.last else None
+        return None if place is None else self.view(place, leg.own(u))
+
+    def _glances(self) -> Iterator[tuple[Glance, int]]:
+        sightlines, leg, obstacles = self.sightlines, self.leg, self.obstacles
+        x, y, right, top = leg.box
+        near = sightlines.table.near((x, y), (right, top), sightlines.reach).tolist()
+        wanted = frozenset(near).intersection(chain.from_iterable(self.targets.edges[k] for k in obstacles))
+        if leg.edge is None:
+            crossing = Crossing(sightlines, leg, wanted, self.view)
+            yield from ((glance, 0) for glance in crossing.glances())
+            return
+        for bundle, side in sightlines.on(leg.edge, wanted):
+            for glance in bundle.glances(sightlines.ranges):
+                yield glance, side
+
+    @cached_property
+    def _ranges(self) -> Ranges:
+        ranges = self.sightlines.ranges
+        return ranges if self.leg.edge is not None else ranges.with_way(self.leg.rail)
+
+    def cut(self, leg: Leg, obstacles: Collection[int] | None = None) -> Shares:
+        """What a part of the leg shows, of some of the obstacles if these are given."""
+        obstacles = self.obstacles if obstacles is None else obstacles
+        of = self._shares(
+            ((k, share.glance, share.side, share) for k in obstacles for share in self.of[k]),
+            leg,
+            obstacles,
+        )
+        ends = {
+            k: [(end, part) for end, whole in self.ends[k] if (part := whole.within(leg.span)) is not None]
+            for k in obstacles
+            if k in self.ends
+        }
+        return Shares(self.sightlines, self.targets, leg, obstacles, self.view, of, ends)
+
+    def at(self, share: Share, u: Real, place: Point) -> Share | None:
+        """The one view of a share from a place of the leg, if it has one."""
+        cut = self._ranges.clipped(share.glance, share.side, Interval(u, place, u, place))
+        return None if cut is None else share.cut(cut)
+
+    def taught(self, covers: Covers) -> dict[int, Cover]:
+        """The covers that grow along the leg, if *covers* are known before it."""
+        try:
+            return self._taught(covers, {})
+        except Undecided:
+            shares = (share for shares in self.of.values() for share in shares)
+            pins = (self._recognised(share, covers.get(share.edge, EMPTY)) for share in shares)
+            same = dict(pin for found in pins for pin in found)
+            if not same:
+                raise
+            return self._taught(covers, same)
+
+    def _taught(self, covers: Covers, same: Mapping[int, Pin]) -> dict[int, Cover]:
+        """The same; *same* as `_recognised` finds them."""
+        learned: dict[int, Cover] = {}
+        leg = self.leg
+        for shares in self.of.values():
+            for share in sorted(shares, key=lambda share: size(share.shown), reverse=True):
+                add(learned, covers, share.edge, _called(share.shown, same))
+        for u, place in ((leg.first, leg.start), (leg.last, leg.end)):
+            view = self.view(place, leg.own(u))
+            for k in self.obstacles:
+                for e, interval in self.targets.within(k, view.spans):
+                    add(learned, covers, e, _called(interval, same))
+        for seen in self.ends.values():
+            for end, _ in seen:
+                add(learned, covers, end.edge, end.pin)
+        for k in self.obstacles:
+            if self._is_along(k):
+                assert leg.edge is not None
+                add(learned, covers, leg.edge, leg.span)
+        return learned
+
+    def _recognised(self, share: Share, cover: Cover) -> Iterator[tuple[int, Pin]]:
+        """Ends of what a share shows that are ends of a cover, by the identity of their parameters.
+
+        A leg often ends where an end of what is known comes in sight: found again from there, it is a number
+        that is hard to compare with itself.
+        """
+        glance, side = share.glance, 1 - share.side
+        for end in (glance.first, glance.last):
+            u = end.places[side]
+            for old in cover.intervals:
+                for pin in ((old.start, old.low), (old.end, old.high)):
+                    if self._ranges.is_again(glance, end, side, *pin):
+                        yield id(u), pin
+
+    def _is_along(self, k: int) -> bool:
+        """Whether the leg is on the boundary of an obstacle."""
+        return self.leg.edge is not None and any(
+            owner == k and target.contains(self.leg.span) for owner, target in self.targets.on(self.leg.edge)
+        )
+
+    def times(self, k: int, edge: int | None = None) -> Cover:
+        """When an obstacle, or only one edge of it, is in sight, as a cover of the leg's rail."""
+        span = self.leg.span
+        if self._is_along(k) and edge in (None, self.leg.edge):
+            return Cover((span,))
+        times = Cover()
+        for u, place in ((span.low, span.start), (span.high, span.end)):
+            seen = self.targets.within(k, self.view(place, self.leg.own(u)).spans)
+            if any(edge in (None, e) for e, _ in seen):
+                times = times.added(Interval(u, place, u, place))
+        sources = [share.source for share in self.of[k] if edge in (None, share.edge)]
+        sources += [part for end, part in self.ends.get(k, ()) if edge in (None, end.edge)]
+        for interval in sorted(sources, key=size, reverse=True):
+            times = times.added(interval)
+        return times
+
+    def is_short(self, k: int, u: Real, edge: int | None = None) -> bool:
+        """Whether a view that begins or ends at *u*, of an obstacle or an edge, is shorter than the range."""
+        ends = [
+            (end.places[share.side], end)
+            for share in self.of[k]
+            if edge is None or share.edge == edge
+            for end in (share.glance.first, share.glance.last)
+        ]
+        # Most often the very number was copied: no proof is needed that it is equal.
+        ends.sort(key=lambda end: end[0] is not u)
+        square = self.sightlines.ranges.square
+        if self._is_near(k, u, edge) or self._is_end_near(k, u):
+            return True
+        return any(end.is_short(square) for place, end in ends if place is u or place.compare(u) == 0)
+
+    def _is_end_near(self, k: int, u: Real) -> bool:
+        """Whether a cut end is seen last or first from *u*, nearer than the range."""
+        square = self.sightlines.ranges.square
+        return any(
+            (v is u or v.compare(u) == 0) and distance_sq(place, end.point).compare(square) < 0
+            for end, part in self.ends.get(k, ())
+            for v, place in ((part.low, part.start), (part.high, part.end))
+        )
+
+    def _is_near(self, k: int, u: Real, edge: int | None) -> bool:
+        """Whether *u* is an end of the leg from which something nearer than the range is seen."""
+        leg, square = self.leg, self.sightlines.ranges.square
+        if u is not leg.first and u is not leg.last:
+            return False
+        place = leg.start if u is leg.first else leg.end
+        return any(
+            edge in (None, e) and distance_sq(place, point).compare(square) < 0
+            for e, interval in self.targets.within(k, self.view(place, leg.own(u)).spans)
+            for point in self._samples(e, interval)
+        )
+
+    def _samples(self, e: int, interval: Interval) -> Iterator[Point]:
+        """The ends of an interval and, lest both are at the range, a place between."""
+        yield from (interval.start, interval.end)
+        if interval.low.compare(interval.high) < 0:
+            yield self._ranges.rails[e].point(rational_between(interval.low, interval.high))
+
+    def reaching(self, k: int, e: int, u: Real, point: Point) -> Iterator[tuple[Real, Point]]:
+        """Where glances show a point of edge *e* of an obstacle, whose parameter is *u*."""
+        single = Interval(u, point, u, point)
+        for share in self.of[k]:
+            if share.edge == e:
+                glance = self._ranges.clipped(share.glance, 1 - share.side, single)
+                if glance is not None:
+                    yield glance.first.places[share.side], glance.first.points[share.side]
+
+
+def size(interval: Interval) -> float:
+    """Rough size. Large intervals are added first: equal ends inside them need not be compared."""
+    return interval.high.rough() - interval.low.rough()
+
+
+def _called(interval: Interval, same: Mapping[int, Pin]) -> Interval:
+    """An interval whose ends are replaced by what they are the same as, by identity of their parameters."""
+    if not same:
+        return interval
+    start, low = same.get(id(interval.low), (interval.start, interval.low))
+    end, high = same.get(id(interval.high), (interval.end, interval.high))
+    return Interval(low, start, high, end)
+
+
+def add(learned: dict[int, Cover], covers: Covers, e: int, interval: Interval) -> None:
+    """Add an interval to the cover of an edge, in *learned* if it grows."""
+    before = learned[e] if e in learned else covers.get(e, EMPTY)
+    after = before.added(interval)
+    if after is not before:
+        learned[e] = after

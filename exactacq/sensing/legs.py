@@ -1,0 +1,273 @@
+"""Legs: the pieces of a path as spans of rails with rational data wherever possible."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Hashable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+
+from exactacq.geometry.box_index import box
+from exactacq.geometry.curve_parameter import Rail
+from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.intersections import ContactKind, contacts
+from exactacq.geometry.interval_union import Interval
+from exactacq.geometry.points import Point
+from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import EdgeTable
+
+BITS = 256
+"""Precision of the balls that tell which corners a way may touch, and which places are inside an edge."""
+
+
+@dataclass(frozen=True)
+class Leg:
+    """A way along one rail: of boundary edge ``edge``, or in free space if None.
+
+    ``ahead`` tells whether the rail's parameter grows along the way; ``touches`` names what a straight way
+    is known to touch (see `line_names`).
+    """
+
+    rail: Rail
+    edge: int | None
+    span: Interval
+    ahead: bool
+    touches: tuple[Hashable, ...] = ()
+
+    @property
+    def start(self) -> Point:
+        """Where the leg begins."""
+        return self.span.start if self.ahead else self.span.end
+
+    @property
+    def end(self) -> Point:
+        """Where it ends."""
+        return self.span.end if self.ahead else self.span.start
+
+    @property
+    def first(self) -> Real:
+        """The parameter of the start."""
+        return self.span.low if self.ahead else self.span.high
+
+    @property
+    def last(self) -> Real:
+        """The parameter of the end."""
+        return self.span.high if self.ahead else self.span.low
+
+    @cached_property
+    def curve(self) -> Curve:
+        """The part of the rail's curve that the leg covers, in the curve's direction."""
+        whole = self.span.low.sign() == 0 and self.span.high.compare(self.rail.top) == 0
+        return self.rail.curve if whole else self.rail.curve.part(self.span.start, self.span.end)
+
+    @property
+    def box(self) -> tuple[float, float, float, float]:
+        """A box that contains the leg."""
+        return box(self.curve)
+
+    def own(self, u: Real) -> tuple[int, ...] | None:
+        """The edges through a place of the leg if they are known: inside its edge there is no other."""
+        if self.edge is None:
+            return None
+        full = isinstance(self.rail.curve, Arc) and self.rail.curve.full
+        inside = u.clear_sign(BITS) > 0 and (self.rail.top - u).clear_sign(BITS) > 0
+        return (self.edge,) if full or inside else None
+
+    def upto(self, u: Real, place: Point) -> Leg:
+        """The leg as far as a place on it."""
+        span = self.span
+        cut = (span.low, span.start, u, place) if self.ahead else (u, place, span.high, span.end)
+        return replace(self, span=Interval(*cut))
+
+    def between(self, begin: tuple[Real, Point], end: tuple[Real, Point]) -> Leg:
+        """The part of the leg between two places, given as the robot passes them."""
+        low, high = (begin, end) if self.ahead else (end, begin)
+        return replace(self, span=Interval(*low, *high))
+
+    def order(self, a: Real, b: Real) -> int:
+        """-1, 0 or 1 as the robot passes one parameter before, at or after another."""
+        return a.compare(b) if self.ahead else b.compare(a)
+
+
+def legs_of(
+    table: EdgeTable,
+    rails: list[Rail],
+    obstacle: int | None,
+    curve: Curve,
+    touches: tuple[Hashable, ...] = (),
+) -> list[Leg]:
+    """The legs of a path piece, on the boundary of an obstacle or straight through free space if None.
+
+    One leg; two if the piece passes the start of a full circle. A straight piece that runs along edges has a
+    leg on each, and between them; it is cut at corners, from which it may see what it sees from nowhere else.
+    *touches* is what a straight piece touches.
+    """
+    if obstacle is None:
+        # The robots walk arcs only along boundaries; `load_run` refuses other pieces.
+        assert isinstance(curve, Segment), "free space is crossed on straight lines"
+        return [
+            _through_space(part, touches) if e is None else _on_edge(rails[e], e, part)
+            for e, part in parts_of(table, curve, touches)
+        ]
+    e = _edge_of(table.curves, table.edges_of(obstacle), curve)
+    rail = rails[e]
+    if isinstance(curve, Segment):
+        return [_on_edge(rail, e, curve)]
+    assert isinstance(rail.curve, Arc), "an arc is carried by an arc"
+    ahead = curve.ccw == rail.curve.ccw
+    start, end = (curve.start, curve.end) if ahead else (curve.end, curve.start)
+    low, high = rail.parameter(start), rail.parameter(end)
+    if low.compare(high) < 0:
+        return [Leg(rail, e, Interval(low, start, high, end), ahead)]
+    seam = rail.curve.start
+    spans = [Interval(low, start, rail.top, seam), Interval(Real(0), seam, high, end)]
+    legs = [Leg(rail, e, span, ahead) for span in spans if span.low.compare(span.high) < 0]
+    return legs if ahead else legs[::-1]
+
+
+def parts_of(
+    table: EdgeTable, way: Segment, touches: Collection[Hashable] = ()
+) -> list[tuple[int | None, Segment]]:
+    """A straight way in parts: along edges, with their numbers, and free ones, with None, between corners."""
+    return [
+        (e, piece)
+        for e, part in _along_edges(table, way)
+        for piece in ([part] if e is not None else _between_corners(table, part, touches))
+    ]
+
+
+def _between_corners(table: EdgeTable, way: Segment, touches: Collection[Hashable]) -> list[Segment]:
+    """A free way, cut at the corners that it touches between its ends."""
+    left, bottom, right, top = box(way)
+    near = table.near((left, bottom), (right, top), 0.0)
+    near = near[~table.full[near]]
+    numbers = np.unique(np.concatenate((near, table.next[near])))
+    (x, y), (dx, dy) = way.start.xy, (d.rough() for d in way.direction)
+    offsets, length = table.start[numbers] - (x, y), math.hypot(dx, dy)
+    sides = np.abs(offsets[:, 0] * dy - offsets[:, 1] * dx)
+    stops: list[tuple[Real, Point]] = []
+    for number in numbers[sides <= 64 * table.roundoff_at((left, bottom), (right, top)) * length].tolist():
+        corner = table.curves[number].start
+        offset = corner - way.start
+        height = way.direction.cross(offset)
+        if ("corner", number) in touches or (height.ball(BITS).contains(0) and height.sign() == 0):
+            place = offset.dot(way.direction)
+            if place.sign() > 0 > place.compare(way.direction.norm_sq()):
+                stops.append((place, corner))
+    stops.sort(key=lambda stop: stop[0])
+    return (
+        [Segment(a, b) for a, b in pairwise([way.start, *(p for _, p in stops), way.end])] if stops else [way]
+    )
+
+
+def _along_edges(table: EdgeTable, way: Segment) -> list[tuple[int | None, Segment]]:
+    """A straight way in parts: along edges, with their numbers, and other ones with None between."""
+    left, bottom, right, top = box(way)
+    dx, dy = (d.rough() for d in way.direction)
+    near = [e for e in table.near((left, bottom), (right, top), 0.0).tolist() if not table.kind[e]]
+    edges, length = table.end[near] - table.start[near], math.hypot(dx, dy)
+    sizes, slack = np.hypot(*edges.T), 16 * table.roundoff_at((left, bottom), (right, top))
+    slopes = np.abs(edges[:, 0] * dy - edges[:, 1] * dx)
+    parallel = slopes <= (1e-9 * sizes + slack) * (length + slack)
+    found = [
+        (e, contact)
+        for e, is_parallel in zip(near, parallel, strict=True)
+        if is_parallel
+        for contact in contacts(way, table.curves[e])
+        if contact.kind is ContactKind.OVERLAP
+    ]
+    found.sort(key=lambda f: (f[1].start - way.start).dot(way.direction))
+    parts: list[tuple[int | None, Segment]] = []
+    at = way.start
+    for e, contact in found:
+        if at != contact.start:
+            parts.append((None, Segment(at, contact.start)))
+        parts.append((e, Segment(contact.start, contact.end)))
+        at = contact.end
+    if at != way.end or not parts:
+        parts.append((None, Segment(at, way.end) if parts else way))
+    return parts
+
+
+def _on_edge(rail: Rail, e: int, piece: Segment) -> Leg:
+    start, end = piece.start, piece.end
+    low, high = rail.parameter(start), rail.parameter(end)
+    if low.compare(high) < 0:
+        return Leg(rail, e, Interval(low, start, high, end), True)
+    return Leg(rail, e, Interval(high, end, low, start), False)
+
+
+def _through_space(piece: Segment, touches: tuple[Hashable, ...]) -> Leg:
+    """The leg of a straight piece, on a rail with rational ends if its line is seen to be rational."""
+    rail = Rail(_rational_carrier(piece) or piece)
+    low, high = rail.parameter(piece.start), rail.parameter(piece.end)
+    return Leg(rail, None, Interval(low, piece.start, high, piece.end), True, touches)
+
+
+def _edge_of(curves: Sequence[Curve], edges: Iterable[int], piece: Curve) -> int:
+    """The edge, of those of one boundary, that carries a piece of it; balls leave one or a few.
+
+    ValueError if none does.
+    """
+    near = [e for e in edges if _may_carry(curves[e], piece)]
+    found = near if len(near) == 1 else [e for e in near if _carries(curves[e], piece)]
+    if not found:
+        raise ValueError(f"no edge of the boundary carries {piece}")
+    return found[0]
+
+
+def _may_carry(edge: Curve, piece: Curve) -> bool:
+    """False only if an edge certainly does not carry a piece."""
+    if isinstance(edge, Arc) != isinstance(piece, Arc):
+        return False
+    if isinstance(edge, Arc) and isinstance(piece, Arc) and not _is_same_circle(edge, piece):
+        return False
+    return all(edge.may_pass(p, BITS) for p in (piece.start, piece.end))
+
+
+def _carries(edge: Curve, piece: Curve) -> bool:
+    """Whether an edge carries all of a piece, which is no longer than a full turn.
+
+    Two edges of one circle may share both ends of the piece: the one that carries it runs from the first
+    to the second, in its own direction, without passing its start.
+    """
+    if not (edge.passes(piece.start) and edge.passes(piece.end)):
+        return False
+    if not (isinstance(edge, Arc) and isinstance(piece, Arc)):
+        return True
+    if piece.full or edge.full:
+        return edge.full
+    ends = (piece.start, piece.end) if piece.ccw == edge.ccw else (piece.end, piece.start)
+    first, last = (Rail(edge).parameter(end) for end in ends)
+    return first.compare(last) < 0
+
+
+def _is_same_circle(a: Arc, b: Arc) -> bool:
+    return a.radius_sq == b.radius_sq and a.center.rational == b.center.rational
+
+
+def _rational_carrier(piece: Segment) -> Segment | None:
+    """A segment with rational ends on the line of a piece that contains it, or None if none is seen."""
+    (dx, dy), (x, y) = piece.direction, piece.start
+    if piece.start.rational is not None and piece.end.rational is not None:
+        return piece
+    steep = abs(float(dy)) > abs(float(dx))
+    if steep:
+        dx, dy, x, y = dy, dx, y, x
+    slope = Real(0) if dy.rational == 0 else dy.rational_ratio(dx)
+    if slope is None:
+        return None
+    height = (y - x * slope).rational
+    if height is None:
+        return None
+    ends = []
+    for point, side in ((piece.start, -1), (piece.end, 1)):
+        value = point.y if steep else point.x
+        outward = side if float(dx) > 0 else -side
+        low, high = value.enclosure(64)
+        at = (high.ceil() if outward > 0 else low.floor()) + 0
+        ends.append(Point(height + slope * at, at) if steep else Point(at, height + slope * at))
+    return Segment(ends[0], ends[1])

@@ -1,0 +1,185 @@
+"""The map: for every boundary edge the union of closed intervals that the robot has seen.
+
+Intervals are ordered by exact rail parameters and merged where they meet, which is decided exactly.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Protocol
+
+from exactacq.geometry.curve_parameter import Rail
+from exactacq.geometry.curves import Arc, Curve
+from exactacq.geometry.interval_union import EMPTY, Cover, Interval
+from exactacq.geometry.points import Point
+from exactacq.numbers.length import Length
+from exactacq.sensing.targets import Target, Targets
+
+
+@dataclass(frozen=True)
+class Known:
+    """A known part of a boundary: on edge ``edge`` of its obstacle, from start to end along the edge.
+
+    Equal ends are a single known point, or, if ``whole``, all of a full circle.
+    """
+
+    edge: int
+    start: Point
+    end: Point
+    curve: Curve | None
+    whole: bool = False
+
+    @property
+    def length(self) -> Length:
+        """Exact length, 0 for a single point."""
+        return Length(0) if self.curve is None else self.curve.length
+
+
+class Body(Protocol):
+    """What a map holds: an obstacle, or a component of one (see `exactacq.scene.terrain_components`)."""
+
+    @property
+    def edges(self) -> Sequence[Curve]: ...
+    @property
+    def perimeter(self) -> Length: ...
+    @property
+    def label(self) -> str: ...
+    @property
+    def closed(self) -> bool: ...
+
+
+class Map:
+    """What a robot knows at one moment. Immutable; exact.
+
+    An obstacle is *seen* if any point of its boundary is known, *acquired* if all of it is, *incomplete* if
+    some but not all.
+    """
+
+    def __init__(
+        self, obstacles: Sequence[Body], targets: Targets, rails: Sequence[Rail], covers: Mapping[int, Cover]
+    ) -> None:
+        self.obstacles = obstacles
+        self._targets, self._rails, self._covers = targets, rails, covers
+
+    def known(self, i: int) -> tuple[Known, ...]:
+        """The known parts of obstacle i, by edge and then along it; parts that meet in an edge are one."""
+        return tuple(part for k in range(len(self.obstacles[i].edges)) for part in self._on_edge(i, k))
+
+    def knows(self, i: int, point: Point) -> bool:
+        """Whether a point of the boundary of obstacle i is known; ValueError if it is not on it."""
+        edges = [k for k, edge in enumerate(self.obstacles[i].edges) if edge.passes(point)]
+        if not edges:
+            raise ValueError(f"{point} is not on the boundary of obstacle {i}")
+        return any(self._knows_on(self._targets.of[i][k], point) for k in edges)
+
+    def _knows_on(self, target: Target, point: Point) -> bool:
+        span, cover = target.span, self._cover(target.edge)
+        ends = [u for u, end in ((span.low, span.start), (span.high, span.end)) if point == end]
+        return any(cover.contains(u) for u in ends or [self._rails[target.edge].parameter(point)])
+
+    def known_length(self, i: int | None = None) -> Length:
+        """Exact length of what is known of obstacle i, or of all obstacles."""
+        obstacles = range(len(self.obstacles)) if i is None else (i,)
+        return Length.sum(
+            self.obstacles[j].perimeter
+            if self._is_acquired(j)
+            else Length.sum(p.length for p in self.known(j))
+            for j in obstacles
+        )
+
+    @cached_property
+    def seen(self) -> tuple[int, ...]:
+        """Obstacles with a known point."""
+        return tuple(i for i in range(len(self.obstacles)) if self._is_seen(i))
+
+    @cached_property
+    def acquired(self) -> tuple[int, ...]:
+        """Obstacles whose whole boundary is known."""
+        return tuple(i for i in self.seen if self._is_acquired(i))
+
+    @cached_property
+    def incomplete(self) -> tuple[int, ...]:
+        """Obstacles of whose boundary some but not all is known."""
+        return tuple(i for i in self.seen if i not in set(self.acquired))
+
+    @cached_property
+    def frontier(self) -> tuple[tuple[int, Point], ...]:
+        """Where known boundary ends: (obstacle, point), in the order of the boundary.
+
+        A vertex between two edges that are both known there is no end, nor is a border point where a boundary
+        ends as a whole; a single known point is one end.
+        """
+        return tuple((i, point) for i in self.incomplete for point in self._frontier(i))
+
+    def is_incomplete(self, i: int) -> bool:
+        """Whether some but not all of an obstacle's boundary is known."""
+        return self._is_seen(i) and not self._is_acquired(i)
+
+    def _frontier(self, i: int) -> Iterator[Point]:
+        targets = self._targets.of[i]
+        for k, target in enumerate(targets):
+            before, after = targets[k - 1], targets[(k + 1) % len(targets)]
+            for part in self._parts(target):
+                at_start = part.low.compare(target.span.low) == 0
+                at_end = part.high.compare(target.span.high) == 0
+                single = part.low.compare(part.high) == 0
+                open_start = not (at_start and self._goes_on(before, target, self._reaches_end(before)))
+                open_end = not (at_end and self._goes_on(target, after, self._reaches_start(after)))
+                if single:
+                    if open_start and open_end:
+                        yield part.start
+                    continue
+                if open_start:
+                    yield part.start
+                if open_end:
+                    yield part.end
+
+    @staticmethod
+    def _goes_on(target: Target, following: Target, known: bool) -> bool:
+        """Whether there is no end where two targets meet, or where a boundary ends as a whole."""
+        return known or target.span.end != following.span.start
+
+    def _reaches_end(self, target: Target) -> bool:
+        top = target.span.high
+        return any(p.high.compare(top) == 0 and p.low.compare(top) < 0 for p in self._parts(target))
+
+    def _reaches_start(self, target: Target) -> bool:
+        low = target.span.low
+        return any(p.low.compare(low) == 0 and p.high.compare(low) > 0 for p in self._parts(target))
+
+    def _parts(self, target: Target) -> list[Interval]:
+        """The known intervals of a target; a full circle's start alone is not told beside its end."""
+        parts = [part for part in self._cover(target.edge).intervals if target.contains(part)]
+        curve = self._rails[target.edge].curve
+        if len(parts) > 1 and target.whole and isinstance(curve, Arc) and curve.full:
+            first, last = parts[0], parts[-1]
+            if first.low.sign() == 0 and last.high.compare(target.span.high) == 0:
+                if last.low.compare(last.high) == 0:
+                    parts.pop()
+                elif first.low.compare(first.high) == 0:
+                    parts.pop(0)
+        return parts
+
+    def _cover(self, e: int) -> Cover:
+        return self._covers.get(e, EMPTY)
+
+    def _is_seen(self, i: int) -> bool:
+        return any(self._parts(target) for target in self._targets.of[i])
+
+    def _is_acquired(self, i: int) -> bool:
+        return self._targets.is_whole(i, self._covers)
+
+    def _on_edge(self, i: int, k: int) -> Iterator[Known]:
+        target = self._targets.of[i][k]
+        curve = self.obstacles[i].edges[k]
+        if target.is_in(self._cover(target.edge)):
+            yield Known(k, curve.start, curve.end, curve, whole=isinstance(curve, Arc) and curve.full)
+            return
+        for part in self._parts(target):
+            if part.low.compare(part.high) == 0:
+                # The two ends may be one point in two forms.
+                yield Known(k, part.start, part.start, None)
+            else:
+                yield Known(k, part.start, part.end, curve.part(part.start, part.end))

@@ -1,0 +1,294 @@
+"""Sensing while moving: what each piece of a path teaches, and when obstacles come into sight or leave it.
+
+Nothing is sampled and nothing stepped. A piece of the path is a *leg* on the rail that carries it; what it
+shows is the union of the glances that start on it and of the views from its two ends (see `view_families`).
+Only obstacles that are not acquired yet are looked at.
+"""
+
+from __future__ import annotations
+
+from collections import ChainMap
+from collections.abc import Iterator, Set
+from dataclasses import dataclass
+from enum import Enum
+from functools import cmp_to_key
+
+from flint import fmpq
+
+from exactacq.geometry.curves import Arc
+from exactacq.geometry.intersections import contacts
+from exactacq.geometry.interval_union import EMPTY, Cover, Interval
+from exactacq.geometry.points import Point
+from exactacq.numbers.between import rational_between
+from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.sensing.end_names import Seen
+from exactacq.sensing.leg_views import Covers, Shares, add
+from exactacq.sensing.legs import Leg
+from exactacq.sensing.targets import Targets
+from exactacq.sensing.visibility_complex import Sightlines
+
+VIEWS_KEPT = 64
+"""Views from ends of legs that are remembered: enough for a walk along one boundary and back."""
+
+
+class Kind(Enum):
+    """What sensing reports; several reports from one place come in this order."""
+
+    SIGHT = "sight"
+    """The first point of an obstacle is known."""
+    REGAIN = "regain"
+    """An obstacle that is not acquired comes back into sight."""
+    ACQUIRE = "acquire"
+    """The whole boundary of an obstacle is known."""
+    LOSE = "lose"
+    """An obstacle that is not acquired goes out of sight."""
+
+
+ORDER = {kind: k for k, kind in enumerate(Kind)}
+
+
+@dataclass(frozen=True, slots=True)
+class Notice:
+    """A report from a place of a leg (``u`` on its rail); ``note`` says why an obstacle was lost."""
+
+    kind: Kind
+    obstacle: int
+    u: Real
+    place: Point
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Ahead:
+    """What a leg will tell: its reports in order, the covers that will grow, and those ``before`` it."""
+
+    leg: Leg
+    notices: list[Notice]
+    learned: dict[int, Cover]
+    shares: Shares | None
+    before: dict[int, Cover]
+
+    def covers(self, u: Real, place: Point, obstacles: Set[int]) -> dict[int, Cover]:
+        """What will be known of some obstacles at a place of the leg; of others, what was before."""
+        covers = dict(self.before)
+        if self.shares is not None and self.leg.order(u, self.leg.first) > 0:
+            some = obstacles & set(self.shares.obstacles)
+            covers.update(self.shares.cut(self.leg.upto(u, place), some).taught(covers))
+        return covers
+
+
+class Senses:
+    """The sensor of a robot in one scene: what is known so far, and what is in sight.
+
+    *radius* is positive and rational. Obstacles are *targets*: by default all, with their whole boundaries.
+    """
+
+    def __init__(self, table: EdgeTable, radius: fmpq, targets: Targets | None = None) -> None:
+        self.table, self.radius, self.square = table, radius, radius * radius
+        self.sightlines = Sightlines(table, radius)
+        self.rails = self.sightlines.ranges.rails
+        self.targets = Targets.whole(table, self.rails) if targets is None else targets
+        self.covers: dict[int, Cover] = {}
+        self.seen: set[int] = set()
+        self.acquired: set[int] = set()
+        self.in_sight: set[int] = set()
+        self._views: dict[int, Seen] = {}
+        self._last: Shares | None = None
+
+    # -- moving ------------------------------------------------------------------------------------
+
+    def visible(self, place: Point, k: int) -> list[tuple[int, Interval]]:
+        """What is seen of an obstacle from a place: edges and intervals."""
+        ends = [(end.edge, end.pin) for end in self.targets.lookouts.get(k, ()) if end.sees(place)]
+        return [*self.targets.within(k, self._view(place).spans), *ends]
+
+    def look_around(self, place: Point) -> tuple[list[Notice], dict[int, Cover]]:
+        """Take in the view from the start of the path; as `follow`."""
+        view = self._view(place)
+        near = sorted({*self.targets.near(view.spans), *self.targets.lookouts})
+        seen = [k for k in near if self.visible(place, k)]
+        learned = self._with_view(view, seen)
+        notices = []
+        for k in seen:
+            notices.append(Notice(Kind.SIGHT, k, Real(0), place))
+            if self.targets.is_whole(k, ChainMap(learned, self.covers)):
+                notices.append(Notice(Kind.ACQUIRE, k, Real(0), place))
+        return self._settle(notices, learned)
+
+    def follow(self, ahead: Ahead) -> tuple[list[Notice], dict[int, Cover]]:
+        """Move along the leg that was looked along last; returns its reports and the covers that grew."""
+        return self._settle(ahead.notices, ahead.learned)
+
+    def ahead(self, leg: Leg, retraced: bool = False) -> Ahead:
+        """What moving along a leg will tell; nothing is learned where the robot has been (*retraced*)."""
+        obstacles = self._near(leg) - self.acquired
+        shares = self._shares(leg, obstacles) if obstacles else None
+        told = ([], {}) if shares is None else self._told(shares, retraced)
+        return Ahead(leg, *told, shares, dict(self.covers))
+
+    def _told(self, shares: Shares, retraced: bool) -> tuple[list[Notice], dict[int, Cover]]:
+        leg = shares.leg
+        learned = {} if retraced else shares.taught(self.covers)
+        now = ChainMap(learned, self.covers)
+        notices: list[Notice] = []
+        for k in sorted(shares.obstacles):
+            whole = self._acquired(shares, k) if self.targets.is_whole(k, now) else None
+            for notice in self._changes(shares, k):
+                if whole is None or leg.order(notice.u, whole.u) < (1 if notice.kind is Kind.SIGHT else 0):
+                    notices.append(notice)
+            if whole is not None:
+                notices.append(whole)
+        notices.sort(key=cmp_to_key(lambda a, b: leg.order(a.u, b.u) or ORDER[a.kind] - ORDER[b.kind]))
+        return notices, learned
+
+    def known_after(self, leg: Leg, covers: Covers) -> dict[int, Cover]:
+        """The covers that grow along a leg, if *covers* are known before it."""
+        return self._whole(leg).taught(covers)
+
+    def known_within(self, leg: Leg, part: Leg, covers: Covers) -> dict[int, Cover]:
+        """The same along the first part of a leg. It is cut from what the leg shows.
+
+        To find that again from the end of the part, which is often an involved point, is harder.
+        """
+        return self._whole(leg).cut(part).taught(covers)
+
+    def _whole(self, leg: Leg) -> Shares:
+        """All that a leg shows; that of the last leg is kept."""
+        if self._last is None or self._last.leg is not leg:
+            self._last = self.shares(leg)
+        return self._last
+
+    def shares(self, leg: Leg) -> Shares:
+        """All that a leg shows, also of acquired obstacles."""
+        return self._shares(leg, self._near(leg))
+
+    def _shares(self, leg: Leg, obstacles: set[int]) -> Shares:
+        return Shares(self.sightlines, self.targets, leg, obstacles, self._view)
+
+    def _settle(
+        self, notices: list[Notice], learned: dict[int, Cover]
+    ) -> tuple[list[Notice], dict[int, Cover]]:
+        self.covers.update(learned)
+        for notice in notices:
+            if notice.kind is Kind.ACQUIRE:
+                self.acquired.add(notice.obstacle)
+                self.in_sight.discard(notice.obstacle)
+            elif notice.kind is Kind.LOSE:
+                self.in_sight.discard(notice.obstacle)
+            else:
+                self.seen.add(notice.obstacle)
+                self.in_sight.add(notice.obstacle)
+        return notices, learned
+
+    def _near(self, leg: Leg) -> set[int]:
+        """The obstacles with an edge whose box is within reach of the leg's."""
+        x, y, right, top = leg.box
+        edges = self.table.near((x, y), (right, top), self.sightlines.reach)
+        return self.targets.near(edges.tolist())
+
+    def _view(self, place: Point, own: tuple[int, ...] | None = None) -> Seen:
+        """What is seen from a place on edges *own*, if known; the last are kept, for legs share ends."""
+        kept = self._views.get(id(place))
+        if kept is None:
+            if len(self._views) >= VIEWS_KEPT:
+                self._views.clear()
+            kept = self._views[id(place)] = Seen(self.table, self.rails, place, self.radius, own)
+        return kept
+
+    def _with_view(self, view: Seen, obstacles: list[int]) -> dict[int, Cover]:
+        """The covers that grow by what a view shows of some obstacles."""
+        learned: dict[int, Cover] = {}
+        for k in obstacles:
+            for e, interval in self.visible(view.place, k):
+                add(learned, self.covers, e, interval)
+        return learned
+
+    # -- reports -----------------------------------------------------------------------------------
+
+    def _changes(self, shares: Shares, k: int) -> Iterator[Notice]:
+        """When an obstacle comes into sight and goes out of it; it is in sight over closed intervals."""
+        leg, times = shares.leg, shares.times(k)
+        in_sight, known = k in self.in_sight, k in self.seen
+        for interval in times.intervals if leg.ahead else reversed(times.intervals):
+            begin, end = (interval.low, interval.start), (interval.high, interval.end)
+            if not leg.ahead:
+                begin, end = end, begin
+            if not in_sight:
+                yield Notice(Kind.REGAIN if known else Kind.SIGHT, k, *begin)
+                known = True
+            in_sight = leg.order(end[0], leg.last) == 0
+            if not in_sight:
+                # Out of range, if all last views were as long as the range; else occluded.
+                yield Notice(Kind.LOSE, k, *end, "occlusion" if shares.is_short(k, end[0]) else "range")
+
+    def _acquired(self, shares: Shares, k: int) -> Notice:
+        """When an obstacle that is wholly known after a leg became so.
+
+        What is known grows with closed sets, so the moment is one of finitely many candidates; between two of
+        them a place with a rational parameter tells. The gaps at the start of the leg give a first guess;
+        their ends may have moved meanwhile, so the gaps just before it are looked at again.
+        """
+        leg = shares.leg
+        before = ChainMap(self._with_view(self._view(leg.start, leg.own(leg.first)), [k]), self.covers)
+        if self.targets.is_whole(k, before):
+            return Notice(Kind.ACQUIRE, k, leg.first, leg.start)
+        _, around = self._closing(shares, leg, k, before, before)
+        late = self._until(shares, leg.upto(around.first, around.start), k, before)
+        moment, _ = self._closing(shares, around, k, late, before)
+        return Notice(Kind.ACQUIRE, k, *moment)
+
+    def _closing(
+        self, shares: Shares, around: Leg, k: int, known: Covers, before: ChainMap[int, Cover]
+    ) -> tuple[tuple[Real, Point], Leg]:
+        """The first candidate on a part of a leg after which an obstacle is whole, and the way around it.
+
+        *known* is what is known at the start of the part, *before* at the start of the leg.
+        """
+        leg, moments = shares.leg, self._moments(shares, around, k, known)
+        low, high = 0, len(moments) - 1
+        begin, end = (around.first, around.start), (around.last, around.end)
+        while low < high:
+            middle = (low + high) // 2
+            one, other = moments[middle][0], moments[middle + 1][0]
+            u = rational_between(*((one, other) if leg.ahead else (other, one)))
+            place = leg.rail.point(u)
+            if self.targets.is_whole(k, self._until(shares, leg.upto(Real(u), place), k, before)):
+                high, end = middle, (Real(u), place)
+            else:
+                low, begin = middle + 1, (Real(u), place)
+        return moments[low], leg.between(begin, end)
+
+    def _until(self, shares: Shares, leg: Leg, k: int, before: ChainMap[int, Cover]) -> ChainMap[int, Cover]:
+        return ChainMap(shares.cut(leg, {k}).taught(before), *before.maps)
+
+    def _moments(self, shares: Shares, leg: Leg, k: int, known: Covers) -> list[tuple[Real, Point]]:
+        """The places of a part of a leg, in its order, at one of which the last gap closes.
+
+        There a glance begins or ends, or what it shows reaches the end of a gap, or the end of a gap comes
+        into range, or the leg itself reaches it.
+        """
+        found: list[tuple[Real, Point]] = [(leg.first, leg.start), (leg.last, leg.end)]
+        for share in shares.of[k]:
+            for end in (share.glance.first, share.glance.last):
+                found.append((end.places[share.side], end.points[share.side]))
+        for _, part in shares.ends.get(k, ()):
+            found += [(part.low, part.start), (part.high, part.end)]
+        for e, span, _ in self.targets.of[k]:
+            for gap in known.get(e, EMPTY).gaps(span):
+                for u, point in ((gap.low, gap.start), (gap.high, gap.end)):
+                    found += shares.reaching(k, e, u, point)
+                    found += self._in_range(leg, point)
+                    if e == leg.edge:
+                        found.append((u, point))
+        inside: list[tuple[Real, Point]] = [
+            m for m in found if leg.order(m[0], leg.first) >= 0 and leg.order(m[0], leg.last) <= 0
+        ]
+        inside.sort(key=lambda moment: moment[0], reverse=not leg.ahead)
+        return [m for k, m in enumerate(inside) if k == 0 or leg.order(m[0], inside[k - 1][0]) > 0]
+
+    def _in_range(self, leg: Leg, point: Point) -> Iterator[tuple[Real, Point]]:
+        """The places of a leg that are as far from a point as the range."""
+        east = Point(point.x + self.radius, point.y)
+        for contact in contacts(leg.curve, Arc(east, east, point, self.square, ccw=True, full=True)):
+            yield leg.rail.parameter(contact.start), contact.start

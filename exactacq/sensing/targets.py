@@ -1,0 +1,101 @@
+"""What there is to learn: obstacles by number, each the edges, or the parts of edges, that count for it.
+
+Most often an obstacle counts with its whole boundary. Where a terrain's border cuts obstacles, only what the
+robot can walk along counts, and one edge may belong to several.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+from flint import fmpq
+
+from exactacq.geometry.curve_parameter import Rail
+from exactacq.geometry.interval_union import EMPTY, Cover, Interval
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.scene.terrain_components import Component
+from exactacq.sensing.cut_ends import Lookout
+
+
+class Target(NamedTuple):
+    """A part of an edge that counts for an obstacle; ``whole`` if it is all of the edge."""
+
+    edge: int
+    span: Interval
+    whole: bool
+
+    def clip(self, interval: Interval) -> Interval | None:
+        """What of an interval of the edge lies in the part; ends are copied."""
+        return interval if self.whole else interval.within(self.span)
+
+    def contains(self, interval: Interval) -> bool:
+        """Whether the part contains an interval of the edge."""
+        return self.whole or (self.span.low <= interval.low and self.span.high >= interval.high)
+
+    def is_in(self, cover: Cover) -> bool:
+        """Whether a cover of the edge contains all of the part."""
+        return cover.covers(self.span.low, self.span.high)
+
+
+class Targets:
+    """The targets of every obstacle, in the order of its boundary.
+
+    ``lookouts`` are the ends of those that do not count with their whole boundary, by obstacle.
+    """
+
+    def __init__(
+        self, of: Sequence[tuple[Target, ...]], lookouts: Mapping[int, Sequence[Lookout]] | None = None
+    ) -> None:
+        self.of, self.lookouts = tuple(of), lookouts or {}
+        self.edges = [frozenset(target.edge for target in targets) for targets in self.of]
+        self._on: dict[int, list[tuple[int, Target]]] = {}
+        for k, targets in enumerate(self.of):
+            for target in targets:
+                self._on.setdefault(target.edge, []).append((k, target))
+
+    @classmethod
+    def whole(cls, table: EdgeTable, rails: Sequence[Rail]) -> Targets:
+        """All obstacles of a scene with their whole boundaries."""
+        return cls(
+            [
+                tuple(Target(e, Interval.whole(rails[e]), True) for e in table.edges_of(k))
+                for k in range(len(table.obstacles))
+            ]
+        )
+
+    @classmethod
+    def of_components(cls, components: Iterable[Component], table: EdgeTable, radius: fmpq) -> Targets:
+        """The shores of what a terrain leaves of obstacles, with lookouts where a border cuts them."""
+        of, lookouts = [], {}
+        for component in components:
+            first = int(table.first[component.obstacle.index])
+            targets = tuple(Target(first + p.edge, p.span, p.is_whole) for p in component.shore)
+            if not component.closed:
+                begin, end = targets[0], targets[-1]
+                lookouts[component.index] = (
+                    Lookout(table, radius, begin.edge, begin.span.low, begin.span.start),
+                    Lookout(table, radius, end.edge, end.span.high, end.span.end),
+                )
+            of.append(targets)
+        return cls(of, lookouts)
+
+    def on(self, edge: int) -> Sequence[tuple[int, Target]]:
+        """The obstacles that an edge counts for."""
+        return self._on.get(edge, ())
+
+    def near(self, edges: Iterable[int]) -> set[int]:
+        """The obstacles that some of the edges count for."""
+        return {k for e in edges for k, _ in self.on(e)}
+
+    def within(self, k: int, spans: Mapping[int, Iterable[Interval]]) -> Iterator[tuple[int, Interval]]:
+        """What intervals of edges, by their numbers, contain of an obstacle."""
+        for target in self.of[k]:
+            for interval in spans.get(target.edge, ()):
+                part = target.clip(interval)
+                if part is not None:
+                    yield target.edge, part
+
+    def is_whole(self, k: int, covers: Mapping[int, Cover]) -> bool:
+        """Whether covers of the edges contain all of an obstacle."""
+        return all(target.is_in(covers.get(target.edge, EMPTY)) for target in self.of[k])

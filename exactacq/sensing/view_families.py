@@ -1,0 +1,547 @@
+"""Glances: one-parameter families of free segments between two boundary edges, none longer than the range.
+
+A point of edge f that is seen from edge e has a *shortest* view from it, which cannot be shortened by moving
+its end on e: it is held by a feature that it touches, it is normal to e, or it starts at an end of e. So
+a feature's tangent lines, an edge's normals and a vertex's rays, families with one parameter each, tell all
+that edge e teaches about edge f; read the other way, they tell from which part of e anything of f is in
+sight. A `Strand` is such a family as a cell of a pencil gives it; `Ranges.glances` cuts it to the range.
+"""
+
+from __future__ import annotations
+
+from collections import ChainMap
+from collections.abc import Collection, Hashable, Iterator, Mapping, MutableMapping
+from dataclasses import dataclass
+from enum import IntEnum
+from functools import cmp_to_key, partial
+from itertools import pairwise
+from math import hypot
+from typing import Any, TypeAlias, TypeGuard
+
+from flint import fmpq
+
+from exactacq.errors import Undecided
+from exactacq.geometry.coordinates import dot, raw
+from exactacq.geometry.curve_parameter import Rail
+from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.intersections import contacts, line_contacts
+from exactacq.geometry.interval_union import Interval
+from exactacq.geometry.points import Point, distance_sq
+from exactacq.numbers.between import rational_between
+from exactacq.numbers.real import Real
+from exactacq.sensing.view_length import of_length_on
+from exactacq.visibility.chords import meet, of_length
+from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes
+from exactacq.visibility.line_names import Anchor, Names
+from exactacq.visibility.rotational_sweep import Passed
+
+SURE = 1e-9
+"""Relative margin beyond which floats decide on the range; round-off is far below."""
+BITS = 128
+"""Precision of the balls that tell a short way from a long proof."""
+
+
+Pin: TypeAlias = "tuple[Point, Real]"
+"""A point of an edge with its parameter."""
+
+
+class Role(IntEnum):
+    """Where on a line one end of a view lies."""
+
+    BEHIND = -1
+    CONTACT = 0
+    AHEAD = 1
+
+
+@dataclass(slots=True)
+class Side:
+    """One end of a family of views: the edge it runs on and its role on the lines.
+
+    A ``fixed`` end stays at the contact: a corner, the start of its edge.
+    """
+
+    edge: int
+    role: Role
+    fixed: bool = False
+
+
+@dataclass(slots=True)
+class End:
+    """One view of a family: line parameter, the two end points with their rail parameters.
+
+    ``tight`` if it is known to be as long as the range, because the views on one side of it are longer.
+    """
+
+    t: Real
+    points: tuple[Point, Point]
+    places: tuple[Real, Real]
+    tight: bool = False
+
+    def is_short(self, square: fmpq) -> bool:
+        """Whether the view is shorter than the range, whose square is given."""
+        return not self.tight and distance_sq(*self.points).compare(square) < 0
+
+
+@dataclass(slots=True)
+class Strand:
+    """The views between two sides along the lines of a sector from ``low`` to ``high``.
+
+    ``names`` are what else the first and the last line are called (see `line_names`); ``pinned`` are their
+    points on the first side, where these are known; ``passed`` tells what they pass. ``anchor`` names the
+    feature that tangents touch; the views along normals, without, bound nothing of what is seen.
+    """
+
+    sector: Sector
+    low: Real
+    high: Real
+    sides: tuple[Side, Side]
+    names: tuple[Names, Names] = ((), ())
+    pinned: tuple[Pin | None, Pin | None] = (None, None)
+    passed: tuple[Passed, Passed] = ((), ())
+    anchor: Anchor | None = None
+
+
+@dataclass(slots=True)
+class Glance:
+    """A family of free views within range, from one extreme view to the other; both ends move monotonically.
+
+    Without a strand the family has one fixed end, and all views lie on one line.
+    """
+
+    edges: tuple[int, int]
+    first: End
+    last: End
+    strand: Strand | None = None
+
+
+class Ranges:
+    """Cuts strands to a range and finds their views; holds the rails of the scene's edges by number."""
+
+    def __init__(self, rails: list[Rail], radius: fmpq, roundoff: float, circles: Mapping[int, int]) -> None:
+        self.rails, self.radius, self.roundoff, self.circles = rails, radius, roundoff, circles
+        self.square, self.limit = radius * radius, float(radius)
+        self._pins: MutableMapping[tuple[Hashable, int, int], Pin] = {}
+        self._touched: set[Hashable] = set()
+
+    def with_way(self, way: Rail, touches: Collection[Any] = ()) -> Ranges:
+        """These and one more curve, a way through free space that touches what is named (`line_names`)."""
+        extent = max(abs(v) for p in (way.curve.start, way.curve.end) for v in p.xy)
+        ranges = Ranges([*self.rails, way], self.radius, max(self.roundoff, 2.0**-50 * extent), self.circles)
+        ranges._pins = ChainMap({}, self._pins)
+        arcs = [self.curve(name[1]) for name in touches if name[0] == "circle"]
+        ranges._touched = {(*raw(arc.center), arc.radius_sq) for arc in arcs if isinstance(arc, Arc)}
+        return ranges
+
+    def curve(self, e: int) -> Curve:
+        """The curve of a number."""
+        return self.rails[e].curve
+
+    def glances(self, strand: Strand) -> list[Glance]:
+        """The parts of a strand that lie within range, as closed families; single views count."""
+        found = list(self._within(strand))
+        for k, side in enumerate(strand.sides):
+            if getattr(self.curve(side.edge), "full", False):
+                found = [part for glance in found for part in self._unrolled(glance, k)]
+        return found
+
+    def _unrolled(self, glance: Glance, k: int) -> Iterator[Glance]:
+        """On a full circle: cut where a side passes the circle's start, whose parameter is 0 or 4."""
+        first, last, strand = glance.first, glance.last, glance.strand
+        if strand is None or first is last:
+            yield glance
+            return
+        a, b = first.places[k], last.places[k]
+        middle = self.end(strand, Real(rational_between(first.t, last.t))).places[k]
+        if a.sign() == 0 and middle.compare(b) > 0:
+            a = Real(4)
+        if b.sign() == 0 and middle.compare(a) > 0:
+            b = Real(4)
+        first, last = _placed(first, k, a), _placed(last, k, b)
+        if min(a, b) <= middle <= max(a, b):
+            yield Glance(glance.edges, first, last, strand)
+            return
+        seam = self.view_from(glance, k, self.curve(glance.edges[k]).start)
+        before, after = (Real(4), Real(0)) if a > b else (Real(0), Real(4))
+        yield Glance(glance.edges, first, _placed(seam, k, before), strand)
+        yield Glance(glance.edges, _placed(seam, k, after), last, strand)
+
+    def _within(self, strand: Strand) -> Iterator[Glance]:
+        low, high = self.end(strand, strand.low), self.end(strand, strand.high)
+        certain = self._certain(strand, low, high)
+        edges = strand.sides[0].edge, strand.sides[1].edge
+        if certain is not None:
+            if certain:
+                yield Glance(edges, low, high, strand)
+            return
+        ends = [low, *self._at_range(strand, low, high), high]
+        inside = [self._is_inside(strand, rational_between(a.t, b.t)) for a, b in pairwise(ends)]
+        begin: End | None = None
+        for k, end in enumerate(ends):
+            before, after = k > 0 and inside[k - 1], k < len(inside) and inside[k]
+            if after and begin is None:
+                begin = _tight(end) if k > 0 else end
+            elif before and not after:
+                assert begin is not None
+                yield Glance(edges, begin, _tight(end) if k < len(inside) else end, strand)
+                begin = None
+            elif not before and not after and distance_sq(*end.points).compare(self.square) <= 0:
+                yield Glance(edges, end, end, strand)
+
+    def along(
+        self, place: Point, near: Rail, run: tuple[Point, Point], shown: int
+    ) -> Iterator[tuple[End, End]]:
+        """The views along one line from a place to a run on an edge, as far as it is within range."""
+        first, last = run
+        if distance_sq(place, first).compare(self.square) > 0:
+            return
+        if distance_sq(place, last).compare(self.square) > 0:
+            along = last - place
+            last = place + along * (self.radius / along.norm_sq().sqrt())
+        here, far = near.parameter(place), self.rails[shown]
+        one, other = (End(Real(0), (place, p), (here, far.parameter(p))) for p in (first, last))
+        yield one, other
+
+    def end(self, strand: Strand, t: Real) -> End:
+        """The view of a strand at a parameter."""
+        names: Names = ()
+        pin: Pin | None = None
+        passed: Passed = ()
+        for k, bound in enumerate((strand.low, strand.high)):
+            if t is bound:
+                names, pin, passed = strand.names[k], strand.pinned[k], strand.passed[k]
+        pins = [
+            pin if pin is not None and k == 0 else self._pin(strand.sector, t, side, names, passed)
+            for k, side in enumerate(strand.sides)
+        ]
+        return End(t, (pins[0][0], pins[1][0]), (pins[0][1], pins[1][1]))
+
+    def _pin(self, sector: Sector, t: Real, side: Side, names: Names, passed: Passed) -> Pin:
+        """Where a line meets an edge: the same point as on the same line under another name."""
+        role = side.role
+        keys = [
+            (name, side.edge, 0 if self._touches(name, side.edge) else role * sense) for name, sense in names
+        ]
+        for key in keys:
+            if key in self._pins:
+                return self._pins[key]
+        contact, direction = sector.touch(t)
+        point = self._passed(side, contact, direction, passed)
+        if point is None:
+            point = self._point(sector, side, contact, direction)
+        pin = point, self.rails[side.edge].parameter(point)
+        self._pins.update((key, pin) for key in keys)
+        return pin
+
+    def _touches(self, name: Any, edge: int) -> bool:
+        """Whether a named line touches an edge's circle: then it meets the edge at the contact."""
+        circle = self.circles.get(edge)
+        if circle is None:
+            return False
+        kind, *features = name
+        return (kind == "circles" and circle in features[:2]) or (
+            kind == "corner, circle" and circle == features[1]
+        )
+
+    def _passed(self, side: Side, contact: Point, direction: Point, passed: Passed) -> Point | None:
+        """Where a line meets an edge, if that is an event of the line: no root is to be proved 0 or equal."""
+        if side.role is Role.CONTACT:
+            return None
+        curve = self.curve(side.edge)
+        for number, touching, _ in passed:
+            if touching and number == side.edge and isinstance(curve, Arc):
+                foot: Real = (curve.center - contact).dot(direction) / direction.norm_sq()
+                return contact + direction * foot
+            vertex = self.curve(number).start
+            for end in (curve.start, curve.end):
+                if (
+                    not touching
+                    and end.rational == vertex.rational
+                    and _is_met(direction, curve, end, side.role)
+                ):
+                    return end
+        return None
+
+    def clipped(self, glance: Glance, side: int, span: Interval) -> Glance | None:
+        """The part of a glance whose one side lies in an interval of that side's rail."""
+        a, b = glance.first.places[side], glance.last.places[side]
+        if span.low.rational == 0 and span.high is self.rails[glance.edges[side]].top:
+            return glance
+        low, high = (a, b) if a.compare(b) <= 0 else (b, a)
+        if low.compare(span.high) > 0 or high.compare(span.low) < 0:
+            return None
+        first = self._moved(glance, glance.first, glance.last, side, span)
+        last = self._moved(glance, glance.last, glance.first, side, span)
+        if glance.strand is not None and first.t.compare(last.t) > 0:
+            first, last = last, first
+        return Glance(glance.edges, first, last, glance.strand)
+
+    def _moved(self, glance: Glance, end: End, other: End, side: int, span: Interval) -> End:
+        """An extreme view, moved to the end of an interval if it lies outside; *other* is the other one."""
+        place = end.places[side]
+        try:
+            at_low, at_high = place.compare(span.low), place.compare(span.high)
+        except Undecided:
+            for bound, point in ((span.low, span.start), (span.high, span.end)):
+                if self.is_again(glance, end, side, point, bound):
+                    return _shared(end, side, point, bound)
+            raise
+        if at_low == 0:
+            return _shared(end, side, span.start, span.low)
+        if at_high == 0:
+            return _shared(end, side, span.end, span.high)
+        if at_low > 0 > at_high:
+            return end
+        place, point = (span.low, span.start) if at_low < 0 else (span.high, span.end)
+        if place.compare(other.places[side]) == 0:
+            return other
+        if glance.strand is None:
+            points = (point, end.points[1]) if side == 0 else (end.points[0], point)
+            return _placed(End(end.t, points, end.places), side, place)
+        return _placed(self.view_from(glance, side, point), side, place)
+
+    def is_again(self, glance: Glance, end: End, side: int, point: Point, u: Real) -> bool:
+        """Whether an extreme view certainly ends at another point of its side, whose parameter is *u*.
+
+        Where that point is the simpler one, it is easier to prove that its line of the glance has the same
+        other end than that the two points are one: asked where the latter was Undecided.
+        """
+        place, strand = end.places[side], glance.strand
+        if strand is None or place is u or not place.overlaps(u):
+            return False
+        sector, sides = strand.sector, strand.sides
+        if sides[side].role is not Role.CONTACT:
+            lines = sector.through(point)
+        elif isinstance(sector, Rolling):
+            lines = [sector.touching(point)]
+        else:
+            return False
+        here, far = end.points[1 - side], self.curve(sides[1 - side].edge)
+        try:
+            for contact, direction in (sector.touch(t) for t in lines if t.overlaps(end.t)):
+                if isinstance(far, Segment) and direction.cross(far.direction).sign() == 0:
+                    continue
+                if self._point(sector, sides[1 - side], contact, direction) == here:
+                    return True
+        except Undecided:
+            pass
+        return False
+
+    def view_from(self, glance: Glance, side: int, point: Point) -> End:
+        """The view of a glance from a point of one of its sides, strictly between its extreme views."""
+        strand = glance.strand
+        assert strand is not None
+        role = strand.sides[side].role
+        sector = strand.sector
+        if role == 0 and isinstance(sector, Rolling):
+            lines = [sector.touching(point)]
+        else:
+            lines = sector.through(point)
+        for t in lines:
+            if t.compare(glance.first.t) < 0 or t.compare(glance.last.t) > 0:
+                continue
+            contact, direction = strand.sector.touch(t)
+            # 0: the two sides meet there, as where a way touches a circle.
+            if role == 0 or (point - contact).dot(direction).sign() in (0, role):
+                near, far = (self.curve(strand.sides[k].edge) for k in (side, 1 - side))
+                other = _along_normal(sector, strand.sides[1 - side].role, near, far, point, direction)
+                if other is None:
+                    other = self._point(sector, strand.sides[1 - side], contact, direction)
+                points = (point, other) if side == 0 else (other, point)
+                places = [self.rails[s.edge].parameter(p) for s, p in zip(strand.sides, points, strict=True)]
+                return End(t, points, (places[0], places[1]))
+        # Each point of the plane, but for one that all lines may share, lies on one line of a family on that
+        # side of the contact: on one half tangent of a circle, one ray from a corner, one normal. So where
+        # the lines meet a side moves along it without turning back, through all places between the extreme
+        # ones. Where they all meet it in the shared point, the centre of an arc to which they are normal,
+        # there is no place between: `rotational_sweep` parts such normals from the others.
+        raise AssertionError("a line of the glance passes each point between its extreme views")
+
+    def _point(self, sector: Sector, side: Side, contact: Point, direction: Point) -> Point:
+        curve = self.curve(side.edge)
+        if side.role is Role.CONTACT:
+            return curve.start if side.fixed else contact
+        center = _met_in_center(sector, curve, direction, side.role)
+        if center is not None:
+            return center
+        try:
+            if isinstance(curve, Segment) and curve.start.rational is not None:
+                # Linear in one number, and with an edge's own abscissa if that is vertical: ties show.
+                along = curve.direction
+                share = direction.cross(contact - curve.start) / direction.cross(along)
+                return curve.start + along * share
+            return contact + direction * meet(contact, direction, curve, side.role)
+        except ZeroDivisionError:
+            # A line along the edge: where the others meet the edge has a limit. Normals of an arc all pass
+            # through its centre. A tangent meets another one half way, by angle, between the two contacts.
+            return Point(*sector.center) if isinstance(sector, Spokes) else contact
+
+    def _is_inside(self, strand: Strand, t: fmpq) -> bool:
+        contact, direction = strand.sector.touch(Real(t))
+        a, b = (self._point(strand.sector, side, contact, direction) for side in strand.sides)
+        return distance_sq(a, b).compare(self.square) <= 0
+
+    def _certain(self, strand: Strand, low: End, high: End) -> bool | None:
+        """Whether floats prove that all views are within range, or that none is; None if they cannot tell.
+
+        Sides are hulls of their extreme points, widened by the sagitta of arcs.
+        """
+        hulls = [(low.points[k].xy, high.points[k].xy, self._sagitta(strand, k, low, high)) for k in (0, 1)]
+        (a, b, wide), (c, d, far) = hulls
+        slack = wide + far + 64 * self.roundoff
+        longest = max(hypot(p[0] - q[0], p[1] - q[1]) for p in (a, b) for q in (c, d))
+        if (longest + slack) * (1 + SURE) < self.limit:
+            return True
+        gap_x = max(min(a[0], b[0]) - max(c[0], d[0]), min(c[0], d[0]) - max(a[0], b[0]), 0.0)
+        gap_y = max(min(a[1], b[1]) - max(c[1], d[1]), min(c[1], d[1]) - max(a[1], b[1]), 0.0)
+        return False if hypot(gap_x, gap_y) - slack > self.limit * (1 + SURE) else None
+
+    def _sagitta(self, strand: Strand, k: int, low: End, high: End) -> float:
+        """How far a side bends away from its chord at most (no side of Turning lines passes a half turn)."""
+        side = strand.sides[k]
+        curve = self.curve(side.edge)
+        if side.fixed or isinstance(curve, Segment):
+            return 0.0
+        radius = float(curve.radius)
+        if isinstance(strand.sector, Rolling | Sliding):
+            return 2 * radius
+        (ax, ay), (bx, by) = low.points[k].xy, high.points[k].xy
+        return min(((ax - bx) ** 2 + (ay - by) ** 2) / (4 * radius) * (1 + SURE) * 2, radius)
+
+    # -- where a family meets the range --------------------------------------------------------------
+
+    def _at_range(self, strand: Strand, low: End, high: End) -> list[End]:
+        """The views strictly between the extreme ones that may be as long as the range, in order."""
+        found = [
+            t
+            for t in self._candidates(strand, low, high)
+            if t.compare(strand.low) > 0 and t.compare(strand.high) < 0
+        ]
+        found.sort(key=cmp_to_key(Real.compare))
+        distinct = [t for k, t in enumerate(found) if k == 0 or t.compare(found[k - 1]) != 0]
+        ends = (self.end(strand, t) for t in distinct)
+        return [end for end in ends if self._may_be_at_range(end)]
+
+    def _longer_at(self, low: End, high: End, t: Real) -> int:
+        """-1, 0 or 1 as the view at one of two ends is shorter than the range, as long or longer."""
+        end = low if t is low.t else high
+        return distance_sq(*end.points).compare(self.square)
+
+    def _may_be_at_range(self, end: End) -> bool:
+        return not abs((distance_sq(*end.points) - self.square).ball(128)) > 0
+
+    def _candidates(self, strand: Strand, low: End, high: End) -> Iterator[Real]:
+        sector, (one, other) = strand.sector, strand.sides
+        roles = {side.role: side.edge for side in (one, other)}
+        curves = {role: self.curve(edge) for role, edge in roles.items()}
+        if Role.CONTACT not in roles:
+            behind, ahead = curves[Role.BEHIND], curves[Role.AHEAD]
+            if _is_rational(behind) and _is_rational(ahead):
+                yield from of_length(sector, behind, ahead, self.square)
+            else:
+                circle = (*sector.center, dot(sector.base, sector.base)) if sector.round else None
+                way = self.rails[-1].curve if circle in self._touched else None
+                span = strand.low, strand.high
+                longer_at = partial(self._longer_at, low, high)
+                yield from of_length_on(sector, behind, ahead, self.square, *span, way, longer_at)
+            return
+        far = next(curve for role, curve in curves.items() if role is not Role.CONTACT)
+        if isinstance(sector, Sliding):
+            yield from self._beside(sector, far)
+            return
+        center = Point(*sector.center)
+        for point in _at_distance(center, self._square_from_center(sector), far):
+            yield from sector.through(point)
+
+    def _beside(self, sector: Sliding, far: Curve) -> list[Real]:
+        """Where the parallel of a segment at the range meets an edge."""
+        start, normal = sector.touch(Real(0))
+        offset = normal * (self.radius / normal.norm_sq().sqrt())
+        return line_contacts(start + offset, Point(*sector.base), far)
+
+    def _square_from_center(self, sector: Sector) -> Real:
+        """Squared distance from a sector's centre to the far end of a view that is as long as the range."""
+        if sector.round:
+            return Real(self.square + sector.base[0] ** 2 + sector.base[1] ** 2)
+        if isinstance(sector, Spokes):
+            radius = Real(sector.radius_sq).sqrt()
+            away: Real = radius + self.radius if sector.outward else radius - self.radius
+            return away * away
+        return Real(self.square)
+
+
+def _along_normal(
+    sector: Sector, role: Role, near: Curve, far: Curve, point: Point, direction: Point
+) -> Point | None:
+    """Where a normal of an arc that passes a point of a curve meets an arc with the same centre, if it does.
+
+    Of concentric arcs each has the normals of the other. So that both tell of the same point, it is made
+    from the given one: c + (p - c) r / |p - c|, or on the other side of the centre.
+    """
+    if not isinstance(sector, Spokes) or not _is_about(far, sector):
+        return None
+    offset = point - far.center
+    ahead = offset.dot(direction).clear_sign(BITS)
+    if not ahead:
+        return None
+    size = near.radius if _is_about(near, sector) else offset.norm_sq().sqrt()
+    side = -role if far.ccw else int(role)
+    if role is Role.CONTACT:
+        side = 1 if sector.outward else -1
+    return far.center + offset * (far.radius / size * (ahead * side))
+
+
+def _is_about(curve: Curve, sector: Sector) -> TypeGuard[Arc]:
+    """Whether a curve is an arc about the centre of a sector."""
+    return isinstance(curve, Arc) and curve.center.rational == sector.center
+
+
+def _met_in_center(sector: Sector, curve: Curve, direction: Point, role: Role) -> Point | None:
+    """The centre of an arc, if that is where a normal of the arc meets an edge: then all of them do."""
+    if not isinstance(sector, Spokes):
+        return None
+    center = Point(*sector.center)
+    if not curve.may_pass(center, BITS) or not curve.passes(center):
+        return None
+    ends = (end for end in (curve.start, curve.end) if end == center)
+    return next(ends, center) if _is_met(direction, curve, center, role) else None
+
+
+def _is_met(direction: Point, curve: Curve, end: Point, role: Role) -> bool:
+    """Whether balls tell that a line through a point of an edge, perhaps an end, enters its obstacle."""
+    if isinstance(curve, Segment):
+        return direction.cross(curve.direction).clear_sign(BITS) != 0
+    far = -role if curve.ccw else role
+    return (end - curve.center).dot(direction).clear_sign(BITS) == far
+
+
+def _shared(end: End, k: int, point: Point, place: Real) -> End:
+    """The same view, with another name for its point on side k."""
+    points = (point, end.points[1]) if k == 0 else (end.points[0], point)
+    return _placed(End(end.t, points, end.places, end.tight), k, place)
+
+
+def _tight(end: End) -> End:
+    """The same view, known to be as long as the range."""
+    return End(end.t, end.points, end.places, tight=True)
+
+
+def _placed(end: End, k: int, place: Real) -> End:
+    """The same view with another parameter on side k."""
+    places = (place, end.places[1]) if k == 0 else (end.places[0], place)
+    return End(end.t, end.points, places, end.tight)
+
+
+def _is_rational(curve: Curve) -> bool:
+    """Whether a curve is fit for `of_length`: arcs, and segments with rational ends."""
+    return isinstance(curve, Arc) or (curve.start.rational is not None and curve.end.rational is not None)
+
+
+def _at_distance(center: Point, square: Real, curve: Curve) -> Iterator[Point]:
+    """The points of a curve at a squared distance from a point; none where that is all or nothing of it."""
+    if square.sign() == 0:
+        return
+    east = Point(center.x + square.sqrt(), center.y)
+    circle = Arc(east, east, center, square, ccw=True, full=True)
+    for contact in contacts(curve, circle):
+        if contact.start is contact.end:
+            yield contact.start

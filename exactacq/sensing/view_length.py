@@ -1,0 +1,215 @@
+"""Where a view is as long as the range if a side of it runs along an irrational line, a way of the robot.
+
+With contact c(t) and direction d(t) of a sector's lines, a side lies at c + s d, with s = (A + sqrt(D)) / B
+for polynomials in t (D = 0 on straight sides), and f(t) = |d|^2 (s_ahead - s_behind)^2 - R^2 is 0 where the
+view is as long as the range R. `exactacq.numbers.function_zeros` finds where.
+
+Bounds. The product N of the numerators of f over the signs of both roots is a polynomial in t. It is not 0:
+towards the t where a line is parallel to a straight side s has a pole, and on a circle it has none there. The
+numerators of A, B, D and |d|^2 have degrees of at most 4 in t and 4 in each number that defines the
+function, and at most 2^9 for the sum of their absolute coefficients, 2^7 without D; so N has degrees of at
+most 4 (4 + 2 (4 + 4)) = 80 and a coefficient sum of at most (2^3 (2^2 2^7 2^9)^2 + 2^29)^4 < 2^160. A root of
+a polynomial of degree n has at most the polynomial's height plus n (Silverman, The Arithmetic of Elliptic
+Curves, VIII.5.9), so zeros have degree at most 80 over the field of the numbers, whose degree is at most
+the product of those of their generators, and height at most 80 times the sum of their heights plus 240.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Hashable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from math import prod
+from typing import Any
+
+from flint import arb, ctx, fmpq
+
+from exactacq.geometry.coordinates import Vector, cross, dot, minus
+from exactacq.geometry.curves import Curve, Segment
+from exactacq.geometry.points import Point
+from exactacq.numbers.function_zeros import BITS, zeros_between
+from exactacq.numbers.real import Real
+from exactacq.visibility.line_families import Sector
+
+DEGREE = 80
+SPREAD = 240
+
+
+@dataclass(frozen=True, eq=False)
+class _Side(ABC):
+    """One side of a view: the carrier of its curve, by the numbers that define it."""
+
+    numbers: tuple[Real, ...]
+
+    @property
+    def key(self) -> Hashable:
+        """Structural identity."""
+        return type(self), tuple(number.key for number in self.numbers)
+
+    @abstractmethod
+    def place(self, numbers: tuple[Any, ...], t: Any, contact: Vector, direction: Vector) -> Any:
+        """The s of the module's docstring, in the arithmetic of t, which *numbers* have been brought to."""
+
+
+class _Straight(_Side):
+    """The line through a point, given with its direction."""
+
+    def place(self, numbers: tuple[Any, ...], t: Any, contact: Vector, direction: Vector) -> Any:
+        start, along = numbers[:2], numbers[2:]
+        return cross(minus(start, contact), along) / cross(direction, along)
+
+
+class _Tangent(_Side):
+    """A line that touches the circle on which the contact rolls, given by p and q: it does so at t = p / q.
+
+    Two tangents meet at the tangent of half the angle between their contacts; `_Straight` has 0 / 0 there.
+    """
+
+    def place(self, numbers: tuple[Any, ...], t: Any, contact: Vector, direction: Vector) -> Any:
+        p, q = numbers
+        return (p - t * q) / (q + t * p)
+
+
+@dataclass(frozen=True, eq=False)
+class _Round(_Side):
+    """A circle, given by its centre and squared radius; ``far`` is the sign of the root."""
+
+    far: int
+
+    @property
+    def key(self) -> Hashable:
+        return super().key, self.far
+
+    def place(self, numbers: tuple[Any, ...], t: Any, contact: Vector, direction: Vector) -> Any:
+        x, y, radius_sq = numbers
+        to_center, size = minus((x, y), contact), dot(direction, direction)
+        across = cross(to_center, direction)
+        return (dot(to_center, direction) + self.far * _root(size * radius_sq - across * across)) / size
+
+
+class _Through(_Side):
+    """A circle through the corner that the lines turn about, given by its centre: the other crossing."""
+
+    def place(self, numbers: tuple[Any, ...], t: Any, contact: Vector, direction: Vector) -> Any:
+        return 2 * dot(minus(numbers, contact), direction) / dot(direction, direction)
+
+
+@dataclass(frozen=True, eq=False)
+class ViewLength:
+    """The function f of the module's docstring; ``numbers`` are the sector's centre and base, and R^2."""
+
+    round: bool
+    numbers: tuple[Real, ...]
+    sides: tuple[_Side, _Side]
+
+    @cached_property
+    def key(self) -> Hashable:
+        """Structural identity."""
+        return self.round, tuple(n.key for n in self.numbers), tuple(side.key for side in self.sides)
+
+    @cached_property
+    def degree(self) -> int:
+        """Upper bound of the degrees of the zeros."""
+        return DEGREE * prod(d for _, d in frozenset().union(*(n.generators() for n in self._all)))
+
+    @cached_property
+    def height(self) -> float:
+        """Upper bound of the heights of the zeros."""
+        return DEGREE * sum(n.height_bound() for n in self._all) + SPREAD
+
+    @property
+    def _all(self) -> Iterator[Real]:
+        yield from self.numbers
+        for side in self.sides:
+            yield from side.numbers
+
+    def __call__(self, t: Any) -> Any:
+        """The value at a Real, an arb or an arb_series (the latter at the working precision)."""
+        cx, cy, ex, ey, square = _alike(self.numbers, t)
+        contact: Vector = (cx, cy)
+        direction: Vector = (ex - t * ey, ey + t * ex)
+        if self.round:
+            growth = 1 + t * t
+            cosine, sine = 2 / growth - 1, 2 * t / growth
+            vx, vy = cosine * ex - sine * ey, cosine * ey + sine * ex
+            contact, direction = (cx + vx, cy + vy), (-vy, vx)
+        behind, ahead = (side.place(_alike(side.numbers, t), t, contact, direction) for side in self.sides)
+        length = ahead - behind
+        return dot(direction, direction) * length * length - square
+
+    def __str__(self) -> str:
+        kind = "touching a circle about" if self.round else "through"
+        x, y, _, _, square = (float(n) for n in self.numbers)
+        return f"the length of views along lines {kind} ({x:.9g}, {y:.9g}), less the range {square**0.5:.9g},"
+
+
+def of_length_on(
+    sector: Sector,
+    behind: Curve,
+    ahead: Curve,
+    square: fmpq,
+    low: Real,
+    high: Real,
+    touching: Curve | None = None,
+    longer_at: Callable[[Real], int] | None = None,
+) -> list[Real]:
+    """All t strictly between *low* and *high* where a view's squared length is *square*, ascending.
+
+    Of Turning or Rolling lines which from low to high meet the carriers of both curves, behind and ahead of
+    the contact; at least one is a segment. *touching* is a segment known to touch the circle that lines roll
+    on; of others it is found out where it matters. *longer_at* compares the views at the two ends with the
+    value. `Undecided` where the length is stationary at that value, or has it at an end whose line touches
+    an arc's circle. A millisecond, for numbers of small degree.
+    """
+    numbers = tuple(Real(n) for n in (*sector.center, *sector.base, square))
+    ends = (low, high)
+    one, other = (
+        _side(sector, curve, side, curve is touching or _touches(sector, curve, ends))
+        for curve, side in ((behind, -1), (ahead, 1))
+    )
+    return zeros_between(ViewLength(sector.round, numbers, (one, other)), low, high, longer_at)
+
+
+def _touches(sector: Sector, curve: Curve, ends: tuple[Real, Real]) -> bool:
+    """Whether a segment's line touches the circle that lines roll on, at one of the ends."""
+    if not sector.round or not isinstance(curve, Segment):
+        return False
+    along = curve.direction
+    if all(abs(sector.touch(t)[1].cross(along).ball(BITS)) > 0 for t in ends):
+        return False
+    offset = along.cross(curve.start - Point(*sector.center))
+    return (offset * offset).compare(along.norm_sq() * dot(sector.base, sector.base)) == 0
+
+
+def _side(sector: Sector, curve: Curve, side: int, touches: bool) -> _Side:
+    if isinstance(curve, Segment):
+        return _tangent(sector, curve) if touches else _Straight((*curve.start, *curve.direction))
+    center = curve.center
+    if not sector.round:
+        radius = minus((center.x, center.y), sector.center)
+        if dot(radius, radius) == curve.radius_sq:
+            return _Through((center.x, center.y))
+    # As in `chords.meet`: an arc's far crossing is met from inside its circle.
+    far = -side if curve.ccw else side
+    return _Round((center.x, center.y, Real(curve.radius_sq)), far)
+
+
+def _tangent(sector: Sector, line: Segment) -> _Tangent:
+    """With n across the line and w the product of n with the vector to it, the contact is at w n / n^2."""
+    center, base = Point(*sector.center), Point(*sector.base)
+    across = line.direction.left()
+    offset, steep, size = across.dot(line.start - center), across.norm_sq(), base.norm_sq()
+    return _Tangent((offset * base.cross(across), steep * size + offset * base.dot(across)))
+
+
+def _alike(numbers: tuple[Real, ...], t: Any) -> tuple[Any, ...]:
+    """Numbers in the arithmetic of t."""
+    if isinstance(t, Real):
+        return numbers
+    return tuple(number.working_ball(ctx.prec) for number in numbers)
+
+
+def _root(square: Any) -> Any:
+    """The square root; of a ball, that of the part which is not negative."""
+    return square.nonnegative_part().sqrt() if isinstance(square, arb) else square.sqrt()

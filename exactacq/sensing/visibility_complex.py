@@ -1,0 +1,90 @@
+"""Sightlines: where views change, as families of views between a scene's edges, swept on demand and kept.
+
+Three pencils of lines are swept where the robot comes near: the tangent lines of every feature, the normals
+of every edge, and the normals of every convex corner. The lines that bound their cells are the sightlines, at
+which a view changes. Each family is swept once; cost: near linear in the scene at constant density and range.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property, lru_cache
+
+import numpy as np
+from flint import fmpq
+
+from exactacq.scene.edge_table import EdgeTable, Floats, Ints
+from exactacq.sensing.complex_edges import Bundle, Family, Sweeper
+
+KEPT = 8192
+"""Families that are remembered, the last used of each kind: enough for a wide neighbourhood, and a bound of
+the memory."""
+
+
+class Sightlines:
+    """The families of views of one scene within one radius."""
+
+    def __init__(self, table: EdgeTable, radius: fmpq) -> None:
+        self.table, self.radius = table, radius
+        sweeper = Sweeper(table, radius)
+        self.reach, self.ranges, self.features = sweeper.reach, sweeper.ranges, sweeper.features
+        self._normals_of = lru_cache(KEPT)(sweeper.normals)
+        self._tangents_of = lru_cache(KEPT)(sweeper.tangents)
+        self._corner_normals_of = lru_cache(KEPT)(sweeper.corner_normals)
+
+    @cached_property
+    def _spots(self) -> Floats:
+        """Boxes of the features: where their contacts lie."""
+        boxes = [
+            self.table.boxes[f.edges[0]] if f.round else (*self.table.start[f.edges[1]],) * 2
+            for f in self.features
+        ]
+        return np.array(boxes, dtype=float).reshape(-1, 4)
+
+    @cached_property
+    def _features_at(self) -> Ints:
+        """For every edge its number as a feature, and that of its start; -1 for none."""
+        numbers = np.full((len(self.table.curves), 2), -1, dtype=np.intp)
+        for k, feature in enumerate(self.features):
+            numbers[feature.edges[-1], int(not feature.round)] = k
+        return numbers
+
+    def on(self, edge: int, wanted: frozenset[int]) -> Iterator[tuple[Bundle, int]]:
+        """The bundles between an edge and wanted ones, with the number of its side.
+
+        Not those that start at a corner of it: what a corner sees is a view.
+        """
+        for family in self.near(self.table.boxes[edge], wanted, edge):
+            for bundle, side in family.on(edge):
+                if bundle.sides[1 - side].edge in wanted:
+                    yield bundle, side
+
+    def near(self, box: Floats, wanted: frozenset[int], own: int | None = None) -> Iterator[Family]:
+        """The families that may show wanted edges to places in a box, which lies on edge *own* if given.
+
+        A tangent's contact lies between the two ends of a view, so both are within reach of it together.
+        """
+        edges = np.array(sorted(wanted), dtype=np.intp)
+        reach = self.reach + 8 * self.table.roundoff
+        edges = edges[_gaps(self.table.boxes[edges], box) <= reach]
+        for e in edges.tolist():
+            if e != own:
+                yield self._normals_of(e)
+        if own is not None:
+            yield self._normals_of(own)
+        left, bottom, right, top = box.tolist()
+        close = self._features_at[self.table.near((left, bottom), (right, top), self.reach)].ravel()
+        close = close[close >= 0]
+        here = _gaps(self._spots[close], box)
+        close, here = close[here <= reach], here[here <= reach]
+        there = _gaps(self.table.boxes[edges], self._spots[close, None]).min(axis=1, initial=np.inf)
+        for k in close[here + there <= reach].tolist():
+            yield self._tangents_of(k)
+            if not self.features[k].round and self.features[k].edges[1] in wanted:
+                yield self._corner_normals_of(k)
+
+
+def _gaps(boxes: Floats, box: Floats) -> Floats:
+    """Distances of boxes from a box, or from each of several in a row of its own."""
+    apart = np.maximum(np.maximum(boxes[:, :2] - box[..., 2:], box[..., :2] - boxes[:, 2:]), 0.0)
+    return np.hypot(apart[..., 0], apart[..., 1])

@@ -1,0 +1,176 @@
+"""The paper's bounds on the length of a path, as printed and corrected, evaluated exactly."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from flint import fmpq
+
+from exactacq.geometry.intersections import nearest_points
+from exactacq.geometry.points import distance
+from exactacq.numbers.length import Length
+from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.scene.scene import Scene
+from exactacq.scene.terrain_components import Ground
+from exactacq.strategies.run import Bound, Sweeping, TreeLink
+from exactacq.strategies.seed_spreader.blocked import Blocking
+from exactacq.strategies.seed_spreader.mline import MLine
+from exactacq.visibility.links import START, pair_bounds
+
+HALF = fmpq(1, 2)
+
+
+def sightseer_bounds(
+    scene: Scene, radius: fmpq, length: Length, links: Sequence[TreeLink], visits: Sequence[int]
+) -> tuple[Bound, ...]:
+    """Bounds (1) and (2) as printed, and the forms of Theorem 1 that hold in model (a).
+
+    n counts all obstacles of the scene. The corrected ones add the way S-S1 from a free start to the first
+    obstacle; the first of them also replaces the largest distance by the longest link between obstacles,
+    counts 2n - 3 traversals, and charges no return along the last obstacle. Outside model (a), where links
+    can start at S twice, even these may fail. Empty without obstacles.
+    """
+    n = len(scene.obstacles)
+    if n == 0:
+        return ()
+    perimeters = [o.perimeter for o in scene.obstacles]
+    total, largest = Length.sum(perimeters), max(perimeters)
+    around = total * fmpq(3, 2) + largest * (fmpq(n - 2) * HALF)
+    reach = Length(radius)
+    approach = Length.sum(link.length for link in links if link.source == START)
+    steps = [link.length for link in links if link.source != START]
+    if n == 1:
+        corrected = approach + total
+    else:
+        step = min([reach, max(steps, default=Length(0))])
+        last = perimeters[visits[-1]] if visits else Length(0)
+        corrected = approach + step * (2 * n - 3) + around - last * HALF
+    printed = min([reach, _largest_distance(scene, radius)]) * (2 * (n - 1)) + around
+    wide = reach * (2 * (n - 1)) + around
+    return (
+        _bound("(1)", "Theorem 1, as printed", printed, length),
+        _bound("(2)", "Theorem 1 for d_max >= R, as printed", wide, length),
+        _bound("T1 corrected", "(1) with v_max, S-S1 and 2n - 3", corrected, length),
+        _bound("(2) + S-S1", "(2) with the way from a free start", wide + approach, length),
+    )
+
+
+@dataclass(frozen=True)
+class Census:
+    """Where the components of a terrain lie, strip by strip from the west.
+
+    ``inside`` are n_1..n_r, those wholly inside a strip; ``crossing`` are n_01..n_0r, those that cross the
+    boundary of a strip and of none to its west. They add up to n_0.
+    """
+
+    inside: tuple[int, ...]
+    crossing: tuple[int, ...]
+
+    @property
+    def pairs(self) -> int:
+        """The sum of n_j (n_j - 1) over j = 0..r."""
+        return sum(count * (count - 1) for count in (*self.inside, sum(self.crossing)))
+
+
+def census(ground: Ground, radius: fmpq) -> Census:
+    """Count the components that can be reached by strips."""
+    mline = MLine(ground.terrain, radius)
+    first: dict[int, int] = {}
+    for crossing in mline.crossings(Blocking(ground, EdgeTable(ground.obstacles))):
+        # Line j bounds strips j and j + 1, the joint after it only the latter; the first line bounds strip 1.
+        strip = max(1, (crossing.piece + 1) // 2)
+        if crossing.component.shore:
+            first[crossing.component.index] = min(strip, first.get(crossing.component.index, strip))
+    inside = Counter(mline.strip(c) for c in ground.components if c.index not in first)
+    crossing_ones = Counter(first.values())
+    strips = range(1, mline.strips + 1)
+    return Census(tuple(inside[j] for j in strips), tuple(crossing_ones[j] for j in strips))
+
+
+def spreader_bounds(ground: Ground, radius: fmpq, sweeping: Sweeping, length: Length) -> tuple[Bound, ...]:
+    """Bounds (4)-(6) and (8)-(11) as printed, and the forms of Lemma 3 and Theorem 2 that hold.
+
+    n counts the components that can be reached, p is what the robot can walk of a boundary. n_j are the
+    components wholly inside strip j, n_0 those that cross the M-line. Corrected forms charge every time that
+    an acquired obstacle was met again on the M-line, and what diversions are longer than R one way. (4)
+    bounds the number of visits, not a length.
+    """
+    components, mline = ground.components, MLine(ground.terrain, radius)
+    counts = census(ground, radius)
+    n, crossing, pairs = len(components), sum(counts.crossing), counts.pairs
+    perimeters = [c.perimeter for c in components]
+    total, largest = Length.sum(perimeters), max(perimeters, default=Length(0))
+    a, b, r, w = ground.terrain.height, ground.terrain.width, mline.strips, mline.width
+    sweep = Length(a + b + r * a)
+    hops = largest * (2 * n * crossing + pairs)
+    wide = sweep + Length(2 * n * radius)
+    clear = all(c.closed for c in components)
+    met = Length.sum(perimeters[k] for k in sweeping.again)
+    share = HALF if clear else fmpq(1)
+    ways = (Length(distance(d.leave, d.hit)) for d in sweeping.diversions)
+    beyond = Length.sum(way - Length(radius) for way in ways if way > Length(radius))
+    corrected = wide + beyond * 2 + total * (3 * share) + hops * share + met * share
+    values = [
+        ("(5)", "Theorem 2, as printed", Length(a + r * (w + a) + 2 * n * w) + total * 3 + hops),
+        ("(6)", "Theorem 2 for rw = B, w = R, as printed", wide + total * 3 + hops),
+        ("(8)", "Case 1: no crossing, no diversion", sweep),
+        ("(9)", "Case 2: (6) without its last terms", wide + total * 3),
+        ("(10)", "Case 3: clear of the border, as printed", wide + total * fmpq(3, 2) + hops * HALF),
+        ("(11)", "Cases 2 and 3, as printed", wide + total * fmpq(3, 2)),
+        ("T2 corrected", "(6) or (10), plus what is met again and far diversions", corrected),
+    ]
+    visits = Length(len(sweeping.encounters))
+    most = Length(n + n * crossing + pairs * HALF)
+    return (
+        _bound("(4)", "Lemma 3, visits, as printed", most, visits),
+        _bound("L3 corrected", "(4), plus what is met again", most + Length(len(sweeping.again)), visits),
+        *(_bound(name, source, value, length) for name, source, value in values),
+    )
+
+
+def _bound(name: str, source: str, value: Length, length: Length) -> Bound:
+    ratio = float(length) / float(value) if value.sign() else float("nan")
+    return Bound(name, source, value, length <= value, ratio)
+
+
+def _largest_distance(scene: Scene, radius: fmpq) -> Length:
+    """d_max, the largest closest distance between two obstacles, or the radius if d_max is larger.
+
+    Outer obstacles and their farthest partners come first; float upper bounds then spare nearly all exact
+    distances. Quadratic in the number of obstacles in floats if all lie within the radius, linear in memory.
+    """
+    table = EdgeTable(scene.obstacles)
+    spots = table.start[table.first]
+    best = Real(0)
+    for i in np.argsort(-np.hypot(*(spots - spots.mean(axis=0)).T)):
+        upper = np.hypot(*(spots - spots[i]).T) * (1 + 1e-12) + 8 * table.roundoff
+        for j in np.argsort(-upper):
+            if upper[j] < float(best):
+                break
+            if i != j:
+                best = max(best, _distance(table, int(i), int(j)))
+                if best.compare(radius) >= 0:
+                    return Length(radius)
+    return Length(best)
+
+
+def _distance(table: EdgeTable, i: int, j: int) -> Real:
+    """The closest distance between two obstacles."""
+    a, b = (np.flatnonzero(table.owner == k) for k in (i, j))
+    bounds = pair_bounds(table, a, b)
+    least: Real | None = None
+    for k in np.argsort(bounds, axis=None):
+        r, c = divmod(int(k), bounds.shape[1])
+        if least is not None and float(least) < bounds[r, c] ** 2 * (1 - 1e-12):
+            break
+        for found in nearest_points(table.curves[a[r]], table.curves[b[c]]):
+            if least is None or found.distance_sq < least:
+                least = found.distance_sq
+    # The closest points of two compact sets are a closest pair of some two edges, and the loop breaks only
+    # after it has found a pair.
+    assert least is not None, "two boundaries have a closest pair"
+    return least.sqrt()

@@ -1,0 +1,92 @@
+"""The robot: the only door to the scene.
+
+It walks boundaries and straight ways with open eyes and writes the trace. What else a strategy may ask is in
+the robots made for it: `exactacq.strategies.sightseer.robot` for the Sightseer,
+`exactacq.strategies.seed_spreader.robot` for the Seed Spreader.
+"""
+
+from __future__ import annotations
+
+from exactacq.geometry.curves import Curve
+from exactacq.geometry.points import Point
+from exactacq.numbers.length import Length
+from exactacq.scene.boundary_walk import Boundary
+from exactacq.sensing.history import Memory, Report
+from exactacq.sensing.path import Event, Path, Piece
+from exactacq.visibility.links import START, Node
+
+
+class Robot:
+    """A point robot at *start* whose sensing goes into a fresh memory."""
+
+    def __init__(self, start: Point, memory: Memory) -> None:
+        self._memory = memory
+        self._boundaries: dict[int, Boundary] = {}
+        self._pieces: list[Piece] = []
+        self._marks: list[tuple[str, Point, int | None, str, int, bool]] = []
+        self.start = self.position = start
+        self.at: Node = START
+        self.visited: list[int] = []
+        self.mark("start", None, "")
+        self._write(memory.begin(start))
+
+    @property
+    def count(self) -> int:
+        """The number of pieces of the path so far."""
+        return len(self._pieces)
+
+    # -- motion ------------------------------------------------------------------------------------
+
+    def way_to(self, point: Point) -> tuple[Length, bool]:
+        """Length and sense of the shorter walk along the present boundary to a point of it."""
+        return self._boundary().way(self.position, point)
+
+    def walk_to(self, point: Point) -> None:
+        """Walk the present boundary to a point of it, the shorter way."""
+        _, forward = self.way_to(point)
+        self._walk(self._boundary().walk(self.position, point, forward))
+        self.position = point
+
+    def circumnavigate(self) -> None:
+        """Walk the whole present boundary and mark the obstacle visited.
+
+        The robot comes back to where it is. On a boundary with two ends it walks to the last one and, unless
+        it began there, to the first one, where it stays.
+        """
+        assert isinstance(self.at, int)
+        curves = self._boundary().loop(self.position)
+        self._walk(curves)
+        self.position = curves[-1].end
+        self.visited.append(self.at)
+
+    def _boundary(self) -> Boundary:
+        assert isinstance(self.at, int), "the robot is not at a boundary"
+        if self.at not in self._boundaries:
+            body = self._memory.bodies[self.at]
+            self._boundaries[self.at] = Boundary(body.edges, body.perimeter, body.closed)
+        return self._boundaries[self.at]
+
+    def _walk(self, curves: list[Curve]) -> None:
+        assert isinstance(self.at, int)
+        for curve in curves:
+            self._move(Piece("boundary", self.at, curve))
+
+    def _move(self, piece: Piece) -> None:
+        """Walk a piece of the path with open eyes."""
+        self._pieces.append(piece)
+        self._write(self._memory.walk(piece))
+
+    # -- the trace ---------------------------------------------------------------------------------
+
+    def mark(self, kind: str, obstacle: int | None, note: str) -> None:
+        """Write an event here and now."""
+        self._marks.append((kind, self.position, obstacle, note, len(self._pieces), False))
+
+    def _write(self, reports: list[Report]) -> None:
+        for r in reports:
+            self._marks.append((r.kind.value, r.place, r.obstacle, r.note, r.after, r.inside))
+
+    def trace(self) -> tuple[Path, tuple[Event, ...], Memory]:
+        """The path, the events and the memory so far."""
+        path = Path(self._pieces)
+        return path, tuple(Event(*mark[:5], path, mark[5]) for mark in self._marks), self._memory

@@ -1,0 +1,227 @@
+"""A finished run, and what it holds beside its path: links, diversions, bounds."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from math import tan
+from typing import Any
+
+from flint import fmpq
+
+from exactacq.geometry.curves import Arc, Curve
+from exactacq.geometry.points import Point
+from exactacq.numbers.length import Length
+from exactacq.scene.ports import JSON, SVG, made
+from exactacq.scene.scene import Scene
+from exactacq.scene.terrain_components import Ground, ground_of
+from exactacq.sensing.history import Memory
+from exactacq.sensing.map import Body, Map
+from exactacq.sensing.path import Event, Path
+from exactacq.visibility.isovist import Isovist, isovist
+
+
+@dataclass(frozen=True)
+class TreeLink:
+    """An edge of the tree that the run walked: from ``leave`` on ``source`` ("S": the start) to ``hit``."""
+
+    source: int | str
+    target: int
+    leave: Point
+    hit: Point
+    length: Length
+    traversals: int
+
+
+@dataclass(frozen=True)
+class Diversion:
+    """A diversion of the Seed Spreader from ``leave`` (D) on the M-line to ``hit`` (Q), and back.
+
+    The pieces of the path from number ``first`` to ``last``, the latter excluded, belong to it.
+    """
+
+    obstacle: int
+    leave: Point
+    hit: Point
+    reason: str
+    first: int
+    last: int
+
+
+@dataclass(frozen=True)
+class Sweeping:
+    """What only a run of the Seed Spreader has: its options, and what it met.
+
+    ``encounters`` are the obstacles that were met on the M-line or on the way out on a diversion, in order;
+    ``again`` those that blocked the M-line and were acquired before. ``unreached`` are the obstacles of the
+    scene of which the terrain has a component that the robot cannot reach from the SW corner.
+    """
+
+    lookahead: bool
+    target: str
+    diversions: tuple[Diversion, ...]
+    encounters: tuple[int, ...]
+    again: tuple[int, ...]
+    unreached: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Bound:
+    """An upper bound of the path's length, evaluated exactly.
+
+    ``holds`` compares exactly; ``ratio`` is the path's length over the value (NaN where the value is 0).
+    """
+
+    name: str
+    source: str
+    value: Length
+    holds: bool
+    ratio: float
+
+
+@dataclass(frozen=True)
+class Run:
+    """A finished exploration. See the fields' types for what each entry holds.
+
+    ``unseen`` obstacles never came on the map. ``unvisited`` ones did without being reached, or, for the Seed
+    Spreader, without becoming wholly known. Both are empty where the paper's model (a) holds for the
+    radius of the Sightseer. A run that was read from a file has no ``record``: its sensing is repeated
+    when it is first asked for.
+    """
+
+    scene: Scene
+    radius: fmpq
+    strategy: str
+    start: Point
+    path: Path
+    visits: tuple[int, ...]
+    links: tuple[TreeLink, ...]
+    events: tuple[Event, ...]
+    bounds: tuple[Bound, ...]
+    unseen: tuple[int, ...]
+    unvisited: tuple[int, ...]
+    stack_depth: int
+    record: Memory | None = field(default=None, repr=False, compare=False)
+    sweeping: Sweeping | None = None
+
+    @cached_property
+    def length(self) -> Length:
+        """Exact length of the path."""
+        return self.path.length_after(len(self.path))
+
+    @property
+    def complete(self) -> bool:
+        """Whether every obstacle was visited, or, for the Seed Spreader, is wholly known."""
+        return not self.unseen and not self.unvisited
+
+    @cached_property
+    def memory(self) -> Memory:
+        """What the robot learned on its way."""
+        if self.record is not None:
+            return self.record
+        return Memory.of(self.scene, self.radius, self.start, self.path, self.ground)
+
+    @cached_property
+    def ground(self) -> Ground | None:
+        """What the terrain leaves of the scene's obstacles; None for the Sightseer."""
+        if self.sweeping is None:
+            return None
+        return ground_of(self.scene) if self.record is None else self.record.ground
+
+    @property
+    def obstacles(self) -> Sequence[Body]:
+        """What the numbers of obstacles in this run mean.
+
+        The scene's obstacles; for the Seed Spreader the components that its terrain leaves of them.
+        """
+        return self.scene.obstacles if self.ground is None else self.ground.components
+
+    @cached_property
+    def map(self) -> Map:
+        """The map at the end."""
+        return self.memory.after(len(self.path))
+
+    @property
+    def incomplete(self) -> tuple[int, ...]:
+        """The obstacles of which some but not all was seen."""
+        return self.map.incomplete
+
+    def map_at(self, moment: Event | Length | object) -> Map:
+        """The map as it was at an event, or after a length of the path.
+
+        Where the place has transcendental coordinates, as most places on an arc have, the map is exact too,
+        but what depends on the place has no closed form. ValueError if the path has no such place, or if it
+        lies inside an arc after a sum of angles that are no simple fractions (see `near`). Cost: that of
+        sensing one piece.
+        """
+        count, place = self.moment(moment)
+        return self.memory.after(count) if place is None else self.memory.within(count, place)
+
+    def view_at(self, moment: Event | Length | object) -> Isovist:
+        """What the robot sees at an event, or after a length of the path; as `map_at`."""
+        count, place = self.moment(moment)
+        if place is None:
+            place = (
+                self.path[count].start
+                if count < len(self.path)
+                else self.path[-1].end
+                if count
+                else self.start
+            )
+        return isovist(self.scene, place, self.radius)
+
+    def moment(self, moment: Event | Length | object) -> tuple[int, Point | None]:
+        """The number of whole pieces before a moment, and the place in the next one if it lies inside it."""
+        if isinstance(moment, Event):
+            return moment.after, moment.point if moment.inside else None
+        count, rest = self.path.find(Length(moment))
+        if rest.sign() == 0:
+            return count, None
+        try:
+            return count, self.path[count].curve.after(rest)
+        except ValueError:
+            for event in self.events:
+                if event.after == count and event.inside and event.beyond == rest:
+                    return count, event.point
+            raise
+
+    def near(self, length: Length | object) -> Event:
+        """A place after a length of the path, for `map_at`, `view_at` and figures: an event of kind "moment".
+
+        Where that is no algebraic place, a rational parameter beside it is taken: it is off by round-off
+        only, and the event's own ``at`` is exact. ValueError if the path is shorter.
+        """
+        count, rest = self.path.find(Length(length))
+        if rest.sign() == 0:
+            place = self.path[count - 1].end if count else self.start
+            return Event("moment", place, None, "", count, self.path)
+        piece = self.path[count]
+        if isinstance(piece.curve, Arc) or rest != Length(rest.algebraic):
+            place = piece.point(_share(piece.curve, rest))
+        else:
+            place = piece.curve.after(rest)
+        return Event("moment", place, piece.obstacle, "", count, self.path, inside=True)
+
+    def _repr_svg_(self) -> str:
+        return str(made(SVG, self))
+
+    def to_json(self) -> dict[str, Any]:
+        """The run as JSON data with exact numbers; `exactacq.load_run` reads it back."""
+        document: dict[str, Any] = made(JSON, self)
+        return document
+
+    def names(self) -> Iterator[str]:
+        """What the obstacles are called: by their names, or "O" and the number from 1."""
+        return (body.label for body in self.obstacles)
+
+
+def _share(curve: Curve, length: Length) -> fmpq:
+    """The parameter of a curve's point after about a length of it (see `Arc.point`)."""
+    share, half, parts = float(length) / float(curve.length), 0, 1
+    if isinstance(curve, Arc):
+        whole, turned = (float(part) / float(curve.radius) for part in (curve.length, length))
+        if curve.full:
+            half, parts = int(turned > whole / 2), 2
+        share = tan((turned - half * whole / 2) / 4) / tan(whole / parts / 4)
+    return min(max((fmpq(*share.as_integer_ratio()) + half) / parts, fmpq(0)), fmpq(1))

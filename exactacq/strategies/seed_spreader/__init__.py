@@ -1,0 +1,1 @@
+"""The Seed Spreader Strategy: a rectangle swept along an M-line."""

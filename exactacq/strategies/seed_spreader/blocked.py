@@ -1,0 +1,96 @@
+"""Where obstacles block a straight way through a terrain.
+
+A point of a way is blocked if the whole neighbourhood of it within the terrain is obstacle. So a way that
+touches a boundary or runs along it is free, except along the border of the terrain, where one side counts.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import NamedTuple
+
+from exactacq.geometry.box_index import box
+from exactacq.geometry.curve_parameter import Rail
+from exactacq.geometry.curves import Segment
+from exactacq.geometry.intersections import contacts
+from exactacq.geometry.points import Location, Point
+from exactacq.numbers.between import rational_between
+from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.scene.scene import Obstacle
+from exactacq.scene.terrain_components import Component, Ground, sides
+
+
+class Stop(NamedTuple):
+    """A place on a way and its parameter there, 0 at the start and 1 at the end."""
+
+    u: Real
+    point: Point
+
+
+class Gap(NamedTuple):
+    """A maximal blocked stretch of a way, without its ends, and what blocks it.
+
+    The component is not told if both ends of the stretch are blocked themselves, at the ends of the way.
+    """
+
+    obstacle: Obstacle
+    component: Component | None
+    begin: Stop
+    end: Stop
+
+
+class Blocking:
+    """The blocked stretches of ways through a ground."""
+
+    def __init__(self, ground: Ground, table: EdgeTable) -> None:
+        self.ground, self.table = ground, table
+        self._sides = sides(ground.terrain)
+
+    def gaps(self, way: Segment) -> list[Gap]:
+        """The blocked stretches of a way with distinct ends, in its order."""
+        left, bottom, right, top = box(way)
+        near = self.table.near((left, bottom), (right, top), 0.0)
+        owners = sorted({self.table.owners[e] for e in near.tolist()})
+        found = [gap for k in owners for gap in self._of(way, self.table.obstacles[k])]
+        return sorted(found, key=lambda gap: gap.begin.u)
+
+    def _of(self, way: Segment, obstacle: Obstacle) -> list[Gap]:
+        rail = Rail(way)
+        stops = [Stop(Real(0), way.start), Stop(Real(1), way.end)]
+        for edge in obstacle.edges:
+            for contact in contacts(way, edge):
+                stops += [Stop(rail.parameter(p), p) for p in (contact.start, contact.end)]
+        stops.sort(key=lambda stop: stop.u)
+        stops = [s for k, s in enumerate(stops) if k == 0 or stops[k - 1].u.compare(s.u) < 0]
+        found: list[tuple[Stop, Stop]] = []
+        for one, other in pairwise(stops):
+            if self._is_blocked(way, obstacle, rail.point(rational_between(one.u, other.u))):
+                if found and found[-1][1].u is one.u and not self.is_free(obstacle, one.point):
+                    found[-1] = found[-1][0], other
+                else:
+                    found.append((one, other))
+        return [Gap(obstacle, self._owner(obstacle, begin, end), begin, end) for begin, end in found]
+
+    def _is_blocked(self, way: Segment, obstacle: Obstacle, place: Point) -> bool:
+        """Whether a place of a way is blocked that is no contact point."""
+        location = obstacle.locate(place)
+        if location is not Location.BOUNDARY:
+            return location is Location.INSIDE
+        side = next((s for s in self._sides if s.passes(way.start) and s.passes(way.end)), None)
+        if side is None:
+            return False
+        edge = next(e for e in obstacle.edges if isinstance(e, Segment) and e.passes(place))
+        # Both the terrain and the obstacle lie on the left of their sides.
+        return edge.direction.dot(side.direction).sign() > 0
+
+    def is_free(self, obstacle: Obstacle, point: Point) -> bool:
+        """Whether a point of an obstacle's boundary is one of a component's, so has free points beside it."""
+        return any(c.is_bounded_by(point) for c in self.ground.of(obstacle.index))
+
+    def _owner(self, obstacle: Obstacle, begin: Stop, end: Stop) -> Component | None:
+        for stop in (begin, end):
+            for component in self.ground.of(obstacle.index):
+                if component.is_bounded_by(stop.point):
+                    return component
+        return None

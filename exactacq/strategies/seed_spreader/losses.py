@@ -1,0 +1,204 @@
+"""When the Seed Spreader is about to lose an obstacle that it knows in part (paper, section 4.1).
+
+On a line of the M-line, the first one aside, an incomplete obstacle with a known point to the west is about
+to be lost where (i) it goes out of sight and, by the map, cannot be seen any more from the rest of the line,
+(ii) what is known of it goes out of reach for the rest of the line, (iii) the line ends, (iv) the robot
+comes back to the line, and it is out of reach already. Not so if it is known to block the rest of the M-line.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from enum import StrEnum
+from typing import NamedTuple
+
+from exactacq.geometry.curves import Curve, Segment
+from exactacq.geometry.points import Point
+from exactacq.numbers.real import Real
+from exactacq.sensing.map import Map
+from exactacq.sensing.sensor import Ahead, Kind
+from exactacq.strategies.seed_spreader.prediction.decide import sees_later
+from exactacq.strategies.seed_spreader.range_thresholds import (
+    first_out_of_reach,
+    is_in_reach,
+    last_in_reach,
+    leftmost,
+)
+from exactacq.strategies.seed_spreader.robot import Surveyor
+
+
+class Reason(StrEnum):
+    """Why an obstacle is about to be lost."""
+
+    SIGHT = "out of sight"
+    REACH = "out of reach"
+    LINE_ENDS = "the line ends"
+    OVERDUE = "overdue"
+
+
+class Loss(NamedTuple):
+    """An obstacle that is about to be lost."""
+
+    obstacle: int
+    reason: Reason
+
+
+class _Gap(NamedTuple):
+    """A stretch over which an obstacle is not in sight: from a place, at a parameter, to an ordinate.
+
+    ``fresh`` if it was seen at the place; ``end`` is None if it is not seen again on the way.
+    """
+
+    obstacle: int
+    u: Real
+    place: Point
+    fresh: bool
+    end: Real | None
+
+
+class Line:
+    """A line of the M-line as the robot walks it."""
+
+    def __init__(self, robot: Surveyor, lookahead: bool) -> None:
+        way = robot.mline.pieces[robot.piece]
+        end = way.end.rational
+        assert end is not None, "the M-line's corners are rational"
+        self.robot, self.lookahead = robot, lookahead
+        self.x, self.last = end
+        self.upward = way.direction.y.sign() > 0
+        self.sense = 1 if self.upward else -1
+        self.losses: list[Loss] = []
+
+    # -- on the way --------------------------------------------------------------------------------
+
+    def watch(self, ahead: Ahead) -> Point | None:
+        """The first place of a way along the line where something is about to be lost.
+
+        What it is, is in ``losses``. That it stops at a place depends on nothing that is learned later.
+        """
+        self.losses = []
+        first: Real | None = None
+        for gap in sorted(self._gaps(ahead), key=lambda gap: gap.place.y, reverse=not self.upward):
+            if first is not None and self._order(first, gap.place.y) < 0:
+                break
+            found = self._loss(gap, ahead)
+            if found is None:
+                continue
+            y, reason = found
+            order = 1 if first is None else self._order(first, y)
+            if order > 0:
+                first, self.losses = y, []
+            if order >= 0:
+                self.losses.append(Loss(gap.obstacle, reason))
+        return None if first is None else Point(self.x, first)
+
+    def _order(self, a: Real, b: Real) -> int:
+        return a.compare(b) * self.sense
+
+    def _gaps(self, ahead: Ahead) -> Iterator[_Gap]:
+        """When the obstacles of the map, or that come on it, are out of sight, until they are acquired."""
+        robot, leg = self.robot, ahead.leg
+        notices: dict[int, list[tuple[Kind, Real, Point]]] = {}
+        for notice in ahead.notices:
+            notices.setdefault(notice.obstacle, []).append((notice.kind, notice.u, notice.place))
+        for k in sorted({*robot.map.incomplete, *notices}):
+            begin = None if k in robot.in_sight else (leg.first, leg.start, False)
+            for kind, u, place in notices.get(k, []):
+                if kind is Kind.LOSE:
+                    begin = u, place, True
+                elif begin is not None:
+                    # Where it is lost and seen again at one place, nothing lies between.
+                    if self._order(begin[1].y, place.y) < 0:
+                        yield _Gap(k, *begin, place.y)
+                    begin = None
+                if kind is Kind.ACQUIRE:
+                    begin = None
+                    break
+            if begin is not None:
+                yield _Gap(k, *begin, None)
+
+    def _loss(self, gap: _Gap, ahead: Ahead) -> tuple[Real, Reason] | None:
+        """Where, before the end of a gap and of the way, its obstacle is about to be lost, and why."""
+        robot, y, k = self.robot, gap.place.y, gap.obstacle
+        chart = robot.map_ahead(ahead, gap.u, gap.place, {k})
+        if not self._is_at_stake(k, chart):
+            return None
+        curves = known(chart, k)
+        if gap.fresh:
+            around = robot.map_ahead(ahead, gap.u, gap.place, robot.near(curves))
+            if not (self.lookahead and self._sees(k, around, y, Real(self.last))):
+                return y, Reason.SIGHT
+        last = last_in_reach(self.x, self.upward, curves, robot.radius)
+        if last is None or self._order(last, y) < 0:
+            return y, Reason.OVERDUE
+        if not self.lookahead:
+            first = first_out_of_reach(self.x, self.upward, y, curves, robot.radius)
+            last = last if first is None else first
+        end = ahead.leg.end.y if gap.end is None else gap.end
+        return (last, Reason.REACH) if self._order(last, end) < 0 else None
+
+    def _is_at_stake(self, obstacle: int, chart: Map) -> bool:
+        """Whether an obstacle is incomplete, known west of the line, and not known to block what is left."""
+        curves = known(chart, obstacle)
+        return (
+            chart.is_incomplete(obstacle)
+            and any(leftmost(curve).compare(self.x) < 0 for curve in curves)
+            and not self.robot.blocks_ahead(obstacle, chart)
+        )
+
+    def _sees(self, obstacle: int, chart: Map, start: Real, stop: Real, including: bool = False) -> bool:
+        """Whether by the map a point of an obstacle can be seen from the line between two ordinates.
+
+        What is farther than the radius from all its known points hides none of them.
+        """
+        pieces = known(chart, obstacle)
+        blockers = [c for k in self.robot.near(pieces) for c in known(chart, k) if _is_long(c)]
+        points = [curve.start for curve in pieces if not _is_long(curve)]
+        targets = [curve for curve in pieces if _is_long(curve)]
+        return sees_later(self.x, start, stop, targets, blockers, self.robot.radius, points, including)
+
+    # -- at a stop ---------------------------------------------------------------------------------
+
+    def at_end(self) -> list[Loss]:
+        """What is lost where the line ends."""
+        chart = self.robot.map
+        return [Loss(k, Reason.LINE_ENDS) for k in chart.incomplete if self._is_at_stake(k, chart)]
+
+    def before_hop(self, leave: Point | None) -> list[Loss]:
+        """What is lost on the hop around an obstacle to a leave point, None if it lies beyond the line."""
+        robot, chart = self.robot, self.robot.map
+        found = []
+        for k in chart.incomplete:
+            if not self._is_at_stake(k, chart):
+                continue
+            if leave is None:
+                found.append(Loss(k, Reason.LINE_ENDS))
+            elif self._goes_out_of_reach(k, chart, leave):
+                found.append(Loss(k, Reason.REACH))
+            elif k in robot.in_sight and not self._is_visible_from(k, chart, leave):
+                found.append(Loss(k, Reason.SIGHT))
+        return found
+
+    def _goes_out_of_reach(self, obstacle: int, chart: Map, leave: Point) -> bool:
+        """Whether it is in reach here, and not from a leave point on or, without a look ahead, from there."""
+        curves, robot = known(chart, obstacle), self.robot
+        if not is_in_reach(robot.position, curves, robot.radius):
+            return False
+        if not self.lookahead:
+            return not is_in_reach(leave, curves, robot.radius)
+        last = last_in_reach(self.x, self.upward, curves, robot.radius)
+        return last is None or self._order(last, leave.y) < 0
+
+    def _is_visible_from(self, obstacle: int, chart: Map, leave: Point) -> bool:
+        """Whether by the map an obstacle is seen from a leave point on or, without a look ahead, there."""
+        stop = Real(self.last) if self.lookahead else leave.y
+        return self._sees(obstacle, chart, leave.y, stop, including=True)
+
+
+def known(chart: Map, obstacle: int) -> list[Curve]:
+    """The known pieces of an obstacle; a single point is a piece without length."""
+    return [part.curve or Segment(part.start, part.start) for part in chart.known(obstacle)]
+
+
+def _is_long(curve: Curve) -> bool:
+    return not isinstance(curve, Segment) or curve.start is not curve.end

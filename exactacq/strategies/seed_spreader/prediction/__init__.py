@@ -1,0 +1,1 @@
+"""What the map lets one see from a line: the look ahead."""

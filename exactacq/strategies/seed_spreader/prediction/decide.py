@@ -1,0 +1,438 @@
+"""Whether an obstacle can be seen again from the rest of a line of the walk, by what is known.
+
+The visible pairs (place of the walk, point of the obstacle) form a closed set. If it has a pair beyond the
+start, its pair farthest along the walk is held by something (extremal principle):
+
+- the place is the end of the walk or on a known piece, or the target is an end of a piece, and the line of
+  sight touches a feature or is as long as the range;
+- the line of sight touches two features (a corner, a lone end, a convex arc, the target's own too);
+- it is as long as the range and perpendicular to the target, or touches one feature.
+
+Floats list these candidates and drop what is certainly blocked or out of range; what is left is decided
+exactly. Only where a line of sight that touches one feature is as long as the range there is no closed form:
+there the lengths are bounded between neighbouring lines through two features, where nothing changes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+
+import numpy as np
+from flint import fmpq
+
+from exactacq.errors import Undecided
+from exactacq.geometry.curve_parameter import Rail
+from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.intersections import contacts, line_contacts
+from exactacq.geometry.points import Point, distance_sq
+from exactacq.numbers.between import rational_between
+from exactacq.numbers.real import Real, rational
+from exactacq.strategies.seed_spreader.prediction.features import Cell, Feature, Lines, features_of
+from exactacq.strategies.seed_spreader.prediction.growth import growth_sign
+from exactacq.strategies.seed_spreader.prediction.pieces import ANGLE, Pieces, cross
+from exactacq.strategies.seed_spreader.prediction.proposals import Proposals
+from exactacq.strategies.seed_spreader.prediction.sight import Sights, Walk, hull, overlap, unique
+from exactacq.strategies.seed_spreader.range_thresholds import last_in_reach, nearest_point, thresholds
+
+UP = Point(0, 1)
+GRID = 8
+"""Places of the walk, and points of each target, that are tried first, less one."""
+TRIES = 6
+"""Lines of sight of the grid that are tried exactly."""
+
+
+def sees_later(
+    x: fmpq,
+    start: Real,
+    stop: Real | fmpq,
+    targets: Sequence[Curve],
+    blockers: Sequence[Curve],
+    radius: fmpq,
+    points: Sequence[Point] = (),
+    including: bool = False,
+) -> bool:
+    """Whether from a place (x, y), y from *start* to *stop*, a point of a target can be seen.
+
+    The start is excluded, unless *including*; the stop belongs to the walk.
+
+    *blockers* are the known pieces of boundaries, the blocked side on their left; the targets are some of
+    them, *points* single known points of the same obstacle. A point is seen within the radius if the segment
+    to it nowhere enters the known blocked side; it may touch. Raises `Undecided` where a line of sight that
+    touches one feature and is exactly as long as the range can be neither found nor excluded.
+    """
+    if not including and Real(stop).compare(start) == 0:
+        return False
+    walk = Walk(x, start, stop, radius, including)
+    pieces = [*targets, *(Segment(point, point) for point in points)]
+    last = last_in_reach(x, walk.sense > 0, pieces, radius)
+    if last is None or last.compare(start) == -walk.sense or (not including and last.compare(start) == 0):
+        # Whatever is in the way: nothing is in reach.
+        return False
+    goals = [curve for curve in targets if walk.may_reach(hull(curve))]
+    dots = [point for point in points if walk.may_reach((*point.xy, *point.xy))]
+    if not goals and not dots:
+        return False
+    hulls = [hull(curve) for curve in goals] + [(*point.xy, *point.xy) for point in dots]
+    field = walk.field(hulls)
+    known = list(unique([*goals, *(c for c in blockers if overlap(hull(c), field))]))
+    return _Search(walk, known, len(list(unique(goals))), dots, field).run()
+
+
+# -- the search ------------------------------------------------------------------------------------
+
+
+class _Search:
+    """All candidates; the first *count* of the known pieces are targets."""
+
+    def __init__(
+        self, walk: Walk, known: Sequence[Curve], count: int, dots: Sequence[Point], field: Sequence[float]
+    ) -> None:
+        self.walk, self.known, self.dots = walk, known, dots
+        self.targets = known[:count]
+        size = max(walk.reach, *(abs(value) for value in field))
+        far = max((abs(v) for c in known for v in hull(c)), default=0.0)
+        self.pieces = Pieces(known, max(size, far))
+        self.sights = Sights(self.pieces)
+        self.low, self.high = max(walk.low, field[1]), min(walk.high, field[3])
+
+    def run(self) -> bool:
+        """Proposals first, then all candidates, from the cheapest."""
+        stands = self._stands()
+        if stands is None or self._sees_from_grid():
+            return True
+        if any(self._is_seen(p, q) for p, q in self._at_range(stands)):
+            return True
+        features = [*features_of(self.pieces, set(range(len(self.targets))))]
+        features += [Feature(point, goal=True) for point in self.dots]
+        features += stands
+        fixed = [
+            self.walk.start,
+            Real(self.walk.stop),
+            *(f.shape.y for f in stands if isinstance(f.shape, Point)),
+        ]
+        proposals = Proposals(
+            self.pieces,
+            features,
+            range(len(self.targets)),
+            float(self.walk.x),
+            (self.low, self.high),
+            self.walk.reach,
+            [float(y) for y in fixed],
+        )
+        return _Lines(self, proposals, fixed).see()
+
+    def _is_seen(self, p: Point, q: Point) -> bool:
+        """Whether a point of the obstacle can be seen from a place, and this belongs to the walk."""
+        if not self._may_be_seen(p, q):
+            return False
+        near = distance_sq(p, q).compare(self.walk.radius * self.walk.radius) <= 0
+        return near and self.walk.passes(p.y) and self.sights.is_free(p, q)
+
+    def _may_be_seen(self, p: Point, q: Point) -> bool:
+        slack, (x, y), (u, v) = self.pieces.slack, p.xy, q.xy
+        if not self.low - slack <= y <= self.high + slack or np.hypot(u - x, v - y) > self.walk.reach + slack:
+            return False
+        a, b, error = np.array([[x, y]]), np.array([[u, v]]), np.array([slack])
+        return not self.pieces.block(a, b, error)[0]
+
+    def _stands(self) -> list[Feature] | None:
+        """The end of the walk and its contacts with known pieces; None if one is a target's point."""
+        walk, pieces = self.walk, self.pieces
+        found = [Feature(Point(walk.x, walk.stop), stand=True)]
+        if any(dot.x.compare(walk.x) == 0 and walk.passes(dot.y) for dot in self.dots):
+            return None
+        origin = Point(walk.x, 0)
+        for k, curve in enumerate(self.known):
+            low, _, high, _ = hull(curve)
+            if not low - pieces.slack <= float(walk.x) <= high + pieces.slack:
+                continue
+            ys = line_contacts(origin, UP, curve)
+            if k < len(self.targets) and self._meets(ys, isinstance(curve, Segment)):
+                return None
+            for y in ys:
+                if walk.passes(y):
+                    found.append(self._stand(k, Point(walk.x, y)))
+        return found
+
+    def _meets(self, ys: Sequence[Real], straight: bool) -> bool:
+        """Whether the walk meets a target: at ordinates, between which a segment lies on the line."""
+        walk = self.walk
+        if any(walk.passes(y) for y in ys):
+            return True
+        along = straight and len(ys) == 2
+        return along and min(ys).compare(walk.stop) <= 0 and max(ys).compare(walk.stop) >= 0
+
+    def _stand(self, k: int, place: Point) -> Feature:
+        pieces, curve = self.pieces, self.known[k]
+        i = j = k
+        on: tuple[int, ...] = (k,)
+        if place == curve.start and pieces.before[k] >= 0:
+            i = int(pieces.before[k])
+            on = (i, k)
+        elif place == curve.end and pieces.after[k] >= 0:
+            j = int(pieces.after[k])
+            on = (k, j)
+        elif place == curve.start or place == curve.end:
+            return Feature(place, stand=True, on=on)
+        at = np.array([place.xy])
+        (leave,), (back,) = pieces.tangents(np.array([j]), at), -pieces.tangents(np.array([i]), at)
+        return Feature(place, tuple(leave.tolist()), tuple(back.tolist()), stand=True, on=on)
+
+    # -- proposals -------------------------------------------------------------------------------------
+
+    def _sees_from_grid(self) -> bool:
+        """Whether some of a grid of lines of sight is free: most walks that see something are told here."""
+        walk, n = self.walk, GRID
+        steps = range(1, n + 1) if walk.sense > 0 else range(n)
+        ys = [rational(self.low + (self.high - self.low) * (k / n)) for k in steps]
+        ends = [(k, rail, u) for k, rail in enumerate(map(Rail, self.targets)) for u in _inner(rail)]
+        if not ends:
+            return False
+        q = np.array([rail.point(u).xy for _, rail, u in ends])
+        owner = np.array([k for k, _, _ in ends])
+        rows = np.repeat(np.arange(len(ys)), len(ends))
+        columns = np.tile(np.arange(len(ends)), len(ys))
+        p = np.array([(float(walk.x), float(y)) for y in ys])[rows]
+        q, leave = q[columns], self.pieces.tangents(owner[columns], q[columns])
+        size = np.hypot(*(q - p).T)
+        free = (size < walk.reach * (1 - 1e-6)) & (cross(leave, p - q) < -ANGLE * size)
+        free[free] = ~self.pieces.block(p[free], q[free], np.zeros(int(free.sum())))
+        tries = np.flatnonzero(free)[:: -walk.sense][:TRIES]
+        return any(
+            self._is_seen(Point(walk.x, ys[rows[k]]), ends[columns[k]][1].point(ends[columns[k]][2]))
+            for k in tries
+        )
+
+    # -- lines of sight as long as the range -----------------------------------------------------------
+
+    def _at_range(self, stands: Sequence[Feature]) -> Iterator[tuple[Point, Point]]:
+        """Candidates of the full length that have a closed form."""
+        walk = self.walk
+        for curve in self.targets:
+            for y in thresholds(walk.x, curve, walk.radius):
+                p = Point(walk.x, y)
+                yield from ((p, q) for q in (curve.start, curve.end, nearest_point(curve, p)))
+            if isinstance(curve, Arc) and curve.ccw:
+                across = curve.center.x - walk.x
+                square = walk.radius**2 + curve.radius_sq - across * across
+                if square.sign() >= 0:
+                    for rise in (square.sqrt(), -square.sqrt()):
+                        p = Point(walk.x, curve.center.y + rise)
+                        yield from ((p, q) for q in _tangent_points(p, curve) if curve.contains(q))
+            for stand in stands:
+                assert isinstance(stand.shape, Point)
+                p = stand.shape
+                rim = p + Point(walk.radius, 0)
+                ring = Arc(rim, rim, p, walk.radius**2, True, full=True)
+                found = contacts(curve, ring)
+                yield from ((p, q) for contact in found for q in (contact.start, contact.end))
+        for q in self.dots:
+            yield from ((Point(walk.x, y), q) for y in thresholds(walk.x, Segment(q, q), walk.radius))
+
+
+def _inner(rail: Rail) -> Iterator[fmpq]:
+    """Parameters of points inside a curve, near its ends too."""
+    top = float(rail.top)
+    for k in range(GRID + 1):
+        u = rational(top * min(max(k / GRID, 2.0**-10), 1 - 2.0**-10))
+        yield u
+
+
+def _tangent_points(p: Point, arc: Arc) -> Iterator[Point]:
+    """Where the tangents from a place touch an arc's circle."""
+    for side in (1, -1):
+        way = _way(p, Real(0), arc.center, arc.radius * side)
+        if way is not None:
+            yield p + way * (way.dot(arc.center - p) / way.norm_sq())
+
+
+def _way(a: Point, turn: Real, b: Point, other: Real) -> Point | None:
+    """The direction of the line that passes a at distance *turn* and b at distance *other*, on its left if
+    these are negative: 0 for points, plus or minus a radius for circles. None if there is no such line."""
+    d = b - a
+    if not (turn.sign() or other.sign()):
+        return d if d.x.sign() or d.y.sign() else None
+    k = turn - other
+    rest = d.norm_sq() - k * k
+    if d.norm_sq().sign() == 0 or rest.sign() < 0:
+        return None
+    normal = d * k + d.left() * rest.sqrt()
+    return -normal.left()
+
+
+class _Lines:
+    """Decides what the floats leave over of the lines that touch features."""
+
+    def __init__(self, search: _Search, proposals: Proposals, fixed: Sequence[Real]) -> None:
+        self.search, self.proposals, self.fixed = search, proposals, fixed
+        self.walk = search.walk
+
+    def see(self) -> bool:
+        """Whether some line of sight is free."""
+        lines, close = self.proposals.lines()
+        sights = self.proposals.sights(lines)
+        sights.sort(key=lambda sight: -sight.y * self.walk.sense)
+        seen = set()
+        for sight in sights:
+            key = sight.i, sight.j, sight.piece, sight.goal, sight.target
+            if key not in seen and self._sees_along(*key):
+                return True
+            seen.add(key)
+        if any(self._sees_close(i, j) for i, j in close):
+            return True
+        return self._sees_in_cells(lines)
+
+    # -- lines through two features --------------------------------------------------------------------
+
+    def _shape(self, g: int) -> tuple[Point, Real]:
+        """Centre and signed radius of a feature."""
+        proposals = self.proposals
+        shape = proposals.features[proposals.feature[g]].shape
+        if isinstance(shape, Point):
+            return shape, Real(0)
+        return shape.center, shape.radius * (1 if proposals.turn[g] > 0 else -1)
+
+    def _line(self, i: int, j: int, piece: int) -> tuple[Point, Point] | None:
+        """Where a line meets the walk, and its direction; None if it does not exist or is parallel."""
+        a, turn = self._shape(i)
+        way: Point | None
+        if j < 0:
+            curve = self.search.known[piece]
+            way = curve.tangent(a) if isinstance(curve, Arc) else curve.direction
+        else:
+            way = _way(a, turn, *self._shape(j))
+        if way is None or way.x.sign() == 0:
+            return None
+        if turn.sign():
+            # `_way` gives a vector as long as the squared distance.
+            a = a + way.left() * (turn / distance_sq(a, self._shape(j)[0]))
+        return Point(self.walk.x, a.y + way.y * ((self.walk.x - a.x) / way.x)), way
+
+    def _sees_along(self, i: int, j: int, piece: int, goal: int, target: int) -> bool:
+        line = self._line(i, j, piece)
+        if line is None or not self.walk.passes(line[0].y):
+            return False
+        p, way = line
+        if target >= 0:
+            found = line_contacts(p, way, self.search.known[target])
+            return any(self.search._is_seen(p, p + way * t) for t in found)
+        center, turn = self._shape(goal)
+        if turn.sign():
+            center = p + way * ((center - p).dot(way) / way.norm_sq())
+            arc = self.proposals.features[self.proposals.feature[goal]].shape
+            if isinstance(arc, Arc) and not arc.contains(center):
+                return False
+        return self.search._is_seen(p, center)
+
+    def _sees_close(self, i: int, j: int) -> bool:
+        """Two features that floats cannot part, or a line that seems to run along the walk."""
+        goals = [k for k in (i, j) if self.proposals.goal[k]]
+        targets = range(len(self.search.targets))
+        return any(self._sees_along(i, j, -1, k, -1) for k in goals) or any(
+            self._sees_along(i, j, -1, -1, k) for k in targets
+        )
+
+    # -- lines that touch one feature ------------------------------------------------------------------
+
+    def _sees_in_cells(self, lines: Lines) -> bool:
+        undecided = None
+        for cell in self.proposals.cells(lines):
+            answer = self._sees_on_line(cell) if self._is_on_line(cell.touch) else self._sees_in(cell, lines)
+            if answer:
+                return True
+            undecided = cell if answer is None else undecided
+        if undecided is not None:
+            raise Undecided(
+                f"whether an obstacle is seen later near ({float(self.walk.x)}, {undecided.low}): a line of "
+                "sight that touches one feature is as long as the range there, as far as floats can tell"
+            )
+        return False
+
+    def _is_on_line(self, g: int) -> bool:
+        """Whether a feature is a point of the walk's own line."""
+        center, turn = self._shape(g)
+        return turn.rational == 0 and center.x.compare(self.walk.x) == 0
+
+    def _sees_on_line(self, cell: Cell) -> bool:
+        """Whether the walk's own line, the only one past such a feature, is free where it is a range long."""
+        x, reach = self.walk.x, self.walk.radius
+        return any(
+            self.search._is_seen(Point(x, y + offset), Point(x, y))
+            for y in line_contacts(Point(x, 0), UP, self.search.known[cell.target])
+            for offset in (reach, -reach)
+        )
+
+    def _sees_in(self, cell: Cell, lines: Lines) -> bool | None:
+        """Whether a line of sight of a cell is free; None if that is not decided."""
+        if not cell.above:
+            return self._sees_in_run(cell, lines)
+        y = (cell.low + cell.high) / 2 if cell.sample is None else cell.sample
+        sight = self._about(cell, Real(rational(y)))
+        if sight is None or not self.search.sights.is_free(*sight):
+            return False
+        if cell.sample is not None:
+            return True if self.search._is_seen(*sight) else None
+        answers = [self._is_in_range(cell, part, lines) for part in cell.tight]
+        return True if True in answers else None if None in answers else False
+
+    def _about(self, cell: Cell, y: Real) -> tuple[Point, Point] | None:
+        """The line of sight of a cell from an ordinate."""
+        p = Point(self.walk.x, y)
+        way = _way(p, Real(0), *self._shape(cell.touch))
+        if way is None:
+            return None
+        found = line_contacts(p, way, self.search.known[cell.target])
+        if not found:
+            return None
+        t = found[-1] if cell.branch or len(found) == 1 else found[0]
+        return p, p + way * t
+
+    def _sees_in_run(self, cell: Cell, lines: Lines) -> bool | None:
+        """The same for the cells between ordinates that floats cannot part."""
+        answer: bool | None = False
+        for low, high in pairwise(sorted(self._ordinates(cell.below, lines))):
+            if low.compare(high) == 0:
+                continue
+            y = Real(rational_between(low, high))
+            sight = self._about(cell, y)
+            if sight is None or not self.walk.passes(y) or not self.search.sights.is_free(*sight):
+                continue
+            if any(self._is_short(cell, z) for z in (low, y, high)):
+                return True
+            answer = None
+        return answer
+
+    def _is_short(self, cell: Cell, y: Real) -> bool:
+        """Whether a line of a cell is shorter than the range."""
+        sight = self._about(cell, y)
+        return sight is not None and distance_sq(*sight).compare(self.walk.radius**2) < 0
+
+    def _ordinates(self, marks: Sequence[int], lines: Lines) -> list[Real]:
+        found = (self._ordinate(mark, lines) for mark in marks)
+        return [y for y in found if y is not None]
+
+    def _ordinate(self, mark: int, lines: Lines) -> Real | None:
+        if mark < 0:
+            return self.fixed[-1 - mark]
+        line = self._line(int(lines.i[mark]), int(lines.j[mark]), int(lines.piece[mark]))
+        return None if line is None else line[0].y
+
+    def _is_in_range(self, cell: Cell, part: tuple[float, float], lines: Lines) -> bool | None:
+        """Whether free lines of a cell, near one of its bounds, are as short as the range; None: undecided.
+
+        If at the bound itself the line is shorter, so are some in the cell. If it is as long or longer there,
+        and the lines grow from there on, the others are longer.
+        """
+        inward = 1 if part[0] - cell.low < cell.high - part[1] else -1
+        begin, marks = (cell.low, cell.below) if inward > 0 else (cell.high, cell.above)
+        bound = (max if inward > 0 else min)(self._ordinates(marks, lines), default=None)
+        if bound is None or (sight := self._about(cell, bound)) is None:
+            return None
+        if distance_sq(*sight).compare(self.walk.radius**2) < 0:
+            return True
+        far = Real(rational(max(part, key=lambda end: abs(end - begin))))
+        length = distance_sq(*sight).sqrt()
+        ends, shape = (bound, far), self._shape(cell.touch)
+        sign = growth_sign(Real(self.walk.x), ends, shape, self.search.known[cell.target], length)
+        return False if sign == inward else None

@@ -1,0 +1,143 @@
+"""Known pieces of boundaries as arrays of floats, which only prune: what certainly blocks a sight."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exactacq.geometry.curves import Arc, Curve
+
+Floats: TypeAlias = NDArray[np.float64]
+Ints: TypeAlias = NDArray[np.intp]
+Flags: TypeAlias = NDArray[np.bool_]
+
+TINY = 1e-300
+MARGIN = 1e-11
+"""Margin of lengths, for coordinates of size 1: 10^4 times the rounding errors of the formulas."""
+ANGLE = 1e-10
+"""Margin of sines of angles."""
+CHUNK = 1 << 17
+"""Entries of one table of lines by pieces: bounds the memory."""
+
+
+def cross(a: Floats, b: Floats) -> Any:
+    """z of vector products, row by row."""
+    return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+
+
+def dot(a: Floats, b: Floats) -> Any:
+    """Scalar products, row by row."""
+    return a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1]
+
+
+def norm(a: Floats) -> Floats:
+    """Lengths, row by row."""
+    lengths: Floats = np.hypot(a[..., 0], a[..., 1])
+    return lengths
+
+
+def left(a: Floats) -> Floats:
+    """Vectors turned by a quarter, counterclockwise."""
+    return np.stack((-a[..., 1], a[..., 0]), axis=-1)
+
+
+def unit(a: Floats) -> Floats:
+    """Vectors scaled to length 1; zero stays zero."""
+    scaled: Floats = a / np.maximum(norm(a), TINY)[..., None]
+    return scaled
+
+
+class Pieces:
+    """Known pieces of boundaries as flat arrays, and where they join.
+
+    ``before[k]`` is the piece that ends where piece k starts, ``after[k]`` the one that starts where it ends;
+    -1 where knowledge ends. ``slack`` is the margin of lengths.
+    """
+
+    def __init__(self, curves: Sequence[Curve], size: float) -> None:
+        self.curves = curves
+        self.slack = MARGIN * size
+        ends = np.array([(*c.start.xy, *c.end.xy) for c in curves]).reshape(-1, 4)
+        self.start, self.end = ends[:, :2], ends[:, 2:]
+        self.sense = np.array([c.ccw * 2 - 1 if isinstance(c, Arc) else 0 for c in curves], dtype=float)
+        self.full = np.array([isinstance(c, Arc) and c.start == c.end for c in curves], dtype=bool)
+        circles = [(*c.center.xy, float(c.radius)) if isinstance(c, Arc) else (0.0, 0.0, 1.0) for c in curves]
+        table = np.array(circles).reshape(-1, 3)
+        self.center, self.radius = table[:, :2], table[:, 2]
+        close = norm(self.end[:, None] - self.start[None]) <= self.slack
+        self.before = np.full(len(curves), -1)
+        self.after = np.full(len(curves), -1)
+        for i, j in np.argwhere(close):
+            if curves[i].end == curves[j].start:
+                self.after[i], self.before[j] = j, i
+
+    def tangents(self, k: Ints, at: Floats) -> Floats:
+        """Unit directions of travel of pieces k at points of them."""
+        straight = unit(self.end[k] - self.start[k])
+        round_ = left(at - self.center[k]) * (self.sense[k] / self.radius[k])[:, None]
+        return np.where(self.sense[k, None] == 0, straight, round_)
+
+    def possible(self, p: Floats, q: Floats) -> Ints:
+        """The pieces that the segment from p to q does not certainly miss."""
+        d, slack = unit(q - p), self.slack
+        a, b = cross(d, self.start - p), cross(d, self.end - p)
+        along = unit(self.end - self.start)
+        s, t = cross(along, p - self.start), cross(along, q - self.start)
+        straight = (np.maximum(a, b) < -slack) | (np.minimum(a, b) > slack)
+        straight |= (np.maximum(s, t) < -slack) | (np.minimum(s, t) > slack)
+        reach = np.clip(dot(self.center - p, d), 0.0, float(norm(q - p)))
+        off = norm(self.center - p - reach[:, None] * d) > self.radius + slack
+        within = np.maximum(norm(p - self.center), norm(q - self.center)) < self.radius - slack
+        wide = norm(self.end - self.start) > 1e-6 * self.radius
+        aside = wide & (np.minimum(s * self.sense, t * self.sense) > slack)
+        missed = np.where(self.sense == 0, straight, off | within | aside & ~self.full)
+        return np.flatnonzero(~missed)
+
+    def block(self, p: Floats, q: Floats, error: Floats) -> Flags:
+        """Which segments, with ends known up to an error, certainly cross a piece inside it."""
+        found = np.zeros(len(p), dtype=bool)
+        step = max(1, CHUNK // max(1, len(self.curves)))
+        for k in range(0, len(p), step):
+            part = slice(k, k + step)
+            found[part] = self._block(p[part, None], q[part, None], error[part, None])
+        return found
+
+    def _block(self, p: Floats, q: Floats, error: Floats) -> Flags:
+        length = norm(q - p)
+        d = unit(q - p)
+        straight = self.sense == 0
+        blocked = np.zeros(len(p), dtype=bool)
+        if straight.any():
+            a, b = self.start[straight] - p, self.end[straight] - p
+            along = unit(b - a)
+            grown = self.slack + error * (1 + 2 * np.maximum(norm(a), norm(b)) / np.maximum(length, TINY))
+            one, two = cross(d, a), cross(d, b)
+            parted = (one * two < 0) & (np.minimum(np.abs(one), np.abs(two)) > grown)
+            one, two = -cross(along, a), cross(along, q - p - a)
+            parted &= (one * two < 0) & (np.minimum(np.abs(one), np.abs(two)) > self.slack + error)
+            blocked |= parted.any(axis=1)
+        if not straight.all():
+            blocked |= self._block_round(p, d, length, error, np.flatnonzero(~straight))
+        return blocked
+
+    def _block_round(self, p: Floats, d: Floats, length: Floats, error: Floats, k: Ints) -> Flags:
+        radius, sense, full = self.radius[k], self.sense[k], self.full[k]
+        offset = self.center[k] - p
+        height, middle = cross(d, offset), dot(offset, d)
+        grown = self.slack + error * (1 + 2 * (norm(offset) + radius) / np.maximum(length, TINY))
+        deep = np.abs(height) < radius - 2 * grown
+        half = np.sqrt(np.maximum(radius * radius - height * height, TINY))
+        shift = grown * (2 + 2 * radius / half)
+        chord = self.end[k] - self.start[k]
+        wide = norm(chord) > 1e-6 * radius
+        blocked = np.zeros(len(p), dtype=bool)
+        for root in (middle - half, middle + half):
+            inner = (root > shift) & (root < length - shift)
+            place = p + root[..., None] * d
+            side = cross(unit(chord), place - self.start[k]) * -sense
+            inside = full | wide & (side > shift)
+            blocked |= (deep & inner & inside).any(axis=1)
+        return blocked

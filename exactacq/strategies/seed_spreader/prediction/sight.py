@@ -1,0 +1,164 @@
+"""The exact side of predictions: the part of the walk that is asked about, and whether one sight is free."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from flint import fmpq
+
+from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.intersections import ContactKind, contacts
+from exactacq.geometry.points import Point
+from exactacq.numbers.real import Real
+from exactacq.strategies.seed_spreader.prediction.pieces import Pieces
+
+
+class Walk:
+    """The part of the vertical line, and the range."""
+
+    def __init__(self, x: fmpq, start: Real, stop: Real | fmpq, radius: fmpq, including: bool) -> None:
+        self.x, self.start, self.stop, self.radius = x, start, stop, radius
+        self.including = including
+        # A walk of one place goes either way.
+        self.sense = Real(stop).compare(start) or 1
+        self.reach = float(radius) * (1 + 1e-9)
+        self.low, self.high = sorted((float(start), float(stop)))
+
+    def passes(self, y: Real) -> bool:
+        """Whether an ordinate lies beyond the start, or there if *including*, and not beyond the stop."""
+        order = y.compare(self.start)
+        return (
+            order in (self.sense, 0 if self.including else self.sense) and y.compare(self.stop) != self.sense
+        )
+
+    def may_reach(self, place: tuple[float, ...]) -> bool:
+        """Whether a box may be within range."""
+        x, r = float(self.x), self.reach
+        return overlap(place, (x - r, self.low - r, x + r, self.high + r))
+
+    def field(self, hulls: Sequence[tuple[float, ...]]) -> tuple[float, float, float, float]:
+        """A box around all lines of sight to boxes."""
+        x, r = float(self.x), self.reach
+        a, b, c, d = (f(h[k] for h in hulls) for k, f in enumerate((min, min, max, max)))
+        low, high = max(self.low, b - r), min(self.high, d + r)
+        left, right = max(min(x, a), x - r), min(max(x, c), x + r)
+        pad = 1e-9 * (r + abs(x) + abs(low) + abs(high))
+        bottom, top = min(low, max(b, low - r)), max(high, min(d, high + r))
+        return left - pad, bottom - pad, right + pad, top + pad
+
+
+def hull(curve: Curve) -> tuple[float, ...]:
+    """A box around a curve, of an arc around its circle."""
+    if isinstance(curve, Segment):
+        (a, b), (c, d) = curve.start.xy, curve.end.xy
+        return min(a, c), min(b, d), max(a, c), max(b, d)
+    (x, y), r = curve.center.xy, float(curve.radius) * (1 + 1e-12)
+    return x - r, y - r, x + r, y + r
+
+
+def overlap(a: Sequence[float], b: Sequence[float]) -> bool:
+    """Whether two boxes meet."""
+    return a[0] <= b[2] and b[0] <= a[2] and a[1] <= b[3] and b[1] <= a[3]
+
+
+def unique(curves: Sequence[Curve]) -> Iterator[Curve]:
+    """Each curve once."""
+    seen = set()
+    for curve in curves:
+        sense = curve.ccw if isinstance(curve, Arc) else None
+        size = (curve.center.key, curve.radius_sq) if isinstance(curve, Arc) else None
+        key = curve.start.key, curve.end.key, sense, size
+        if key not in seen:
+            seen.add(key)
+            yield curve
+
+
+# -- one line of sight ----------------------------------------------------------------------------
+
+
+class _Germ(NamedTuple):
+    """A curve that leaves a point: its direction and its curvature, or a number of the same order."""
+
+    way: Point
+    bend: fmpq
+
+
+def _enters(leave: _Germ, back: _Germ, way: Point) -> bool:
+    """Whether a ray leaves a point strictly between two curves, counterclockwise from leave to back."""
+    ray = _Germ(way, fmpq(0))
+    to_ray, to_back = _turn(leave, ray), _turn(leave, back)
+    if not to_ray or to_ray > to_back:
+        return False
+    return to_ray < to_back or _turn(ray, back) in {1, 2}
+
+
+def _turn(a: _Germ, b: _Germ) -> int:
+    """How far b lies counterclockwise of a: 0 nowhere, 1 by its bend, 2 to 4 below, by and above a half turn,
+    5 a full turn less a bend."""
+    side = a.way.cross(b.way).sign()
+    if side:
+        return 3 - side
+    if a.way.dot(b.way).sign() < 0:
+        return 3
+    return 0 if a.bend == b.bend else 1 if b.bend > a.bend else 5
+
+
+def _germ(curve: Curve, at: Point) -> _Germ:
+    """A curve as it runs on from one of its points."""
+    if isinstance(curve, Segment):
+        return _Germ(curve.direction, fmpq(0))
+    return _Germ(curve.tangent(at), (1 if curve.ccw else -1) / curve.radius_sq)
+
+
+def _reversed(germ: _Germ) -> _Germ:
+    return _Germ(-germ.way, -germ.bend)
+
+
+class Sights:
+    """Decides lines of sight among known pieces."""
+
+    def __init__(self, pieces: Pieces) -> None:
+        self.pieces = pieces
+
+    def is_free(self, p: Point, q: Point) -> bool:
+        """Whether the segment from a place p to a point q of a boundary nowhere enters the blocked side."""
+        if p == q:
+            return True
+        sight = Segment(p, q)
+        near = self.pieces.possible(np.array(p.xy), np.array(q.xy))
+        return all(self._passes(sight, int(k)) for k in near)
+
+    def _passes(self, sight: Segment, k: int) -> bool:
+        found = contacts(sight, self.pieces.curves[k])
+        if any(contact.kind is ContactKind.CROSSING for contact in found):
+            return False
+        places = (z for c in found for z in ((c.start,) if c.start is c.end else (c.start, c.end)))
+        return all(self._may_pass(sight, k, z) for z in places)
+
+    def _may_pass(self, sight: Segment, k: int, z: Point) -> bool:
+        """Whether a sight that touches a piece at a point does not enter the blocked side there."""
+        curves, curve = self.pieces.curves, self.pieces.curves[k]
+        at_end, at_begin = z == sight.end, z == sight.start
+        leave, back = None, None
+        if z == curve.start:
+            leave, other = _germ(curve, z), int(self.pieces.before[k])
+            back = None if other < 0 else _reversed(_germ(curves[other], z))
+        elif z == curve.end:
+            back, other = _reversed(_germ(curve, z)), int(self.pieces.after[k])
+            leave = None if other < 0 else _germ(curves[other], z)
+        else:
+            leave = _germ(curve, z)
+            back = _reversed(leave)
+        if (leave is None or back is None) and not at_end:
+            # From places beside a lone end the like sights are free: so is this one, their limit.
+            return True
+        # At a lone end that is looked at, the boundary is taken to go straight on.
+        leave = _Germ(-back.way, fmpq(0)) if leave is None and back is not None else leave
+        # Each of the three cases above knows one of the two germs.
+        assert leave is not None
+        back = _Germ(-leave.way, fmpq(0)) if back is None else back
+        ways = [] if at_end else [sight.direction]
+        ways += [] if at_begin else [-sight.direction]
+        return not any(_enters(leave, back, way) for way in ways)

@@ -1,0 +1,112 @@
+"""How far a known piece of boundary is: its nearest point, and where on a line it comes into reach."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import cmp_to_key
+from itertools import pairwise
+
+from flint import fmpq
+
+from exactacq.geometry.curves import Arc, Curve
+from exactacq.geometry.intersections import spans
+from exactacq.geometry.points import Point, distance_sq
+from exactacq.numbers.between import rational_between
+from exactacq.numbers.real import Real
+
+
+def nearest_point(curve: Curve, place: Point) -> Point:
+    """The point of a closed curve nearest to a place; of equally near ones the start, else the end."""
+    if isinstance(curve, Arc):
+        ray = place - curve.center
+        if (ray.x.sign() or ray.y.sign()) and spans(curve, (ray.x, ray.y)):
+            return curve.center + ray * (curve.radius / ray.norm_sq().sqrt())
+        nearer = distance_sq(curve.start, place).compare(distance_sq(curve.end, place)) <= 0
+        return curve.start if nearer else curve.end
+    along = curve.direction
+    way, size = (place - curve.start).dot(along), along.norm_sq()
+    if way.sign() <= 0:
+        return curve.start
+    return curve.start + along * (way / size) if way.compare(size) < 0 else curve.end
+
+
+def nearest_of(points: Sequence[Point], place: Point) -> Point:
+    """The point nearest to a place; of equally near ones the lexicographically least."""
+
+    def order(a: Point, b: Point) -> int:
+        return distance_sq(a, place).compare(distance_sq(b, place)) or a.compare(b)
+
+    return min(points, key=cmp_to_key(order))
+
+
+def is_in_reach(place: Point, curves: Sequence[Curve], radius: fmpq) -> bool:
+    """Whether some curve comes within the radius of a place."""
+    near = (distance_sq(place, nearest_point(curve, place)) for curve in curves)
+    return any(distance.compare(radius * radius) <= 0 for distance in near)
+
+
+def thresholds(x: fmpq, curve: Curve, radius: fmpq) -> Iterator[Real]:
+    """Ordinates at which a place with abscissa *x* is as far as the radius from a point of a curve.
+
+    Among them are all ends of the stretches from which the curve is within the radius: there the nearest
+    point is an end or the foot of a perpendicular.
+    """
+    for end in (curve.start, curve.end):
+        yield from _level(x, end, Real(radius))
+    if isinstance(curve, Arc):
+        for size in (curve.radius + radius, curve.radius - radius):
+            if size.sign() > 0:
+                for y in _level(x, curve.center, size):
+                    ray = x - curve.center.x, y - curve.center.y
+                    # Opposite to a foot, where the ray leaves the arc's other side, nothing is as near.
+                    if spans(curve, ray):
+                        yield y
+        return
+    dx, dy = curve.direction
+    if dx.sign():
+        size = curve.direction.norm_sq()
+        rise = Real(radius) * size.sqrt() / dx
+        middle = curve.start.y + dy * ((x - curve.start.x) / dx)
+        for y in (middle - rise, middle + rise):
+            way = (Point(x, y) - curve.start).dot(curve.direction)
+            if way.sign() > 0 and way.compare(size) < 0:
+                yield y
+
+
+def _level(x: fmpq, center: Point, radius: Real) -> list[Real]:
+    """The ordinates at which a vertical line meets a circle."""
+    across = center.x - x
+    square = radius * radius - across * across
+    if square.sign() < 0:
+        return []
+    height = square.sqrt()
+    return [center.y - height, center.y + height]
+
+
+def last_in_reach(x: fmpq, upward: bool, curves: Sequence[Curve], radius: fmpq) -> Real | None:
+    """The last ordinate with some curve in reach as one walks a vertical line; None if there is none."""
+    found = [y for curve in curves for y in thresholds(x, curve, radius)]
+    return (max(found) if upward else min(found)) if found else None
+
+
+def first_out_of_reach(
+    x: fmpq, upward: bool, begin: Real, curves: Sequence[Curve], radius: fmpq
+) -> Real | None:
+    """The first ordinate from *begin* on, as one walks, with a curve in reach and none just after."""
+    sense = 1 if upward else -1
+    found = [begin] if is_in_reach(Point(x, begin), curves, radius) else []
+    found += [y for curve in curves for y in thresholds(x, curve, radius) if y.compare(begin) == sense]
+    found.sort(reverse=not upward)
+    for y, after in pairwise(found):
+        if y.compare(after):
+            middle = Point(x, rational_between(min(y, after), max(y, after)))
+            if not is_in_reach(middle, curves, radius):
+                return y
+    return found[-1] if found else None
+
+
+def leftmost(curve: Curve) -> Real:
+    """The least abscissa on a closed curve."""
+    if isinstance(curve, Arc) and spans(curve, (fmpq(-1), fmpq(0))):
+        return curve.center.x - curve.radius
+    return min(curve.start.x, curve.end.x)

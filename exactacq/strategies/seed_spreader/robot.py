@@ -1,0 +1,190 @@
+"""The Seed Spreader's robot: it follows the M-line, and goes straight to known points.
+
+A strategy sees where the robot is, the map, what is in sight, and the crossing points of boundaries that are
+on the map. It learns what is in the way by meeting it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence, Set
+from typing import NamedTuple
+
+from flint import fmpq
+
+from exactacq.geometry.box_index import box
+from exactacq.geometry.curves import Curve, Segment
+from exactacq.geometry.points import Point
+from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.scene.scene import Scene
+from exactacq.scene.terrain_components import Component, Ground
+from exactacq.sensing.history import Memory
+from exactacq.sensing.map import Map
+from exactacq.sensing.path import Piece
+from exactacq.sensing.sensor import Ahead
+from exactacq.strategies.robot import Robot
+from exactacq.strategies.seed_spreader.blocked import Blocking, Gap
+from exactacq.strategies.seed_spreader.mline import Crossing, MLine
+
+
+class Hit(NamedTuple):
+    """What stopped the robot: an obstacle, and where on the M-line it begins to block, if it was followed."""
+
+    obstacle: int
+    crossing: Crossing | None
+
+
+Watch = Callable[[Ahead], Point | None]
+"""Is shown what the next way will tell, and answers where the robot is to stop, if anywhere."""
+
+
+class Surveyor(Robot):
+    """A point robot in the SW corner of a terrain, with a vision sensor of limited *radius* (rational).
+
+    The corner must be free.
+    """
+
+    def __init__(self, scene: Scene, ground: Ground, radius: fmpq) -> None:
+        table = EdgeTable(scene.obstacles)
+        self.radius = radius
+        self.mline = MLine(ground.terrain, radius)
+        self._blocking = Blocking(ground, table)
+        self._crossings = self.mline.crossings(self._blocking)
+        self._next = self.piece = 0
+        self._gaps: list[Gap] = []
+        self._bases, self._passed = (Point(0, 0), Point(0, 0)), 0
+        super().__init__(Point(0, 0), Memory(scene, radius, table, ground))
+
+    # -- the map -----------------------------------------------------------------------------------
+
+    @property
+    def map(self) -> Map:
+        """What is known now."""
+        return self._memory.now
+
+    @property
+    def in_sight(self) -> Set[int]:
+        """The obstacles in sight that are not acquired."""
+        return self._memory.in_sight
+
+    def is_acquired(self, obstacle: int) -> bool:
+        """Whether all of an obstacle is known."""
+        return obstacle in self._memory.acquired
+
+    def map_ahead(self, ahead: Ahead, u: Real, place: Point, obstacles: Set[int]) -> Map:
+        """What will be known of some obstacles at a place of a way that was looked along."""
+        return self._memory.map_ahead(ahead, u, place, obstacles)
+
+    def near(self, curves: Sequence[Curve]) -> set[int]:
+        """Obstacles that may be within the radius of some curves: to ask the map for no others."""
+        boxes = [box(curve) for curve in curves]
+        left, bottom, right, top = (f(b[k] for b in boxes) for k, f in enumerate((min, min, max, max)))
+        return self._memory.near((left, bottom, right, top))
+
+    def visible(self, obstacle: int) -> list[Curve]:
+        """The pieces of an obstacle in sight from here; a single point is a piece without length."""
+        return self._memory.visible(self.position, obstacle)
+
+    def blocks_ahead(self, obstacle: int, chart: Map) -> bool:
+        """Whether a crossing point of an obstacle on the rest of the M-line is on a map."""
+        return any(
+            crossing.component.index == obstacle and self._is_known(crossing, chart)
+            for crossing in self._crossings[self._next :]
+        )
+
+    def _is_known(self, crossing: Crossing, chart: Map) -> bool:
+        component, point = crossing.component, crossing.stop.point
+        return _is_ashore(component, point) and chart.knows(component.index, point)
+
+    def leave_point(self, hit: Hit) -> Crossing | None:
+        """Where the M-line goes on after an obstacle that was walked around; None if it traps S or T."""
+        for crossing in self._crossings[self._next :]:
+            component = crossing.component
+            if (
+                component.index == hit.obstacle
+                and crossing.ends
+                and _is_ashore(component, crossing.stop.point)
+            ):
+                return crossing
+        return None
+
+    # -- motion ------------------------------------------------------------------------------------
+
+    def follow(self, watch: Watch | None = None) -> Hit | None:
+        """Follow the M-line to the end of its straight piece, unless an obstacle blocks or *watch* stops."""
+        way = self.mline.pieces[self.piece]
+        crossing = self._crossings[self._next] if self._next < len(self._crossings) else None
+        is_blocked = crossing is not None and crossing.piece == self.piece
+        target = crossing.stop.point if crossing is not None and is_blocked else way.end
+        if not self._walk_straight(target, watch) or crossing is None or not is_blocked:
+            return None
+        self.at = crossing.component.index
+        return Hit(self.at, crossing)
+
+    def turn(self) -> bool:
+        """Take up the next piece of the M-line; False at T."""
+        self.piece += 1
+        return self.piece < len(self.mline.pieces)
+
+    def resume(self, crossing: Crossing) -> None:
+        """Take up the M-line at a leave point, to which the robot has walked."""
+        self.piece, self._next = crossing.piece, self._crossings.index(crossing) + 1
+
+    def head_for(self, goal: Point) -> None:
+        """Lay a straight way from here to a point."""
+        self._bases, self._passed = (self.position, goal), 0
+        self._gaps = self._blocking.gaps(Segment(*self._bases)) if self.position != goal else []
+
+    def head_back(self) -> None:
+        """Lay the straight way back, from where the robot came to its end, or to what blocks it.
+
+        Its points are those of the way out: found again, they would be other forms of the same numbers.
+        """
+        passed = reversed(self._gaps[: self._passed])
+        self._gaps = [Gap(gap.obstacle, gap.component, gap.end, gap.begin) for gap in passed]
+        self._bases, self._passed = (self.position, self._bases[0]), 0
+
+    def go(self) -> Hit | None:
+        """Go on along the straight way until an obstacle blocks it, or to its end."""
+        if self._passed == len(self._gaps):
+            self._walk_straight(self._bases[1], None)
+            return None
+        gap = self._gaps[self._passed]
+        self._walk_straight(gap.begin.point, None)
+        # `Blocking` finds no component only where both ends of a stretch are blocked, and these can only be
+        # ends of the way: the robot's own place or its free goal.
+        assert gap.component is not None, "a way between free points is blocked between them"
+        self.at = gap.component.index
+        return Hit(self.at, None)
+
+    def pass_by(self, obstacle: int) -> Point | None:
+        """Take up the straight way at the last crossing point of an obstacle with it, which is returned.
+
+        None if there is none that can be walked to.
+        """
+        for k in range(len(self._gaps) - 1, self._passed - 1, -1):
+            component, place = self._gaps[k].component, self._gaps[k].end.point
+            if component is not None and component.index == obstacle and _is_ashore(component, place):
+                self._passed = k + 1
+                return place
+        return None
+
+    def _walk_straight(self, target: Point, watch: Watch | None) -> bool:
+        """Walk to a point that can be reached; False if *watch* stopped the robot before."""
+        if self.position == target:
+            return True
+        for part in self._memory.parts(Segment(self.position, target)):
+            piece = Piece("straight", None, part)
+            stop = None if watch is None else watch(self._memory.ahead(piece))
+            if stop is not None and stop != part.end:
+                piece = Piece("straight", None, Segment(self.position, stop))
+            if stop is None or stop != self.position:
+                self._move(piece)
+                self.position = piece.end
+            if stop is not None:
+                return False
+        return True
+
+
+def _is_ashore(component: Component, point: Point) -> bool:
+    return any(part.curve.passes(point) for part in component.shore)

@@ -1,0 +1,234 @@
+"""The Seed Spreader Strategy (paper, section 4): sweep along the M-line, divert at the last moment."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from enum import StrEnum
+from functools import cmp_to_key
+
+from flint import fmpq
+
+from exactacq.errors import InvalidScene
+from exactacq.geometry.points import Point, distance_sq
+from exactacq.numbers.rationals import rational
+from exactacq.scene.scene import Scene
+from exactacq.scene.terrain_components import Ground, ground_of
+from exactacq.scene.validation import sensor_flaws
+from exactacq.strategies.bounds import spreader_bounds
+from exactacq.strategies.gc_pause import uncollected
+from exactacq.strategies.run import Diversion, Run, Sweeping
+from exactacq.strategies.seed_spreader.losses import Line, Loss, known
+from exactacq.strategies.seed_spreader.range_thresholds import nearest_of, nearest_point
+from exactacq.strategies.seed_spreader.robot import Hit, Surveyor
+
+Progress = Callable[[int, int], None]
+"""Called with the number of the M-line's straight pieces behind the robot, and of all."""
+
+
+class TargetChoice(StrEnum):
+    """Among which points of an obstacle that is about to be lost the nearest one is aimed at."""
+
+    KNOWN = "known"
+    VISIBLE = "visible"
+
+
+class _Trapped(Exception):
+    """The strategy ends before T: what the robot is at leaves no way on."""
+
+
+@uncollected()
+def seed_spreader(
+    scene: Scene,
+    radius: object = None,
+    lookahead: bool = True,
+    target: str = "known",
+    progress: Progress | None = None,
+) -> Run:
+    """Explore the terrain of a scene by the Seed Spreader Strategy, from its SW corner.
+
+    *radius* defaults to the scene's own and must be rational. Without *lookahead* an obstacle is about to be
+    lost as soon as it is out of sight, or out of reach, just after; *target* "visible" aims at the nearest
+    visible point in place of the nearest known one. Raises `InvalidScene` if there is no terrain, no
+    radius or an enclosure, if the start is another point than the SW corner, if that is not free, or
+    if an obstacle lies outside the terrain; ValueError for another target.
+    """
+    choice = TargetChoice(target)
+    reach = scene.radius if radius is None else rational(radius)
+    ground, reach = _checked(scene, reach)
+    return _Spreader(Surveyor(scene, ground, reach), lookahead, choice, progress).run(scene, ground)
+
+
+def _checked(scene: Scene, radius: fmpq | None) -> tuple[Ground, fmpq]:
+    if radius is None:
+        raise InvalidScene(["a radius of vision must be given"])
+    flaws = list(sensor_flaws(Point(0, 0), radius))
+    if scene.start is not None and scene.start != Point(0, 0):
+        flaws.append(f"the start {scene.start} is not the terrain's SW corner (0, 0)")
+    if flaws:
+        raise InvalidScene(flaws)
+    return ground_of(scene), radius
+
+
+class _Spreader:
+    def __init__(
+        self, robot: Surveyor, lookahead: bool, target: TargetChoice, progress: Progress | None
+    ) -> None:
+        self.robot, self.lookahead, self.target, self.progress = robot, lookahead, target, progress
+        self.diversions: list[Diversion] = []
+        self.encounters: list[int] = []
+        self.again: list[int] = []
+        self.line: Line | None = None
+
+    def run(self, scene: Scene, ground: Ground) -> Run:
+        """Steps 0 to 3 of the paper; comments give their numbers."""
+        robot = self.robot
+        try:
+            while True:
+                self._follow()
+                if self.progress is not None:
+                    self.progress(robot.piece + 1, len(robot.mline.pieces))
+                if not robot.turn():
+                    break
+            reason = "the end of the M-line is reached"  # 1(a)
+        except _Trapped as trapped:
+            reason = str(trapped)
+        at = robot.at if isinstance(robot.at, int) else None
+        robot.mark("stop", at if robot.position != robot.mline.pieces[-1].end else None, reason)
+        return self._finished(scene, ground)
+
+    # -- step 1: along the M-line ------------------------------------------------------------------
+
+    def _follow(self) -> None:
+        """Follow the straight pieces of the M-line to the end of the one the robot is on or comes to."""
+        robot = self.robot
+        piece = -1
+        while True:
+            if robot.piece != piece:
+                piece = robot.piece
+                number = robot.mline.line(piece)
+                self.line = Line(robot, self.lookahead) if number else None
+            hit = robot.follow(None if self.line is None else self.line.watch)
+            if hit is not None:
+                self._meet(hit)  # 1(b), 1(c)
+            elif self.line is not None and self.line.losses:
+                self._divert(self.line.losses)  # 1(d)
+                self.line.losses = []
+            elif not self._diverts_at_end():
+                return
+
+    def _diverts_at_end(self) -> bool:
+        losses = [] if self.line is None else self.line.at_end()
+        if losses:
+            self._divert(losses)
+        return bool(losses)
+
+    def _meet(self, hit: Hit) -> None:
+        """Walk around an obstacle that blocks the M-line (step 2), or that is known, to where it goes on."""
+        robot = self.robot
+        met = robot.is_acquired(hit.obstacle)
+        robot.mark("cross" if met else "hit", hit.obstacle, "on the M-line")
+        self.encounters.append(hit.obstacle)
+        if met:
+            self.again.append(hit.obstacle)
+        else:
+            robot.circumnavigate()
+        crossing = robot.leave_point(hit)
+        if crossing is None:
+            raise _Trapped(f"the start or the end of the M-line is trapped in obstacle {hit.obstacle}")
+        here = robot.position
+        if self.line is not None and hit.crossing is not None and here == hit.crossing.stop.point:
+            leave = crossing.stop.point if crossing.piece == robot.piece else None
+            while losses := self.line.before_hop(leave):
+                self._divert(losses)
+        robot.at = hit.obstacle
+        robot.walk_to(crossing.stop.point)
+        robot.mark("leave", hit.obstacle, "on the M-line")
+        robot.resume(crossing)
+
+    # -- step 3: diversions ------------------------------------------------------------------------
+
+    def _divert(self, losses: list[Loss]) -> None:
+        """Acquire the nearest obstacle that is about to be lost, and come back."""
+        robot = self.robot
+        leave = robot.position
+        aims = [(self._aim(loss), loss) for loss in losses]
+
+        def order(a: tuple[Point, Loss], b: tuple[Point, Loss]) -> int:
+            nearer = distance_sq(a[0], leave).compare(distance_sq(b[0], leave))
+            return nearer or a[1].obstacle - b[1].obstacle
+
+        aim, loss = min(aims, key=cmp_to_key(order))
+        robot.mark("divert", loss.obstacle, loss.reason)
+        first = robot.count
+        robot.head_for(aim)
+        self._approach(loss.obstacle)
+        aim = robot.position
+        robot.circumnavigate()
+        robot.walk_to(aim)
+        robot.mark("leave", loss.obstacle, "back to the M-line")
+        robot.head_back()
+        self._approach(None)
+        robot.mark("return", loss.obstacle, loss.reason)
+        self.diversions.append(Diversion(loss.obstacle, leave, aim, str(loss.reason), first, robot.count))
+
+    def _aim(self, loss: Loss) -> Point:
+        """The known, or visible, point of an obstacle nearest to the robot."""
+        robot = self.robot
+        curves = robot.visible(loss.obstacle) if self.target is TargetChoice.VISIBLE else []
+        curves = curves or known(robot.map, loss.obstacle)
+        return nearest_of([nearest_point(curve, robot.position) for curve in curves], robot.position)
+
+    def _approach(self, obstacle: int | None) -> None:
+        """Go the straight way, around what is in the way; or to the first hit of the aimed *obstacle*."""
+        robot = self.robot
+        note = "on the way back" if obstacle is None else "on the way"
+        while (hit := robot.go()) is not None:
+            k = hit.obstacle
+            robot.mark("hit", k, note)
+            if obstacle is not None:
+                self.encounters.append(k)
+            is_known = robot.is_acquired(k)
+            if k == obstacle and not is_known:
+                return
+            if not is_known:
+                robot.circumnavigate()
+            crossing = robot.pass_by(k)
+            if crossing is None:
+                raise _Trapped(f"obstacle {k} closes the straight way")
+            robot.walk_to(crossing)
+            robot.mark("leave", k, note)
+        if obstacle is not None:
+            self.encounters.append(obstacle)
+            robot.at = obstacle
+            robot.mark("hit", obstacle, "diversion")
+
+    def _finished(self, scene: Scene, ground: Ground) -> Run:
+        robot = self.robot
+        path, events, record = robot.trace()
+        chart = robot.map
+        length = path.length_after(len(path))
+        sweeping = Sweeping(
+            self.lookahead,
+            str(self.target),
+            tuple(self.diversions),
+            tuple(self.encounters),
+            tuple(self.again),
+            tuple(sorted({c.obstacle.index for c in ground.unreached})),
+        )
+        count = len(ground.components)
+        return Run(
+            scene,
+            robot.radius,
+            "seed-spreader",
+            robot.start,
+            path,
+            tuple(robot.visited),
+            (),
+            events,
+            spreader_bounds(ground, robot.radius, sweeping, length),
+            tuple(k for k in range(count) if k not in chart.seen),
+            tuple(k for k in range(count) if k in chart.incomplete),
+            0,
+            record,
+            sweeping,
+        )

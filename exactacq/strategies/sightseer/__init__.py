@@ -1,0 +1,1 @@
+"""The Sightseer Strategy: from obstacle to obstacle."""

@@ -1,0 +1,155 @@
+"""The command ``exactacq verify``."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from enum import StrEnum
+from pathlib import Path
+from time import monotonic
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+from exactacq.errors import FormatError
+from exactacq.files.whole_files import check_output
+from exactacq.output.report import console
+from exactacq.study.campaign.coordinator import conduct
+from exactacq.study.campaign.judging import Record, Result, judge
+from exactacq.study.campaign.settings import MOST_SCENES, Settings, Task, claims_at, parts
+from exactacq.study.campaign.store import Store
+from exactacq.study.campaign.summary import faults, is_faulty, record_report, summary
+from exactacq.study.campaign.table import SUFFIXES, arrow, export
+
+CONTRADICTED = 1
+"""Exit status if a statement that is called true failed, or an audit did, or a scene went wrong."""
+FILES = (".sqlite", ".db")
+"""File types of campaigns."""
+LINES = 20
+"""About as many lines tell how far a campaign is where no terminal watches."""
+
+
+class Chosen(StrEnum):
+    """Which strategies are tried."""
+
+    BOTH = "both"
+    SIGHTSEER = "sightseer"
+    SEED_SPREADER = "seed-spreader"
+
+
+def verify(
+    scenes: Annotated[
+        int, typer.Option(min=1, max=MOST_SCENES, metavar="N", help="Random scenes of each strategy.")
+    ] = 100,
+    seed: Annotated[int, typer.Option(min=0, max=10**9, metavar="S", help="Another seed, other scenes.")] = 0,
+    strategy: Annotated[Chosen, typer.Option(help="Which strategies to try.")] = Chosen.BOTH,
+    workers: Annotated[
+        int | None, typer.Option(min=1, metavar="K", help="Processes on this machine; default: one a core.")
+    ] = None,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(metavar="ADDRESS", help="A dask cluster's scheduler, in place of processes here."),
+    ] = None,
+    out: Annotated[
+        str | None,
+        typer.Option(metavar="F", help="Keep the results in this SQLite file, and go on from what it holds."),
+    ] = None,
+    table: Annotated[
+        str | None, typer.Option("--export", metavar="F", help="Write all findings as a table: .parquet.")
+    ] = None,
+    replay: Annotated[
+        str | None,
+        typer.Option(metavar="STRATEGY:SEED", help="Judge one scene again, without a time limit."),
+    ] = None,
+    timeout: Annotated[
+        float, typer.Option(min=0.1, metavar="T", help="Seconds a scene may take; more count as a timeout.")
+    ] = 120.0,
+    audited: Annotated[bool, typer.Option("--audit/--no-audit", help="Audit every run.")] = True,
+) -> None:
+    """Put random exact scenes to every claim: run, audit, and check each statement.
+
+    Exit status 1 if a statement that is called true fails on a scene, an audit fails, or a scene cannot be
+    judged; timeouts and undecided scenes are counted apart.
+    """
+    if replay is not None:
+        if out is not None or table is not None or scheduler is not None:
+            raise FormatError("--replay: judges one scene here and writes nothing; leave the files out")
+        _replay(_task(replay), Settings(audit=audited))
+        return
+    chosen = Settings().strategies if strategy is Chosen.BOTH else (strategy.value,)
+    settings = Settings(scenes, seed, chosen, audited, timeout)
+    target = None if table is None else check_output(table, SUFFIXES)
+    if target is not None:
+        arrow()
+    if out is not None:
+        check_output(out, FILES)
+    if workers is not None and scheduler is not None:
+        raise FormatError("--workers: counts processes on this machine; leave it out with --scheduler")
+    if run_campaign(settings, out, workers, scheduler, target):
+        raise typer.Exit(CONTRADICTED)
+
+
+def run_campaign(
+    settings: Settings,
+    out: str | None = None,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    table: Path | None = None,
+) -> bool:
+    """Judge what is not judged yet, print the summary, and write the table; whether anything went wrong."""
+    called = [c for c, _ in parts(claims_at(settings.claims)) if c.strategy in settings.strategies]
+    with Store(None if out is None else Path(out), settings, called) as store:
+        total = sum(1 for _ in settings.tasks())
+        with _progress(len(store.done()), total) as report:
+            conduct(settings, store, workers, scheduler, report)
+        console().print(summary(store))
+        if table is not None:
+            print(f"{export(store, table)} findings written to {table}")
+        return bool(faults(store))
+
+
+def _task(text: str) -> Task:
+    strategy, _, seed = text.rpartition(":")
+    if strategy not in Settings().strategies or not (seed.isascii() and seed.isdecimal()):
+        raise FormatError(f"--replay: not a scene: {text!r}; give one like sightseer:17 or seed-spreader:0")
+    return Task(strategy, int(seed))
+
+
+def _replay(task: Task, settings: Settings) -> None:
+    statements = list(parts(claims_at(settings.claims)))
+    record = judge(task, statements, settings.audit)
+    console().print(record_report(record))
+    if is_faulty([called for called, _ in statements], record):
+        raise typer.Exit(CONTRADICTED)
+
+
+@contextmanager
+def _progress(done: int, total: int) -> Iterator[Callable[[Record], None]]:
+    """Tells standard error how far a campaign is: a bar on a terminal, else a line now and then."""
+    if not sys.stderr.isatty():
+        yield _lines(done, total)
+        return
+    columns = (TextColumn("verifying"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("", total=total, completed=done)
+        yield lambda _: bar.update(task, advance=1)
+
+
+def _lines(done: int, total: int) -> Callable[[Record], None]:
+    began, count, apart = monotonic(), done, 0
+    if done:
+        print(f"verify: {done} of {total} scenes are judged already", file=sys.stderr, flush=True)
+
+    def report(record: Record) -> None:
+        nonlocal count, apart
+        count += 1
+        apart += record.result != Result.PASSED
+        if count == total or count % max(1, total // LINES) == 0:
+            spent = monotonic() - began
+            line = f"verify: {count} of {total} scenes, {apart} not passed, {spent:.0f} s"
+            print(line, file=sys.stderr, flush=True)
+
+    return report

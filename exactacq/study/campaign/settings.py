@@ -1,0 +1,83 @@
+"""What a campaign is asked to do: which scenes, which claims, how long a scene may take."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from importlib import import_module
+from importlib.metadata import version
+from typing import NamedTuple
+
+from exactacq.errors import ExactacqError
+from exactacq.study.claims.model import Claim, Statement, Subject
+
+CLAIMS = "exactacq.study.claims:CLAIMS"
+"""Where the claims are, as module:name: processes import them, for checks need not be picklable."""
+MOST_SCENES = 10**6
+"""Most scenes of a strategy in a campaign: the seeds of campaigns are so far apart."""
+
+
+class CampaignError(ExactacqError):
+    """A campaign cannot be begun, or cannot go on; what is in its file stays."""
+
+
+class Task(NamedTuple):
+    """One scene to be judged."""
+
+    strategy: str
+    seed: int
+
+    def __str__(self) -> str:
+        return f"{self.strategy}:{self.seed}"
+
+
+class Called(NamedTuple):
+    """One statement that scenes can try, and what it is called."""
+
+    claim: str
+    part: str
+    strategy: str
+    truth: str
+    text: str
+
+
+@dataclass(frozen=True)
+class Settings:
+    """A campaign: *scenes* of each strategy, from the *seed*; *timeout* is in seconds a scene."""
+
+    scenes: int = 100
+    seed: int = 0
+    strategies: tuple[str, ...] = tuple(subject.value for subject in Subject)
+    audit: bool = True
+    timeout: float = 120.0
+    claims: str = CLAIMS
+
+    def tasks(self) -> Iterator[Task]:
+        """All scenes, the strategies in turn. Campaigns of different seeds share no scene."""
+        first = self.seed * MOST_SCENES
+        for seed in range(first, first + self.scenes):
+            for strategy in self.strategies:
+                yield Task(strategy, seed)
+
+    def as_text(self) -> dict[str, str]:
+        """What a campaign's file must agree on, word by word, for the campaign to go on in it."""
+        words = asdict(self) | {"strategies": " ".join(self.strategies), "version": version("exactacq")}
+        return {key: str(value) for key, value in words.items()}
+
+
+def claims_at(reference: str) -> tuple[Claim, ...]:
+    """The claims that "module:name" names. Raises `CampaignError`."""
+    module, _, name = reference.partition(":")
+    try:
+        return tuple(getattr(import_module(module), name))
+    except (ImportError, AttributeError) as error:
+        raise CampaignError(f"no claims at {reference}: {error}") from None
+
+
+def parts(claims: tuple[Claim, ...]) -> Iterator[tuple[Called, Statement]]:
+    """The statements that single scenes can try: what is printed, and what holds instead."""
+    for claim in claims:
+        for part, statement in zip(("printed", "corrected"), claim.statements, strict=False):
+            if statement.check is not None:
+                truth = "false" if statement.is_called_false else "true"
+                yield Called(claim.name, part, statement.subject.value, truth, statement.text), statement

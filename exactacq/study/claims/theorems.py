@@ -1,0 +1,165 @@
+"""Theorem 1, Lemma 3, Theorem 2 and its first case: bounds, recounted and compared with the run (paper,
+sections 3.3 and 4.3)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from exactacq.numbers.length import Length
+from exactacq.strategies.run import Run
+from exactacq.study.claims.model import SILENT, Case, Claim, Finding, Statement, Subject, flaw, found
+from exactacq.study.claims.tallies import Tally, differs, theorem_1, theorem_1_printed
+
+SIGHTSEER, SPREADER = Subject.SIGHTSEER, Subject.SEED_SPREADER
+
+
+def _within(length: Length, value: Length) -> Finding:
+    ratio = float(length) / float(value) if value.sign() else None
+    return found(length <= value, f"{float(length):.8g} against {float(value):.8g}", ratio)
+
+
+def keeps_theorem_1(case: Case) -> Finding:
+    """P is at most (1), in model (a)."""
+    return _keeps(case, "(1)", theorem_1_printed)
+
+
+def keeps_corrected_theorem_1(case: Case) -> Finding:
+    """P is at most the corrected (1), in model (a)."""
+    return _keeps(case, "T1 corrected", theorem_1)
+
+
+def _keeps(case: Case, name: str, recounted: Callable[[Run], Length]) -> Finding:
+    if not case.is_mutually_visible:
+        return SILENT
+    run = case.sightseer
+    value = recounted(run)
+    wrong = differs(run, {name: value})
+    return flaw(wrong) if wrong else _within(run.length, value)
+
+
+def keeps_lemma_3(case: Case) -> Finding:
+    """The visits are at most (4)."""
+    return _visits(case, case.shared(Tally).visit_bounds()["(4)"])
+
+
+def keeps_corrected_lemma_3(case: Case) -> Finding:
+    """The visits are at most (4), what is met again and overtaken aims; a wider form across strips."""
+    return _visits(case, case.shared(Tally).proved_visits())
+
+
+def _visits(case: Case, most: Length) -> Finding:
+    wrong = differs(case.spreader, case.shared(Tally).visit_bounds())
+    return flaw(wrong) if wrong else _within(Length(case.shared(Tally).visits), most)
+
+
+def keeps_theorem_2(case: Case) -> Finding:
+    """P is at most (5) and (6), and (9)-(11) in the cases they are for.
+
+    (9) and (11) are for diversions that meet no known obstacle, (10) and (11) for obstacles clear of the
+    border.
+    """
+    run, values = case.spreader, case.shared(Tally).length_bounds()
+    if (wrong := differs(run, values)) is not None:
+        return flaw(wrong)
+    if not case.shared(Tally).is_clear:
+        del values["(10)"], values["(11)"]
+    if case.shared(Tally).diversions_meet_known:
+        for name in {"(9)", "(11)"} & set(values):
+            del values[name]
+    broken = [name for name, value in values.items() if run.length > value]
+    worst = max(float(run.length) / float(value) for value in values.values() if value.sign())
+    return found(not broken, f"broken: {', '.join(broken)}" if broken else "", worst)
+
+
+def keeps_corrected_theorem_2(case: Case) -> Finding:
+    """P is at most (6), or (10) clear of the border, with what is met again and what far diversions add."""
+    run, tally = case.spreader, case.shared(Tally)
+    wrong = differs(run, {"T2 corrected": tally.met_again_bound()})
+    return flaw(wrong) if wrong else _within(run.length, tally.proved_length())
+
+
+def is_the_m_line(case: Case) -> Finding:
+    """If no obstacle is hit and none diverted to, P is A + B + rA."""
+    run = case.spreader
+    if any(event.kind in ("hit", "cross", "divert") for event in run.events):
+        return SILENT
+    value = case.shared(Tally).base
+    wrong = differs(run, {"(8)": value})
+    return flaw(wrong) if wrong else found(run.length == value, f"P = {run.length}, (8) is {value}")
+
+
+CLAIMS = (
+    Claim(
+        "T1",
+        "Theorem 1, bounds (1) and (2)",
+        Statement(
+            "In model (a), P <= 2(n - 1) min(R, d_max) + 1.5 sum p_i + (n - 2) p_max / 2.",
+            SIGHTSEER,
+            keeps_theorem_1,
+            counterexamples=("m9",),
+        ),
+        Statement(
+            "In model (a), P <= S-S1 + (2n - 3) min(R, v_max) + 1.5 sum p_i - p_last / 2 + (n - 2) p_max / 2 "
+            "for n >= 2; P = S-S1 + p for n = 1.",
+            SIGHTSEER,
+            keeps_corrected_theorem_1,
+            argument="T1",
+        ),
+        "What is visible only past something can be farther than any two obstacles are apart. S-S1 is "
+        "the way from a free start to the first obstacle, v_max the longest tree edge.",
+    ),
+    Claim(
+        "L3",
+        "Lemma 3, bound (4)",
+        Statement(
+            "The visits are at most n + n n_0 + 1/2 sum n_j (n_j - 1).",
+            SPREADER,
+            keeps_lemma_3,
+            counterexamples=("m20-3",),
+        ),
+        Statement(
+            "The visits are at most n + n n_0 + 1/2 sum n_j (n_j - 1) + sum re_i + s, re_i the number of "
+            "times that obstacle i blocks the M-line after it was acquired, s the number of aims that are "
+            "acquired on the way to them and still in the way; n + n(n - 1)/2 + sum re_i + s if a diversion "
+            "meets obstacles of another strip.",
+            SPREADER,
+            keeps_corrected_lemma_3,
+            argument="L3",
+        ),
+        "One obstacle can block the M-line once for every line that it crosses. The last two amendments are "
+        "for what could not be excluded: no scene is known that needs them.",
+    ),
+    Claim(
+        "T2",
+        "Theorem 2, bounds (5), (6) and (9)-(11)",
+        Statement(
+            "P is at most (5) and (6); at most (9) if diversions meet no known obstacle, (10) if none "
+            "meets the border, (11) if both.",
+            SPREADER,
+            keeps_theorem_2,
+            counterexamples=("m20-3", "m20-6", "m20-8", "m20-16", "relay"),
+        ),
+        Statement(
+            "P <= A + B + rA + 2nR + 2 sum max(0, |DQ| - R) + a sum p_i + k (2n n_0 p_max + p_max sum "
+            "n_j (n_j - 1)) + k sum re_i p_i + k sum of p over overtaken aims; a = 3/2 and k = 1/2 if no "
+            "obstacle meets the border, else 3 and 1; with n^2 p_max for the bracket if a diversion meets "
+            "obstacles of another strip.",
+            SPREADER,
+            keeps_corrected_theorem_2,
+            argument="T2",
+        ),
+        "Two things are not counted: meeting a known obstacle again on the M-line (m20), and diversions "
+        "longer than R (relay), to obstacles that were first seen on another diversion and are out of "
+        "reach from D. Without the term for these the corrected bound fails on relay, by 1115.08 to 1046.71.",
+    ),
+    Claim(
+        "C8",
+        "section 4.3, Case 1, equation (8)",
+        Statement(
+            "If nothing blocks the M-line and nothing is diverted to, P = A + B + rA.",
+            SPREADER,
+            is_the_m_line,
+            argument="C8",
+        ),
+    ),
+)

@@ -1,0 +1,1 @@
+"""What one place sees within a range, free segments, and links between obstacles."""

@@ -1,0 +1,136 @@
+"""Whether a segment is free: its open part meets no obstacle's interior (grazing does not block).
+
+Floats settle the clear cases with proven margins. Otherwise the contacts with the doubtful edges cut the
+segment into pieces, and one exact point of each tells whether the piece is inside.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cmp_to_key
+from itertools import pairwise
+
+import numpy as np
+from flint import fmpq
+
+from exactacq.geometry.curves import Arc, Curve
+from exactacq.geometry.intersections import line_contacts
+from exactacq.geometry.points import Location, Point
+from exactacq.numbers.real import Real, rational
+from exactacq.scene.edge_table import EdgeTable, Ints
+from exactacq.visibility.line_families import Sector
+from exactacq.visibility.line_hits import Crossings
+
+HALF = fmpq(1, 2)
+
+
+def is_free(table: EdgeTable, start: Point, end: Point) -> bool:
+    """Whether the segment between two points, neither of them inside an obstacle, is free.
+
+    Without a contact between its ends it is taken to be outside: from a boundary it must not lead straight
+    into the obstacle (`View.buries` tells).
+    """
+    p, q = np.array(start.xy), np.array(end.xy)
+    size = float(np.hypot(*(q - p)))
+    edges = table.near((min(p[0], q[0]), min(p[1], q[1])), (max(p[0], q[0]), max(p[1], q[1])), 0.0)
+    slack = 64 * table.roundoff_at((p[0], p[1]), (q[0], q[1]))
+    if size > 1024 * slack and len(edges):
+        direction = ((q - p) / size)[None, :]
+        found = Crossings(table, edges, (), p, np.zeros((1, 2)), direction, slack * (1 + slack / size))
+        if found.blocks(0, size):
+            return False
+        edges = found.doubtful(0, size)
+    return _is_free_exactly(table, start, end, edges)
+
+
+def _is_free_exactly(table: EdgeTable, start: Point, end: Point, edges: Ints) -> bool:
+    direction = end - start
+    cuts: dict[int, list[Real]] = {}
+    for e in edges:
+        for tau in _contacts(start, end, direction, table.curves[e]):
+            if tau.sign() > 0 and tau.compare(1) < 0:
+                cuts.setdefault(int(table.owner[e]), [Real(0), Real(1)]).append(tau)
+    return not any(
+        table.obstacles[k].locate(start + direction * ((low + high) * HALF)) is Location.INSIDE
+        for k, values in cuts.items()
+        for low, high in pairwise(sorted(values))
+        if low.compare(high) != 0
+    )
+
+
+def _contacts(start: Point, end: Point, direction: Point, curve: Curve) -> list[Real]:
+    """Parameters of a segment's contacts with a curve, but for an end that lies on the curve's circle.
+
+    The other crossing then follows without a root, and the end need not be compared with 0 or 1.
+    """
+    if not isinstance(curve, Arc):
+        return line_contacts(start, direction, curve)
+    at_start, at_end = (curve.on_circle(p) for p in (start, end))
+    if at_start and at_end:
+        return []
+    if not (at_start or at_end):
+        return line_contacts(start, direction, curve)
+    middle = (curve.center - start).dot(direction) / direction.norm_sq()
+    other = 2 * middle - (1 if at_end else 0)
+    return [other] if curve.contains(start + direction * other) else []
+
+
+@dataclass(frozen=True, slots=True)
+class Walk:
+    """The contacts (signed parameter, edge) of a line within reach, nearest first; the last may block it."""
+
+    hits: list[tuple[Real, int]]
+    blocked: bool
+
+
+def walk_line(table: EdgeTable, sector: Sector, t: Real, reach: float) -> tuple[Walk, Walk]:
+    """What a tangent line touches behind and ahead of its contact, up to what first blocks it."""
+    contact, direction = sector.touch(t)
+    x, y = contact.xy
+    edges = table.near((x, y), (x, y), reach)
+    size = float(np.hypot(*direction.xy))
+    slack = 64 * table.roundoff
+    line = np.array([direction.xy]) / size
+    found = Crossings(table, edges, (), np.array((x, y)), np.zeros((1, 2)), line, slack)
+    met = [
+        (tau, int(e)) for e in found.possible(0) for tau in line_contacts(contact, direction, table.curves[e])
+    ]
+    met.sort(key=cmp_to_key(_by_parameter))
+    far = reach * (1 + 1e-9) / size
+    ahead = _as_far([hit for hit in met if hit[0].sign() > 0], table, far)
+    behind = _as_far([hit for hit in reversed(met) if hit[0].sign() < 0], table, far)
+    # Beyond the last contact nothing changes within reach: a parameter just short of that tells of the rest.
+    end = rational(reach * (1 - 1e-9) / size)
+    return (
+        _until_blocked(table, contact, direction, behind, Real(-end)),
+        _until_blocked(table, contact, direction, ahead, Real(end)),
+    )
+
+
+def _as_far(hits: list[tuple[Real, int]], table: EdgeTable, far: float) -> list[tuple[Real, int]]:
+    """The contacts up to a distance, or to the end of an edge along the line that begins before.
+
+    Farther away only some edges were looked at; along an edge nothing else can be.
+    """
+    within = {e for tau, e in hits if abs(float(tau)) <= far and not table.kind[e]}
+    ends = (abs(float(tau)) for tau, e in hits if e in within)
+    limit = max(far, *ends, 0.0)
+    return [hit for hit in hits if abs(float(hit[0])) <= limit]
+
+
+def _by_parameter(a: tuple[Real, int], b: tuple[Real, int]) -> int:
+    return a[0].compare(b[0])
+
+
+def _until_blocked(
+    table: EdgeTable, contact: Point, direction: Point, hits: list[tuple[Real, int]], end: Real
+) -> Walk:
+    previous = Real(0)
+    owners = {int(table.owner[e]) for _, e in hits}
+    for k, tau in enumerate([*(tau for tau, _ in hits), end]):
+        if (tau - previous).sign() == end.sign():
+            middle = contact + direction * ((previous + tau) * HALF)
+            if any(table.obstacles[i].locate(middle) is Location.INSIDE for i in owners):
+                return Walk(hits[:k], blocked=True)
+            previous = tau
+    return Walk(hits, blocked=False)

@@ -1,0 +1,272 @@
+"""Facets: the parts of the boundary that turn their free side to a point, and where they begin and end.
+
+A ray from the point enters an obstacle only through a facet, and meets each facet once: seen from the point
+a facet runs clockwise in the boundary's direction, since the obstacle lies on its left. A straight edge is a
+facet or none; an arc falls apart where the point's tangents touch its circle: the near part of a convex arc
+is a facet, the far part of a concave one, all of it if the point is inside the circle.
+
+The ends of facets are *events*, numbered: below the number of edges they are vertices, from there on *marks*,
+points that are no vertices (tangent points, the point itself). Floats decide what their margins prove.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from math import hypot, sqrt
+
+import numpy as np
+
+from exactacq.geometry.coordinates import Vector, advance, cross, dot, minus, raw, sign, square_root
+from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.intersections import spans
+from exactacq.geometry.points import Point
+from exactacq.scene.edge_table import STRAIGHT, EdgeTable, Ints
+from exactacq.visibility.features import is_spike, parallel
+
+SLACK = 8.0
+"""Margin of float differences of coordinates, in units of the table's round-off; the larger, the more is
+decided exactly."""
+VAGUE = 10.0
+"""Margin of an angle that floats do not know at all."""
+EXACT = 64 * 2.0**-52
+"""Margin of the direction of a vector whose coordinates are correctly rounded."""
+SURE_GAP = 1e-3
+"""A circle at least so many radii away has float tangents that are good to the margin."""
+NOWHERE = -1
+"""The event where a full circle about the point begins and ends: there is none."""
+
+
+class Mark:
+    """An event that is no vertex: its point and the exact direction to it, made by *make* when asked for,
+    and that direction as floats with a margin.
+
+    It lies on arc ``edge``, to whose circle the direction is tangent; ``side`` is 1 if the circle is to the
+    left, else -1.
+    """
+
+    __slots__ = ("_exact", "_make", "edge", "margin", "side", "xy")
+
+    def __init__(
+        self,
+        make: Callable[[], tuple[Point, Vector]],
+        xy: tuple[float, float],
+        margin: float,
+        edge: int,
+        side: int,
+    ) -> None:
+        self._make, self.xy, self.margin, self.edge, self.side = make, xy, margin, edge, side
+        self._exact: tuple[Point, Vector] | None = None
+
+    @property
+    def exact(self) -> tuple[Point, Vector]:
+        """Point and direction."""
+        if self._exact is None:
+            self._exact = self._make()
+        return self._exact
+
+
+@dataclass(frozen=True, slots=True)
+class Cone:
+    """The directions that lead from a boundary point into its obstacle: counterclockwise between events.
+
+    The two are one event if all directions but that one do.
+    """
+
+    low: int
+    high: int
+
+
+class Facets:
+    """The facets within reach of one free point, as parallel arrays, with their events.
+
+    ``edge``, ``low`` and ``high``: edge number and events of each facet; it covers the directions
+    counterclockwise from low to high, and runs from high to low. ``own`` are the edges through the point, at
+    a vertex the incoming one first; ``on_ray`` the other straight edges that the point sees edge-on.
+    """
+
+    def __init__(self, table: EdgeTable, point: Point, reach: float, own: tuple[int, ...]) -> None:
+        self.table, self.point, self.own = table, point, own
+        self.origin = raw(point)
+        self.xy = point.xy
+        self.reach = reach
+        self.slack = SLACK * table.roundoff_at(self.xy)
+        self.marks: list[Mark] = []
+        self.on_ray: list[int] = []
+        self.special: list[int] = []
+        self._offsets: dict[int, Vector] = {}
+        near = table.near(self.xy, self.xy, reach)
+        kind = table.kind[near]
+        edges, low, high = self._straight(near[kind == STRAIGHT])
+        arcs: list[tuple[int, int, int]] = []
+        for e in near[kind != STRAIGHT].tolist():
+            if e not in own:
+                arcs += self._arc(e)
+        self.cone = self._cone(arcs) if own else None
+        for e in self.on_ray:
+            self.special += (e, int(table.next[e]))
+        self.curved = bool(arcs)
+        if arcs:
+            more = np.array(arcs, dtype=np.intp)
+            edges, low, high = (
+                np.concatenate((a, b)) for a, b in zip((edges, low, high), more.T, strict=True)
+            )
+        self.edge, self.low, self.high = edges, low, high
+
+    def __len__(self) -> int:
+        return len(self.edge)
+
+    # -- events ------------------------------------------------------------------------------------
+
+    def offset(self, event: int) -> Vector:
+        """The exact vector from the point to an event, or some positive multiple of it."""
+        known = self._offsets.get(event)
+        if known is None:
+            vertices = self.table.vertices
+            if event < len(vertices):
+                known = minus(vertices[event], self.origin)
+            else:
+                known = self.marks[event - len(vertices)].exact[1]
+            self._offsets[event] = known
+        return known
+
+    def place(self, event: int) -> Point:
+        """The point where an event lies."""
+        count = len(self.table.vertices)
+        return self.table.curves[event].start if event < count else self.marks[event - count].exact[0]
+
+    def _mark(self, mark: Mark) -> int:
+        self.marks.append(mark)
+        return len(self.table.vertices) + len(self.marks) - 1
+
+    # -- straight edges ----------------------------------------------------------------------------
+
+    def _straight(self, edges: Ints) -> tuple[Ints, Ints, Ints]:
+        table, slack = self.table, self.slack
+        for e in self.own:
+            edges = edges[edges != e]
+        start, end = table.start[edges] - self.xy, table.end[edges] - self.xy
+        sx, sy, ex, ey = start[:, 0], start[:, 1], end[:, 0], end[:, 1]
+        ax, ay = ex - sx, ey - sy
+        share = np.clip(-(sx * ax + sy * ay) / np.maximum(ax * ax + ay * ay, 1e-300), 0.0, 1.0)
+        gap = np.hypot(sx + share * ax, sy + share * ay)
+        turn = sx * ey - sy * ex
+        margin = 4 * slack * (np.abs(sx) + np.abs(sy) + np.abs(ex) + np.abs(ey))
+        front = turn < -margin
+        vague = ~(front | (turn > margin))
+        near = ~(gap > self.reach + 4 * slack)
+        if vague.any():
+            for k in np.flatnonzero(vague & near).tolist():
+                e = int(edges[k])
+                side = sign(cross(self.offset(e), self.offset(int(table.next[e]))))
+                front[k] = side < 0
+                if side == 0:
+                    self.on_ray.append(e)
+        chosen = edges[front & near]
+        return chosen, table.next[chosen], chosen
+
+    # -- arcs --------------------------------------------------------------------------------------
+
+    def _arc(self, e: int) -> list[tuple[int, int, int]]:
+        """The facets (edge, low, high) of an arc that does not pass through the point, in its direction."""
+        table, slack, arc = self.table, self.slack, self.table.curves[e]
+        assert isinstance(arc, Arc)
+        wx, wy = float(table.center[e, 0] - self.xy[0]), float(table.center[e, 1] - self.xy[1])
+        size, radius = hypot(wx, wy), float(table.radius[e])
+        if abs(size - radius) > self.reach + 8 * slack:
+            return []
+        end = int(table.next[e])
+        w = minus(raw(arc.center), self.origin)
+        outside = size > radius
+        if any(table.circles.get(own) == table.circles[e] for own in self.own):
+            outside = False  # An own edge is another arc of the same circle, so the point is on it.
+        elif not abs(size - radius) > 8 * slack:
+            outside = sign(dot(w, w) - arc.radius_sq) > 0
+        if not outside:
+            whole = NOWHERE if arc.full else e
+            return [] if arc.ccw else [(e, NOWHERE if arc.full else end, whole)]
+        away = (-w[0], -w[1])
+        front, back = (away, w) if arc.ccw else (w, away)
+        first, last = (not arc.full and self._facing(arc, w, p) for p in (arc.start, arc.end))
+        if first and last:
+            if not spans(arc, back):
+                return [(e, end, e)]
+        elif not (first or last) and not spans(arc, front):
+            return []
+        # From the left tangent point to the right one: clockwise as seen from the point.
+        enter, leave = self._tangent(e, w, 1), self._tangent(e, w, -1)
+        if first and last:
+            return [(e, leave, e), (e, end, enter)]
+        return [(e, end if last else leave, e if first else enter)]
+
+    def _facing(self, arc: Arc, w: Vector, end: Point) -> bool:
+        """Whether the boundary near an end of the arc, on the arc, turns its free side to the point."""
+        z = minus(raw(end), raw(arc.center))
+        beyond = sign(dot(z, w) + arc.radius_sq) * (-1 if arc.ccw else 1)
+        if beyond == 0:
+            # The end is a tangent point: facets go from the left one to the right one.
+            left = sign(cross(w, z)) > 0
+            return left if end is arc.start else not left
+        return beyond > 0
+
+    def _tangent(self, e: int, w: Vector, side: int) -> int:
+        """The event of the left (1) or right (-1) tangent from the point to the circle of an arc."""
+        arc = self.table.curves[e]
+        assert isinstance(arc, Arc)
+        (wx, wy), radius = self.table.center[e] - self.xy, float(self.table.radius[e])
+        gap, margin = hypot(wx, wy) - radius, EXACT
+        if gap > radius * SURE_GAP:
+            reach = sqrt(gap * (gap + 2 * radius))
+            margin += 16 * self.slack / reach
+        else:
+            # Correctly rounded exact values: no cancellation is left.
+            wx, wy = float(w[0]), float(w[1])
+            radius, reach = float(arc.radius), sqrt(float(dot(w, w) - arc.radius_sq))
+        xy = wx * reach - wy * radius * side, wy * reach + wx * radius * side
+        return self._mark(Mark(partial(_touch, self.origin, arc, w, side), xy, margin, e, -side))
+
+    # -- the point's own edges ---------------------------------------------------------------------
+
+    def _cone(self, arcs: list[tuple[int, int, int]]) -> Cone | None:
+        """The blocked directions of a boundary point; adds the facets of its own concave arcs to *arcs*."""
+        table = self.table
+        incoming, outgoing = self.own[0], self.own[-1]
+        before, after = table.curves[incoming], table.curves[outgoing]
+        low = self._departure(after, outgoing, int(table.next[outgoing]), 1)
+        high = self._departure(before, incoming, incoming, -1)
+        self.special += (low, high)
+        if isinstance(before, Arc) and not before.ccw and before is after and before.full:
+            arcs.append((outgoing, high, low))
+        else:
+            if isinstance(before, Arc) and not before.ccw:
+                arcs.append((incoming, high, incoming))
+            if isinstance(after, Arc) and not after.ccw:
+                arcs.append((outgoing, int(table.next[outgoing]), low))
+        if len(self.own) == 2 and parallel(self.offset(low), self.offset(high)):
+            return None if is_spike(before, after) else Cone(low, low)
+        return Cone(low, high)
+
+    def _departure(self, curve: Curve, e: int, vertex: int, sense: int) -> int:
+        """The event of the direction in which an own edge leaves the point, forward (1) or back (-1)."""
+        if isinstance(curve, Segment):
+            x, y = raw(curve.direction)
+            self._offsets[vertex] = x * sense, y * sense
+            return vertex
+        x, y = raw(curve.tangent(self.point))
+        vector = x * sense, y * sense
+        xy, here = (float(vector[0]), float(vector[1])), self.point
+        return self._mark(Mark(lambda: (here, vector), xy, EXACT, e, sense if curve.ccw else -sense))
+
+
+def _touch(origin: Vector, arc: Arc, w: Vector, side: int) -> tuple[Point, Vector]:
+    """Where a tangent touches, and its direction; w leads to the centre.
+
+    With h^2 the squared length of the tangent and g = h r the direction is h^2 w +- g left(w), which is |w|^2
+    times as long as the way.
+    """
+    square = dot(w, w)
+    excess = square - arc.radius_sq
+    g = square_root(excess * arc.radius_sq) * side
+    vector = w[0] * excess - w[1] * g, w[1] * excess + w[0] * g
+    return advance(origin, vector, 1 / square), vector

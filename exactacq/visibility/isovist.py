@@ -1,0 +1,152 @@
+"""The isovist: all that a point sees within a limited range, as one closed boundary.
+
+`visible_boundary` decides what is seen and `outline` joins it. What is seen along single rays only, between
+obstacles that pinch a line or along an edge, bounds no area: it is in the isovist, not on its outline, and
+offered as `rays`.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import ClassVar
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from exactacq.errors import InvalidScene
+from exactacq.geometry.coordinates import raw
+from exactacq.geometry.curves import Segment
+from exactacq.geometry.intersections import signed_area
+from exactacq.geometry.points import Location, Point, distance_sq
+from exactacq.numbers.length import Length
+from exactacq.numbers.rationals import rational
+from exactacq.numbers.real import fmpq
+from exactacq.scene.edge_table import EdgeTable, Floats
+from exactacq.scene.ports import SVG, made
+from exactacq.scene.scene import Obstacle, Scene
+from exactacq.scene.validation import sensor_flaws
+from exactacq.visibility.free_segment import is_free
+from exactacq.visibility.outline import ViewKind, ViewPiece, outline
+from exactacq.visibility.range_clip import Span
+from exactacq.visibility.visible_boundary import View
+
+__all__ = ["Isovist", "ViewKind", "ViewPiece", "isovist"]
+
+
+class Isovist:
+    """The view from a free point within a rational radius.
+
+    Made with it: which facet comes first in every direction, decided exactly. On first access: the exact end
+    points of ``pieces``, ``rays`` and `seen`, which need square roots where the range cuts.
+    """
+
+    def __init__(self, scene: Scene, point: Point, radius: fmpq, own: tuple[int, ...] | None = None) -> None:
+        self.scene, self.point, self.radius = scene, point, radius
+        self._view = View(_Tables.of(scene).edges, point, radius, own)
+
+    @cached_property
+    def pieces(self) -> tuple[ViewPiece, ...]:
+        """The closed outline, counterclockwise; from a boundary point it passes through the point itself.
+
+        Empty where the point, at the tip of a crack, sees no area.
+        """
+        return outline(self._view)
+
+    @cached_property
+    def rays(self) -> tuple[Segment, ...]:
+        """The free parts, within range, of the single rays that see more than their neighbours.
+
+        These go on where the rays to both sides are blocked, or run along a straight edge.
+        """
+        rays = (ray for ray in self._view.rays if ray.beyond or ray.along)
+        return tuple(Segment(self.point, ray.end) for ray in rays)
+
+    def seen(self) -> dict[tuple[int, int], list[Span]]:
+        """All boundary points seen: by obstacle and edge, closed pieces (start, end) in the edge's direction.
+
+        As `seen_from` says, which see for vertices, single points and full circles.
+        """
+        table = self._view.table
+        owner, first = table.owner.tolist(), table.first.tolist()
+        return {(owner[e], e - first[owner[e]]): spans for e, spans in self._view.seen().items()}
+
+    @cached_property
+    def area(self) -> Length:
+        """Exact area."""
+        return signed_area([piece.curve for piece in self.pieces])
+
+    @cached_property
+    def perimeter(self) -> Length:
+        """Exact length of the outline, windows and range arcs included."""
+        return Length.sum(piece.curve.length for piece in self.pieces)
+
+    def contains(self, point: Point) -> bool:
+        """Whether a point of the closed free space is visible; False for points inside obstacles."""
+        if distance_sq(self.point, point).compare(self.radius * self.radius) > 0:
+            return False
+        if any(place is Location.INSIDE for place, _ in _Tables.of(self.scene).around(point)):
+            return False
+        if point == self.point:
+            return True
+        view = self._view
+        return not view.buries(raw(point - self.point)) and is_free(view.table, self.point, point)
+
+    def _repr_svg_(self) -> str:
+        return str(made(SVG, self))
+
+    def __repr__(self) -> str:
+        return f"<Isovist from {self.point} within {self.radius}>"
+
+
+def isovist(scene: Scene, point: object, radius: object = None) -> Isovist:
+    """What a free point sees within the radius (the scene's own if None).
+
+    The point, a `Point` or a pair of numbers, may be algebraic; the radius is rational. Raises `InvalidScene`
+    if the point is inside an obstacle or the radius missing or not positive. Cost: once the scene's edges are
+    tabled, near linear in those within the radius, whatever the size of the scene.
+    """
+    place = Point.of(point)  # type: ignore[arg-type]
+    reach = scene.radius if radius is None else rational(radius)
+    if reach is None:
+        raise InvalidScene(["a radius of vision must be given"])
+    if flaws := list(sensor_flaws(place, reach)):
+        raise InvalidScene(flaws)
+    around = _Tables.of(scene).around(place)
+    if flaws := [f"the point {place} lies inside {o!r}" for where, o in around if where is Location.INSIDE]:
+        raise InvalidScene(flaws)
+    return Isovist(scene, place, reach, None if around else ())
+
+
+class _Tables:
+    """What all views of a scene share; kept as long as the scene itself."""
+
+    _known: ClassVar[WeakKeyDictionary[Scene, _Tables]] = WeakKeyDictionary()
+
+    def __init__(self, scene: Scene) -> None:
+        self.obstacles = scene.obstacles
+        self.edges = EdgeTable(scene.obstacles)
+        boxes, first = self.edges.boxes, self.edges.first
+        self.hulls: Floats = np.zeros((0, 4))
+        if len(boxes):
+            low = np.minimum.reduceat(boxes[:, :2], first, axis=0)
+            self.hulls = np.hstack((low, np.maximum.reduceat(boxes[:, 2:], first, axis=0)))
+
+    @classmethod
+    def of(cls, scene: Scene) -> _Tables:
+        """The tables of a scene, made at the first call."""
+        known = cls._known.get(scene)
+        if known is None:
+            known = cls._known[scene] = cls(scene)
+        return known
+
+    def around(self, point: Point) -> list[tuple[Location, Obstacle]]:
+        """The obstacles that a point lies inside of or on; only those whose box holds it, and the enclosure,
+        are asked."""
+        x, y = point.xy
+        slack = 8 * self.edges.roundoff_at((x, y))
+        left, low, right, high = self.hulls.T
+        near = (left <= x + slack) & (right >= x - slack) & (low <= y + slack) & (high >= y - slack)
+        if self.obstacles and self.obstacles[-1].is_enclosure:
+            near[-1] = True
+        asked = (self.obstacles[k] for k in np.flatnonzero(near).tolist())
+        return [(where, o) for o in asked if (where := o.locate(point)) is not Location.OUTSIDE]

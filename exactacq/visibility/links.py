@@ -1,0 +1,549 @@
+"""Links: the shortest visible segments between boundaries, and the obstacle visibility graph.
+
+v(i, j) is the least length of a free segment between the boundaries of obstacles i and j. Where it is
+attained, the segment meets no feature (a local minimum of the distance), pivots about one feature
+(a stationary chord of a cell), or is held by two or more (it bounds a cell, or is pinched). The first
+kind comes from `contacts.nearest_points`, the others from the pencils of the features of third
+obstacles: an obstacle's own features never hold a shortest segment, which meets both boundaries at its
+ends only. Candidates are visited in the order of proven lower bounds until the next one cannot be shorter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterable, Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property, cmp_to_key
+from heapq import heapify, heappop, heappush
+from itertools import count
+from typing import TypeAlias
+
+import networkx as nx
+import numpy as np
+from numpy.typing import NDArray
+
+from exactacq.errors import InvalidScene
+from exactacq.geometry.curves import Arc, Curve
+from exactacq.geometry.intersections import Family, FamilyKind, Nearest, nearest_points
+from exactacq.geometry.points import Point
+from exactacq.numbers.length import Length
+from exactacq.numbers.rationals import rational
+from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import STRAIGHT, EdgeTable, Floats, Ints, quotient
+from exactacq.scene.scene import Scene
+from exactacq.scene.validation import sensor_flaws
+from exactacq.visibility.chords import Chord, chord_at, critical
+from exactacq.visibility.fans import fan
+from exactacq.visibility.features import Feature, leaving
+from exactacq.visibility.features import features as scene_features
+from exactacq.visibility.free_segment import is_free, walk_line
+from exactacq.visibility.free_translates import free_pieces
+from exactacq.visibility.line_names import Namer
+from exactacq.visibility.mirrors import Mirrors
+from exactacq.visibility.rotational_sweep import Cell, Pencil, pencil
+
+START = "S"
+Node: TypeAlias = "int | str"
+Shortest: TypeAlias = "Chord | Family"
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """v between two nodes: the length, and every segment (or continuum of segments) that attains it."""
+
+    source: Node
+    target: int
+    length: Real
+    shortest: tuple[Shortest, ...]
+
+    def segments(self, position: Point | None = None) -> list[tuple[Point, Point]]:
+        """Leave and hit points of the shortest segments among which every tie rule's choice is.
+
+        A continuum gives its ends, its segment from *position*, and that to its westernmost hit point.
+        """
+        return [pair for item in self.shortest for pair in _extremes(item, position)]
+
+    def touches(self, leave: Point | None, hit: Point) -> tuple[Hashable, ...]:
+        """What the line of one of the segments touches, if features hold it; *leave* is None at the start."""
+        for item in self.shortest:
+            if isinstance(item, Chord) and item.end is hit and (leave is None or item.start is leave):
+                return item.touches
+        return ()
+
+    def reversed(self) -> Link:
+        """The same link from the other obstacle; the source must be an obstacle."""
+        assert isinstance(self.source, int)
+        return Link(self.target, self.source, self.length, tuple(_flipped(s) for s in self.shortest))
+
+
+class Links:
+    """The links of one scene and radius, computed on demand and kept.
+
+    *radius* is rational and positive: `InvalidScene` otherwise. ``between(i, j)`` costs less than a
+    millisecond where the closest points see each other; otherwise the pencils of the features between i
+    and j are swept once and kept.
+    """
+
+    def __init__(self, scene: Scene, radius: object) -> None:
+        if radius is None:
+            raise InvalidScene(["a radius of vision must be given"])
+        self.scene, self.radius = scene, rational(radius)
+        if flaws := list(sensor_flaws(scene.start, self.radius)):
+            raise InvalidScene(flaws)
+        self.limit = Real(self.radius)
+        self.reach = float(self.radius) * (1 + 1e-12)
+        self.table = EdgeTable(scene.obstacles)
+        self._between: dict[tuple[int, int], Link | None] = {}
+        self._pencils: dict[int, dict[tuple[int, int], list[tuple[Pencil, Cell]]]] = {}
+        self._pinch_table: dict[int, list[tuple[Chord, tuple[int, int]]]] = {}
+        self._namer = Namer(self.table)
+        self._from_start: tuple[Point, dict[int, Link]] | None = None
+
+    @cached_property
+    def features(self) -> list[Feature]:
+        return scene_features(self.table)
+
+    @cached_property
+    def spots(self) -> tuple[Floats, Floats]:
+        """Feature centres in floats, and radii that cover the rounding of the centres and of boxes."""
+        centers = [(float(f.center[0]), float(f.center[1])) for f in self.features]
+        sizes = [float(Real(f.radius_sq).sqrt()) if f.round else 0.0 for f in self.features]
+        return np.array(centers).reshape(-1, 2), np.array(sizes) + 8 * self.table.roundoff
+
+    @cached_property
+    def hulls(self) -> Floats:
+        """Bounding boxes of the obstacles."""
+        boxes, first = self.table.boxes, self.table.first
+        if not len(boxes):
+            return np.zeros((0, 4))
+        low = np.minimum.reduceat(boxes[:, :2], first, axis=0)
+        high = np.maximum.reduceat(boxes[:, 2:], first, axis=0)
+        return np.hstack((low, high))
+
+    @property
+    def count(self) -> int:
+        """Number of obstacles, the enclosure included."""
+        return len(self.scene.obstacles)
+
+    def edges_of(self, obstacle: int) -> range:
+        """Edge numbers of an obstacle."""
+        first = int(self.table.first[obstacle])
+        return range(first, first + len(self.scene.obstacles[obstacle].edges))
+
+    # -- between two obstacles ---------------------------------------------------------------------
+
+    def between(self, i: int, j: int) -> Link | None:
+        """The link from obstacle i to obstacle j, or None if no free segment of length <= radius exists."""
+        key = (min(i, j), max(i, j))
+        if key not in self._between:
+            self._between[key] = self._shortest_between(*key)
+        link = self._between[key]
+        return link if link is None or link.source == i else link.reversed()
+
+    def lower_bounds(self, i: int) -> Floats:
+        """Lower bounds of v(i, j) for every j: the gaps between bounding boxes."""
+        return self.gaps(self.hulls[i])
+
+    def gaps(self, box: Floats) -> Floats:
+        hulls = self.hulls
+        apart = np.maximum(np.maximum(hulls[:, :2] - box[2:], box[:2] - hulls[:, 2:]), 0.0)
+        gaps: Floats = np.hypot(apart[:, 0], apart[:, 1]) * (1 - 1e-14) - self.table.roundoff
+        return np.maximum(gaps, 0.0)
+
+    def neighbours(self, i: int) -> list[int]:
+        """The obstacles other than i whose bounding boxes come within the radius of i's."""
+        near = self._box_neighbours(self.hulls[i])
+        return [j for j in near if j != i]
+
+    def _box_neighbours(self, box: Floats) -> list[int]:
+        edges = self.table.near((box[0], box[1]), (box[2], box[3]), self.reach)
+        return [int(j) for j in np.unique(self.table.owner[edges])]
+
+    def _shortest_between(self, i: int, j: int) -> Link | None:
+        best = _Best(self.limit)
+        unblocked = self._nearest(self.edges_of(i), self.edges_of(j), best)
+        if not unblocked:
+            self._pivoting(i, j, best)
+        return best.link(i, j)
+
+    def _nearest(self, left: Iterable[int], right: Iterable[int], best: _Best) -> bool:
+        """Offer the free local minima of the distance; whether the least distance itself is free."""
+        a, b = np.array(left, dtype=np.intp), np.array(right, dtype=np.intp)
+        bounds = pair_bounds(self.table, a, b)
+        order = count()
+        heap: list[tuple[float, int, tuple[int, int] | Nearest | Family]] = [
+            (float(bounds[r, c]), next(order), (int(a[r]), int(b[c])))
+            for r, c in zip(*np.nonzero((bounds <= self.reach) & _facing(self.table, a, b)), strict=True)
+        ]
+        heapify(heap)
+        least: Real | None = None
+        seen: set[Hashable] = set()
+        while heap and heap[0][0] <= best.guess:
+            _, _, item = heappop(heap)
+            if isinstance(item, tuple):
+                for found in self._minima(*item):
+                    if isinstance(found, Nearest):
+                        # A vertex is found once for each of its edges.
+                        ends = found.start.key, found.end.key
+                        if ends in seen:
+                            continue
+                        seen.add(ends)
+                    heappush(heap, (float(found.distance_sq) ** 0.5 * (1 - 1e-13), next(order), found))
+                continue
+            length = item.distance_sq.sqrt()
+            if least is None or length < least:
+                least = length
+            if best.length.compare(length) < 0:
+                continue
+            for piece in self.free_part(item, length):
+                best.offer(length, piece)
+        return least is not None and best.found and best.length == least
+
+    def _minima(self, a: int, b: int) -> Iterator[Nearest | Family]:
+        """Local minima of the distance near two edges: of the boundaries, not only of the edges."""
+        for found in nearest_points(self.table.curves[a], self.table.curves[b]):
+            if isinstance(found, Family) or (
+                self._is_foot(a, found.start, found.end) and self._is_foot(b, found.end, found.start)
+            ):
+                yield found
+
+    def _is_foot(self, e: int, foot: Point, other: Point) -> bool:
+        """Whether a vertex of edge e does not come nearer to a point along the neighbouring edge.
+
+        If it does, nothing is lost: a segment that only a third obstacle keeps from sliding is held by a
+        feature of that obstacle.
+        """
+        curves = self.table.curves
+        if foot is curves[e].start:
+            x, y = leaving(curves[self._previous[e]], at_end=True)
+            x, y = -x, -y
+        elif foot is curves[e].end:
+            x, y = leaving(curves[int(self.table.next[e])], at_end=False)
+        else:
+            return True
+        nearer: Real = (other.x - foot.x) * x + (other.y - foot.y) * y
+        return nearer.sign() <= 0
+
+    @cached_property
+    def _previous(self) -> list[int]:
+        """The edge before each edge."""
+        before = np.zeros(len(self.table.curves), dtype=np.intp)
+        before[self.table.next] = np.arange(len(before))
+        return before.tolist()
+
+    def free_part(self, item: Nearest | Family, length: Real) -> Iterator[Shortest]:
+        if isinstance(item, Family):
+            yield from free_pieces(self.table, item)
+        elif is_free(self.table, item.start, item.end):
+            yield Chord(item.start, item.end, length)
+
+    def _pivoting(self, i: int, j: int, best: _Best) -> None:
+        """Offer the chords from i to j that features of third obstacles hold."""
+        centers, sizes = self.spots
+        if not len(centers):
+            return
+        bounds = box_gaps(centers, self.hulls[i], sizes) + box_gaps(centers, self.hulls[j], sizes)
+        order = count()
+        heap: list[tuple[float, int, tuple[int, Pencil, Cell, bool]]] = []
+        mirrors: dict[tuple[Hashable, ...], Mirrors] = {}
+        for k in np.flatnonzero(bounds <= best.guess):
+            owner = self.features[k].owner
+            if owner in (i, j):
+                continue
+            for flip, key in ((False, (i, j)), (True, (j, i))):
+                for sweep, cell in self._cells(int(k)).get(key, ()):
+                    bound = self._cell_bound(int(k), cell)
+                    if bound <= best.guess:
+                        heappush(heap, (bound, next(order), (int(k), sweep, cell, flip)))
+            for chord, ends in self._pinches(int(k)):
+                if ends in ((i, j), (j, i)):
+                    best.offer(chord.length, chord if ends == (i, j) else chord.reversed())
+        while heap and heap[0][0] <= best.guess:
+            _, _, (feature, sweep, cell, flip) = heappop(heap)
+            pair = sweep.sector.center, *sorted((cell.behind or 0, cell.ahead or 0))
+            kept = mirrors.setdefault(pair, Mirrors())
+            for chord in self._cell_chords(sweep, cell, kept, self.features[feature]):
+                best.offer(chord.length, chord.reversed() if flip else chord)
+
+    def _cells(self, k: int) -> dict[tuple[int, int], list[tuple[Pencil, Cell]]]:
+        """Cells of feature k by the obstacles behind and ahead."""
+        if k not in self._pencils:
+            feature, owner = self.features[k], self.table.owner
+            groups: dict[tuple[int, int], list[tuple[Pencil, Cell]]] = {}
+            pinched: list[tuple[Chord, tuple[int, int]]] = []
+            for sector in feature.sectors:
+                sweep = pencil(self.table, sector, feature.edges, self.reach)
+                for cell in sweep.cells:
+                    if cell.behind is not None and cell.ahead is not None:
+                        ends = int(owner[cell.behind]), int(owner[cell.ahead])
+                        if ends[0] != ends[1]:
+                            groups.setdefault(ends, []).append((sweep, cell))
+                for t in sweep.pinches:
+                    pinched += self._pinched_chords(sweep, t)
+            self._pencils[k], self._pinch_table[k] = groups, pinched
+        return self._pencils[k]
+
+    def _pinches(self, k: int) -> list[tuple[Chord, tuple[int, int]]]:
+        self._cells(k)
+        return self._pinch_table[k]
+
+    def _pinched_chords(self, sweep: Pencil, t: Real) -> Iterator[tuple[Chord, tuple[int, int]]]:
+        """Free chords through the contact along a line that grazes several features."""
+        behind, ahead = walk_line(self.table, sweep.sector, t, self.reach)
+        contact, direction = sweep.sector.touch(t)
+        size = direction.norm_sq().sqrt()
+        first_behind = self.first_contacts(behind.hits)
+        for j, high in self.first_contacts(ahead.hits).items():
+            for i, low in first_behind.items():
+                length = (high - low) * size
+                if i != j and length.compare(self.limit) <= 0:
+                    start, end = contact + direction * low, contact + direction * high
+                    yield Chord(start, end, length), (i, j)
+
+    def first_contacts(self, hits: list[tuple[Real, int]]) -> dict[int, Real]:
+        first: dict[int, Real] = {}
+        for tau, e in hits:
+            first.setdefault(int(self.table.owner[e]), tau)
+        return first
+
+    def _cell_bound(self, k: int, cell: Cell) -> float:
+        """Lower bound of the chords of a cell: the ways from the feature to the two edges."""
+        assert cell.behind is not None
+        assert cell.ahead is not None
+        return self.clearance(k, cell.behind) + self.clearance(k, cell.ahead)
+
+    def clearance(self, k: int, e: int) -> float:
+        """Lower bound of the way along a tangent of a feature from the contact to an edge."""
+        (x, y), size = self.spots[0][k], self.spots[1][k]
+        gap = self.table.distance_bounds(float(x), float(y), np.array((e,)))[0]
+        return float(max(gap**2 - size**2 * (1 + 1e-12), 0.0) ** 0.5 * (1 - 1e-13))
+
+    def _cell_chords(
+        self, sweep: Pencil, cell: Cell, mirrors: Mirrors | None = None, feature: Feature | None = None
+    ) -> Iterator[Chord]:
+        """The chords of a closed cell among which its shortest are; *mirrors* recognises equal ones.
+
+        *feature* is what the cell's lines touch, None in a fan.
+        """
+        behind = None if cell.behind is None else self.table.curves[cell.behind]
+        assert cell.ahead is not None
+        ahead = self.table.curves[cell.ahead]
+        own = () if feature is None else (self._namer.anchor(feature),)
+        for t, passed in zip((cell.low, cell.high), cell.bounds, strict=True):
+            touches = (*own, *self._namer.passed(passed))
+            if feature is not None:
+                touches += tuple(name for name, _ in self._namer.names(feature, sweep.sector, t, passed))
+            yield replace(chord_at(sweep.sector, t, behind, ahead), touches=touches)
+        # A constant length (arcs about the contact's centre) is never the least: it shrinks off the feature.
+        stationary = critical(sweep.sector, behind, ahead) or []
+        for t in stationary:
+            if t.compare(cell.low) > 0 and t.compare(cell.high) < 0:
+                chord = chord_at(sweep.sector, t, behind, ahead)
+                if mirrors is not None and behind is not None:
+                    ends = behind, ahead
+                    chord = mirrors.chord(sweep.sector, t, stationary, chord, ends)
+                yield replace(chord, touches=own)
+
+    # -- from the start ----------------------------------------------------------------------------
+
+    def from_point(self, point: Point) -> dict[int, Link]:
+        """The links from a free point with rational coordinates to all obstacles it sees."""
+        if self._from_start is None or self._from_start[0] is not point:
+            self._from_start = point, self._fan_links(point)
+        return self._from_start[1]
+
+    def _fan_links(self, point: Point) -> dict[int, Link]:
+        best: dict[int, _Best] = {}
+        for e in self.table.edges_at(point):
+            owner = int(self.table.owner[e])
+            best.setdefault(owner, _Best(self.limit)).offer(Real(0), Chord(point, point, Real(0)))
+        for sweep in fan(self.table, point, self.reach):
+            for cell in sweep.cells:
+                if cell.ahead is None:
+                    continue
+                target = best.setdefault(int(self.table.owner[cell.ahead]), _Best(self.limit))
+                self._offer_fan(sweep, cell, target)
+            for t in sweep.pinches:
+                self._offer_pinched_rays(sweep, t, best)
+        links = ((j, found.link(START, j)) for j, found in sorted(best.items()))
+        return {j: link for j, link in links if link is not None}
+
+    def _offer_fan(self, sweep: Pencil, cell: Cell, best: _Best) -> None:
+        assert cell.ahead is not None
+        ahead = self.table.curves[cell.ahead]
+        if critical(sweep.sector, None, ahead) is None and isinstance(ahead, Arc):
+            low = chord_at(sweep.sector, cell.low, None, ahead)
+            high = chord_at(sweep.sector, cell.high, None, ahead)
+            part = (ahead if ahead.ccw else ahead.reversed()).part(low.end, high.end)
+            best.offer(low.length, Family(FamilyKind.CONCENTRIC, low.start, part))
+            return
+        for chord in self._cell_chords(sweep, replace(cell, behind=None)):
+            best.offer(chord.length, chord)
+
+    def _offer_pinched_rays(self, sweep: Pencil, t: Real, best: dict[int, _Best]) -> None:
+        contact, direction = sweep.sector.touch(t)
+        size = direction.norm_sq().sqrt()
+        _, ahead = walk_line(self.table, sweep.sector, t, self.reach)
+        for j, tau in self.first_contacts(ahead.hits).items():
+            chord = Chord(contact, contact + direction * tau, tau * size)
+            best.setdefault(j, _Best(self.limit)).offer(chord.length, chord)
+
+
+class _Best:
+    """The least length offered so far, at most the limit, and all that attain it."""
+
+    def __init__(self, limit: Real) -> None:
+        self.length, self.found = limit, False
+        self.guess = float(limit) * (1 + 1e-12)
+        self.shortest: list[Shortest] = []
+
+    def offer(self, length: Real, item: Shortest) -> None:
+        order = length.compare(self.length)
+        if order > 0:
+            return
+        if order < 0:
+            self.shortest.clear()
+            self.length, self.guess = length, float(length) * (1 + 1e-12)
+        self.found = True
+        if not any(_same(item, known) for known in self.shortest):
+            self.shortest.append(item)
+
+    def link(self, source: Node, target: int) -> Link | None:
+        return Link(source, target, self.length, tuple(self.shortest)) if self.found else None
+
+
+def visibility_graph(scene: Scene, radius: object = None) -> nx.Graph:
+    """The obstacle visibility graph: nodes are obstacle indices, and "S" if the scene has a start.
+
+    An edge joins two nodes that see each other within *radius* (the scene's own if None); ``weight`` is v
+    as a `Length`, ``link`` the `Link` with all shortest segments, ``leave`` (on the link's source) and
+    ``hit`` the lexicographically least of them. Near linear in the number of obstacles at constant density.
+    """
+    links = Links(scene, scene.radius if radius is None else radius)
+    graph = nx.Graph()
+    graph.add_nodes_from(range(len(scene.obstacles)))
+    for i in range(len(scene.obstacles)):
+        for j in links.neighbours(i):
+            if j > i and (link := links.between(i, j)) is not None:
+                _add_edge(graph, link)
+    if scene.start is not None:
+        graph.add_node(START)
+        for link in links.from_point(scene.start).values():
+            _add_edge(graph, link)
+    return graph
+
+
+def _add_edge(graph: nx.Graph, link: Link) -> None:
+    leave, hit = min(link.segments(), key=cmp_to_key(lexicographic))
+    graph.add_edge(link.source, link.target, weight=Length(link.length), leave=leave, hit=hit, link=link)
+
+
+def pair_bounds(table: EdgeTable, a: Ints, b: Ints) -> Floats:
+    """Lower bounds of the distances between edges: one row for each of *a*, one column for each of *b*."""
+    low, high = table.boxes[:, :2], table.boxes[:, 2:]
+    apart = np.maximum(low[a][:, None] - high[b][None], low[b][None] - high[a][:, None])
+    bounds = np.hypot(*np.moveaxis(np.maximum(apart, 0.0), 2, 0))
+    straight_a, straight_b = table.kind[a] == STRAIGHT, table.kind[b] == STRAIGHT
+    middles = np.where(straight_a[:, None], table.start[a], table.center[a])
+    ends = np.where(straight_a[:, None], table.end[a], table.center[a])
+    size_a, size_b = table.radius[a], table.radius[b]
+    other = np.where(straight_b[:, None], table.start[b], table.center[b])
+    other_ends = np.where(straight_b[:, None], table.end[b], table.center[b])
+    to_b = np.minimum(_to_segments(middles, other, other_ends), _to_segments(ends, other, other_ends))
+    to_a = np.minimum(_to_segments(other, middles, ends), _to_segments(other_ends, middles, ends)).T
+    capsules = np.minimum(to_b, to_a) - size_a[:, None] - size_b[None]
+    bounds = np.maximum(bounds, capsules)
+    return np.maximum(bounds * (1 - 1e-14) - 64 * table.roundoff, 0.0)
+
+
+def _facing(table: EdgeTable, a: Ints, b: Ints) -> NDArray[np.bool_]:
+    """False where no free shortest segment can join two edges: one lies behind the other.
+
+    Such a segment leaves a straight edge, or one of the two edges at a vertex, to its right.
+    """
+    return (_reach_right(table, a, b) > 0) & (_reach_right(table, b, a).T > 0)
+
+
+def _reach_right(table: EdgeTable, a: Ints, b: Ints) -> Floats:
+    """How far at most edges b (columns) lie to the right of the edges a (rows); infinite for arcs a."""
+    along = table.end[a] - table.start[a]
+    size = np.hypot(along[:, 0], along[:, 1])
+    normal = np.stack((along[:, 1], -along[:, 0]), axis=1) / np.maximum(size, 1e-300)[:, None]
+    straight = table.kind[b] == STRAIGHT
+    offset = (normal * table.start[a]).sum(axis=1)[:, None]
+    at_start, at_end = normal @ table.start[b].T - offset, normal @ table.end[b].T - offset
+    at_center = normal @ table.center[b].T - offset + table.radius[b]
+    right = np.where(straight, np.maximum(at_start, at_end), at_center)
+    margin = 64 * table.roundoff * (1 + np.minimum(quotient(table.magnitude, size), 1e60))[:, None]
+    return np.where((table.kind[a] == STRAIGHT)[:, None], right + margin, np.inf)
+
+
+def _to_segments(points: Floats, starts: Floats, ends: Floats) -> Floats:
+    """Distances from points (rows) to segments (columns)."""
+    along = ends - starts
+    offset = points[:, None] - starts[None]
+    size = np.maximum((along**2).sum(axis=1), 1e-300)
+    u = np.clip((offset * along).sum(axis=2) / size, 0.0, 1.0)
+    distances: Floats = np.hypot(*np.moveaxis(offset - u[:, :, None] * along, 2, 0))
+    return distances
+
+
+def box_gaps(points: Floats, box: Floats, sizes: Floats) -> Floats:
+    """Lower bounds of the distances from circles to a box."""
+    apart = np.maximum(np.maximum(box[:2] - points, points - box[2:]), 0.0)
+    return np.maximum(np.hypot(apart[:, 0], apart[:, 1]) * (1 - 1e-13) - sizes * (1 + 1e-13), 0.0)
+
+
+def _flipped(item: Shortest) -> Shortest:
+    return item.reversed() if isinstance(item, Chord) else Family(item.kind, item.second, item.first)
+
+
+def _same(a: Shortest, b: Shortest) -> bool:
+    if isinstance(a, Chord) and isinstance(b, Chord):
+        ends = ((a.start, b.start), (a.end, b.end))
+        # Mirrored chords share a coordinate, which is long to prove: the other one tells them apart at once.
+        if any(abs((p - q).norm_sq().ball(128)) > 0 for p, q in ends):
+            return False
+        return a.start == b.start and a.end == b.end
+    return a is b
+
+
+def lexicographic(a: tuple[Point, Point], b: tuple[Point, Point]) -> int:
+    """Order of segments by their starts, then their ends."""
+    return a[0].compare(b[0]) or a[1].compare(b[1])
+
+
+def _extremes(item: Shortest, position: Point | None) -> Iterator[tuple[Point, Point]]:
+    """The segments of a shortest item among which the tie rule's choice is.
+
+    Of a continuum: its ends, the one that leaves from where the robot is, and the westernmost hit point.
+    """
+    if isinstance(item, Chord):
+        yield item.start, item.end
+        return
+    first, second = item.first, item.second
+    ends = [
+        (first if isinstance(first, Point) else p, second if isinstance(second, Point) else q)
+        for p, q in zip(_ends(first), _ends(second), strict=True)
+    ]
+    yield from ends
+    if isinstance(first, Point):
+        if isinstance(second, Arc):
+            west = Point(second.center.x - second.radius, second.center.y)
+            if second.contains(west):
+                yield first, west
+    elif position is not None and first.passes(position):
+        yield position, second if isinstance(second, Point) else _partner(item, position)
+
+
+def _ends(side: Curve | Point) -> tuple[Point, Point]:
+    return (side, side) if isinstance(side, Point) else (side.start, side.end)
+
+
+def _partner(family: Family, position: Point) -> Point:
+    """The point of the second curve that corresponds to a point of the first."""
+    first, second = family.first, family.second
+    if isinstance(first, Arc) and isinstance(second, Arc):
+        return first.center + (position - first.center) * (second.radius / first.radius)
+    assert not isinstance(first, Point)
+    assert not isinstance(second, Point)
+    return position + (second.start - first.start)

@@ -1,0 +1,285 @@
+"""The outline of a view: its sights cut at the range, and joined by windows into one closed boundary.
+
+Pieces run counterclockwise as the point sees them: parts of edges against the boundary's direction, range
+arcs with the circle. Which pieces there are follows from the sights and from which ends are within range.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from enum import Enum
+from functools import partial
+from itertools import pairwise
+from typing import TypeAlias
+
+from exactacq.geometry.coordinates import dot, minus, raw, sign
+from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.points import Point
+from exactacq.visibility.radial_sweep import BLOCKED, NOTHING, Sight
+from exactacq.visibility.visible_boundary import View
+
+
+class ViewKind(Enum):
+    """What ends the view in some direction."""
+
+    EDGE = "edge"
+    """A boundary edge within range."""
+    WINDOW = "window"
+    """A ray between a near feature and what is seen past it."""
+    RANGE = "range"
+    """Nothing within range: an arc of the circle of the range."""
+
+
+class ViewPiece:
+    """One piece of an isovist's outline, run counterclockwise as the point sees it.
+
+    ``obstacle`` and ``edge`` (its number in the obstacle) name the edge seen; None for windows and range
+    arcs. ``near`` is the end of a window where its feature lies.
+    """
+
+    __slots__ = ("_curve", "_make", "edge", "kind", "near", "obstacle")
+
+    def __init__(
+        self,
+        kind: ViewKind,
+        make: Callable[[], Curve],
+        obstacle: int | None = None,
+        edge: int | None = None,
+        near: Point | None = None,
+    ) -> None:
+        self.kind, self.obstacle, self.edge, self.near = kind, obstacle, edge, near
+        self._make, self._curve = make, None
+
+    _curve: Curve | None
+
+    @property
+    def curve(self) -> Curve:
+        """The exact curve; made at the first access."""
+        if self._curve is None:
+            self._curve = self._make()
+        return self._curve
+
+    def __repr__(self) -> str:
+        seen = "" if self.obstacle is None else f" {self.edge} of {self.obstacle}"
+        return f"<{self.kind.value}{seen}: {self.curve!r}>"
+
+
+class _Hit:
+    """Where a ray in the direction of a rank hits a facet that is certainly within range."""
+
+    __slots__ = ("_point", "facet", "rank", "view")
+
+    def __init__(self, view: View, facet: int, rank: int) -> None:
+        self.view, self.facet, self.rank = view, facet, rank
+        self._point: Point | None = None
+
+    @property
+    def point(self) -> Point:
+        """The exact point; made at the first access."""
+        if self._point is None:
+            panorama = self.view.panorama
+            self._point = panorama.hit(self.facet, panorama.direction(self.rank))
+        return self._point
+
+
+End: TypeAlias = "Point | _Hit | int"
+"""An end of a piece: a rank stands for the point of the range circle in its direction."""
+
+
+@dataclass(slots=True)
+class _Part:
+    """A piece in the making: an edge's number or None for a range arc, and its ends.
+
+    ``is_point`` tells that the part is no piece but the point itself, which the outline passes through.
+    """
+
+    edge: int | None
+    start: End
+    end: End
+    is_point: bool = False
+
+
+def outline(view: View) -> tuple[ViewPiece, ...]:
+    """The closed outline of a view, from the east on; empty if the point sees nothing but along a ray."""
+    sights = view.panorama.sights
+    sights = [sights[-1], *sights[:-1]]
+    if len(sights) == 1:
+        return tuple(_all_around(view, sights[0]))
+    return tuple(_Outline(view, sights).pieces())
+
+
+def _all_around(view: View, sight: Sight) -> Iterator[ViewPiece]:
+    """The outline where nothing or one full circle is seen in all directions."""
+    if sight.facet == BLOCKED:
+        return
+    circle = range_circle(view)
+    spans = view.spans(sight) if sight.facet != NOTHING else []
+    if sight.facet != NOTHING:
+        e = view.panorama.edges[sight.facet]
+        curve = view.table.curves[e]
+        if len(spans) == 2:
+            yield _edge_piece(view, e, curve.reversed)
+            return
+        for start, end in spans:
+            if start is not end:
+                yield _edge_piece(view, e, partial(_backwards, curve, start, end))
+                yield ViewPiece(ViewKind.RANGE, partial(circle.part, start, end))
+                return
+    yield ViewPiece(ViewKind.RANGE, lambda: circle)
+
+
+class _Outline:
+    def __init__(self, view: View, sights: list[Sight]) -> None:
+        self.view, self.sights = view, sights
+        self.panorama = view.panorama
+
+    def pieces(self) -> Iterator[ViewPiece]:
+        """Parts joined where they continue each other, with windows where they do not meet."""
+        parts = [(part, sight) for sight in self.sights for part in self._parts(sight)]
+        merged: list[tuple[_Part, list[ViewPiece]]] = []
+        pending: list[ViewPiece] = []
+        for (before, sight), (part, after) in pairwise([parts[-1], *parts]):
+            windows = [] if sight is after else self._window(before.end, part.start, sight, after)
+            if part.is_point:
+                pending = windows
+                continue
+            windows, pending = pending + windows, []
+            if merged and not windows and merged[-1][0].edge == part.edge:
+                merged[-1][0].end = part.end
+            else:
+                merged.append((part, windows))
+        merged[0][1][:0] = pending
+        if len(merged) > 1 and not merged[0][1] and merged[-1][0].edge == merged[0][0].edge:
+            last, windows = merged.pop()
+            last.end = merged[0][0].end
+            merged[0] = last, windows
+        if len(merged) == 1 and merged[0][0].edge is None and not merged[0][1]:
+            yield ViewPiece(ViewKind.RANGE, partial(range_circle, self.view))
+            return
+        for part, windows in merged:
+            yield from windows
+            yield self._piece(part)
+
+    def _parts(self, sight: Sight) -> Iterator[_Part]:
+        """What a sight contributes, counterclockwise; the point itself where its obstacle begins."""
+        facet = sight.facet
+        if facet == BLOCKED:
+            yield _Part(None, self.view.point, self.view.point, is_point=True)
+            return
+        if facet == NOTHING:
+            yield _Part(None, sight.low, sight.high)
+            return
+        e = self.panorama.edges[facet]
+        if self.view.near[facet]:
+            yield _Part(e, self._end(sight, True), self._end(sight, False))
+            return
+        high, low = self.view.ends(sight)
+        reached: End = sight.low
+        at_low = low
+        for start, end in reversed(self.view.clipped(facet, (high, low))):
+            if start is end:
+                continue
+            if end is not at_low:
+                yield _Part(None, reached, end)
+            yield _Part(e, end, start)
+            reached = at_low = start
+        if at_low is not high:
+            yield _Part(None, reached, sight.high)
+
+    def _end(self, sight: Sight, is_low: bool) -> Point | _Hit:
+        """An end of what a sight sees of its facet, all of it within range."""
+        panorama, facet = self.panorama, sight.facet
+        rank, own = (sight.low, panorama.low) if is_low else (sight.high, panorama.high)
+        return panorama.end(facet, is_low) if own[facet] == rank else _Hit(self.view, facet, rank)
+
+    def _window(self, end: End, start: End, before: Sight, after: Sight) -> list[ViewPiece]:
+        """What joins the end of one sight to the start of the next: nothing, a window, or an own edge."""
+        if end is start or (isinstance(end, int) and isinstance(start, int)):
+            return []
+        point, rank = self.view.point, after.low
+        if end is point:
+            return list(self._from_point(start, rank, outward=True))
+        if start is point:
+            return list(self._from_point(end, rank, outward=False))[::-1]
+        if isinstance(end, int) or isinstance(start, int):
+            near = start if isinstance(end, int) else end
+            if isinstance(near, Point) and self._excess(near) == 0:
+                return []
+        else:
+            near = self._near(end, start, before, after)
+        make = partial(self._segment, end, start)
+        return [ViewPiece(ViewKind.WINDOW, make, near=self._resolved(near))]
+
+    def _near(self, end: Point | _Hit, start: Point | _Hit, before: Sight, after: Sight) -> End:
+        """Of two points on one ray the nearer one; only a facet that ends on the ray can be nearer."""
+        ends = self.panorama.high[before.facet] == after.low
+        starts = self.panorama.low[after.facet] == after.low
+        if ends != starts:
+            return end if ends else start
+        a, b = (minus(raw(self._resolved(p)), self.view.origin) for p in (end, start))
+        return end if sign(dot(a, a) - dot(b, b)) < 0 else start
+
+    def _from_point(self, far: End, rank: int, outward: bool) -> Iterator[ViewPiece]:
+        """From a boundary point to a far one: along a straight own edge as far as it goes, then a window.
+
+        The pieces come from the point on, and run that way if *outward*.
+        """
+        view, point, ranks = self.view, self.view.point, self.panorama.rank
+        for e in view.own:
+            for vertex in (e, int(view.table.next[e])):
+                if not (view.runs_out(e, vertex) and ranks.get(vertex) == rank):
+                    continue
+                place = self.panorama.facets.place(vertex)
+                excess = self._excess(place)
+                stop = far if excess > 0 else place
+                yield _edge_piece(view, e, partial(self._segment, point, stop, outward))
+                if excess < 0 and place is not far:
+                    make = partial(self._segment, place, far, outward)
+                    yield ViewPiece(ViewKind.WINDOW, make, near=place)
+                return
+        yield ViewPiece(ViewKind.WINDOW, partial(self._segment, point, far, outward), near=point)
+
+    def _segment(self, start: End, end: End, forward: bool = True) -> Segment:
+        a, b = self._resolved(start), self._resolved(end)
+        return Segment(a, b) if forward else Segment(b, a)
+
+    def _excess(self, point: Point) -> int:
+        """-1, 0 or 1 as a point is within range, at its limit, or beyond."""
+        offset = minus(raw(point), self.view.origin)
+        return sign(dot(offset, offset) - self.view.radius_sq)
+
+    def _resolved(self, end: End) -> Point:
+        if isinstance(end, Point):
+            return end
+        return self.view.at_range(end) if isinstance(end, int) else end.point
+
+    def _piece(self, part: _Part) -> ViewPiece:
+        view, e = self.view, part.edge
+        if e is None:
+            return ViewPiece(ViewKind.RANGE, partial(self._range, part))
+        return _edge_piece(view, e, partial(self._edge, part, view.table.curves[e]))
+
+    def _range(self, part: _Part) -> Curve:
+        start, end = self._resolved(part.start), self._resolved(part.end)
+        return Arc(start, end, self.view.point, self.view.radius_sq, ccw=True, full=start is end)
+
+    def _edge(self, part: _Part, curve: Curve) -> Curve:
+        return _backwards(curve, self._resolved(part.end), self._resolved(part.start))
+
+
+def _backwards(curve: Curve, start: Point, end: Point) -> Curve:
+    """A part of an edge as the view's outline runs, against the boundary's direction."""
+    if isinstance(curve, Segment):
+        return Segment(end, start)
+    return curve.part(start, end).reversed()
+
+
+def _edge_piece(view: View, e: int, make: Callable[[], Curve]) -> ViewPiece:
+    return ViewPiece(ViewKind.EDGE, make, view.table.owners[e], view.table.numbers[e])
+
+
+def range_circle(view: View) -> Arc:
+    """The circle of the range about the point."""
+    east = Point(view.point.x + view.radius, view.point.y)
+    return Arc(east, east, view.point, view.radius_sq, ccw=True, full=True)

@@ -1,0 +1,345 @@
+"""The panorama of a point: which facet comes first in every direction.
+
+The ends of the facets within reach, sorted by direction, cut the full turn into cells; in a cell the order of
+the facets along all rays is the same, since boundaries do not cross. So each cell asks for the nearest of
+the facets that cover it, on one ray. Floats propose the order of the events and the nearest facets; where
+their proven margins overlap, the exact values decide. Cost for n edges within reach: O(n log n + k), k the
+number of pairs of a cell and a facet covering it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from math import inf, pi
+
+import numpy as np
+from flint import fmpq
+
+from exactacq.geometry.coordinates import Vector, advance, cross, minus, raw, sign
+from exactacq.geometry.curves import Arc, Segment
+from exactacq.geometry.points import Point
+from exactacq.numbers.rationals import rational
+from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import STRAIGHT, EdgeTable, Floats, Ints, quotient
+from exactacq.visibility.chords import meet
+from exactacq.visibility.features import enters, leaving
+from exactacq.visibility.front_faces import NOWHERE, VAGUE, Facets
+
+NOTHING, BLOCKED = -1, -2
+"""First facets of cells without one: nothing within reach, and inside the point's own obstacle."""
+SEAM = 2 * pi
+
+
+@dataclass(frozen=True, slots=True)
+class Sight:
+    """Directions, counterclockwise from rank ``low`` to rank ``high``, in which one facet comes first.
+
+    ``facet`` may be NOTHING or BLOCKED. All around if ``low == high``; without events both are NOWHERE.
+    """
+
+    facet: int
+    low: int
+    high: int
+
+
+class Panorama:
+    """The sights of a free point, counterclockwise, and the exact points where they begin and end.
+
+    *own* are the edges through the point (see `Facets`). Facets beyond *reach* are left out, and what lies
+    beyond it may be reported wrongly or as NOTHING.
+    """
+
+    def __init__(self, table: EdgeTable, point: Point, reach: float, own: tuple[int, ...]) -> None:
+        self.table = table
+        self.facets = Facets(table, point, reach, own)
+        self.edges: list[int] = self.facets.edge.tolist()
+        """The edge of every facet, and the events that end it, as plain numbers."""
+        self.ends_low: list[int] = self.facets.low.tolist()
+        self.ends_high: list[int] = self.facets.high.tolist()
+        self.groups: list[list[int]] = []
+        self._order_events()
+        self.count = len(self.groups)
+        self._covers()
+        self.first = self._first()
+        self.sights = self._sights()
+
+    # -- directions --------------------------------------------------------------------------------
+
+    def _order_events(self) -> None:
+        """Group the events by direction, counterclockwise from the east: exact where floats leave doubt."""
+        facets = self.facets
+        ids, inverse = np.unique(
+            np.concatenate((facets.low, facets.high, np.array(facets.special, dtype=np.intp))),
+            return_inverse=True,
+        )
+        count = len(facets.edge)
+        angle, margin = self._angles(ids)
+        vague = np.flatnonzero((angle < margin) | (angle > SEAM - margin))
+        for k in vague.tolist():
+            if ids[k] != NOWHERE:
+                x, y = facets.offset(int(ids[k]))
+                upper = (sign(y) or (0 if sign(x) > 0 else -1)) >= 0
+                if upper != (angle[k] < pi) and margin[k] < VAGUE:
+                    angle[k] = 0.0 if upper else SEAM
+        order = np.argsort(angle - margin, kind="stable")
+        if len(ids) and ids[0] == NOWHERE:
+            order = order[order != 0]
+        low, high = (angle - margin)[order], np.maximum.accumulate((angle + margin)[order])
+        starts = np.flatnonzero(np.concatenate((np.ones(min(len(order), 1), bool), low[1:] > high[:-1])))
+        events = ids[order].tolist()
+        rank = np.full(len(ids), NOWHERE)
+        if len(starts) == len(order):
+            self.groups = [[event] for event in events]
+            rank[order] = np.arange(len(order))
+            self.angle, self.margin = angle[order], margin[order]
+        else:
+            ends = [*starts[1:].tolist(), len(order)]
+            where: dict[int, int] = {}
+            for a, b in zip(starts.tolist(), ends, strict=True):
+                for group in self._sorted(events[a:b]):
+                    for event in group:
+                        where[event] = len(self.groups)
+                    self.groups.append(group)
+            for k in order.tolist():
+                rank[k] = where[int(ids[k])]
+            self.angle, self.margin = np.zeros(len(self.groups)), np.zeros(len(self.groups))
+            self.angle[rank[order]] = angle[order]
+            np.maximum.at(self.margin, rank[order], margin[order])
+        ranks = rank[inverse.reshape(-1)]
+        self._low, self._high = ranks[:count], ranks[count : 2 * count]
+        self.low: list[int] = self._low.tolist()
+        self.high: list[int] = self._high.tolist()
+        self.rank = dict(zip(ids.tolist(), rank.tolist(), strict=True)) if facets.special else {}
+        self.special = sorted(
+            {self.rank[e] for e in facets.special} | {r for r, g in enumerate(self.groups) if len(g) > 1}
+            if len(self.groups) < len(order) or facets.special
+            else ()
+        )
+
+    def _angles(self, ids: Ints) -> tuple[Floats, Floats]:
+        """Directions of events as angles in [0, 2 pi], with their margins."""
+        facets, count = self.facets, len(self.table.vertices)
+        xy = np.zeros((len(ids), 2))
+        vertices = (ids >= 0) & (ids < count)
+        xy[vertices] = self.table.start[ids[vertices]] - facets.xy
+        size, slack = np.hypot(xy[:, 0], xy[:, 1]), facets.slack
+        margin = np.where(size > 16 * slack, quotient(2 * slack, size) + 2e-15, VAGUE)
+        for k in np.flatnonzero(~vertices).tolist():
+            if ids[k] >= 0:
+                mark = facets.marks[int(ids[k]) - count]
+                xy[k], margin[k] = mark.xy, mark.margin
+        for e in facets.special:
+            k = int(np.searchsorted(ids, e))
+            x, y = facets.offset(e)
+            if vertices[k]:
+                xy[k], margin[k] = (float(x), float(y)), 2e-15
+        angle = np.arctan2(xy[:, 1], xy[:, 0])
+        return np.where(angle < 0, angle + SEAM, angle), margin
+
+    def _sorted(self, events: list[int]) -> list[list[int]]:
+        """Events grouped by exact direction, counterclockwise."""
+        groups: list[list[int]] = []
+        for event in events:
+            vector = self.facets.offset(event)
+            low, high = 0, len(groups)
+            while low < high:
+                middle = (low + high) // 2
+                order = _turn(self.facets.offset(groups[middle][0]), vector)
+                if order == 0:
+                    groups[middle].append(event)
+                    break
+                low, high = (middle + 1, high) if order > 0 else (low, middle)
+            else:
+                groups.insert(low, [event])
+        return groups
+
+    def direction(self, rank: int) -> Vector:
+        """The exact direction of a rank, rational where one of its events shows it."""
+        group = self.groups[rank]
+        if len(group) == 1:
+            return self.facets.offset(group[0])
+        vectors = [self.facets.offset(event) for event in group]
+        return next((v for v in vectors if isinstance(v[0], fmpq) and isinstance(v[1], fmpq)), vectors[0])
+
+    # -- cells -------------------------------------------------------------------------------------
+
+    def _covers(self) -> None:
+        """All pairs of a facet and a cell that it covers; cell k lies counterclockwise of rank k."""
+        cells = max(self.count, 1)
+        spans = (self._high - self._low) % cells
+        spans[self._low == NOWHERE] = cells
+        self._facet = np.repeat(np.arange(len(spans)), spans)
+        before = np.cumsum(spans) - spans
+        self._cell = (np.arange(len(self._facet)) - before[self._facet] + self._low[self._facet]) % cells
+
+    def _first(self) -> list[int]:
+        """The first facet of every cell."""
+        cells = max(self.count, 1)
+        first = np.full(cells, NOTHING)
+        if len(self._facet):
+            tau, error = self._distances()
+            order = np.lexsort((tau, self._cell))
+            cell = self._cell[order]
+            heads = np.flatnonzero(np.concatenate(([True], cell[1:] != cell[:-1])))
+            first[cell[heads]] = self._facet[order[heads]]
+            limit = np.full(cells, inf)
+            limit[cell[heads]] = (tau + error)[order[heads]]
+            close = ~((tau - error) > limit[self._cell])
+            rivals = np.bincount(self._cell[close], minlength=cells) > 1
+            for k in np.flatnonzero(rivals).tolist():
+                some = self._facet[close & (self._cell == k)].tolist()
+                first[k] = self.nearest(self._inner_direction(k), some)
+        cone = self.facets.cone
+        if cone is not None:
+            low, high = self.rank[cone.low], self.rank[cone.high]
+            span = (high - low) % cells or cells
+            first[(np.arange(span) + low) % cells] = BLOCKED
+        found: list[int] = first.tolist()
+        return found
+
+    def _distances(self) -> tuple[Floats, Floats]:
+        """Float distances of the pairs' facets along the middle rays of their cells, with error bounds."""
+        facets, table, slack = self.facets, self.table, self.facets.slack
+        if self.count:
+            angle = np.append(self.angle, self.angle[0] + SEAM)
+            middle = (angle[1:] + angle[:-1]) / 2
+            rough = np.maximum(self.margin, np.append(self.margin[1:], self.margin[0])) + 2e-15
+        else:
+            middle, rough = np.zeros(1), np.full(1, 2e-15)
+        facet, cell = self._facet, self._cell
+        ux, uy, rough = np.cos(middle)[cell], np.sin(middle)[cell], rough[cell]
+        s, a = table.start[facets.edge] - facets.xy, table.end[facets.edge] - table.start[facets.edge]
+        sx, sy, ax, ay = s[:, 0], s[:, 1], a[:, 0], a[:, 1]
+        size = np.abs(ax) + np.abs(ay)
+        above, spread = sx * ay - sy * ax, 4 * slack * (np.abs(sx) + np.abs(sy) + size + slack)
+        below = ux * ay[facet] - uy * ax[facet]
+        doubt = 4 * slack + size[facet] * rough
+        clear = np.abs(below)
+        sure = clear > 8 * doubt
+        tau = above[facet] / np.where(sure, below, 1.0)
+        error = np.where(sure, quotient(2 * (spread[facet] + np.abs(tau) * doubt), clear), inf)
+        if facets.curved:
+            edge = facets.edge[facet]
+            curved = np.flatnonzero(table.kind[edge] != STRAIGHT)
+            e, ux, uy, rough = edge[curved], ux[curved], uy[curved], rough[curved]
+            w, radius = table.center[e] - facets.xy, table.radius[e]
+            along, across = w[:, 0] * ux + w[:, 1] * uy, w[:, 1] * ux - w[:, 0] * uy
+            off = 4 * slack + (np.abs(w).sum(axis=1) + radius) * rough
+            half = np.sqrt(np.maximum((radius - np.abs(across)) * (radius + np.abs(across)), 0.0))
+            tau[curved] = along - table.kind[e] * half
+            error[curved] = np.where(half > 8 * off, off * (2 + quotient(4 * radius, half)), inf)
+        return tau, error
+
+    def nearest(self, direction: Vector, facets: Iterable[int]) -> int:
+        """The nearest of facets that all cover a direction; exact."""
+        best, least = NOTHING, None
+        ray = Point(*direction)
+        for f in facets:
+            tau = self.parameter(ray, f)
+            if least is None or tau.compare(least) < 0:
+                best, least = f, tau
+        return best
+
+    def parameter(self, ray: Point, facet: int) -> Real:
+        """How many times a ray's vector leads from the point to a facet that covers it."""
+        e = self.edges[facet]
+        curve = self.table.curves[e]
+        if isinstance(curve, Arc) and e in self.facets.own:
+            # The ray meets the circle at the point itself, and again at twice the foot of the centre.
+            tau: Real = 2 * (curve.center - self.facets.point).dot(ray) / ray.norm_sq()
+            return tau
+        return meet(self.facets.point, ray, curve, 1)
+
+    def _inner_direction(self, cell: int) -> Vector:
+        """Some rational direction strictly within a cell."""
+        if not self.count:
+            return fmpq(1), fmpq(0)
+        low, high = self.direction(cell), self.direction((cell + 1) % self.count)
+        wide = self.count == 1 or sign(cross(low, high)) <= 0
+        bits = 64
+        while True:
+            a, b = _approximate(low, bits), _approximate(high, bits)
+            if wide:
+                a = b = (-a[1], a[0])
+            p, q = abs(a[0]) + abs(a[1]), abs(b[0]) + abs(b[1])
+            if p and q:
+                ray = a[0] * q + b[0] * p, a[1] * q + b[1] * p
+                if wide or (sign(cross(low, ray)) > 0 and sign(cross(ray, high)) > 0):
+                    return ray
+            bits *= 2
+
+    def _sights(self) -> list[Sight]:
+        """Cells with the same first facet joined, the first sight starting at a change."""
+        first = self.first
+        changes = [k for k, facet in enumerate(first) if facet != first[k - 1]]
+        if not changes:
+            facet = first[0]
+            rank = NOWHERE if not self.count else 0
+            if facet >= 0 and self.low[facet] != NOWHERE:
+                rank = self.low[facet]
+            return [Sight(facet, rank, rank)]
+        ends = [*changes[1:], changes[0]]
+        return [Sight(first[a], a, b) for a, b in zip(changes, ends, strict=True)]
+
+    # -- points ------------------------------------------------------------------------------------
+
+    def at(self, facet: int, rank: int, is_low: bool) -> Point:
+        """The point of a facet in the direction of a rank that the facet covers, or that ends it."""
+        if rank == (self.low if is_low else self.high)[facet]:
+            return self.end(facet, is_low)
+        return self.hit(facet, self.direction(rank))
+
+    def end(self, facet: int, is_low: bool) -> Point:
+        """The point that ends a facet."""
+        event = (self.ends_low if is_low else self.ends_high)[facet]
+        return self.table.curves[self.edges[facet]].start if event == NOWHERE else self.facets.place(event)
+
+    def hit(self, facet: int, vector: Vector) -> Point:
+        """The point of a facet in a direction that it covers.
+
+        On a straight edge s + u a with u = v x (p - s) / v x a: linear in one number, however p looks.
+        """
+        facets, e = self.facets, self.edges[facet]
+        curve = self.table.curves[e]
+        if isinstance(curve, Segment):
+            start = self.table.vertices[e]
+            along = raw(curve.direction)
+            share = cross(vector, minus(facets.origin, start)) / cross(vector, along)
+            return advance(start, along, share)
+        ray = Point(*vector)
+        return facets.point + ray * self.parameter(ray, facet)
+
+    def covering(self, rank: int) -> list[int]:
+        """The facets that cover a rank's direction and do not end there."""
+        if not len(self._facet):
+            return []
+        some = self._facet[self._cell == rank]
+        return [f for f in some.tolist() if self.low[f] != rank]
+
+    def blocks(self, event: int, direction: Vector) -> bool:
+        """Whether a ray from the point in the direction of a vertex leads into the obstacle there."""
+        table = self.table
+        if event >= len(table.vertices):
+            return False
+        owner = int(table.owner[event])
+        first = int(table.first[owner])
+        last = first + len(table.obstacles[owner].edges) - 1
+        incoming = table.curves[event - 1 if event > first else last]
+        outgoing = table.curves[event]
+        before, after = leaving(incoming, at_end=True), leaving(outgoing, at_end=False)
+        return enters(incoming, outgoing, before, after, direction)
+
+
+def _turn(a: Vector, b: Vector) -> int:
+    """1 if b comes after a, counterclockwise from the east, -1 if before, 0 if they are parallel."""
+    upper = [sign(y) > 0 or (sign(y) == 0 and sign(x) > 0) for x, y in (a, b)]
+    if upper[0] != upper[1]:
+        return 1 if upper[0] else -1
+    return sign(cross(a, b))
+
+
+def _approximate(vector: Vector, bits: int) -> tuple[fmpq, fmpq]:
+    """Rational coordinates near a vector's, relative to its size."""
+    x, y = (c if isinstance(c, fmpq) else rational(Real(c).enclosure(bits)[0]) for c in vector)
+    return x, y

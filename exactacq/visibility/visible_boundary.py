@@ -1,0 +1,383 @@
+"""All of the boundary that a point sees within a range: closed pieces of edges, and single rays.
+
+Seen is what a free segment reaches, and free segments may graze. So the view is closed: beside the facets
+that come first over whole ranges of directions it holds what single rays reach that graze corners on both
+sides, edges seen edge-on, the edges through the point itself, and corners touched on the way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterator
+from dataclasses import dataclass
+from functools import cached_property, cmp_to_key
+from typing import Any, TypeAlias
+
+import numpy as np
+from flint import fmpq
+
+from exactacq.errors import Undecided
+from exactacq.geometry.coordinates import Vector, advance, dot, minus, raw, sign, square_root
+from exactacq.geometry.curves import Arc, Segment
+from exactacq.geometry.points import Point
+from exactacq.scene.edge_table import EdgeTable, Floats
+from exactacq.visibility.features import enters
+from exactacq.visibility.radial_sweep import BLOCKED, NOTHING, Panorama, Sight
+from exactacq.visibility.range_clip import Span, of_circle, within
+
+LAST = 1 << 60
+AT_RANGE = -1
+"""In place of the rank of a point's direction."""
+Hold: TypeAlias = "tuple[int, Hashable, int]"
+"""An edge, the name of what the line to its point touches (see `line_names`) or of the range, and a side."""
+
+
+def seen_from(
+    table: EdgeTable, point: Point, radius: fmpq, own: tuple[int, ...] | None = None
+) -> dict[int, list[Span]]:
+    """All boundary points that a free point sees within a radius: by edge, closed pieces in its direction.
+
+    The pieces of an edge are disjoint and in order; a single point is a piece with equal ends. A vertex is
+    reported as the end of a piece of either edge, or alone with the edge that starts there. Two
+    exceptions on full circles: a piece may run over the circle's start, and a circle that is seen whole comes
+    as its two halves. *own* are the edges through the point, at a vertex the incoming one first (found if not
+    given). The point may be algebraic.
+    """
+    return View(table, point, radius, own).seen()
+
+
+@dataclass(frozen=True, slots=True)
+class Ray:
+    """What is seen exactly along one direction, where neighbouring rays may not go.
+
+    ``end`` is where the free run or the range ends, ``events`` lie on the way, ``along`` are straight edges
+    seen along their length, ``beyond`` tells that no neighbouring ray is free as far, ``struck`` is the facet
+    that only this ray reaches, if any.
+    """
+
+    rank: int
+    end: Point
+    events: tuple[int, ...]
+    along: tuple[int, ...]
+    beyond: bool
+    struck: int | None
+
+
+class View:
+    """The panorama of a point, cut off at a rational radius."""
+
+    def __init__(
+        self, table: EdgeTable, point: Point, radius: fmpq, own: tuple[int, ...] | None = None
+    ) -> None:
+        self.table, self.point, self.radius = table, point, radius
+        self.radius_sq = radius * radius
+        self.own = table.edges_at(point) if own is None else own
+        self.panorama = Panorama(table, point, float(radius) * (1 + 1e-12), self.own)
+        self.origin = self.panorama.facets.origin
+        self._at_range: dict[int, Point] = {}
+        self.tight: set[Hold] = set()
+        """What holds the ends of sights that are known, by who asks, to be as far away as the range."""
+        self._held: dict[int, tuple[Point, int]] = {}
+
+    @cached_property
+    def near(self) -> list[bool]:
+        """For each facet whether floats prove that all of it is within range."""
+        facets, table = self.panorama.facets, self.table
+        edge = facets.edge
+        size = np.maximum(_size(table.start[edge] - facets.xy), _size(table.end[edge] - facets.xy))
+        curved = table.kind[edge] != 0
+        if curved.any():
+            size = np.where(curved, _size(table.center[edge] - facets.xy) + table.radius[edge], size)
+        found: list[bool] = (size < float(self.radius) * (1 - 1e-12) - 8 * facets.slack).tolist()
+        return found
+
+    def seen(self) -> dict[int, list[Span]]:
+        """See `seen_from`."""
+        found: dict[int, list[tuple[tuple[int, int], Span]]] = {}
+        panorama = self.panorama
+        for sight in panorama.sights:
+            if sight.facet < 0:
+                continue
+            for span in self.spans(sight):
+                key = sight.facet, self._order(sight.facet, sight.high)
+                found.setdefault(panorama.edges[sight.facet], []).append((key, span))
+        for ray in self.rays:
+            self._add_ray(ray, found)
+        self._add_own(found)
+        pieces = {e: _joined([span for _, span in sorted(spans, key=_key)]) for e, spans in found.items()}
+        return self._tidied(pieces)
+
+    def _tidied(self, pieces: dict[int, list[Span]]) -> dict[int, list[Span]]:
+        """Vertices that the range leaves alone on an edge moved to the edge that starts there, or dropped
+        where a piece has them."""
+        for e in [e for e, spans in pieces.items() if spans and spans[-1][0] is spans[-1][1]]:
+            (vertex, _), following = pieces[e][-1], int(self.table.next[e])
+            if vertex is not self.table.curves[e].end or following == e:
+                continue
+            onward = pieces.setdefault(following, [])
+            if not onward or onward[0][0] is not vertex:
+                onward.insert(0, pieces[e][-1])
+            pieces[e].pop()
+        for e in [e for e, spans in pieces.items() if spans and spans[0][0] is spans[0][1]]:
+            vertex, before = pieces[e][0][0], self.previous(e)
+            if vertex is self.table.curves[e].start and before != e:
+                ends = pieces.get(before, ())
+                if ends and ends[-1][1] is vertex:
+                    pieces[e].pop(0)
+        return {e: spans for e, spans in pieces.items() if spans}
+
+    def previous(self, e: int) -> int:
+        """The edge before an edge on its boundary."""
+        owner = int(self.table.owner[e])
+        first = int(self.table.first[owner])
+        return e - 1 if e > first else first + len(self.table.obstacles[owner].edges) - 1
+
+    def spans(self, sight: Sight) -> list[Span]:
+        """The parts within range of what is seen of a facet, in the boundary's direction."""
+        facet = sight.facet
+        if sight.low == sight.high:
+            curve = self.table.curves[self.panorama.edges[facet]]
+            # All around is seen only a full circle: from inside a circle a ray meets it once, so that a part
+            # of it covers less; from outside, and so of straight edges, a facet covers less than half a turn.
+            assert isinstance(curve, Arc)
+            some = of_circle(curve, self.origin, self.radius_sq)
+            if some is None:
+                opposite = curve.center + (curve.center - curve.start)
+                return [(curve.start, opposite), (opposite, curve.start)]
+            return some
+        return self.clipped(facet, self.ends(sight))
+
+    def ends(self, sight: Sight) -> Span:
+        """What a sight sees of a facet, in the boundary's direction and whatever the range."""
+        panorama = self.panorama
+        ends = panorama.at(sight.facet, sight.high, False), panorama.at(sight.facet, sight.low, True)
+        for point, rank in zip(ends, (sight.high, sight.low), strict=True):
+            self._held[id(point)] = point, rank
+        return ends
+
+    def is_at_range(self, point: Point) -> bool:
+        """Whether an end of what is seen was made as a point as far away as the range."""
+        return self._held.get(id(point), (point, LAST))[1] == AT_RANGE
+
+    def holds(self, e: int, point: Point) -> Iterator[Hold]:
+        """What holds the end of a sight, by what the ray to it touches."""
+        for number, side in self.touched(point):
+            yield e, ("circle", self.table.circles[number]) if side else ("corner", number), side
+
+    def touched(self, point: Point) -> list[tuple[int, int]]:
+        """What the ray to an end of what is seen touches, if it ends a sight; else nothing.
+
+        Vertices come with 0, arcs with 1 if the circle is to the left of the ray, else -1.
+        """
+        rank = self._held.get(id(point), (point, LAST))[1]
+        if rank in (AT_RANGE, LAST):
+            return []
+        count, marks = len(self.table.vertices), self.panorama.facets.marks
+        return [
+            (event, 0) if event < count else (marks[event - count].edge, marks[event - count].side)
+            for event in self.panorama.groups[rank]
+        ]
+
+    def clipped(self, facet: int, ends: Span) -> list[Span]:
+        """The parts of a piece of a facet within range; ends within range stay the same objects."""
+        start, end = ends
+        if self.near[facet] and start is not end:
+            return [ends]
+        curve = self.table.curves[self.panorama.edges[facet]]
+        if start is not end:
+            try:
+                spans = within(curve, start, end, self.origin, self.radius_sq)
+            except Undecided:
+                e = self.panorama.edges[facet]
+                known = [id(p) for p in ends if any(hold in self.tight for hold in self.holds(e, p))]
+                spans = within(curve, start, end, self.origin, self.radius_sq, known)
+            for point in (p for span in spans for p in span if p is not start and p is not end):
+                self._held[id(point)] = point, AT_RANGE
+            return spans
+        # All of a full circle that passes through the point itself: the ends of other facets are distinct.
+        assert isinstance(curve, Arc)
+        opposite = curve.center + (curve.center - start)
+        first = within(curve, start, opposite, self.origin, self.radius_sq)
+        return first + within(curve, opposite, end, self.origin, self.radius_sq)
+
+    def _order(self, facet: int, rank: int) -> int:
+        """Position of a rank on a facet, in the boundary's direction."""
+        panorama = self.panorama
+        return (panorama.high[facet] - rank) % max(panorama.count, 1)
+
+    def _in_range(self, point: Point) -> bool:
+        offset = minus(raw(point), self.origin)
+        return sign(dot(offset, offset) - self.radius_sq) <= 0
+
+    # -- single rays -------------------------------------------------------------------------------
+
+    @cached_property
+    def rays(self) -> list[Ray]:
+        """The directions in which several events lie, an edge is seen edge-on, or an own edge leaves."""
+        return [ray for rank in self.panorama.special if (ray := self._ray(rank)) is not None]
+
+    def _ray(self, rank: int) -> Ray | None:
+        panorama = self.panorama
+        facets = panorama.facets
+        before, after = panorama.first[rank - 1], panorama.first[rank]
+        if before == after >= 0 and panorama.low[before] != rank:
+            return None
+        direction = panorama.direction(rank)
+        if self._is_buried(direction, rank):
+            return None
+        square = dot(direction, direction)
+        struck = panorama.nearest(direction, covering) if (covering := panorama.covering(rank)) else None
+        limit = None if struck is None else panorama.parameter(Point(*direction), struck) * square
+        met: list[int] = []
+        blocker = None
+        for way, event in self._on_ray(rank, direction):
+            place = facets.place(event)
+            if (limit is not None and sign(limit - way) < 0) or not self._in_range(place):
+                break
+            met.append(event)
+            if panorama.blocks(event, direction):
+                blocker = event
+                break
+        end = None
+        if blocker is not None:
+            end = facets.place(blocker)
+        elif struck is not None:
+            place = panorama.hit(struck, direction)
+            end = place if self._in_range(place) else None
+        limited = end is not None
+        if end is None:
+            end = self.at_range(rank)
+        along = tuple(e for e in (*facets.on_ray, *self.own) if self._runs_along(e, rank, met, blocker))
+        reached = False
+        for facet, high in ((before, True), (after, False)):
+            if facet == NOTHING:
+                reached = True
+            elif facet != BLOCKED and limited:
+                ends_here = (panorama.high if high else panorama.low)[facet] == rank
+                event = (panorama.ends_high if high else panorama.ends_low)[facet]
+                reached |= (ends_here and event == blocker) or (facet == struck and blocker is None)
+            elif facet != BLOCKED:
+                place = panorama.at(facet, rank, not high)
+                offset = minus(raw(place), self.origin)
+                reached |= sign(dot(offset, offset) - self.radius_sq) >= 0
+        alone = struck if limited and blocker is None and struck not in (before, after) else None
+        return Ray(rank, end, tuple(met), along, not reached, alone)
+
+    def _is_buried(self, direction: Vector, rank: int) -> bool:
+        """Whether a ray leads from the point straight into its own obstacle."""
+        if not self.own:
+            return False
+        cone = self.panorama.facets.cone
+        if cone is None or self.panorama.rank[cone.low] == rank or self.panorama.rank[cone.high] == rank:
+            return self.buries(direction)
+        return self.panorama.first[rank - 1] == self.panorama.first[rank] == BLOCKED
+
+    def buries(self, direction: Vector) -> bool:
+        """Whether a direction leads from the point, on a boundary, straight into its obstacle."""
+        if not self.own:
+            return False
+        incoming, outgoing = curves = [self.table.curves[e] for e in (self.own[0], self.own[-1])]
+        before, after = (raw(c.tangent(self.point) if isinstance(c, Arc) else c.direction) for c in curves)
+        return enters(incoming, outgoing, before, after, direction)
+
+    def _on_ray(self, rank: int, direction: Vector) -> list[tuple[Any, int]]:
+        """The events on a ray with their products with its vector, nearest first; not the point itself."""
+        panorama = self.panorama
+        found: list[tuple[Any, int]] = []
+        for event in panorama.groups[rank]:
+            place = panorama.facets.place(event)
+            if place is not self.point:
+                found.append((dot(minus(raw(place), self.origin), direction), event))
+        return sorted(found, key=cmp_to_key(_by_way))
+
+    def _runs_along(self, e: int, rank: int, met: list[int], blocker: int | None) -> bool:
+        """Whether a straight edge on the ray is seen along its length."""
+        ranks = self.panorama.rank
+        ends = e, int(self.table.next[e])
+        if e in self.own:
+            return any(ranks.get(end) == rank and self.runs_out(e, end) for end in ends)
+        nearer = [event for event in met if event in ends][:1]
+        return ranks[e] == rank and bool(nearer) and nearer[0] != blocker
+
+    def runs_out(self, e: int, vertex: int) -> bool:
+        """Whether an edge through the point is straight and leads from there to a vertex, an end of it."""
+        if not isinstance(self.table.curves[e], Segment):
+            return False
+        return len(self.own) == 1 or vertex == (e if e == self.own[0] else int(self.table.next[e]))
+
+    def at_range(self, rank: int) -> Point:
+        """The point of the range circle in the direction of a rank, always the same object."""
+        point = self._at_range.get(rank)
+        if point is None:
+            direction = self.panorama.direction(rank)
+            share = square_root(self.radius_sq / dot(direction, direction))
+            point = self._at_range[rank] = advance(self.origin, direction, share)
+        return point
+
+    # -- points beside the sights ------------------------------------------------------------------
+
+    def _add_ray(self, ray: Ray, found: dict[int, list[tuple[tuple[int, int], Span]]]) -> None:
+        panorama, table = self.panorama, self.table
+        facets = panorama.facets
+        covered = {e for edge in ray.along for e in (edge, int(table.next[edge]))}
+        for facet, high in ((panorama.first[ray.rank - 1], True), (panorama.first[ray.rank], False)):
+            if facet >= 0 and (panorama.high if high else panorama.low)[facet] == ray.rank:
+                covered.add((panorama.ends_high if high else panorama.ends_low)[facet])
+        for e in ray.along:
+            if e not in self.own:
+                curve = table.curves[e]
+                for span in within(curve, curve.start, curve.end, self.origin, self.radius_sq):
+                    found.setdefault(e, []).append(((-1, 0), span))
+        for event in ray.events:
+            if event in covered:
+                continue
+            place = facets.place(event)
+            self._held[id(place)] = place, ray.rank
+            if event < len(table.vertices):
+                found.setdefault(event, []).append(((-2, 0), (place, place)))
+                continue
+            for facet in np.flatnonzero((facets.low == event) | (facets.high == event)).tolist():
+                order = LAST if panorama.ends_low[facet] == event else -1
+                found.setdefault(panorama.edges[facet], []).append(((facet, order), (place, place)))
+        if ray.struck is not None:
+            key = ray.struck, self._order(ray.struck, ray.rank)
+            found.setdefault(panorama.edges[ray.struck], []).append((key, (ray.end, ray.end)))
+
+    def _add_own(self, found: dict[int, list[tuple[tuple[int, int], Span]]]) -> None:
+        """The straight edges through the point, or the point alone."""
+        alone = True
+        for e in self.own:
+            curve = self.table.curves[e]
+            if isinstance(curve, Segment):
+                alone = False
+                spans = within(curve, curve.start, curve.end, self.origin, self.radius_sq)
+                found[e] = [((0, 0), span) for span in spans]
+            elif not curve.ccw:
+                alone &= e not in found
+        if alone and self.own:
+            found.setdefault(self.own[-1], []).insert(0, ((-1, 0), (self.point, self.point)))
+
+
+def _by_way(a: tuple[Any, int], b: tuple[Any, int]) -> int:
+    return sign(a[0] - b[0])
+
+
+def _key(item: tuple[tuple[int, int], Span]) -> tuple[int, int]:
+    return item[0]
+
+
+def _joined(spans: list[Span]) -> list[Span]:
+    """Pieces that share an end joined."""
+    if len(spans) < 2:
+        return spans
+    joined = spans[:1]
+    for start, end in spans[1:]:
+        if start is joined[-1][1] and end is not joined[-1][0]:
+            joined[-1] = joined[-1][0], end
+        else:
+            joined.append((start, end))
+    return joined
+
+
+def _size(offsets: Floats) -> Floats:
+    size: Floats = np.hypot(offsets[:, 0], offsets[:, 1])
+    return size
