@@ -221,7 +221,9 @@ def test_svg_is_the_same_in_every_process_and_under_every_setting(circles: Run) 
     here = svg(circles)
     with mpl.rc_context({"lines.linewidth": 9, "font.size": 30, "axes.grid": True, "svg.fonttype": "none"}):
         assert svg(circles) == here
-    code = "import exactacq as xa; print(xa.figures.svg(xa.sightseer(xa.load('circles'))), end='')"
+    code = (
+        "import exactacq as xa; print(exactacq.output.figures.svg(xa.sightseer(xa.load('circles'))), end='')"
+    )
     code = f"import sys, exactacq.output.figures; sys.stdout.reconfigure(encoding='utf-8'); {code}"
     environment = {**os.environ, "PYTHONHASHSEED": "12345"}
     there = subprocess.run(

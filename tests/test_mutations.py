@@ -43,12 +43,12 @@ def _change_bounds(patch: Patch, function: str, name: str) -> None:
             replace(b, value=b.value - Length("1/1000")) if b.name == name else b for b in original(*args)
         )
 
-    module = "exactacq.sightseer" if function == "sightseer_bounds" else "exactacq.seed_spreader"
-    patch.setattr(_module(module), function, changed)
+    strategy = "sightseer" if function == "sightseer_bounds" else "seed_spreader"
+    patch.setattr(_module(f"exactacq.strategies.{strategy}.strategy"), function, changed)
 
 
 def _module(name: str) -> Any:
-    """A module of the package by its name: as an attribute, `exactacq.sightseer` is the function."""
+    """A module of the package by its name: as an attribute it may be the function that is called so."""
     return sys.modules[name]
 
 
