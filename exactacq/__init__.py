@@ -5,12 +5,15 @@ from typing import TYPE_CHECKING, Any
 from exactacq.audit.run import audit
 from exactacq.errors import AuditError, ExactacqError, FormatError, InvalidScene, Undecided
 from exactacq.files.load import load
+from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
 from exactacq.scene.ports import JSON, SVG, offer
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle, Outline, Polygon, Terrain
+from exactacq.sensing.map import Map
+from exactacq.sensing.path import Event, Path
 from exactacq.sensing.view_events import sweep
 from exactacq.strategies.run import Run
 from exactacq.strategies.seed_spreader.strategy import seed_spreader
@@ -28,18 +31,24 @@ if TYPE_CHECKING:
     from exactacq.output.run_json import load_run
 
 __all__ = [
+    "Arc",
     "AuditError",
     "Circle",
+    "Event",
     "ExactacqError",
     "FormatError",
     "InvalidScene",
+    "Isovist",
     "Length",
+    "Map",
     "Outline",
+    "Path",
     "Point",
     "Polygon",
     "Real",
     "Run",
     "Scene",
+    "Segment",
     "Terrain",
     "Undecided",
     "audit",
@@ -65,3 +74,8 @@ def __getattr__(name: str) -> Any:
 
         return load_run
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    """The vocabulary, without the rooms and what is imported to fill it."""
+    return sorted(__all__)

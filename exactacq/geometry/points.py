@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from enum import IntEnum
+from typing import Any
 
+import numpy as np
 from flint import fmpq
+from numpy.typing import NDArray
 
+from exactacq.errors import FormatError
 from exactacq.numbers.real import Real, real
 
 
@@ -37,8 +41,14 @@ class Point:
 
     @classmethod
     def of(cls, value: Point | Sequence[object]) -> Point:
-        """A point from a Point or a pair of numbers."""
-        return value if isinstance(value, Point) else cls(*value)
+        """A point from a Point or a pair of numbers; `FormatError` for anything else."""
+        if isinstance(value, Point):
+            return value
+        try:
+            x, y = value
+        except (TypeError, ValueError):
+            raise FormatError(f"a point needs two numbers, not {value!r}") from None
+        return cls(x, y)
 
     @property
     def rational(self) -> tuple[fmpq, fmpq] | None:
@@ -64,6 +74,8 @@ class Point:
 
     def __mul__(self, factor: object) -> Point:
         return Point(self.x * factor, self.y * factor)
+
+    __rmul__ = __mul__
 
     def __truediv__(self, divisor: object) -> Point:
         return Point(self.x / divisor, self.y / divisor)
@@ -112,7 +124,9 @@ class Point:
                 return False
         return self.compare(other) == 0
 
-    __hash__ = None  # type: ignore[assignment]
+    def __hash__(self) -> int:
+        """That of the coordinates; TypeError if one is irrational: equal ones may have different forms."""
+        return hash((self.x, self.y))
 
     def __iter__(self):  # type: ignore[no-untyped-def]
         return iter((self.x, self.y))
@@ -121,7 +135,11 @@ class Point:
         return f"({self.x}, {self.y})"
 
     def __repr__(self) -> str:
-        return f"Point({self.x!r}, {self.y!r})"
+        return f"Point({self.x}, {self.y})"
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
+        """The nearest floats as an array of two."""
+        return np.array(self.xy, dtype=dtype)
 
 
 def orientation(a: Point, b: Point, c: Point) -> Orientation:

@@ -34,6 +34,8 @@ from flint import arb, ctx, fmpq, fmpz
 from exactacq.errors import Undecided
 from exactacq.numbers.angle_relations import reduced, simplified
 from exactacq.numbers.angles import HALF, Angle, AngleSum, Ends, Vector, folded
+from exactacq.numbers.exact import Exact
+from exactacq.numbers.quotient import Quotient
 from exactacq.numbers.rationals import (
     ball_sign,
     decimal_string,
@@ -58,13 +60,13 @@ NUMBERS = (Real, int, fmpz, fmpq, Fraction, Decimal, float)
 Number: TypeAlias = "Real | int | fmpz | fmpq | Fraction | Decimal | float"
 
 
-class Length:
+class Length(Exact):
     """An exact length (or area): ``Length(value)`` of a number or Real; arcs by `between`, `arc`, `turns`.
 
     Lengths add, subtract and scale by numbers exactly, and compare with each other and with numbers
     (infinities are the ends of the order; comparisons with a NaN are False but for ``!=``).
-    Comparisons are a total order, or raise `Undecided` (stage 5 above).  Not hashable: equal values
-    may have different expressions.  The empty sum, and a full circle of radius 0, are 0.
+    Comparisons are a total order, or raise `Undecided` (stage 5 above).  Irrational lengths are not
+    hashable: equal ones may have different expressions.  The empty sum, and a full circle of radius 0, are 0.
     """
 
     __slots__ = ("_algebraic", "_angular", "_ball", "_bits", "_sign")
@@ -74,8 +76,6 @@ class Length:
     _ball: arb
     _bits: int
     _sign: int | None
-
-    __hash__ = None  # type: ignore[assignment]
 
     def __new__(cls, value: object = 0) -> Length:
         return value if isinstance(value, Length) else cls._make(Real(value), NO_ANGLES)
@@ -143,6 +143,11 @@ class Length:
         return self._algebraic
 
     @property
+    def rational(self) -> fmpq | None:  # type: ignore[override]
+        """The value if it is rational and has no angles, or None."""
+        return self._algebraic.rational if self._is_algebraic else None
+
+    @property
     def numbers(self) -> tuple[Real, ...]:
         """What the closed form is made of: the part without angles, coefficients, cosines and sines."""
         angular = self._angular
@@ -196,7 +201,10 @@ class Length:
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: object) -> Length:
+    def __truediv__(self, other: object) -> Any:
+        """A length, or how many times one goes into another (`Quotient`)."""
+        if isinstance(other, Length):
+            return Quotient(self, other)
         return self * (1 / Real(other)) if _is_number(other) else NotImplemented
 
     # -- order -------------------------------------------------------------------------------
@@ -278,26 +286,6 @@ class Length:
             return (self - right).sign()
         except Undecided as reason:
             raise Undecided(f"comparison of {self!r} with {right!r}: {reason}") from None
-
-    def __eq__(self, other: object) -> bool:
-        order = self._order(other)
-        return NotImplemented if order is NotImplemented else order == 0
-
-    def __lt__(self, other: object) -> bool:
-        order = self._order(other)
-        return NotImplemented if order is NotImplemented else order is not None and order < 0
-
-    def __le__(self, other: object) -> bool:
-        order = self._order(other)
-        return NotImplemented if order is NotImplemented else order is not None and order <= 0
-
-    def __gt__(self, other: object) -> bool:
-        order = self._order(other)
-        return NotImplemented if order is NotImplemented else order is not None and order > 0
-
-    def __ge__(self, other: object) -> bool:
-        order = self._order(other)
-        return NotImplemented if order is NotImplemented else order is not None and order >= 0
 
     def __bool__(self) -> bool:
         return self.sign() != 0

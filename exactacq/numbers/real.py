@@ -42,6 +42,7 @@ from exactacq.numbers.atoms import (
     atom_height,
     atom_sympy,
 )
+from exactacq.numbers.exact import Exact
 from exactacq.numbers.linear_forms import (
     content,
     denested,
@@ -86,7 +87,7 @@ EXPAND_TERMS = 64
 ZERO, ONE = fmpq(0), fmpq(1)
 
 
-class Real:
+class Real(Exact):
     """An exact real algebraic number.
 
     ``Real(value)`` takes what `rational` takes.  Arithmetic with numbers is exact, `sqrt` of a
@@ -426,31 +427,6 @@ class Real:
             return False
         ((atom, c),) = self._terms.items()
         return isinstance(atom, Sqrt) and c > 0
-
-    def __eq__(self, other: object) -> bool:
-        order = self._order(other)
-        return NotImplemented if order is NotImplemented else order == 0
-
-    def __lt__(self, other: object) -> bool:
-        order = self._order(other)
-        return NotImplemented if order is NotImplemented else order is not None and order < 0
-
-    def __le__(self, other: object) -> bool:
-        order = self._order(other)
-        return NotImplemented if order is NotImplemented else order is not None and order <= 0
-
-    def __gt__(self, other: object) -> bool:
-        order = self._order(other)
-        return NotImplemented if order is NotImplemented else order is not None and order > 0
-
-    def __ge__(self, other: object) -> bool:
-        order = self._order(other)
-        return NotImplemented if order is NotImplemented else order is not None and order >= 0
-
-    def __hash__(self) -> int:
-        if self.rational is None:
-            raise TypeError("an irrational Real is not hashable: use .key for structural identity")
-        return hash(self.rational)
 
     def __bool__(self) -> bool:
         return self.sign() != 0

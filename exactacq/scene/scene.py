@@ -7,6 +7,7 @@ from functools import cached_property
 
 from flint import fmpq
 
+from exactacq.errors import FormatError
 from exactacq.geometry.box_index import DIRECTIONS
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import locate, signed_area, spans
@@ -15,7 +16,7 @@ from exactacq.numbers.length import Length
 from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import Real
 from exactacq.scene.ports import SVG, made
-from exactacq.scene.shapes import Circle, Shape, Terrain
+from exactacq.scene.shapes import Circle, Loop, Shape, Terrain
 from exactacq.scene.validation import validate
 
 
@@ -88,9 +89,9 @@ class Scene:
         name: str | None = None,
         notes: Iterable[str] = (),
     ) -> None:
-        self.shapes = tuple(obstacles)
+        self.shapes = _shapes(obstacles)
         self.start = None if start is None else Point.of(start)
-        self.terrain, self.enclosure = terrain, enclosure
+        self.terrain, self.enclosure = terrain, None if enclosure is None else _shape(enclosure)
         self.radius: fmpq | None = None if radius is None else rational(radius)
         self.name, self.notes = name, tuple(notes)
         loops = [Obstacle.of(index, shape) for index, shape in enumerate(self.shapes)]
@@ -116,6 +117,18 @@ class Scene:
     def __repr__(self) -> str:
         name = f" {self.name!r}" if self.name else ""
         return f"<Scene{name}: {len(self.obstacles)} obstacles>"
+
+
+def _shapes(values: Iterable[Shape]) -> tuple[Shape, ...]:
+    if isinstance(values, Loop | Circle):
+        raise FormatError("the obstacles are a list of shapes, not a single one: write [shape]")
+    return tuple(_shape(value) for value in values)
+
+
+def _shape(value: Shape) -> Shape:
+    if not isinstance(value, Loop | Circle):
+        raise FormatError(f"a shape is a Polygon, an Outline or a Circle, not a {type(value).__name__}")
+    return value
 
 
 def shape_edges(shape: Shape) -> tuple[Curve, ...]:

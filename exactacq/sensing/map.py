@@ -63,6 +63,9 @@ class Map:
         self.obstacles = obstacles
         self._targets, self._rails, self._covers = targets, rails, covers
 
+    def __repr__(self) -> str:
+        return f"<Map: {len(self.seen)} of {len(self.obstacles)} obstacles seen>"
+
     def known(self, i: int) -> tuple[Known, ...]:
         """The known parts of obstacle i, by edge and then along it; parts that meet in an edge are one."""
         return tuple(part for k in range(len(self.obstacles[i].edges)) for part in self._on_edge(i, k))

@@ -49,6 +49,9 @@ class Path(tuple[Piece, ...]):
 
     __slots__ = ()
 
+    def __repr__(self) -> str:
+        return f"<Path of {len(self)} pieces, length {sum(float(piece.length) for piece in self):.6g}>"
+
     def length_after(self, count: int) -> Length:
         """Length of the first *count* pieces; linear in *count*."""
         return Length.sum(piece.length for piece in self[:count])

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
 from operator import attrgetter
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from flint import fmpq
 
@@ -126,8 +126,17 @@ class Sweep:
 
     def __init__(self, scene: Scene, piece: Piece, senses: Senses) -> None:
         self.scene = scene
+        self._made_of = piece, senses.radius
         legs = legs_of(senses.table, senses.rails, piece.obstacle, piece.curve, piece.touches)
         self._shares = [senses.shares(leg) for leg in legs]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Without the sensing, which is repeated: it knows places by identity."""
+        return _again, (self.scene, *self._made_of)
+
+    def __repr__(self) -> str:
+        piece, radius = self._made_of
+        return f"<Sweep from {piece.start} to {piece.end} within {radius}>"
 
     @cached_property
     def events(self) -> tuple[SweepEvent, ...]:
@@ -165,7 +174,12 @@ def sweep(scene: Scene, curve: Curve, radius: object = None, obstacle: int | Non
     if obstacle is None and not isinstance(curve, Segment):
         raise ValueError("free space is crossed on straight lines: an arc needs its obstacle's number")
     kind = "straight" if obstacle is None else "boundary"
-    return Sweep(scene, Piece(kind, obstacle, curve), Senses(EdgeTable(scene.obstacles), reach))
+    return _again(scene, Piece(kind, obstacle, curve), reach)
+
+
+def _again(scene: Scene, piece: Piece, radius: fmpq) -> Sweep:
+    """The sweep of a piece, with a sensor of its own."""
+    return Sweep(scene, piece, Senses(EdgeTable(scene.obstacles), radius))
 
 
 def _events(number: int, shares: Shares) -> list[SweepEvent]:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
+from html import escape
 from math import tan
 from typing import Any
 
@@ -80,7 +81,7 @@ class Bound:
     ratio: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Run:
     """A finished exploration. See the fields' types for what each entry holds.
 
@@ -203,6 +204,21 @@ class Run:
             place = piece.curve.after(rest)
         return Event("moment", place, piece.obstacle, "", count, self.path, inside=True)
 
+    def __repr__(self) -> str:
+        name = f" on {self.scene.name}" if self.scene.name else ""
+        done = f"{len(self.visits)} of {len(self.obstacles)} obstacles visited"
+        return f"<Run: {self.strategy}{name}, R = {self.radius}, length {float(self.length):.6g}, {done}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Without the sensing, which is repeated when it is first asked for: it knows places by identity."""
+        state = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "record"}
+        return _again, (state,)
+
+    def _repr_html_(self) -> str:
+        """A line that says what the run is, and its figure."""
+        picture = self._repr_svg_()
+        return f"<div><p>{escape(repr(self)[1:-1])}</p>{picture[picture.index('<svg') :]}</div>"
+
     def _repr_svg_(self) -> str:
         return str(made(SVG, self))
 
@@ -214,6 +230,11 @@ class Run:
     def names(self) -> Iterator[str]:
         """What the obstacles are called: by their names, or "O" and the number from 1."""
         return (body.label for body in self.obstacles)
+
+
+def _again(state: dict[str, Any]) -> Run:
+    """The run that was pickled or copied."""
+    return Run(**state)
 
 
 def _share(curve: Curve, length: Length) -> fmpq:

@@ -8,7 +8,7 @@ offered as `rays`.
 from __future__ import annotations
 
 from functools import cached_property
-from typing import ClassVar
+from typing import Any, ClassVar
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -93,6 +93,10 @@ class Isovist:
 
     def _repr_svg_(self) -> str:
         return str(made(SVG, self))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Its view is made again: it knows places by identity."""
+        return Isovist, (self.scene, self.point, self.radius, self._view.own)
 
     def __repr__(self) -> str:
         return f"<Isovist from {self.point} within {self.radius}>"

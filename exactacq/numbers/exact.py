@@ -1,0 +1,92 @@
+"""What every exact number offers beside its arithmetic: order, hash, formats and rounding."""
+
+from __future__ import annotations
+
+from decimal import Decimal
+from typing import Any
+
+from flint import fmpq
+
+GUARD = 10
+"""Digits beyond those that are shown: rounding twice is then rounding once, but for ties no one could see."""
+HALF = fmpq(1, 2)
+
+
+class Exact:
+    """A number with an exact order.
+
+    A subclass has `_order`, the sign of the difference to another number (None for a NaN, NotImplemented for
+    what is no number), ``rational`` (None if it is irrational), `enclosure`, `decimal` and a product with
+    rationals.
+
+    >>> from exactacq.numbers.length import Length
+    >>> root = Length(2) * Length("3/2").algebraic
+    >>> f"{root:.2f}", round(root * fmpq(5, 2)), root.as_integer_ratio()
+    ('3.00', 8, (3, 1))
+    """
+
+    __slots__ = ()
+
+    rational: fmpq | None
+
+    def _order(self, other: object) -> Any:
+        raise NotImplementedError
+
+    def __eq__(self, other: object) -> bool:
+        order = self._order(other)
+        return NotImplemented if order is NotImplemented else order == 0
+
+    def __lt__(self, other: object) -> bool:
+        order = self._order(other)
+        return NotImplemented if order is NotImplemented else order is not None and order < 0
+
+    def __le__(self, other: object) -> bool:
+        order = self._order(other)
+        return NotImplemented if order is NotImplemented else order is not None and order <= 0
+
+    def __gt__(self, other: object) -> bool:
+        order = self._order(other)
+        return NotImplemented if order is NotImplemented else order is not None and order > 0
+
+    def __ge__(self, other: object) -> bool:
+        order = self._order(other)
+        return NotImplemented if order is NotImplemented else order is not None and order >= 0
+
+    def __hash__(self) -> int:
+        """Equal numbers have equal hashes; irrational ones, which may be equal in many forms, have none."""
+        if self.rational is None:
+            kind = type(self).__name__
+            raise TypeError(f"an irrational {kind} is not hashable: equal ones may have different forms")
+        return hash(self.rational)
+
+    def as_integer_ratio(self) -> tuple[int, int]:
+        """Numerator and denominator; ValueError for an irrational number."""
+        if self.rational is None:
+            raise ValueError(f"an irrational number is no ratio of integers: {self}")
+        return int(self.rational.p), int(self.rational.q)
+
+    def __format__(self, spec: str) -> str:
+        """As a decimal formats; the text of the closed form if nothing is specified.
+
+        Any number of digits is right: they are computed, not read off a float.
+        """
+        if not spec:
+            return str(self)
+        _, point, places = spec.rstrip("%eEfFgGn").rpartition(".")
+        wanted = int(places) if point and places.isdigit() else 6
+        number: Any = self
+        whole = len(str(int(abs(float(number)))))
+        return format(Decimal(number.decimal(whole + wanted + GUARD)), spec)
+
+    def __round__(self, places: int | None = None) -> int | fmpq:
+        """The nearest integer, or the nearest multiple of 10^-places as a rational; ties to even, exactly."""
+        scale = fmpq(10) ** (places or 0)
+        scaled: Any = self * scale
+        low, high = scaled.enclosure(8)
+        nearest = int(((low + high) / 2 + HALF).floor())
+        above, below = scaled.compare(nearest + HALF), scaled.compare(nearest - HALF)
+        if above > 0 or (above == 0 and nearest % 2):
+            nearest += 1
+        elif below < 0 or (below == 0 and nearest % 2):
+            nearest -= 1
+        return nearest if places is None else fmpq(nearest) / scale

@@ -1,0 +1,80 @@
+"""The quotient of two lengths: compared exactly, and enclosed as closely as asked."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from flint import arb, ctx, fmpq
+
+from exactacq.errors import FormatError
+from exactacq.numbers.exact import Exact
+from exactacq.numbers.rationals import decimal_string, enclose, rational, round_to_float
+
+
+class Quotient(Exact):
+    """How many times one length goes into another, which is not 0.
+
+    Comparisons with rational numbers are exact: a / b < q where a < q b. They raise `Undecided` where that
+    does.
+
+    >>> from exactacq.numbers.length import Length
+    >>> half = Length("3/2") / Length(3)
+    >>> half == fmpq(1, 2), half < 1, float(half)
+    (True, True, 0.5)
+    """
+
+    def __init__(self, top: Any, bottom: Any) -> None:
+        self._sign = bottom.sign()
+        if not self._sign:
+            raise ZeroDivisionError("division by a length of 0")
+        self.top, self.bottom = top, bottom
+
+    def ball(self, bits: int) -> arb:
+        """An enclosing ball computed with *bits* working bits, or more where the divisor is near 0."""
+        while True:
+            with ctx.workprec(bits):
+                below = self.bottom.ball(bits)
+                if not below.contains(0):
+                    return self.top.ball(bits) / below
+            bits *= 2
+
+    def enclosure(self, bits: int) -> tuple[fmpq, fmpq]:
+        """Rational (low, high) around the value, at most 2^-bits apart."""
+        return enclose(self.ball, bits)
+
+    @property
+    def rational(self) -> fmpq | None:  # type: ignore[override]
+        """The value if both lengths are rational, or None."""
+        a, b = self.top.rational, self.bottom.rational
+        return None if a is None or b is None else a / b
+
+    def __mul__(self, factor: object) -> Quotient:
+        return Quotient(self.top * factor, self.bottom)
+
+    def compare(self, other: object) -> int:
+        """-1, 0 or 1 as the quotient is less than another or a rational number, equal or greater."""
+        order = self._order(other)
+        if order is NotImplemented:
+            raise TypeError(f"cannot compare a quotient of lengths with {type(other).__name__}")
+        return int(order)
+
+    def _order(self, other: object) -> Any:
+        try:
+            number = rational(other)
+        except FormatError:
+            return NotImplemented
+        return (self.top - self.bottom * number).sign() * self._sign
+
+    def __float__(self) -> float:
+        """The nearest float."""
+        return round_to_float(self.ball, lambda middle: self.compare(middle) == 0) + 0.0
+
+    def decimal(self, digits: int) -> str:
+        """The value with *digits* significant digits."""
+        return decimal_string(self.ball, digits) if self.top.sign() else "0"
+
+    def __str__(self) -> str:
+        return self.decimal(15)
+
+    def __repr__(self) -> str:
+        return f"<Quotient {self}>"

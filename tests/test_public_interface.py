@@ -1,0 +1,160 @@
+"""What users' hands expect of the public types: copies, formats, reprs, errors where the mistake is made."""
+
+from __future__ import annotations
+
+import copy
+import doctest
+import pickle
+from fractions import Fraction
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+import pytest
+from flint import fmpq
+from hypothesis import given
+from hypothesis import strategies as st
+
+import exactacq as xa
+
+Q = Fraction
+ROOT = Path(xa.__file__).parent
+SCENE = xa.Scene(
+    [xa.Circle((5, 0), 2), xa.Polygon([(9, 1), (10, 0), (10, 2)])], start=(0, 0), radius=20, name="two"
+)
+SWEPT = xa.Scene([xa.Circle((3, 4), 1), xa.Circle((6, 6), 1)], terrain=xa.Terrain(8, 8), radius=3)
+
+
+@pytest.fixture(scope="module", params=["sightseer", "seed spreader"])
+def run(request: pytest.FixtureRequest) -> xa.Run:
+    return xa.sightseer(SCENE) if request.param == "sightseer" else xa.seed_spreader(SWEPT)
+
+
+class TestCopies:
+    @pytest.mark.parametrize("again", [lambda x: pickle.loads(pickle.dumps(x)), copy.deepcopy, copy.copy])
+    def test_of_a_run_are_the_run(self, run: xa.Run, again: object) -> None:
+        """The sensing knows places by identity, so it is repeated and not copied."""
+        other = again(run)  # type: ignore[operator]
+        assert other.length == run.length
+        assert other.visits == run.visits
+        assert [(e.kind, e.obstacle, e.at) for e in other.events] == [
+            (e.kind, e.obstacle, e.at) for e in run.events
+        ]
+        middle = run.length / 2 if run.length.rational else xa.Length(Q(int(float(run.length) * 8), 16))
+        assert other.map_at(middle).known_length() == run.map_at(middle).known_length()
+        assert other.map.frontier == run.map.frontier
+
+    def test_of_what_is_seen(self) -> None:
+        run = xa.sightseer(SCENE)
+        view, swept = xa.isovist(SCENE, (0, 0)), xa.sweep(SCENE, run.path[0].curve)
+        for value, of in ((view, lambda v: v.area), (run.map, lambda m: m.known_length())):
+            assert of(pickle.loads(pickle.dumps(value))) == of(value)
+        again = pickle.loads(pickle.dumps(swept))
+        assert [e.place for e in again.events] == [e.place for e in swept.events]
+
+
+class TestNumbers:
+    LENGTH = xa.Length.turns(xa.Real(1)) + xa.Length("1/8")
+
+    def test_formats(self) -> None:
+        assert f"{self.LENGTH:.3f}" == "6.408"
+        assert f"{self.LENGTH:10.2e}" == "   6.41e+0"
+        assert f"{self.LENGTH:.30f}" == "6.408185307179586476925286766559"
+        assert f"{xa.Real(2).sqrt():.40f}" == "1.4142135623730950488016887242096980785697"
+        assert f"{self.LENGTH}" == str(self.LENGTH) == "1/8 + 2*pi"
+        assert f"{xa.Length(0):.1f}" == "0.0"
+        assert f"{-xa.Length('1e30'):.1f}" == "-1000000000000000000000000000000.0"
+
+    @given(st.fractions(max_denominator=2000), st.sampled_from([None, 0, 1, 2, -1]))
+    def test_rounding_is_that_of_fractions(self, value: Fraction, places: int | None) -> None:
+        for number in (xa.Length(value), xa.Real(value)):
+            found = round(number, places)
+            assert (found if places is None else Q(int(found.p), int(found.q))) == round(value, places)
+
+    def test_rounding_decides_ties(self) -> None:
+        """A tie goes to the even side; what is a hair above it goes up."""
+        hair = xa.Length(Q(1, 10**60)) * xa.Real(2).sqrt()
+        assert [round(xa.Length("5/2")), round(xa.Length("5/2") + hair), round(xa.Length("7/2") - hair)] == [
+            2,
+            3,
+            3,
+        ]
+
+    def test_ratios(self) -> None:
+        assert xa.Length("3/2").as_integer_ratio() == (3, 2)
+        with pytest.raises(ValueError, match="irrational"):
+            self.LENGTH.as_integer_ratio()
+
+    def test_a_quotient_of_lengths_is_compared_exactly(self) -> None:
+        double = self.LENGTH * 2 / self.LENGTH
+        assert double == 2
+        assert double > Q(19, 10) and double <= 2 and not double < 2
+        assert double == xa.Length(5) / xa.Length("5/2")
+        assert float(self.LENGTH / xa.Length(4)) == pytest.approx(1.6020463267948966)
+        assert f"{self.LENGTH / xa.Length(4):.3f}" == "1.602"
+        low, high = (self.LENGTH / xa.Length(4)).enclosure(100)
+        assert low < high and high - low < fmpq(1, 2**100)
+        assert round(self.LENGTH / xa.Length(4), 1) == fmpq(8, 5)
+        assert double != "two"
+        with pytest.raises(ZeroDivisionError):
+            self.LENGTH / xa.Length(0)
+
+    def test_equal_hashable_numbers_hash_alike(self) -> None:
+        assert len({xa.Length("1/2"), xa.Length(Q(2, 4)), xa.Real("1/2")}) == 1
+        assert len({xa.Point(1, 2), xa.Point("1", Q(4, 2))}) == 1
+        for value in (self.LENGTH, xa.Real(2).sqrt(), xa.Point(xa.Real(2).sqrt(), 0)):
+            with pytest.raises(TypeError, match="different forms"):
+                hash(value)
+
+    def test_points_are_arrays(self) -> None:
+        assert np.asarray(xa.Point(1, "1/2")).tolist() == [1.0, 0.5]
+        assert np.asarray([xa.Point(0, 1), xa.Point(2, 3)]).shape == (2, 2)
+        assert 2 * xa.Point(1, 2) == xa.Point(2, 4)
+
+
+class TestReprs:
+    def test_are_short(self, run: xa.Run) -> None:
+        shown = [run, run.path, run.map, run.events[1], run.start, xa.isovist(SCENE, (0, 0)), SCENE]
+        assert all(len(repr(value)) < 120 for value in shown)
+        assert all("object at 0x" not in repr(value) for value in shown)
+
+    def test_a_notebook_shows_a_line_and_the_figure(self, run: xa.Run) -> None:
+        html = run._repr_html_()
+        assert html.startswith("<div><p>Run: ") and "<svg" in html and "<?xml" not in html
+
+    def test_the_vocabulary(self) -> None:
+        assert dir(xa) == sorted(xa.__all__)
+        assert all(getattr(xa, name) is not None for name in dir(xa))
+
+
+class TestErrorsWhereTheMistakeIs:
+    @pytest.mark.parametrize(
+        ("make", "message"),
+        [
+            (lambda: xa.Scene([], start=(1, 2, 3)), "two numbers, not"),
+            (lambda: xa.Scene([], start=7), "two numbers, not 7"),
+            (lambda: xa.Scene([[(0, 0), (1, 0), (0, 1)]]), "a Polygon, an Outline or a Circle, not a list"),
+            (lambda: xa.Scene(xa.Circle((0, 0), 1)), "not a single one"),
+            (lambda: xa.Scene([], enclosure=[(0, 0), (1, 0), (0, 1)]), "not a list"),
+            (lambda: xa.sightseer(SCENE, 3, start=(1, 2, 3)), "two numbers"),
+            (lambda: xa.isovist(SCENE, (1, 2, 3)), "two numbers"),
+        ],
+    )
+    def test_one_sentence(self, make: object, message: str) -> None:
+        with pytest.raises(xa.FormatError, match=message) as caught:
+            make()  # type: ignore[operator]
+        assert "\n" not in str(caught.value)
+
+
+def documented() -> list[ModuleType]:
+    """The modules with examples in docstrings."""
+    paths = [path for path in ROOT.rglob("*.py") if ">>> " in path.read_text(encoding="utf-8")]
+    return [import_module(".".join(["exactacq", *p.relative_to(ROOT).with_suffix("").parts])) for p in paths]
+
+
+@pytest.mark.parametrize("module", documented(), ids=lambda module: module.__name__)
+def test_examples_in_docstrings(module: ModuleType) -> None:
+    found = doctest.testmod(module)
+    assert found.attempted > 0
+    assert found.failed == 0
