@@ -1,34 +1,34 @@
-"""exactacq: exact sensor-based terrain acquisition among segments and circular arcs."""
+"""exactacq: exact sensor-based terrain acquisition among segments and circular arcs.
 
+Names are loaded when they are first asked for: who wants `Length` does not wait for what draws or reads
+files.
+"""
+
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from exactacq.audit.run import audit
-from exactacq.errors import AuditError, ExactacqError, FormatError, InvalidScene, Undecided
-from exactacq.files.load import load
-from exactacq.geometry.curves import Arc, Segment
-from exactacq.geometry.points import Point
-from exactacq.numbers.length import Length
-from exactacq.numbers.real import Real
 from exactacq.scene.ports import JSON, SVG, offer
-from exactacq.scene.scene import Scene
-from exactacq.scene.shapes import Circle, Outline, Polygon, Terrain
-from exactacq.sensing.map import Map
-from exactacq.sensing.path import Event, Path
-from exactacq.sensing.view_events import sweep
-from exactacq.strategies.run import Run
-from exactacq.strategies.seed_spreader.strategy import seed_spreader
-from exactacq.strategies.sightseer.strategy import sightseer
-from exactacq.visibility.isovist import Isovist, isovist
-from exactacq.visibility.links import visibility_graph
-
-offer(SVG, Scene, "exactacq.output.figures", "svg")
-offer(SVG, Run, "exactacq.output.figures", "svg")
-offer(SVG, Isovist, "exactacq.output.isovist_svg", "svg")
-offer(JSON, Run, "exactacq.output.run_json", "run_to_json")
 
 if TYPE_CHECKING:
+    from exactacq.auditing.run import audit
+    from exactacq.errors import AuditError, ExactacqError, FormatError, InvalidScene, Undecided
+    from exactacq.files.load import load
+    from exactacq.geometry.curves import Arc, Segment
+    from exactacq.geometry.points import Point
+    from exactacq.numbers.length import Length
+    from exactacq.numbers.real import Real
     from exactacq.output.figures import figure
     from exactacq.output.run_json import load_run
+    from exactacq.scene.scene import Scene
+    from exactacq.scene.shapes import Circle, Outline, Polygon, Terrain
+    from exactacq.sensing.map import Map
+    from exactacq.sensing.path import Event, Path
+    from exactacq.sensing.view_events import sweep
+    from exactacq.strategies.run import Run
+    from exactacq.strategies.seed_spreader.strategy import seed_spreader
+    from exactacq.strategies.sightseer.strategy import sightseer
+    from exactacq.visibility.isovist import Isovist, isovist
+    from exactacq.visibility.links import visibility_graph
 
 __all__ = [
     "Arc",
@@ -62,18 +62,51 @@ __all__ = [
     "visibility_graph",
 ]
 
+_HOMES = {
+    "Arc": "exactacq.geometry.curves",
+    "AuditError": "exactacq.errors",
+    "Circle": "exactacq.scene.shapes",
+    "Event": "exactacq.sensing.path",
+    "ExactacqError": "exactacq.errors",
+    "FormatError": "exactacq.errors",
+    "InvalidScene": "exactacq.errors",
+    "Isovist": "exactacq.visibility.isovist",
+    "Length": "exactacq.numbers.length",
+    "Map": "exactacq.sensing.map",
+    "Outline": "exactacq.scene.shapes",
+    "Path": "exactacq.sensing.path",
+    "Point": "exactacq.geometry.points",
+    "Polygon": "exactacq.scene.shapes",
+    "Real": "exactacq.numbers.real",
+    "Run": "exactacq.strategies.run",
+    "Scene": "exactacq.scene.scene",
+    "Segment": "exactacq.geometry.curves",
+    "Terrain": "exactacq.scene.shapes",
+    "Undecided": "exactacq.errors",
+    "audit": "exactacq.auditing.run",
+    "figure": "exactacq.output.figures",
+    "isovist": "exactacq.visibility.isovist",
+    "load": "exactacq.files.load",
+    "load_run": "exactacq.output.run_json",
+    "seed_spreader": "exactacq.strategies.seed_spreader.strategy",
+    "sightseer": "exactacq.strategies.sightseer.strategy",
+    "sweep": "exactacq.sensing.view_events",
+    "visibility_graph": "exactacq.visibility.links",
+}
+"""Where the names live."""
+
+offer(SVG, "exactacq.scene.scene.Scene", "exactacq.output.figures", "svg")
+offer(SVG, "exactacq.strategies.run.Run", "exactacq.output.figures", "svg")
+offer(SVG, "exactacq.visibility.isovist.Isovist", "exactacq.output.isovist_svg", "svg")
+offer(JSON, "exactacq.strategies.run.Run", "exactacq.output.run_json", "run_to_json")
+
 
 def __getattr__(name: str) -> Any:
-    """Load what draws or reads runs when it is first asked for: matplotlib takes most of a second."""
-    if name == "figure":
-        from exactacq.output.figures import figure
-
-        return figure
-    if name == "load_run":
-        from exactacq.output.run_json import load_run
-
-        return load_run
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    """Load the module where a name lives; from then on it is a name of this one."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = globals()[name] = getattr(import_module(_HOMES[name]), name)
+    return value
 
 
 def __dir__() -> list[str]:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import copy
 import doctest
 import pickle
+import subprocess
+import sys
 from fractions import Fraction
 from importlib import import_module
 from pathlib import Path
@@ -126,6 +128,28 @@ class TestReprs:
     def test_the_vocabulary(self) -> None:
         assert dir(xa) == sorted(xa.__all__)
         assert all(getattr(xa, name) is not None for name in dir(xa))
+
+
+class TestImports:
+    """What one asks for is loaded, and no more."""
+
+    @staticmethod
+    def loaded(statement: str) -> set[str]:
+        code = f"import sys, exactacq as xa; {statement}; print(*sys.modules)"
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+        return {name.split(".")[0] for name in done.stdout.split()}
+
+    def test_the_package_itself_is_light(self) -> None:
+        assert not self.loaded("pass") & {"numpy", "flint", "networkx", "sympy"}
+
+    def test_a_length_needs_no_pictures_files_or_graphs(self) -> None:
+        heavy = {"networkx", "sympy", "matplotlib", "ezdxf", "typer", "rich", "pyclipper"}
+        assert not self.loaded("xa.Length") & heavy
+        assert not self.loaded("xa.sightseer; xa.audit; xa.isovist") & (heavy - {"networkx"})
+
+    def test_names_that_are_not_there(self) -> None:
+        with pytest.raises(AttributeError, match="no attribute 'sightseeing'"):
+            xa.sightseeing  # noqa: B018
 
 
 class TestErrorsWhereTheMistakeIs:

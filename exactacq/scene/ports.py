@@ -10,15 +10,16 @@ from importlib import import_module
 from typing import Any
 
 SVG, JSON = "svg", "json"
-_MAKERS: dict[tuple[str, type], tuple[str, str]] = {}
+_MAKERS: dict[tuple[str, str], tuple[str, str]] = {}
 
 
-def offer(port: str, kind: type, module: str, function: str) -> None:
-    """Name the function that makes what a port of a type gives, from the object."""
+def offer(port: str, kind: str, module: str, function: str) -> None:
+    """Name the function that makes from an object what a port gives; *kind* is its type's full name."""
     _MAKERS[port, kind] = module, function
 
 
 def made(port: str, value: object) -> Any:
     """What a port of an object gives; KeyError if its type has no such port."""
-    module, function = _MAKERS[port, type(value)]
+    kind = type(value)
+    module, function = _MAKERS[port, f"{kind.__module__}.{kind.__qualname__}"]
     return getattr(import_module(module), function)(value)

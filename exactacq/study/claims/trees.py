@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import networkx as nx
 
-from exactacq.audit.world import visible
+from exactacq.auditing.world import visible
 from exactacq.geometry.box_index import box
 from exactacq.geometry.intersections import contacts
 from exactacq.sensing.path import Piece

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from exactacq.audit.measure import same
+from exactacq.auditing.measure import same
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.sensing.path import Piece

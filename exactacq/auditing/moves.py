@@ -2,8 +2,8 @@
 
 Step by step the run's next move has to be the one that the rules allow: along the M-line to the next blocked
 stretch, around what blocks it, out to an obstacle that is about to be lost, and back. Where obstacles block,
-and where boundaries lie, is found by `exactacq.audit.sweeps`; what was known is taken from the run's maps,
-which `exactacq.audit.knowledge` checks.
+and where boundaries lie, is found by `exactacq.auditing.sweeps`; what was known is taken from the run's maps,
+which `exactacq.auditing.knowledge` checks.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from typing import Any
 
 from flint import arb, ctx, fmpq
 
-from exactacq.audit.knowledge import MOMENTS, is_whole, point_on
-from exactacq.audit.measure import (
+from exactacq.auditing.knowledge import MOMENTS, is_whole, point_on
+from exactacq.auditing.measure import (
     BITS,
     Body,
     Tracks,
@@ -27,8 +27,8 @@ from exactacq.audit.measure import (
     rational_on,
     same,
 )
-from exactacq.audit.sweeps import Field, Mark, Stretch
-from exactacq.audit.world import Lookout, visible
+from exactacq.auditing.sweeps import Field, Mark, Stretch
+from exactacq.auditing.world import Lookout, visible
 from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import contacts, nearest_points

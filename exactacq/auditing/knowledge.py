@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from flint import arb, ctx, fmpq
 
-from exactacq.audit.measure import (
+from exactacq.auditing.measure import (
     BITS,
     SIGHTS,
     Body,
@@ -24,7 +24,7 @@ from exactacq.audit.measure import (
     refined,
     same,
 )
-from exactacq.audit.world import Lookout, World, point_at, point_near, visible
+from exactacq.auditing.world import Lookout, World, point_at, point_near, visible
 from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point

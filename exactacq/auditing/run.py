@@ -1,10 +1,10 @@
 """The audit: a finished run checked again by other means than the code that made it.
 
 Lengths are re-added in balls, pieces are located among all edges, events are replayed, bounds are computed
-again from the paper's formulas, and knowledge is decided from the target's side (`exactacq.audit.world`). For
-the Seed Spreader the components, the M-line and what blocks it are found again (`exactacq.audit.sweeps`), and
-its rules are replayed (`exactacq.audit.moves`). Nothing of the strategies, the robot, the links or the
-sensing is used.
+again from the paper's formulas, and knowledge is decided from the target's side (`exactacq.auditing.world`).
+For the Seed Spreader the components, the M-line and what blocks it are found again
+(`exactacq.auditing.sweeps`), and its rules are replayed (`exactacq.auditing.moves`). Nothing of the
+strategies, the robot, the links or the sensing is used.
 
 Places that are not rational are compared with the path and with each other at `DIGITS` digits: there a
 deviation beyond them is not found. Everything else is exact, or a ball proves the flaw.
@@ -20,9 +20,9 @@ from typing import Any
 
 from flint import ctx
 
-from exactacq.audit.bounds import check_bounds, check_links, link_name, sightseer_values, spreader_values
-from exactacq.audit.knowledge import MOMENTS, Knowledge
-from exactacq.audit.measure import (
+from exactacq.auditing.bounds import check_bounds, check_links, link_name, sightseer_values, spreader_values
+from exactacq.auditing.knowledge import MOMENTS, Knowledge
+from exactacq.auditing.measure import (
     BITS,
     DIGITS,
     SIGHTS,
@@ -38,10 +38,10 @@ from exactacq.audit.measure import (
     place_text,
     same,
 )
-from exactacq.audit.moves import MOVES as SWEEP_MOVES
-from exactacq.audit.moves import Replay
-from exactacq.audit.sweeps import Field, check_components
-from exactacq.audit.world import World
+from exactacq.auditing.moves import MOVES as SWEEP_MOVES
+from exactacq.auditing.moves import Replay
+from exactacq.auditing.sweeps import Field, check_components
+from exactacq.auditing.world import World
 from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.points import Point
