@@ -318,7 +318,7 @@ def _explored(
     def run(progress: Callable[[int, int], None] | None) -> Run:
         if strategy is Strategy.SIGHTSEER:
             return sightseer(scene, radius, progress=progress)
-        return seed_spreader(scene, radius, lookahead, target.value, progress)
+        return seed_spreader(scene, radius, lookahead=lookahead, target=target.value, progress=progress)
 
     if not sys.stderr.isatty():
         return run(None)

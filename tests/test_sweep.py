@@ -52,7 +52,7 @@ def seen_through(
 
 def check_cells(scene: Scene, radius: object, piece: Piece) -> int:
     """In the middle of every cell: the windows are those of the isovist, and all it sees was taught."""
-    swept = sweep(scene, piece.curve, radius, piece.obstacle)
+    swept = sweep(scene, piece.curve, radius, obstacle=piece.obstacle)
     for cell in swept.cells:
         u = rational_between(cell.low, cell.high)
         mine, its = cell.windows(u), seen_through(scene, radius, cell, u)
@@ -159,7 +159,7 @@ def test_cells_together_teach_what_the_piece_teaches(make: object, seed: int) ->
     for scene, radius, piece in pieces(make(Random(seed)), 8):
         memory = Memory(scene, xa.Scene([], radius=radius).radius)
         memory.walk(piece)
-        whole, cells = memory.after(1), sweep(scene, piece.curve, radius, piece.obstacle).cells
+        whole, cells = memory.after(1), sweep(scene, piece.curve, radius, obstacle=piece.obstacle).cells
         for i in range(len(scene.obstacles)):
             parts = [known for cell in cells for known in cell.map.known(i)]
             for known in whole.known(i):

@@ -59,7 +59,7 @@ MOVES = {
 """What the robot does, and what it can do next."""
 
 
-def audit(run: Run, samples: int = 64, seed: int = 0) -> None:
+def audit(run: Run, *, samples: int = 64, seed: int = 0) -> None:
     """Check a finished run; `AuditError` names the first flaw, None is praise.
 
     *samples* is the number of random targets, of targets beside ends of known parts, and of places on the

@@ -159,7 +159,7 @@ class Sweep:
         yield SweepCell(k, begin, (leg.last, leg.end), shares, self.scene)
 
 
-def sweep(scene: Scene, curve: Curve, radius: object = None, obstacle: int | None = None) -> Sweep:
+def sweep(scene: Scene, curve: Curve, radius: object = None, *, obstacle: int | None = None) -> Sweep:
     """How the view within a radius (the scene's own if None) changes along a curve.
 
     The curve is a free segment, or part of one boundary edge of the obstacle of that number. It is trusted to

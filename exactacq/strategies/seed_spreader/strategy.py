@@ -40,6 +40,7 @@ class _Trapped(Exception):
 def seed_spreader(
     scene: Scene,
     radius: object = None,
+    *,
     lookahead: bool = True,
     target: str = "known",
     progress: Progress | None = None,

@@ -25,6 +25,7 @@ Progress = Callable[[int, int], None]
 def sightseer(
     scene: Scene,
     radius: object = None,
+    *,
     start: Point | Sequence[object] | None = None,
     progress: Progress | None = None,
 ) -> Run:

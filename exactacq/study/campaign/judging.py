@@ -100,7 +100,7 @@ def _run(case: Case, task: Task, audited: bool) -> tuple[Result, str, float | No
         run: Run = case.sightseer if task.strategy == Subject.SIGHTSEER.value else case.spreader
         length = float(run.length)
         if audited:
-            audit(run, SAMPLES, task.seed)
+            audit(run, samples=SAMPLES, seed=task.seed)
     except Undecided as error:
         return Result.UNDECIDED, _words(error), length
     except AuditError as error:

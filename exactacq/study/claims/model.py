@@ -79,7 +79,7 @@ class Case:
         """The Seed Spreader's run."""
         key = lookahead, target
         if key not in self._sweeps:
-            self._sweeps[key] = seed_spreader(self.scene, self.radius, lookahead, target)
+            self._sweeps[key] = seed_spreader(self.scene, self.radius, lookahead=lookahead, target=target)
         return self._sweeps[key]
 
     @cached_property
