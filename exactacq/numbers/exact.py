@@ -32,6 +32,29 @@ class Exact:
     def _order(self, other: object) -> Any:
         raise NotImplementedError
 
+    def sign(self) -> int:
+        """-1, 0 or 1, decided exactly."""
+        raise NotImplementedError
+
+    def compare(self, other: object) -> int:
+        """-1, 0 or 1 as self is less than, equal to or greater than *other*, which may be infinite.
+
+        TypeError for what is no number, ValueError for a NaN, `Undecided` beyond the limits of the type.
+        """
+        return self._compared(other)
+
+    def _compared(self, other: object) -> int:
+        order = self._order(other)
+        if order is NotImplemented or order is None:
+            kind = type(self).__name__
+            if order is None:
+                raise ValueError(f"cannot compare a {kind} with NaN")
+            raise TypeError(f"cannot compare a {kind} with {type(other).__name__}")
+        return int(order)
+
+    def __bool__(self) -> bool:
+        return self.sign() != 0
+
     def __eq__(self, other: object) -> bool:
         order = self._order(other)
         return NotImplemented if order is NotImplemented else order == 0

@@ -251,18 +251,6 @@ class Length(Exact):
                 return sign
         return 0
 
-    def compare(self, other: object) -> int:
-        """-1, 0 or 1 as self is less than, equal to or greater than *other*, which may be infinite.
-
-        TypeError for what is no number, ValueError for a NaN, `Undecided` beyond the limits above.
-        """
-        order: int | None = self._order(other)
-        if order is NotImplemented:
-            raise TypeError(f"cannot compare a length with {type(other).__name__}")
-        if order is None:
-            raise ValueError("cannot compare a length with NaN")
-        return order
-
     def _order(self, other: object) -> Any:
         """The sign of self - other; None for a NaN, NotImplemented for what is no number."""
         if self is other:
@@ -286,9 +274,6 @@ class Length(Exact):
             return (self - right).sign()
         except Undecided as reason:
             raise Undecided(f"comparison of {self!r} with {right!r}: {reason}") from None
-
-    def __bool__(self) -> bool:
-        return self.sign() != 0
 
     # -- values ------------------------------------------------------------------------------
 

@@ -51,12 +51,9 @@ class Quotient(Exact):
     def __mul__(self, factor: object) -> Quotient:
         return Quotient(self.top * factor, self.bottom)
 
-    def compare(self, other: object) -> int:
-        """-1, 0 or 1 as the quotient is less than another or a rational number, equal or greater."""
-        order = self._order(other)
-        if order is NotImplemented:
-            raise TypeError(f"cannot compare a quotient of lengths with {type(other).__name__}")
-        return int(order)
+    def sign(self) -> int:
+        """-1, 0 or 1."""
+        return int(self.top.sign() * self._sign)
 
     def _order(self, other: object) -> Any:
         try:

@@ -378,12 +378,7 @@ class Real(Exact):
             a, b = self.rational, other.rational
             if a is not None and b is not None:
                 return -1 if a < b else int(a != b)
-        order: int | None = self._order(other)
-        if order is NotImplemented:
-            raise TypeError(f"cannot compare an exact real with {type(other).__name__}")
-        if order is None:
-            raise ValueError("cannot compare an exact real with NaN")
-        return order
+        return self._compared(other)
 
     def _order(self, other: object) -> Any:
         """The sign of self - other; None for a NaN, NotImplemented for what is no number."""
@@ -427,9 +422,6 @@ class Real(Exact):
             return False
         ((atom, c),) = self._terms.items()
         return isinstance(atom, Sqrt) and c > 0
-
-    def __bool__(self) -> bool:
-        return self.sign() != 0
 
     # -- values ------------------------------------------------------------------------------
 
