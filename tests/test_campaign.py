@@ -187,7 +187,7 @@ class TestFailures:
             assert (tally.worst, tally.at, tally.tried) == (0.75, Task("sightseer", 1), 4)
 
     def test_a_failed_audit_is_a_fault(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        def flawed(*_: object) -> None:
+        def flawed(*_: object, **__: object) -> None:
             raise AuditError("planted flaw")
 
         monkeypatch.setattr(judging, "audit", flawed)

@@ -33,7 +33,7 @@ def test_sweep(benchmark: object, n: int, lookahead: bool) -> None:
     if n > 10 and benchmark.disabled:
         pytest.skip(f"n = {n} takes too long for the everyday suite: run with --benchmark-enable")
     scene = terrain(n)
-    run = benchmark.pedantic(xa.seed_spreader, (scene, None, lookahead), rounds=1)
+    run = benchmark.pedantic(xa.seed_spreader, (scene,), {"lookahead": lookahead}, rounds=1)
     line = (scene.terrain.width / RADIUS + 1) * scene.terrain.height
     seconds = benchmark.stats.stats.median if not benchmark.disabled else float("nan")
     print(
