@@ -83,10 +83,15 @@ def law_of_moving(terrain: Terrain, move: Similarity) -> None:
         return
     for k in range(len(one.scene.obstacles)):
         assert same(one.map.known_length(k) * move.scale, two.map.known_length(k))
+    if move.mirror:
+        return  # A mirror image is circled the other way: other events come on the way.
+    for a, b in zip(one.events, two.events, strict=True):
+        assert (a.kind, a.obstacle, a.note) == (b.kind, b.obstacle, b.note)
+        assert same(a.at * move.scale, b.at)
 
 
 def law_of_numbering(terrain: Terrain, rng: Random) -> None:
-    """Another order of the obstacles: the same links."""
+    """Another order of the obstacles: the same links, and but for ties the same run."""
     inner = [k for k, shape in enumerate(terrain.shapes) if not isinstance(shape, Room)]
     order = rng.sample(inner, len(inner)) + list(range(len(inner), len(terrain.shapes)))
     after = weights(replace(terrain, shapes=tuple(terrain.shapes[k] for k in order)))
@@ -95,6 +100,18 @@ def law_of_numbering(terrain: Terrain, rng: Random) -> None:
     before = weights(terrain)
     assert before.keys() == named.keys()
     assert all(same(before[key], named[key]) for key in before)
+    one, two = run_of(terrain), run_of(replace(terrain, shapes=tuple(terrain.shapes[k] for k in order)))
+    if tuple(order[k] for k in two.visits) != one.visits or not same(one.length, two.length):
+        assert has_ties(terrain)
+        return
+    # Events of one place come by number: so each obstacle's are compared.
+    for k, number in [(None, None), *enumerate(order)]:
+        first, second = ([e for e in r.events if e.obstacle == i] for r, i in ((one, number), (two, k)))
+        for a, b in zip(first, second, strict=True):
+            assert a.kind == b.kind
+            assert same(a.at, b.at)
+    for k, number in enumerate(order):
+        assert same(one.map.known_length(number), two.map.known_length(k))
 
 
 @EXAMPLES
