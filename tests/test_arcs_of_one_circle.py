@@ -241,6 +241,7 @@ class TestRunsReadBack:
             ["circle", 1],
             ["corner", -1],
             ["circles", 0, 0, True, 2],
+            ["circle", True],
             ["disc", 0],
             [],
             "x",

@@ -66,6 +66,7 @@ class TestNumbers:
         assert f"{xa.Real(2).sqrt():.40f}" == "1.4142135623730950488016887242096980785697"
         assert f"{self.LENGTH}" == str(self.LENGTH) == "1/8 + 2*pi"
         assert f"{xa.Length(0):.1f}" == "0.0"
+        assert f"{xa.Real(10) ** 400:.1f}" == "1" + "0" * 400 + ".0"
         assert f"{-xa.Length('1e30'):.1f}" == "-1000000000000000000000000000000.0"
 
     @given(st.fractions(max_denominator=2000), st.sampled_from([None, 0, 1, 2, -1]))

@@ -98,7 +98,7 @@ class Exact:
         _, point, places = spec.rstrip("%eEfFgGn").rpartition(".")
         wanted = int(places) if point and places.isdigit() else 6
         number: Any = self
-        whole = len(str(int(abs(float(number)))))
+        whole = len(str(max(int(abs(end).floor()) for end in number.enclosure(8))))
         return format(Decimal(number.decimal(whole + wanted + GUARD)), spec)
 
     def __round__(self, places: int | None = None) -> int | fmpq:

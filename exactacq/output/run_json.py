@@ -285,9 +285,12 @@ def _read_name(name: list[Any], edges: Sequence[Curve]) -> tuple[Hashable, ...]:
         raise FormatError(f"a piece touches something unknown: {str(name)[:40]}")
     read: list[Hashable] = [str(kind)]
     for role, part in zip(roles, parts, strict=True):
-        value = part is True if role == "crossing" else int(part)
-        known = role == "crossing" or (abs(value) == 1 if role == "turn" else 0 <= value < len(edges))
-        if not known or (role == "circle" and not isinstance(edges[value], Arc)):
+        is_truth = isinstance(part, bool)
+        value = part if is_truth else int(part)
+        known = abs(value) == 1 if role == "turn" else 0 <= value < len(edges)
+        if role == "circle":
+            known = known and isinstance(edges[value], Arc)
+        if is_truth != (role == "crossing") or not (is_truth or known):
             raise FormatError(f"a piece touches a {role} that the scene does not have: {str(part)[:40]}")
         read.append(value)
     return tuple(read)

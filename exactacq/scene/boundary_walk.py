@@ -46,6 +46,8 @@ class Boundary:
         if len(candidates) == 1:
             return candidates[0]
         through = [k for k in candidates if self.edges[k].passes(point)]
+        if not through:
+            raise ValueError(f"{point} is not on the boundary")
         return next((k for k in through if self.edges[k].start == point), through[0])
 
     def position(self, point: Point) -> Length:

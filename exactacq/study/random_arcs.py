@@ -86,10 +86,9 @@ def circle_of_arcs(center: Corner, radius: fmpq, bulge: fmpq) -> Outline:
 
 def turned(vector: Corner, bulge: fmpq) -> Corner:
     """A vector turned by the angle of an arc with a bulge."""
-    half = 2 * bulge / (1 - bulge * bulge) if bulge * bulge != 1 else None
-    if half is None:
-        return -vector[0], -vector[1]
-    cosine, sine = (1 - half * half) / (1 + half * half), 2 * half / (1 + half * half)
+    square = bulge * bulge
+    half_cosine, half_sine = (1 - square) / (1 + square), 2 * bulge / (1 + square)
+    cosine, sine = half_cosine * half_cosine - half_sine * half_sine, 2 * half_cosine * half_sine
     return vector[0] * cosine - vector[1] * sine, vector[0] * sine + vector[1] * cosine
 
 

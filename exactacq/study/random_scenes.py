@@ -138,6 +138,12 @@ def _sightseer_scene(dice: Dice, name: str) -> Scene:
     shapes = _shapes(dice, Box(0, 0, width, height), Box(-1, -1, width, height), dice.between(1, MOST))
     room = Box(-dice.between(1, 3), -1, width + 1, height + dice.between(1, 3))
     wall = _Place(room, 0, fmpq(0)).shape(POLYGONS[0]) if dice.chance(12) else None
+    return _with_start(dice, shapes, room, wall, radius, name)
+
+
+def _with_start(
+    dice: Dice, shapes: Sequence[Shape], room: Box, wall: Shape | None, radius: fmpq, name: str
+) -> Scene:
     for _ in range(THROWS):
         try:
             return Scene(shapes, _start(dice, shapes, room), enclosure=wall, radius=radius, name=name)
@@ -205,12 +211,7 @@ def _sightseer_arcs(dice: Dice, name: str) -> Scene:
         center, size = (fmpq(width, 2), fmpq(height, 2)), fmpq(8)
         room = Box(-1, -1, width + 1, height + 1)
     wall = _round_room(dice, center, size, percent) if dice.chance(60) else None
-    for _ in range(THROWS):
-        try:
-            return Scene(shapes, _start(dice, shapes, room), enclosure=wall, radius=radius, name=name)
-        except InvalidScene:
-            continue
-    raise InvalidScene(["no free start was found"])
+    return _with_start(dice, shapes, room, wall, radius, name)
 
 
 def _round_room(dice: Dice, center: Corner, size: fmpq, percent: int) -> Shape:
