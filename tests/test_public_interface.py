@@ -99,7 +99,11 @@ class TestNumbers:
         low, high = (self.LENGTH / xa.Length(4)).enclosure(100)
         assert low < high and high - low < fmpq(1, 2**100)
         assert round(self.LENGTH / xa.Length(4), 1) == fmpq(8, 5)
-        assert double != "two"
+        assert double != "two" and double != "2" and double < float("inf")
+        third = self.LENGTH / xa.Length(3)
+        assert third > self.LENGTH / xa.Length(4)
+        with pytest.raises(xa.Undecided):
+            third == self.LENGTH * 2 / xa.Length(6)  # noqa: B015
         with pytest.raises(ZeroDivisionError):
             self.LENGTH / xa.Length(0)
 

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from decimal import Decimal
+from math import isnan
 from typing import Any
 
 from flint import fmpq
+
+from exactacq.numbers.rationals import nonfinite
 
 GUARD = 10
 """Digits beyond those that are shown: rounding twice is then rounding once, but for ties no one could see."""
@@ -15,9 +18,8 @@ HALF = fmpq(1, 2)
 class Exact:
     """A number with an exact order.
 
-    A subclass has `_order`, the sign of the difference to another number (None for a NaN, NotImplemented for
-    what is no number), ``rational`` (None if it is irrational), `enclosure`, `decimal` and a product with
-    rationals.
+    A subclass says what it takes for a number (`_coerced`) and how it compares with one (`_against`). It has
+    ``rational`` (None if it is irrational), `sign`, `enclosure`, `decimal` and a product with rationals.
 
     >>> from exactacq.numbers.length import Length
     >>> root = Length(2) * Length("3/2").algebraic
@@ -29,12 +31,31 @@ class Exact:
 
     rational: fmpq | None
 
-    def _order(self, other: object) -> Any:
+    def _coerced(self, other: object) -> Any:
+        """Another number as one to compare with, or None for what is none."""
+        raise NotImplementedError
+
+    def _against(self, right: Any) -> int:
+        """The sign of self - right, which is of the same type or what `_coerced` gave."""
         raise NotImplementedError
 
     def sign(self) -> int:
         """-1, 0 or 1, decided exactly."""
         raise NotImplementedError
+
+    def _order(self, other: object) -> Any:
+        """The sign of self - other; None for a NaN, NotImplemented for what is no number."""
+        if self is other:
+            return 0
+        right = other if isinstance(other, type(self)) else None
+        if right is None:
+            special = nonfinite(other)
+            if special is not None:
+                return None if isnan(special) else -1 if special > 0 else 1
+            right = self._coerced(other)
+            if right is None:
+                return NotImplemented
+        return self._against(right)
 
     def compare(self, other: object) -> int:
         """-1, 0 or 1 as self is less than, equal to or greater than *other*, which may be infinite.

@@ -26,7 +26,6 @@ from collections.abc import Callable, Iterable
 from decimal import Decimal
 from fractions import Fraction
 from itertools import product
-from math import isnan
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeGuard
 
 from flint import arb, ctx, fmpq, fmpz
@@ -40,7 +39,6 @@ from exactacq.numbers.rationals import (
     ball_sign,
     decimal_string,
     enclose,
-    nonfinite,
     rational,
     round_to_float,
     sympy_rational,
@@ -251,18 +249,10 @@ class Length(Exact):
                 return sign
         return 0
 
-    def _order(self, other: object) -> Any:
-        """The sign of self - other; None for a NaN, NotImplemented for what is no number."""
-        if self is other:
-            return 0
-        right = other if isinstance(other, Length) else None
-        if right is None:
-            special = nonfinite(other)
-            if special is not None:
-                return None if isnan(special) else -1 if special > 0 else 1
-            right = _coerce(other)
-            if right is None:
-                return NotImplemented
+    def _coerced(self, other: object) -> Length | None:
+        return _coerce(other)
+
+    def _against(self, right: Length) -> int:
         if self._is_algebraic and right._is_algebraic:
             return self._algebraic.compare(right._algebraic)
         left_ball, right_ball = self.ball(64), right.ball(64)

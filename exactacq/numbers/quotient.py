@@ -6,9 +6,12 @@ from typing import Any
 
 from flint import arb, ctx, fmpq
 
-from exactacq.errors import FormatError
+from exactacq.errors import FormatError, Undecided
 from exactacq.numbers.exact import Exact
 from exactacq.numbers.rationals import decimal_string, enclose, rational, round_to_float
+
+PRECISIONS = (64, 256, 1024, 4096)
+"""Working bits of the balls that tell two irrational quotients apart."""
 
 
 class Quotient(Exact):
@@ -55,12 +58,27 @@ class Quotient(Exact):
         """-1, 0 or 1."""
         return int(self.top.sign() * self._sign)
 
-    def _order(self, other: object) -> Any:
+    def _coerced(self, other: object) -> fmpq | None:
+        if isinstance(other, str | bool):
+            return None
         try:
-            number = rational(other)
+            return rational(other)
         except FormatError:
-            return NotImplemented
-        return (self.top - self.bottom * number).sign() * self._sign
+            return None
+
+    def _against(self, right: Quotient | fmpq) -> int:
+        number = right.rational if isinstance(right, Quotient) else right
+        if number is None:
+            return self._apart(right)
+        return int((self.top - self.bottom * number).sign() * self._sign)
+
+    def _apart(self, other: Any) -> int:
+        """The order of two irrational quotients, if their balls tell; that two are equal is not proved."""
+        for bits in PRECISIONS:
+            one, two = self.ball(bits), other.ball(bits)
+            if one < two or one > two:
+                return -1 if one < two else 1
+        raise Undecided("two quotients of irrational lengths that may be equal")
 
     def __float__(self) -> float:
         """The nearest float."""

@@ -25,7 +25,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable, Mapping
 from decimal import Decimal
 from fractions import Fraction
-from math import isnan, log2, prod
+from math import log2, prod
 from typing import TYPE_CHECKING, Any
 
 from flint import arb, ctx, fmpq, fmpq_poly, fmpz, fmpz_poly
@@ -61,7 +61,6 @@ from exactacq.numbers.rationals import (
     decimal_string,
     enclose,
     nearest_float,
-    nonfinite,
     rational,
     round_to_float,
     sympy_rational,
@@ -380,18 +379,10 @@ class Real(Exact):
                 return -1 if a < b else int(a != b)
         return self._compared(other)
 
-    def _order(self, other: object) -> Any:
-        """The sign of self - other; None for a NaN, NotImplemented for what is no number."""
-        if self is other:
-            return 0
-        right = other if isinstance(other, Real) else None
-        if right is None:
-            special = nonfinite(other)
-            if special is not None:
-                return None if isnan(special) else -1 if special > 0 else 1
-            right = _coerce(other)
-            if right is None:
-                return NotImplemented
+    def _coerced(self, other: object) -> Real | None:
+        return _coerce(other)
+
+    def _against(self, right: Real) -> int:
         if self.rational is not None and right.rational is not None:
             return -1 if self.rational < right.rational else int(self.rational != right.rational)
         left_ball, right_ball = self.ball(64), right.ball(64)
