@@ -21,10 +21,11 @@ if TYPE_CHECKING:
     from exactacq.output.run_json import load_run
     from exactacq.scene.scene import Scene
     from exactacq.scene.shapes import Circle, Outline, Polygon, Terrain
+    from exactacq.sensing.event import Event, EventKind
     from exactacq.sensing.map import Map
-    from exactacq.sensing.path import Event, Path
+    from exactacq.sensing.path import Path
     from exactacq.sensing.view_events import sweep
-    from exactacq.strategies.run import Run
+    from exactacq.strategies.run import Run, SeedSpreaderRun, SightseerRun
     from exactacq.strategies.seed_spreader.strategy import seed_spreader
     from exactacq.strategies.sightseer.strategy import sightseer
     from exactacq.visibility.isovist import Isovist, isovist
@@ -35,6 +36,7 @@ __all__ = [
     "AuditError",
     "Circle",
     "Event",
+    "EventKind",
     "ExactacqError",
     "FormatError",
     "InvalidScene",
@@ -48,7 +50,9 @@ __all__ = [
     "Real",
     "Run",
     "Scene",
+    "SeedSpreaderRun",
     "Segment",
+    "SightseerRun",
     "Terrain",
     "Undecided",
     "audit",
@@ -66,7 +70,8 @@ _HOMES = {
     "Arc": "exactacq.geometry.curves",
     "AuditError": "exactacq.errors",
     "Circle": "exactacq.scene.shapes",
-    "Event": "exactacq.sensing.path",
+    "Event": "exactacq.sensing.event",
+    "EventKind": "exactacq.sensing.event",
     "ExactacqError": "exactacq.errors",
     "FormatError": "exactacq.errors",
     "InvalidScene": "exactacq.errors",
@@ -80,7 +85,9 @@ _HOMES = {
     "Real": "exactacq.numbers.real",
     "Run": "exactacq.strategies.run",
     "Scene": "exactacq.scene.scene",
+    "SeedSpreaderRun": "exactacq.strategies.run",
     "Segment": "exactacq.geometry.curves",
+    "SightseerRun": "exactacq.strategies.run",
     "Terrain": "exactacq.scene.shapes",
     "Undecided": "exactacq.errors",
     "audit": "exactacq.auditing.run",

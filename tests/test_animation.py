@@ -40,7 +40,7 @@ from exactacq.output.animation.page import (
 from exactacq.output.figures import draw as figures
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle, Outline, Polygon, Terrain
-from exactacq.sensing.path import Event
+from exactacq.sensing.event import Event, EventKind
 from exactacq.strategies.run import Run
 from exactacq.strategies.seed_spreader.strategy import seed_spreader
 from exactacq.strategies.sightseer.strategy import sightseer
@@ -91,7 +91,7 @@ def swept() -> Run:
 def test_stops_are_the_ends_of_pieces_and_the_places_of_events(circles: Run) -> None:
     start, end = circles.events[0], circles.events[-1]
     places = [circles.path[0].point(Fraction(u)) for u in ("1/3", "1/3", "1/2")]
-    more = [Event("sight", place, 0, "", 0, circles.path, inside=True) for place in places]
+    more = [Event(EventKind.SIGHT, place, 0, 0, circles.path, inside=True) for place in places]
     found = stops(replace(circles, events=(start, *more, end)))
     assert [stop.after for stop in found] == [0, 0, 0, *range(1, len(circles.path) + 1)]
     assert [stop.place for stop in found[:4]] == [Point(0, 0), Point(1, 0), Point("1.5", 0), Point(3, 0)]
@@ -333,7 +333,7 @@ def test_a_sweep_has_its_line_its_diversions_and_components(swept: Run) -> None:
     assert [o["perimeter"] for o in data["obstacles"]] == [
         paper.length(float(body.perimeter)) for body in swept.obstacles
     ]
-    assert data["diversions"] == [[d.first, d.last] for d in swept.sweeping.diversions]  # type: ignore[union-attr]
+    assert data["diversions"] == [[d.first, d.last] for d in swept.diversions]  # type: ignore[union-attr]
     corners = [(0, 0), (0, 20), (8, 20), (8, 0), (16, 0), (16, 20)]
     places = [" ".join(map(str, paper.point(corner))) for corner in corners]
     assert data["mline"] == "M" + "L".join(places)

@@ -28,11 +28,11 @@ from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
-from exactacq.sensing.path import Event, Path, Piece
-from exactacq.strategies.run import Run
+from exactacq.sensing.event import SENSED, Ending, Event, EventKind, Reason
+from exactacq.sensing.path import Path, Piece
+from exactacq.strategies.run import Run, SightseerRun
 
 Q = Fraction
-SIGHTS = ("sight", "acquire", "lose", "regain")
 SIDE = [Point(2, -2), Point(6, -2), Point(6, 2), Point(2, 2)]
 """Corners of the square: edges 0 to 3 are its bottom, right, top and left."""
 
@@ -77,7 +77,7 @@ class Chart:
         return tuple((0, p) for part in self.known(0) for p in (part.start, part.end))
 
 
-class SquareRun(Run):
+class SquareRun(SightseerRun):
     """The run around the square, with the map it ought to have."""
 
     @property
@@ -110,9 +110,10 @@ class SquareRun(Run):
 def square_run() -> SquareRun:
     """start, sight, hit, acquire 3/2 along the top, stop."""
     run = xa.sightseer(build([[tuple(p.rational) for p in SIDE]], (0, 0)), Q(5, 2))
-    moves = [event for event in run.events if event.kind not in SIGHTS]
-    acquire = Event("acquire", Point("9/2", 2), 0, "", 4, run.path, inside=True)
-    events = (moves[0], Event("sight", run.start, 0, "", 0, run.path), moves[1], acquire, moves[2])
+    moves = [event for event in run.events if event.kind not in SENSED]
+    acquire = Event(EventKind.ACQUIRE, Point("9/2", 2), 0, 4, run.path, inside=True)
+    sight = Event(EventKind.SIGHT, run.start, 0, 0, run.path)
+    events = (moves[0], sight, moves[1], acquire, moves[2])
     values = {field.name: getattr(run, field.name) for field in fields(run)}
     return SquareRun(**{**values, "events": events})
 
@@ -166,8 +167,9 @@ def test_square() -> None:
 
 
 def test_other_strategies_are_not_audited() -> None:
-    with pytest.raises(ValueError, match="seed"):
-        audit(replace(square_run(), strategy="seed spreader"))
+    common = {field.name: getattr(square_run(), field.name) for field in fields(Run)}
+    with pytest.raises(ValueError, match="no audit for a Run"):
+        audit(Run(**common))
 
 
 GALLERY = ("figure1", "figure2", "circles", "squares", "m4", "m8", "m11")
@@ -436,7 +438,7 @@ class TestEvents:
 
     def test_swapped_within_a_piece(self) -> None:
         a, b, c, d, e = square_run().events
-        lost = replace(d, kind="lose", note="range", point=Point(5, 2))
+        lost = replace(d, kind=EventKind.LOSE, reason=Reason.RANGE, point=Point(5, 2))
         refused(
             replace(square_run(), events=(a, b, c, d, lost, e)),
             "event 4 (lose",
@@ -453,7 +455,7 @@ class TestEvents:
         refused(with_event(square_run(), 4, after=7), "event 4", "not on the path")
 
     def test_unknown_kind(self) -> None:
-        refused(with_event(square_run(), 3, kind="divert"), "event 3", "no known kind")
+        refused(with_event(square_run(), 3, kind=EventKind.DIVERT), "event 3", "no known kind")
 
     def test_missing_ends(self) -> None:
         run = square_run()
@@ -463,11 +465,11 @@ class TestEvents:
 
     @pytest.mark.parametrize("kind", ["leave", "backtrack"])
     def test_wrong_move(self, kind: str) -> None:
-        refused(with_event(square_run(), 2, kind=kind), f"event 2 ({kind}", "cannot follow")
+        refused(with_event(square_run(), 2, kind=EventKind(kind)), f"event 2 ({kind}", "cannot follow")
 
     def test_sights_in_the_wrong_order(self) -> None:
         a, b, c, d, e = square_run().events
-        lose, regain = replace(d, kind="lose", note="range"), replace(d, kind="regain")
+        lose, regain = replace(d, kind=EventKind.LOSE, reason=Reason.RANGE), replace(d, kind=EventKind.REGAIN)
         cases = (
             ((a, c, d, e), "event 1 (hit of obstacle 0) comes before"),
             ((a, b, b, c, d, e), "event 1 (sight of obstacle 0) cannot follow sight"),
@@ -475,7 +477,7 @@ class TestEvents:
             ((a, b, c, lose, lose, d, e), "cannot follow lose"),
             ((a, b, c, d, lose, e), "event 4 (lose of obstacle 0) cannot follow acquire"),
             ((a, b, c, d, d, e), "cannot follow acquire"),
-            ((a, b, c, replace(lose, note="fog"), regain, d, e), "fog"),
+            ((a, b, c, replace(lose, reason=Reason.OVERDUE), regain, d, e), "overdue"),
         )
         for events, words in cases:
             refused(replace(square_run(), events=events), words)
@@ -486,6 +488,10 @@ class TestEvents:
 
 
 class TestAccounts:
+    @pytest.mark.parametrize("ending", [None, *(ending for ending in Ending if ending != "all visited")])
+    def test_another_ending(self, ending: Ending | None) -> None:
+        refused(with_event(square_run(), 4, ending=ending), "event 4 (stop", "which is not so")
+
     def test_visits(self) -> None:
         refused(replace(square_run(), visits=()), "visits")
         refused(replace(square_run(), visits=(0, 0)), "visits")
@@ -640,5 +646,5 @@ class TestMaps:
 
     def test_lost_in_full_view(self) -> None:
         a, b, c, d, e = square_run().events
-        lose = replace(b, kind="lose", note="occlusion", point=Point(1, 0), inside=True)
+        lose = replace(b, kind=EventKind.LOSE, reason=Reason.OCCLUSION, point=Point(1, 0), inside=True)
         refused(replace(square_run(), events=(a, b, lose, c, d, e)), "obstacle 0 is not out of sight from")

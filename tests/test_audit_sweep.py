@@ -24,7 +24,8 @@ from exactacq.errors import AuditError
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
-from exactacq.sensing.path import Event, Path, Piece
+from exactacq.sensing.event import Ending, Event, EventKind, Reason
+from exactacq.sensing.path import Path, Piece
 from exactacq.strategies.run import Run
 from exactacq.study.claims.model import Subject
 from exactacq.study.random_scenes import random_scene
@@ -176,13 +177,13 @@ def resewn(run: Run, first: int, last: int, *pieces: Piece) -> Run:
     )
     fresh = {field.name: getattr(run, field.name) for field in fields(run)}
     fresh |= {"path": path, "events": events, "record": None}
-    return with_sights(Run(**fresh))
+    return with_sights(type(run)(**fresh))
 
 
 def with_sights(run: Run) -> Run:
     """The run with the events of sight that its path makes, ahead of the moves at the same place."""
     places = [
-        (Event(r.kind.value, r.place, r.obstacle, r.note, r.after, run.path, r.inside), n)
+        (Event(r.kind, r.place, r.obstacle, r.after, run.path, r.inside, reason=r.reason), n)
         for n, r in enumerate(run.memory.reports)
     ]
     lengths = {id(event): (event.after, float(event.beyond)) for event, _ in places}
@@ -221,12 +222,12 @@ def without(run: Run, kind: str) -> Run:
 
 def told(run: Run, **changes: object) -> Run:
     """The run with other words about its sweep."""
-    return replace(run, sweeping=replace(run.sweeping, **changes))
+    return replace(run, **changes)
 
 
 def diverted(run: Run, **changes: object) -> Run:
     """The run with another account of its diversion."""
-    (diversion,) = run.sweeping.diversions
+    (diversion,) = run.diversions
     return told(run, diversions=(replace(diversion, **changes),))
 
 
@@ -235,12 +236,6 @@ class TestPlanting:
     def test_nothing(self, make: Callable[[], Run]) -> None:
         """To replace nothing leaves a good run."""
         audit(resewn(make(), 0, 0), samples=8)
-
-    def test_other_kinds_of_runs(self) -> None:
-        with pytest.raises(ValueError, match="seed-spreader"):
-            audit(replace(block(), sweeping=None))
-        with pytest.raises(ValueError, match="sightseer"):
-            audit(replace(block(), strategy="sightseer"))
 
 
 # -- flaws -----------------------------------------------------------------------------------------
@@ -297,9 +292,15 @@ class TestHits:
         refused(with_event(run, "hit", obstacle=1), "(hit of obstacle 1) is not where", "begins to block")
 
     def test_known_or_not(self) -> None:
-        refused(with_event(block(), "hit", kind="cross"), "(cross of obstacle 0)", "hit of obstacle 0 is due")
         refused(
-            with_event(ladder(), "cross", kind="hit"), "(hit of obstacle 0)", "cross of obstacle 0 is due"
+            with_event(block(), "hit", kind=EventKind.CROSS),
+            "(cross of obstacle 0)",
+            "hit of obstacle 0 is due",
+        )
+        refused(
+            with_event(ladder(), "cross", kind=EventKind.HIT),
+            "(hit of obstacle 0)",
+            "cross of obstacle 0 is due",
         )
 
     def test_clockwise(self) -> None:
@@ -352,8 +353,9 @@ class TestHits:
 
     def test_trapped(self) -> None:
         run = xa.seed_spreader(Scene([xa.Circle((9, 0), 1)], terrain=Terrain(9, 4)), 3)
-        refused(with_event(run, "stop", note="tired"), "(stop", "'tired'")
-        refused(with_event(block(), "stop", note="trapped"), "(stop)", "trapped is False")
+        refused(with_event(run, "stop", ending=Ending.END_OF_M_LINE), "(stop", "trapped is True")
+        refused(with_event(run, "stop", ending=Ending.WAY_CLOSED), "(stop", "closes the straight way")
+        refused(with_event(block(), "stop", ending=Ending.TRAPPED), "(stop)", "trapped is False")
 
     @pytest.mark.parametrize(
         ("change", "words"),
@@ -391,12 +393,13 @@ class TestDiversions:
     def test_lists(self) -> None:
         run = hasty()
         refused(told(run, diversions=()), "is in no list of diversions")
-        refused(told(run, diversions=run.sweeping.diversions * 2), "diversions are 2, the moves make 1")
+        refused(told(run, diversions=run.diversions * 2), "diversions are 2, the moves make 1")
 
-    @pytest.mark.parametrize("reason", ["out of reach", "overdue", "the line ends", "a whim"])
+    @pytest.mark.parametrize("reason", ["out of reach", "overdue", "the line ends", "occlusion"])
     def test_other_reasons(self, reason: str) -> None:
+        why = Reason(reason)
         run = diverted(
-            with_event(with_event(hasty(), "divert", note=reason), "return", note=reason), reason=reason
+            with_event(with_event(hasty(), "divert", reason=why), "return", reason=why), reason=why
         )
         refused(run, f"(divert of obstacle 0) is due to '{reason}', which is not so")
 
@@ -413,7 +416,7 @@ class TestDiversions:
 
     def test_missing_out_of_reach(self) -> None:
         run = around()
-        (diversion,) = run.sweeping.diversions
+        (diversion,) = run.diversions
         sewn = resewn(run, diversion.first, diversion.last)
         events = tuple(event for event in sewn.events if event.kind not in ("divert", "return"))
         refused(
@@ -424,7 +427,7 @@ class TestDiversions:
 
     def test_missing_at_the_end_of_a_line(self) -> None:
         run = xa.seed_spreader(swept_scene(Random(94), True, clear=True), lookahead=False)
-        (diversion,) = run.sweeping.diversions
+        (diversion,) = run.diversions
         sewn = resewn(run, diversion.first, diversion.last)
         events = tuple(event for event in sewn.events if event.kind not in ("divert", "return"))
         refused(replace(told(sewn, diversions=()), events=events), f"obstacle {diversion.obstacle} is lost")
@@ -475,7 +478,7 @@ class TestDiversions:
         corners = [Point(12, 45), Point(12, 55), Point(11, 55)]
         pieces = [Segment(p, q) for p, q in zip([a, *corners], [*corners, b], strict=True)]
         run = resewn(run, hit.after, hit.after + 2, *(Piece("boundary", 1, piece) for piece in pieces))
-        refused(diverted(run, last=run.sweeping.diversions[0].last + 2), "is not reached the shorter way")
+        refused(diverted(run, last=run.diversions[0].last + 2), "is not reached the shorter way")
 
     def test_silent_blocker(self) -> None:
         run = around()
@@ -580,7 +583,8 @@ class TestKnowledge:
 
     def test_unknown_kind(self) -> None:
         refused(
-            with_event(block(), "leave", kind="backtrack"), "(backtrack of obstacle 0) is of no known kind"
+            with_event(block(), "leave", kind=EventKind.BACKTRACK),
+            "(backtrack of obstacle 0) is of no known kind",
         )
 
 

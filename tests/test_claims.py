@@ -10,6 +10,7 @@ import pytest
 
 from exactacq import Circle, FormatError, Length, Outline, Polygon, Scene, Terrain
 from exactacq.files import gallery
+from exactacq.sensing.event import Occasion
 from exactacq.study.claims import CLAIMS, Case, Outcome, Statement, Status, Subject, claim, verdict
 from exactacq.study.claims.coverage import times_walked
 from exactacq.study.claims.model import SILENT, found
@@ -152,9 +153,11 @@ class TestSweepCounts:
     def test_far_diversions(self) -> None:
         """Each crumb of the relay is farther; the corrected bound fails without the term for them."""
         case = example("relay")
-        ways = [straight_length(case.spreader, d) for d in case.spreader.sweeping.diversions]
+        ways = [straight_length(case.spreader, d) for d in case.spreader.diversions]
         assert all(a < b for a, b in pairwise(ways))
-        assert not any(e.kind in ("hit", "cross") and "M-line" in e.note for e in case.spreader.events)
+        assert not any(
+            e.kind in ("hit", "cross") and e.occasion is Occasion.M_LINE for e in case.spreader.events
+        )
         bound = case.shared(Tally).met_again_bound()
         assert bound - case.shared(Tally).far * 2 < case.spreader.length < bound
         assert case.shared(Tally).stays_in_strips

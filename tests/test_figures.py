@@ -376,7 +376,7 @@ def test_diversions_have_their_own_colour(crossing: Run, diverted: Run) -> None:
 
 def test_a_moment_of_a_sweep(diverted: Run) -> None:
     """Before the diversion nothing of it is shown; at its start D and Q are; then its path."""
-    (diversion,) = diverted.sweeping.diversions  # type: ignore[union-attr]
+    (diversion,) = diverted.diversions  # type: ignore[union-attr]
     leaves = next(event for event in diverted.events if event.kind == "divert")
     before = [t.get_text() for t in figure(diverted, at=100).legends[0].get_texts()]
     assert "D" not in before

@@ -144,7 +144,7 @@ def test_figure_4_shows_what_the_paper_labels() -> None:
     (h2, at_h2), _ = first["hit", "O2"], first["leave", "O2"]
     assert h2[1] == 0.0
     assert not sense("O2", at_h2), "along the south border the only way is left"
-    (diversion,) = run.sweeping.diversions
+    (diversion,) = run.diversions
     walk = [p for p in run.path[diversion.first : diversion.last] if p.obstacle == diversion.obstacle]
     ends = [p.end.xy for p in walk]
     border = [k for k, (_, y) in enumerate(ends) if y == 16.0]

@@ -420,7 +420,7 @@ def test_diversions_can_be_one_less_than_obstacles() -> None:
         scene = xa.load(GALLERY / f"{name}.json")
         assert all(is_convex(shape) for shape in scene.shapes)
         run = xa.seed_spreader(scene)
-        targets = [d.obstacle for d in run.sweeping.diversions]
+        targets = [d.obstacle for d in run.diversions]
         assert (len(targets), len(set(targets)), len(run.obstacles)) == (count, count, count + 1)
 
 

@@ -14,6 +14,7 @@ from exactacq import Circle, Length, Polygon, Scene, Terrain
 from exactacq.errors import InvalidScene
 from exactacq.numbers.rationals import rational
 from exactacq.scene.edge_table import EdgeTable
+from exactacq.sensing.event import Ending, Occasion
 from exactacq.strategies.bounds import census
 from exactacq.strategies.run import Run
 from exactacq.strategies.seed_spreader.blocked import Blocking
@@ -46,22 +47,22 @@ class TestKnownScenes:
         run = xa.seed_spreader(xa.load("m14"))
         assert labels(run, run.map.acquired) == ["W", "E"]
         assert labels(run, run.unseen) == ["X"]
-        assert not run.sweeping.diversions
+        assert not run.diversions
         assert run.length == Length(220)
         assert xa.sightseer(xa.load("m14"), start=(0, 40)).map.acquired == (0, 1, 2)
 
     def test_m15(self) -> None:
         run = xa.seed_spreader(xa.load("m15"))
-        (diversion,) = run.sweeping.diversions
+        (diversion,) = run.diversions
         assert (run.obstacles[diversion.obstacle].label, diversion.reason) == ("W", "out of reach")
         assert run.complete
 
     def test_m25(self) -> None:
         run = xa.seed_spreader(xa.load("m25"))
-        assert not run.sweeping.diversions
+        assert not run.diversions
         assert run.length == Length(220)
         hasty = xa.seed_spreader(xa.load("m25"), lookahead=False)
-        (diversion,) = hasty.sweeping.diversions
+        (diversion,) = hasty.diversions
         assert (hasty.obstacles[diversion.obstacle].label, str(diversion.leave)) == ("W", "(20, 52)")
         assert hasty.length == Length(251)
 
@@ -86,7 +87,7 @@ class TestKnownScenes:
         assert not holds[broken]
         assert holds["T2 corrected"]
         assert holds["L3 corrected"]
-        assert len(run.sweeping.again) == k - 1
+        assert len(run.again) == k - 1
         less = Scene([rectangle(Q(1, 10), 2, k - Q(1, 10), Q(201, 100))], terrain=Terrain(k, 4))
         assert {b.name: b.holds for b in xa.seed_spreader(less, 1).bounds}[broken]
 
@@ -94,7 +95,7 @@ class TestKnownScenes:
         """c_2 is on the border and cannot be reached; the next that can is on the line after."""
         run = xa.seed_spreader(xa.load("e3"))
         assert moves(run)[:2] == [("hit", "(0, 2)", "wall"), ("leave", "(1, 2)", "wall")]
-        assert "trapped" in run.events[-1].note
+        assert run.ending is Ending.TRAPPED
         assert run.complete
         assert run.length == Length(20)
 
@@ -130,7 +131,7 @@ class TestMoves:
 
     def test_t_inside_an_obstacle(self) -> None:
         run = xa.seed_spreader(Scene([Circle((9, 0), 1)], terrain=Terrain(9, 4)), 3)
-        assert "trapped" in run.events[-1].note
+        assert run.ending is Ending.TRAPPED
         assert str(run.path[-1].end) == "(9, 1)" or run.path[-1].obstacle == 0
 
     def test_a_visible_target(self) -> None:
@@ -152,9 +153,9 @@ def law_of_sweeps(run: Run) -> None:
     bounds = {bound.name: bound for bound in run.bounds}
     assert bounds["T2 corrected"].holds
     assert bounds["L3 corrected"].holds
-    if run.events[-1].note.startswith("the end"):
+    if run.ending is Ending.END_OF_M_LINE:
         assert set(run.map.seen) == set(run.map.acquired)
-        if not run.sweeping.encounters:
+        if not run.encounters:
             terrain = run.scene.terrain
             strips = -(-Q(str(terrain.width)) // Q(str(run.radius)))
             sweep = Q(str(terrain.height)) * (strips + 1) + Q(str(terrain.width))
@@ -169,7 +170,7 @@ def law_of_leave_points(run: Run) -> None:
     crossings = line.crossings(Blocking(run.ground, EdgeTable(run.scene.obstacles)))
     at = before = -1
     for event in run.events:
-        if event.note != "on the M-line":
+        if event.occasion is not Occasion.M_LINE:
             continue
         later = [k for k in range(at + 1, len(crossings)) if crossings[k].stop.point == event.point]
         at = next(k for k in later if crossings[k].ends == (event.kind == "leave"))

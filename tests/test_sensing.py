@@ -20,9 +20,10 @@ from exactacq.geometry.curves import Segment
 from exactacq.geometry.interval_union import Cover, Interval
 from exactacq.numbers.length import Length
 from exactacq.scene.edge_table import EdgeTable
+from exactacq.sensing.event import Event, EventKind
 from exactacq.sensing.history import Memory
 from exactacq.sensing.map import Map
-from exactacq.sensing.path import Event, Piece
+from exactacq.sensing.path import Piece
 from exactacq.sensing.targets import Targets
 from exactacq.strategies.run import Run
 from exactacq.visibility.isovist import isovist
@@ -82,8 +83,8 @@ class TestExactEvents:
         memory = Memory(wall, Q(5) and xa.Scene([], radius=5).radius)
         memory.begin(Point(-10, 0))
         (piece,) = straight((-10, 0), (10, 0))
-        told = [(r.kind.value, str(r.place), r.note) for r in memory.walk(piece)]
-        assert told == [("sight", "(-4, 0)", ""), ("lose", "(6, 0)", "range")]
+        told = [(r.kind.value, str(r.place), r.reason) for r in memory.walk(piece)]
+        assert told == [("sight", "(-4, 0)", None), ("lose", "(6, 0)", "range")]
         assert known(memory, 1, 0)[:1] == [(0, "(0, 3)", "(2, 3)")]
 
     def test_lost_at_a_corner_while_both_ends_are_at_the_range(self) -> None:
@@ -94,7 +95,7 @@ class TestExactEvents:
         memory.begin(Point(8, 0))
         top, below, _ = scene.obstacles[0].edges
         told = [
-            (r.kind.value, str(r.place), r.note)
+            (r.kind.value, str(r.place), r.reason)
             for curve in (top.part(Point(8, 0), Point(0, 0)), below.part(Point(0, 0), Point(10, Q(-1, 2))))
             for r in memory.walk(Piece("boundary", 0, curve))
             if r.obstacle == 1
@@ -212,7 +213,7 @@ class TestMoments:
         run = xa.sightseer(
             Scene([Circle((0, 0), 1), Polygon([(6, -1), (7, -1), (7, 1), (6, 1)])], start=(-3, 0)), 6
         )
-        event = Event("probe", Point(1, 0), None, "", 1, run.path, inside=True)
+        event = Event(EventKind.MOMENT, Point(1, 0), None, 1, run.path, inside=True)
         assert float(run.map_at(event).known_length(0)) == pytest.approx(np.pi + np.arccos(1 / 3))
 
 

@@ -11,6 +11,7 @@ from stepping_spreader import Spread, spread_scene
 
 import exactacq as xa
 from exactacq import Polygon, Scene, Terrain
+from exactacq.sensing.event import Ending
 from exactacq.strategies.run import Run
 
 
@@ -45,8 +46,8 @@ def outcome(spread: Spread) -> tuple[object, ...]:
 
 def exact_outcome(run: Run) -> tuple[object, ...]:
     acquired = [e.obstacle for e in run.events if e.kind == "acquire"]
-    trapped = run.events[-1].obstacle if "trapped" in run.events[-1].note else None
-    return acquired, list(run.visits), [d.obstacle for d in run.sweeping.diversions], trapped
+    trapped = run.events[-1].obstacle if run.ending is Ending.TRAPPED else None
+    return acquired, list(run.visits), [d.obstacle for d in run.diversions], trapped
 
 
 def agrees(scene: Scene, options: dict[str, object]) -> bool:
@@ -57,7 +58,7 @@ def agrees(scene: Scene, options: dict[str, object]) -> bool:
         return False
     run = xa.seed_spreader(scene, **options)
     assert exact_outcome(run) == outcome(fine)
-    slack = 12 * radius / 120 * (1 + len(run.sweeping.diversions))
+    slack = 12 * radius / 120 * (1 + len(run.diversions))
     assert float(run.length) == pytest.approx(fine.length, abs=slack)
     return True
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from exactacq.strategies.run import Bound, Run
+from exactacq.strategies.run import Bound, Run, SeedSpreaderRun
 from exactacq.study.claims.model import Case
 from exactacq.study.claims.premises import PREMISES
 
@@ -32,7 +32,7 @@ def write(folder: Path, cases: Iterable[tuple[str, Case, Run]]) -> None:
 
 def _entry(scene: str, run: Run, bound: Bound) -> Entry:
     size = len(run.scene.obstacles), sum(len(o.edges) for o in run.scene.obstacles)
-    if run.sweeping is not None:
+    if isinstance(run, SeedSpreaderRun):
         size = (*size, int((run.scene.terrain.width / run.radius).ceil()))
     return Entry(scene, size, bound.holds, bound.ratio)
 

@@ -18,7 +18,7 @@ from exactacq.geometry.intersections import nearest_points
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
-from exactacq.strategies.run import Run, TreeLink
+from exactacq.strategies.run import Run, SeedSpreaderRun, SightseerRun, TreeLink
 
 VISITS = ("(4)", "L3 corrected")
 """Bounds of the number of visits, not of a length."""
@@ -28,7 +28,7 @@ def link_name(link: TreeLink) -> str:
     return f"the link from {link.source} to {link.target}"
 
 
-def check_links(run: Run) -> None:
+def check_links(run: SightseerRun) -> None:
     """Links are as long as their segments, within the radius, and add up to the straight pieces."""
     total = Length(0)
     for link in run.links:
@@ -48,7 +48,7 @@ def check_bounds(run: Run, values: Mapping[str, arb]) -> None:
     if names != list(values):
         raise AuditError(f"the bounds are {names}, not {list(values)}")
     way = ball_sum([piece.curve for piece in run.path])
-    visits = 0 if run.sweeping is None else len(run.sweeping.encounters)
+    visits = len(run.encounters) if isinstance(run, SeedSpreaderRun) else 0
     for bound in run.bounds:
         value = values[bound.name]
         of_visits = bound.name in VISITS
@@ -66,7 +66,7 @@ def check_bounds(run: Run, values: Mapping[str, arb]) -> None:
             raise AuditError(f"bound {bound.name} has the ratio {bound.ratio}, not {ratio.str(17)}")
 
 
-def sightseer_values(run: Run, world: World) -> dict[str, arb]:
+def sightseer_values(run: SightseerRun, world: World) -> dict[str, arb]:
     """The paper's (1) and (2), and the forms that hold; S-S1 is the way from a free start, v a link.
 
     (1)  2 (n - 1) min(R, d_max) + 3/2 sum p + (n - 2)/2 p_max;  (2)  the same with R for the minimum;
@@ -95,7 +95,7 @@ def sightseer_values(run: Run, world: World) -> dict[str, arb]:
         }
 
 
-def spreader_values(run: Run, field: Field) -> dict[str, arb]:
+def spreader_values(run: SeedSpreaderRun, field: Field) -> dict[str, arb]:
     """The paper's (4)-(6) and (8)-(11), and the forms of Lemma 3 and Theorem 2 that hold.
 
     (4)  n + n n_0 + 1/2 sum n_j (n_j - 1);
@@ -106,7 +106,6 @@ def spreader_values(run: Run, field: Field) -> dict[str, arb]:
     T2 corrected  (6) + the p of those, or (10) + half of it where no obstacle meets the border, + twice what
                   diversions are longer than R one way.
     """
-    assert run.sweeping is not None
     a, b, reach, n = field.height, field.width, run.radius, len(run.obstacles)
     r, w = len(field.lines) - 1, min(run.radius, field.width)
     crossing = {mark.owner for mark in field.marks if mark.owner is not None}
@@ -117,8 +116,8 @@ def spreader_values(run: Run, field: Field) -> dict[str, arb]:
         perimeters = [ball_sum(body.edges) for body in run.obstacles]
         total, largest = sum(perimeters, arb(0)), _greatest([*perimeters, arb(0)])
         hops = largest * (2 * n * len(crossing) + pairs)
-        again = sum((perimeters[k] for k in run.sweeping.again), arb(0))
-        ways = [ball_sum([Segment(d.leave, d.hit)]) for d in run.sweeping.diversions]
+        again = sum((perimeters[k] for k in run.again), arb(0))
+        ways = [ball_sum([Segment(d.leave, d.hit)]) for d in run.diversions]
         beyond = sum(((way - arb(reach)).max(arb(0)) for way in ways), arb(0))
         visits = arb(n + n * len(crossing)) + arb(pairs) / 2
         sweep = arb(a + b + r * a)
@@ -126,7 +125,7 @@ def spreader_values(run: Run, field: Field) -> dict[str, arb]:
         part = arb(1) / 2 if all(body.closed for body in run.obstacles) else arb(1)
         return {
             "(4)": visits,
-            "L3 corrected": visits + len(run.sweeping.again),
+            "L3 corrected": visits + len(run.again),
             "(5)": arb(a + r * (w + a) + 2 * n * w) + 3 * total + hops,
             "(6)": wide + 3 * total + hops,
             "(8)": sweep,

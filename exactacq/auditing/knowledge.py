@@ -10,7 +10,6 @@ from flint import arb, ctx, fmpq
 
 from exactacq.auditing.measure import (
     BITS,
-    SIGHTS,
     Body,
     Tracks,
     agrees,
@@ -29,7 +28,7 @@ from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.rationals import rational
-from exactacq.sensing.path import Event
+from exactacq.sensing.event import SENSED, Event, EventKind
 from exactacq.strategies.run import Run
 
 MOMENTS = 6
@@ -55,7 +54,9 @@ class Knowledge:
         self.bodies = bodies
         self.on = [None if track is None else track.edge for track in tracks]
         self.lookout = Lookout(world, run.radius, [piece.curve for piece in run.path], self.on)
-        self.events = {(e.kind, e.obstacle): e for e in run.events if e.kind in ("sight", "acquire")}
+        self.events = {
+            (e.kind, e.obstacle): e for e in run.events if e.kind in (EventKind.SIGHT, EventKind.ACQUIRE)
+        }
         chosen = sorted(rng.sample(range(len(run.events)), min(MOMENTS, len(run.events))))
         self.moments = [
             _Moment(f"the map at {event_name(run, event)}", event.after, _inside(event), run.map_at(event))
@@ -125,7 +126,7 @@ class Knowledge:
 
     def _check_sight(self, i: int, target: Point, first: int | None, where: str) -> None:
         """A point is not seen before its obstacle's sight, and not after it is acquired."""
-        sight, acquire = self.events.get(("sight", i)), self.events.get(("acquire", i))
+        sight, acquire = (self.events.get((kind, i)) for kind in (EventKind.SIGHT, EventKind.ACQUIRE))
         if sight is not None and first is not None:
             last = sight.after if sight.inside else sight.after - 1
             early = self._before(last, sight.point)
@@ -225,7 +226,7 @@ class Knowledge:
         here = refined(lambda bits: ball_to(curve, point, bits))
         states: dict[int, bool | None] = dict.fromkeys(range(len(self.bodies)), False)
         for event in self.run.events:
-            if event.kind not in SIGHTS or event.after > k:
+            if event.kind not in SENSED or event.after > k:
                 continue
             assert event.obstacle is not None
             if event.after == k and event.inside:
@@ -235,8 +236,8 @@ class Knowledge:
                 if not there < here:
                     return {}
             if states[event.obstacle] is not None:
-                in_sight = event.kind in ("sight", "regain")
-                states[event.obstacle] = None if event.kind == "acquire" else in_sight
+                in_sight = event.kind in (EventKind.SIGHT, EventKind.REGAIN)
+                states[event.obstacle] = None if event.kind is EventKind.ACQUIRE else in_sight
         return {i: state for i, state in states.items() if state is not None}
 
 

@@ -14,15 +14,13 @@ from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.numbers.rationals import rational
-from exactacq.sensing.path import Event
+from exactacq.sensing.event import Event
 from exactacq.strategies.run import Run
 
 DIGITS = 500
 """Decimals to which lengths are re-added."""
 BITS = 2048
 """First working precision: 500 decimals are 1661 bits, the rest covers cancellation."""
-SIGHTS = ("sight", "acquire", "lose", "regain")
-"""Kinds of events that tell what the robot sees; the others tell what it does."""
 
 
 class Track(NamedTuple):

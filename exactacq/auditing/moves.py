@@ -34,12 +34,12 @@ from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import contacts, nearest_points
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
-from exactacq.sensing.path import Event
-from exactacq.strategies.run import Diversion, Run, Sweeping
+from exactacq.sensing.event import Ending, Event, EventKind, Reason
+from exactacq.strategies.run import Diversion, SeedSpreaderRun
 
 PAIRS = 64
 """Lines of sight that are tried where an obstacle is said not to be seen later."""
-MOVES = ("start", "hit", "cross", "leave", "divert", "return", "stop")
+MOVES = tuple(map(EventKind, ("start", "hit", "cross", "leave", "divert", "return", "stop")))
 """What the robot does on a sweep."""
 
 
@@ -50,10 +50,10 @@ class Replay:
     straight piece ``piece``, and ``ahead`` is the number of the next crossing point.
     """
 
-    def __init__(self, run: Run, field: Field, bodies: Sequence[Body], tracks: Tracks, rng: Random) -> None:
-        assert run.sweeping is not None
+    def __init__(
+        self, run: SeedSpreaderRun, field: Field, bodies: Sequence[Body], tracks: Tracks, rng: Random
+    ) -> None:
         self.run, self.field, self.bodies, self.tracks, self.rng = run, field, bodies, tracks, rng
-        self.sweeping: Sweeping = run.sweeping
         self.moves = [event for event in run.events if event.kind in MOVES]
         self.next = 1
         self.here, self.done = run.start, 0
@@ -80,28 +80,26 @@ class Replay:
         if not same(self.here, Point(0, 0)):
             raise AuditError(f"the run starts at {place_text(self.here)}, not in the SW corner")
         trapped = False
-        while self.upcoming.kind != "stop":
+        while self.upcoming.kind is not EventKind.STOP:
             self._advance(self.upcoming)
-            if self.upcoming.kind in ("hit", "cross"):
+            if self.upcoming.kind in (EventKind.HIT, EventKind.CROSS):
                 trapped = not self._meet()
                 if trapped:
                     break
-            elif self.upcoming.kind == "divert":
+            elif self.upcoming.kind is EventKind.DIVERT:
                 self._divert(None)
             else:
                 raise AuditError(f"{self.name(self.upcoming)} comes on the M-line")
         self._stop(trapped)
         for what, claimed, found in (
             ("visits", self.run.visits, self.visits),
-            ("encounters", self.sweeping.encounters, self.encounters),
-            ("encounters of known obstacles", self.sweeping.again, self.again),
+            ("encounters", self.run.encounters, self.encounters),
+            ("encounters of known obstacles", self.run.again, self.again),
         ):
             if list(claimed) != found:
                 raise AuditError(f"{what} are {list(claimed)}, but the moves make {found}")
-        if self.diverted != len(self.sweeping.diversions):
-            raise AuditError(
-                f"diversions are {len(self.sweeping.diversions)}, the moves make {self.diverted}"
-            )
+        if self.diverted != len(self.run.diversions):
+            raise AuditError(f"diversions are {len(self.run.diversions)}, the moves make {self.diverted}")
 
     def _stop(self, trapped: bool) -> None:
         """The run ends at T, or where a hit leaves no way on."""
@@ -111,12 +109,12 @@ class Replay:
             if self.at != self.field.bases[-1]:
                 raise AuditError(f"{self.name(stop)} comes before the end of the M-line")
             self._turn()
-        if stop.kind != "stop" or stop.after != self.done or self.next != len(self.moves) - 1:
+        if stop.kind is not EventKind.STOP or stop.after != self.done or self.next != len(self.moves) - 1:
             raise AuditError(f"{self.name(stop)} is no stop at {place_text(self.here)}")
-        if ("trapped" in stop.note) is not trapped:
+        if stop.ending is not (Ending.TRAPPED if trapped else Ending.END_OF_M_LINE):
             raise AuditError(f"{self.name(stop)} is due to {stop.note!r}, but trapped is {trapped}")
 
-    def _take(self, kind: str, obstacle: int) -> Event:
+    def _take(self, kind: EventKind, obstacle: int) -> Event:
         """The next move, which has to be of that kind, about that obstacle, and here."""
         event = self.upcoming
         if (event.kind, event.obstacle, event.after) != (kind, obstacle, self.done):
@@ -173,7 +171,7 @@ class Replay:
         while self.piece < mark.piece:
             self._turn()
         met = self._is_acquired(mark.owner, event)
-        self._take("cross" if met else "hit", mark.owner)
+        self._take(EventKind.CROSS if met else EventKind.HIT, mark.owner)
         self.encounters.append(mark.owner)
         if met:
             self.again.append(mark.owner)
@@ -185,18 +183,18 @@ class Replay:
             return False
         leave = marks[ends[0]]
         if same(self.here, mark.point):
-            while self.upcoming.kind == "divert":
+            while self.upcoming.kind is EventKind.DIVERT:
                 self._divert(leave)
             self._check_hop(leave)
         self._walk(mark.owner, leave.point, self.upcoming)
-        self._take("leave", mark.owner)
+        self._take(EventKind.LEAVE, mark.owner)
         self.at, self.piece, self.ahead = leave.at, leave.piece, ends[0] + 1
         return True
 
     def _is_acquired(self, obstacle: int, event: Event) -> bool:
         """Whether all of an obstacle was known before a move."""
         n = next(n for n, other in enumerate(self.run.events) if other is event)
-        return any((e.kind, e.obstacle) == ("acquire", obstacle) for e in self.run.events[:n])
+        return any((e.kind, e.obstacle) == (EventKind.ACQUIRE, obstacle) for e in self.run.events[:n])
 
     # -- along boundaries --------------------------------------------------------------------------
 
@@ -257,11 +255,11 @@ class Replay:
     def _divert(self, leap: Mark | None) -> None:
         """Out to an obstacle, around it, and back; *leap* is where another one that was hit will be left."""
         event = self.upcoming
-        if self.diverted == len(self.sweeping.diversions):
+        if self.diverted == len(self.run.diversions):
             raise AuditError(f"{self.name(event)} is in no list of diversions")
-        told = self.sweeping.diversions[self.diverted]
-        self._take("divert", told.obstacle)
-        if (told.first, told.reason) != (event.after, event.note) or not same(told.leave, self.here):
+        told = self.run.diversions[self.diverted]
+        self._take(EventKind.DIVERT, told.obstacle)
+        if (told.first, told.reason) != (event.after, event.reason) or not same(told.leave, self.here):
             raise AuditError(f"{self.name(event)} is not diversion {self.diverted}")
         if self._line is None and self.at == self.field.bases[self.piece + 1]:
             self._turn()
@@ -275,10 +273,10 @@ class Replay:
             raise AuditError(f"diversion {self.diverted} did not reach {place_text(told.hit)}")
         self._circumnavigate(i, event)
         self._walk(i, told.hit, self.upcoming)
-        self._take("leave", i)
+        self._take(EventKind.LEAVE, i)
         self._go(Segment(told.hit, leave), None)
-        back = self._take("return", i)
-        if (told.last, told.reason) != (back.after, back.note):
+        back = self._take(EventKind.RETURN, i)
+        if (told.last, told.reason) != (back.after, back.reason):
             raise AuditError(f"{self.name(back)} is not the end of diversion {self.diverted}")
         self.diverted += 1
 
@@ -291,7 +289,7 @@ class Replay:
             event, k = self.upcoming, self.field.owner(stretch.obstacle, stretch.begin)
             if k is None or not self.field.is_ashore(k, stretch.begin):
                 raise AuditError(f"{self.name(event)} is on a boundary that cannot be reached")
-            self._take("hit", k)
+            self._take(EventKind.HIT, k)
             if aimed is not None:
                 self.encounters.append(k)
             if not self._is_acquired(k, event):
@@ -302,11 +300,11 @@ class Replay:
             if not ends or not ends[-1].high > stretch.low:
                 raise AuditError(f"{self.name(event)}: the obstacle closes the way")
             self._walk(k, ends[-1].end, self.upcoming)
-            self._take("leave", k)
+            self._take(EventKind.LEAVE, k)
             done = ends[-1].high
         self._step(way.end)
         if aimed is not None:
-            self._take("hit", aimed)
+            self._take(EventKind.HIT, aimed)
             self.encounters.append(aimed)
 
     def _is_left(self, stretch: Stretch, component: int) -> bool:
@@ -335,7 +333,7 @@ class Replay:
         sizes = [(p - self.here).norm_sq() for p in points]
         aims = [p for p, size in zip(points, sizes, strict=True) if size == min(sizes)]
         hit = told.hit
-        if self.sweeping.target == "visible" and not any(self._sees(p) for p in aims):
+        if self.run.target == "visible" and not any(self._sees(p) for p in aims):
             if self._sees(hit) and chart.knows(told.obstacle, hit):
                 return hit
             if self._is_visible(told.obstacle):
@@ -363,7 +361,9 @@ class Replay:
     def _chart(self, place: Point | None = None) -> Any:
         """The map here, or at a place on the next piece."""
         here = self.here if place is None else place
-        return self.run.map_at(Event("moment", here, None, "", self.done, self.run.path, place is not None))
+        return self.run.map_at(
+            Event(EventKind.MOMENT, here, None, self.done, self.run.path, place is not None)
+        )
 
     def _at_stake(self, chart: Any) -> list[int]:
         """Incomplete obstacles that are known west of the line, and not to block the rest of the M-line."""
@@ -403,25 +403,25 @@ class Replay:
     def _check_reason(self, event: Event, chart: Any, leap: Mark | None) -> None:
         """An obstacle is about to be lost here, or when the robot has gone around another one to *leap*."""
         assert event.obstacle is not None
-        i, reason, name = event.obstacle, event.note, self.name(event)
+        i, reason, name = event.obstacle, event.reason, self.name(event)
         over = leap is not None and leap.piece > self.piece
         onward = self.here if leap is None or over else leap.point
-        if reason == "the line ends":
+        if reason is Reason.LINE_ENDS:
             is_due = over or self.at == self.field.bases[self.piece + 1]
         elif over:
             is_due = False
-        elif reason == "out of reach" and leap is None:
+        elif reason is Reason.OUT_OF_REACH and leap is None:
             is_due = self._beyond_reach(chart, i, onward) == 0
-        elif reason == "out of reach" or (reason == "overdue" and leap is None):
+        elif reason is Reason.OUT_OF_REACH or (reason is Reason.OVERDUE and leap is None):
             is_due = self._beyond_reach(chart, i, onward) > 0
-        elif reason == "out of sight":
+        elif reason is Reason.OUT_OF_SIGHT:
             is_due = self._is_visible(i) is not False
-            if self.sweeping.lookahead or leap is not None:
+            if self.run.lookahead or leap is not None:
                 self._check_unseen_later(name, chart, i, onward)
         else:
             is_due = False
         if not is_due:
-            raise AuditError(f"{name} is due to {reason!r}, which is not so")
+            raise AuditError(f"{name} is due to {event.note!r}, which is not so")
 
     def _check_unseen_later(self, name: str, chart: Any, i: int, start: Point) -> None:
         """By the map no sampled place of the rest of the line sees a sampled known point of an obstacle."""
@@ -466,11 +466,11 @@ class Replay:
         place = rational_on(curve, self._share()) if isinstance(curve, Segment) else None
         if self.done in self.probes and place is not None:
             self._check_rest(self._chart(place), place, "on the line")
-        if self.sweeping.lookahead:
+        if self.run.lookahead:
             return
         passed = [e for e in self.run.events if e.after == self.done and e.inside]
         for n, event in enumerate(passed):
-            if event.kind == "lose":
+            if event.kind is EventKind.LOSE:
                 later = (e for e in passed[n + 1 :] if e.obstacle == event.obstacle)
                 back = next(later, None)
                 if back is not None and same(back.point, event.point):

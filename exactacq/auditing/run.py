@@ -25,7 +25,6 @@ from exactacq.auditing.knowledge import MOMENTS, Knowledge
 from exactacq.auditing.measure import (
     BITS,
     DIGITS,
-    SIGHTS,
     Body,
     Track,
     Tracks,
@@ -46,17 +45,24 @@ from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
-from exactacq.sensing.path import Event
-from exactacq.strategies.run import Run
+from exactacq.sensing.event import SENSED, Ending, Event, EventKind, Reason
+from exactacq.strategies.run import Run, SeedSpreaderRun, SightseerRun
 
 MOVES = {
-    "start": {"hit", "stop"},
-    "hit": {"leave", "stop"},
-    "leave": {"hit", "backtrack"},
-    "backtrack": {"leave", "hit", "stop"},
-    "stop": set[str](),
+    EventKind.START: {EventKind.HIT, EventKind.STOP},
+    EventKind.HIT: {EventKind.LEAVE, EventKind.STOP},
+    EventKind.LEAVE: {EventKind.HIT, EventKind.BACKTRACK},
+    EventKind.BACKTRACK: {EventKind.LEAVE, EventKind.HIT, EventKind.STOP},
+    EventKind.STOP: set[EventKind](),
 }
 """What the robot does, and what it can do next."""
+FOLLOWS: dict[EventKind, tuple[EventKind | None, ...]] = {
+    EventKind.SIGHT: (None,),
+    EventKind.LOSE: (EventKind.SIGHT, EventKind.REGAIN),
+    EventKind.REGAIN: (EventKind.LOSE,),
+    EventKind.ACQUIRE: (EventKind.SIGHT, EventKind.REGAIN, EventKind.LOSE),
+}
+"""What the robot sees of an obstacle, and what of it can come just before."""
 
 
 def audit(run: Run, *, samples: int = 64, seed: int = 0) -> None:
@@ -69,25 +75,28 @@ def audit(run: Run, *, samples: int = 64, seed: int = 0) -> None:
     than one a piece and an event, and that of `MOMENTS` maps; of a sweep that of a map for each piece on its
     lines besides.
     """
-    if (run.strategy, run.sweeping is None) not in (("sightseer", True), ("seed-spreader", False)):
-        raise ValueError(f"no audit for runs of the strategy {run.strategy!r}")
+    if not isinstance(run, SightseerRun | SeedSpreaderRun):
+        raise ValueError(f"no audit for a {type(run).__name__}")
     rng = Random(seed)
-    world = World(run.scene)
-    field = None if run.sweeping is None else Field(run, world)
-    if field is not None:
+    world, field = World(run.scene), None
+    if isinstance(run, SeedSpreaderRun):
+        field = Field(run, world)
         check_components(run, field)
     bodies = list(_bodies(run, world))
     _check_continuity(run)
     tracks = _check_pieces(run, world, bodies, field)
     _check_length(run)
     _check_events(run, rng, MOVES if field is None else SWEEP_MOVES)
-    if field is None:
+    if isinstance(run, SightseerRun):
         _check_moves(run, tracks)
         check_links(run)
+        values = sightseer_values(run, world)
     else:
+        assert field is not None
         Replay(run, field, bodies, tracks, rng).check()
+        values = spreader_values(run, field)
     _check_sights(run)
-    check_bounds(run, sightseer_values(run, world) if field is None else spreader_values(run, field))
+    check_bounds(run, values)
     _check_accounts(run)
     knowledge = Knowledge(run, world, bodies, tracks, rng)
     knowledge.check_maps()
@@ -99,9 +108,9 @@ def _bodies(run: Run, world: World) -> Iterator[Body]:
     """What the numbers of obstacles in a run mean: obstacles of the scene, or shores of components."""
     for k, obstacle in enumerate(run.obstacles):
         body: Any = obstacle
-        owner = k if run.sweeping is None else body.obstacle.index
+        owner = k if run.ground is None else body.obstacle.index
         first, parts = world.first[owner], range(len(body.edges))
-        edges = parts if run.sweeping is None else [part.edge for part in body.shore]
+        edges = parts if run.ground is None else [part.edge for part in body.shore]
         yield Body(k, owner, body.edges, [first + e for e in edges], body.closed)
 
 
@@ -182,14 +191,15 @@ def _place(run: Run, after: int) -> Point:
     return run.path[after - 1].end if after else run.start
 
 
-def _check_events(run: Run, rng: Random, moves: Collection[str]) -> None:
+def _check_events(run: Run, rng: Random, moves: Collection[EventKind]) -> None:
     """Events lie on the path where they say, in its order, from the start to the stop."""
     kinds = [event.kind for event in run.events]
-    if kinds[:1] != ["start"] or kinds[-1:] != ["stop"] or not {"start", "stop"}.isdisjoint(kinds[1:-1]):
+    ends = EventKind.START, EventKind.STOP
+    if (kinds[:1], kinds[-1:]) != ([ends[0]], [ends[1]]) or not set(ends).isdisjoint(kinds[1:-1]):
         raise AuditError("events begin with one start and end with one stop")
     places = []
     for event in run.events:
-        if event.kind not in moves and event.kind not in SIGHTS:
+        if event.kind not in moves and event.kind not in SENSED:
             raise AuditError(f"{event_name(run, event)} is of no known kind")
         if not _is_at(run, event):
             raise AuditError(f"{event_name(run, event)} is not on the path: {place_text(event.point)}")
@@ -215,11 +225,11 @@ def _is_at(run: Run, event: Event) -> bool:
     """Whether an event is where piece number ``after`` begins, or, if it is no move, inside that piece."""
     if not event.inside:
         return 0 <= event.after <= len(run.path) and same(event.point, _place(run, event.after))
-    on_piece = event.kind in SIGHTS and 0 <= event.after < len(run.path)
+    on_piece = event.kind in SENSED and 0 <= event.after < len(run.path)
     return on_piece and passes(run.path[event.after].curve, event.point)
 
 
-def _check_moves(run: Run, tracks: Tracks) -> None:
+def _check_moves(run: SightseerRun, tracks: Tracks) -> None:
     """Replay what the robot did: hits, loops, leaves and returns along the tree, as a stack."""
     links = {link.target: link for link in run.links}
     stack: list[int | str] = ["S"]
@@ -230,7 +240,7 @@ def _check_moves(run: Run, tracks: Tracks) -> None:
         if event.kind not in MOVES[before.kind]:
             raise AuditError(f"{event_name(run, event)} cannot follow {event_name(run, before)}")
         _check_between(run, before, event)
-        if event.kind == "hit":
+        if event.kind is EventKind.HIT:
             link = links.get(event.obstacle if event.obstacle is not None else -1)
             if link is None or link.target in visits or link.source != stack[-1]:
                 raise AuditError(f"{event_name(run, event)} has no link from {stack[-1]} or is not the first")
@@ -239,7 +249,7 @@ def _check_moves(run: Run, tracks: Tracks) -> None:
             visits.append(link.target)
             crossings[link.target] += 1
             _check_loop(run, tracks, event)
-        elif event.kind == "backtrack":
+        elif event.kind is EventKind.BACKTRACK:
             link = links[int(stack.pop())]
             _check_crossing(run, before, event, (link.hit, link.leave))
             crossings[link.target] += 1
@@ -260,7 +270,7 @@ def _check_moves(run: Run, tracks: Tracks) -> None:
 
 def _check_between(run: Run, before: Event, event: Event) -> None:
     """Between two moves the robot keeps to the boundary that it is at, or goes straight between two."""
-    at = None if before.kind in ("start", "leave") else before.obstacle
+    at = None if before.kind in (EventKind.START, EventKind.LEAVE) else before.obstacle
     for k in range(before.after, event.after):
         if run.path[k].obstacle != at:
             raise AuditError(
@@ -299,17 +309,16 @@ def _check_loop(run: Run, tracks: Tracks, hit: Event) -> None:
 
 def _check_sights(run: Run) -> None:
     """Of each obstacle: sight before all else, lose and regain in turn until it is acquired, once."""
-    state: dict[int, str] = {}
-    follows = {"lose": ("sight", "regain"), "regain": ("lose",), "acquire": ("sight", "regain", "lose")}
+    state: dict[int, EventKind] = {}
     for event in run.events:
         i = event.obstacle
-        if i is None or event.kind == "stop":
+        if i is None or event.kind is EventKind.STOP:
             continue
         before = state.get(i)
-        if event.kind in SIGHTS:
-            if before not in follows.get(event.kind, (None,)):
+        if event.kind in SENSED:
+            if before not in FOLLOWS[event.kind]:
                 raise AuditError(f"{event_name(run, event)} cannot follow {before or 'nothing'}")
-            if event.kind == "lose" and event.note not in ("occlusion", "range"):
+            if event.kind is EventKind.LOSE and event.reason not in (Reason.OCCLUSION, Reason.RANGE):
                 raise AuditError(f"{event_name(run, event)} is due to {event.note!r}")
             state[i] = event.kind
         elif before is None:
@@ -322,12 +331,12 @@ def _check_accounts(run: Run) -> None:
     A sweep that comes to its end has acquired what it has seen; what it has not is unvisited.
     """
     seen, acquired, visits = set(run.map.seen), set(run.map.acquired), set(run.visits)
-    left = seen - (visits if run.sweeping is None else acquired)
+    left = seen - (visits if isinstance(run, SightseerRun) else acquired)
     for name, claimed, expected in (
         ("unseen", run.unseen, set(range(len(run.obstacles))) - seen),
         ("unvisited", run.unvisited, left),
-        ("sighted in events", _obstacles(run, "sight"), seen),
-        ("acquired in events", _obstacles(run, "acquire"), acquired),
+        ("sighted in events", _obstacles(run, EventKind.SIGHT), seen),
+        ("acquired in events", _obstacles(run, EventKind.ACQUIRE), acquired),
     ):
         if sorted(claimed) != sorted(expected):
             raise AuditError(f"obstacles {name} are {sorted(claimed)}, by the map {sorted(expected)}")
@@ -335,11 +344,23 @@ def _check_accounts(run: Run) -> None:
         raise AuditError(
             f"obstacles {sorted(visits - acquired)} were visited, but the map lacks parts of them"
         )
-    if run.sweeping is not None and left and "trapped" not in run.events[-1].note:
+    if run.ending is Ending.END_OF_M_LINE and left:
         raise AuditError(f"obstacles {sorted(left)} were seen, but not acquired when T was reached")
-    if run.sweeping is not None and (run.links or run.stack_depth):
-        raise AuditError("a sweep has no links and no stack")
+    if isinstance(run, SightseerRun):
+        _check_ending(run, left)
 
 
-def _obstacles(run: Run, kind: str) -> list[int]:
+def _check_ending(run: SightseerRun, left: set[int]) -> None:
+    """Why a run of the Sightseer ended agrees with what it visited; *left* are seen, but unvisited."""
+    stop, is_all = run.events[-1], len(run.visits) == len(run.obstacles)
+    is_due = {
+        Ending.ALL_VISITED: is_all,
+        Ending.NOTHING_UNVISITED: not is_all and not left,
+        Ending.BACK_AT_START: not is_all and stop.obstacle is None,
+    }
+    if stop.ending is None or not is_due.get(stop.ending, False):
+        raise AuditError(f"{event_name(run, stop)} is due to {stop.note!r}, which is not so")
+
+
+def _obstacles(run: Run, kind: EventKind) -> list[int]:
     return [event.obstacle for event in run.events if event.kind == kind and event.obstacle is not None]

@@ -17,11 +17,10 @@ from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
 from exactacq.scene.scene import Scene
 from exactacq.strategies.bounds import census
-from exactacq.strategies.run import Run, Sweeping
+from exactacq.strategies.run import Run, SeedSpreaderRun, SightseerRun
 
 CLOSED_FORM = 60
 """Closed forms of at most this many characters are shown; longer ones are in the trace."""
-STRATEGIES = {"sightseer": "Sightseer Strategy", "seed-spreader": "Seed Spreader Strategy"}
 ROWS = 60
 """Most rows of a table, and most names of a list; a trace has them all."""
 
@@ -36,14 +35,14 @@ def run_report(run: Run) -> RenderableType:
     """What a run did, in the order: visits and links, length, bounds, what was missed, import notes."""
     names = list(run.names())
     parts: list[RenderableType] = [
-        Text(f"{STRATEGIES[run.strategy]} on {run.scene.name or 'a scene'}", style="bold"),
+        Text(f"{run.title} on {run.scene.name or 'a scene'}", style="bold"),
         f"S = {_place(run.start)}, R = {_rational(run.radius)}, {_counted(len(run.obstacles), 'obstacle')}",
         "",
     ]
-    if run.sweeping is not None:
-        parts += _sweep(run, run.sweeping, names)
+    if isinstance(run, SeedSpreaderRun):
+        parts += _sweep(run, names)
     if run.visits:
-        parts += [_links(run, names), ""] if run.links else []
+        parts += [_links(run, names), ""] if isinstance(run, SightseerRun) else []
         parts.append(_listed("order of visits", (names[k] for k in run.visits), " → "))
     parts.append(Text.assemble("length  ", ("  ".join(readable(run.length, CLOSED_FORM, 20)), "bold")))
     if run.bounds:
@@ -54,7 +53,7 @@ def run_report(run: Run) -> RenderableType:
 def comparison(first: Run, second: Run) -> RenderableType:
     """Two runs on one scene side by side: how long, whom they visited and know, and how near the bounds."""
     runs = (first, second)
-    table = _table("", *(STRATEGIES[run.strategy] for run in runs))
+    table = _table("", *(run.title for run in runs))
     ratio = float(second.length) / float(first.length) if first.length.sign() else float("nan")
     counts = [(len(run.visits), len(run.map.acquired), len(run.obstacles)) for run in runs]
     rows: dict[str, list[str]] = {
@@ -62,7 +61,7 @@ def comparison(first: Run, second: Run) -> RenderableType:
         "visits": [f"{visits} of {count}" for visits, _, count in counts],
         "acquired": [f"{known} of {count}" for _, known, count in counts],
         "never seen": [str(len(run.unseen)) for run in runs],
-        "diversions": ["-" if run.sweeping is None else str(len(run.sweeping.diversions)) for run in runs],
+        "diversions": [str(len(run.diversions)) if isinstance(run, SeedSpreaderRun) else "-" for run in runs],
     }
     for name, cells in rows.items():
         table.add_row(name, *cells)
@@ -105,31 +104,26 @@ def scene_list(scenes: dict[str, str]) -> RenderableType:
     return table
 
 
-def _sweep(run: Run, sweeping: Sweeping, names: list[str]) -> Iterator[RenderableType]:
+def _sweep(run: SeedSpreaderRun, names: list[str]) -> Iterator[RenderableType]:
     """How the Seed Spreader ended, its diversions, and what it met."""
     yield f"ended because {run.events[-1].note}"
-    if run.ground is not None:
-        counts = census(run.ground, run.radius)
-        for what, numbers in (("inside strips", counts.inside), ("crossing the M-line", counts.crossing)):
-            yield f"{what}  {sum(numbers)}: by strip {', '.join(map(str, numbers))}"
-    yield (
-        _listed("met", (names[k] for k in sweeping.encounters), " → ")
-        if sweeping.encounters
-        else "met nothing"
-    )
-    if sweeping.again:
-        yield _listed("met again on the M-line", (names[k] for k in sweeping.again), ", ")
-    if sweeping.unreached:
-        yield _listed("cannot be reached, parts of obstacles", map(str, sweeping.unreached), ", ")
-    if sweeping.diversions:
+    counts = census(run.ground, run.radius)
+    for what, numbers in (("inside strips", counts.inside), ("crossing the M-line", counts.crossing)):
+        yield f"{what}  {sum(numbers)}: by strip {', '.join(map(str, numbers))}"
+    yield (_listed("met", (names[k] for k in run.encounters), " → ") if run.encounters else "met nothing")
+    if run.again:
+        yield _listed("met again on the M-line", (names[k] for k in run.again), ", ")
+    if run.unreached:
+        yield _listed("cannot be reached, parts of obstacles", map(str, run.unreached), ", ")
+    if run.diversions:
         table = _table("diversion", "obstacle", "from D", "to Q", "because")
-        for order, d in enumerate(sweeping.diversions[:ROWS], 1):
+        for order, d in enumerate(run.diversions[:ROWS], 1):
             table.add_row(str(order), names[d.obstacle], _place(d.leave), _place(d.hit), d.reason)
         yield table
     yield ""
 
 
-def _links(run: Run, names: list[str]) -> Table:
+def _links(run: SightseerRun, names: list[str]) -> Table:
     table = _table("visit", "obstacle", "from", "leave", "hit", "link", "walked")
     for order, link in enumerate(run.links[:ROWS], 1):
         source = link.source if isinstance(link.source, str) else names[link.source]
@@ -155,11 +149,11 @@ def _missed(run: Run, names: list[str]) -> Iterator[RenderableType]:
     if run.complete:
         return
     yield ""
-    left = "seen, but never visited" if run.sweeping is None else "not wholly known"
+    left = "seen, but never visited" if isinstance(run, SightseerRun) else "not wholly known"
     for which, what in ((run.unseen, "never seen"), (run.unvisited, left)):
         if which:
             yield Text(_listed(what, (names[k] for k in which), ", "), style="bold red")
-    if run.sweeping is not None:
+    if isinstance(run, SeedSpreaderRun):
         return
     yield (
         f"So this scene does not satisfy the paper's model (a) for R = {_rational(run.radius)}: "

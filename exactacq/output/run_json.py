@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Hashable, Iterator, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Sequence
 from typing import Any
 
 from exactacq.errors import ExactacqError, FormatError
@@ -16,17 +16,18 @@ from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.numbers.number_json import Decoder, Encoder, Number, is_place
 from exactacq.numbers.rationals import rational
+from exactacq.output.old_run_files import upgraded
 from exactacq.scene.terrain_components import ground_of
+from exactacq.sensing.event import SENSED, Ending, Event, EventKind, Occasion, Reason
 from exactacq.sensing.history import Memory
-from exactacq.sensing.path import Event, Path, Piece
-from exactacq.sensing.sensor import Kind
-from exactacq.strategies.bounds import sightseer_bounds, spreader_bounds
-from exactacq.strategies.run import Bound, Diversion, Run, Sweeping, TreeLink
+from exactacq.sensing.path import Path, Piece
+from exactacq.strategies.bounds import with_bounds
+from exactacq.strategies.run import Bound, Diversion, Run, SeedSpreaderRun, SightseerRun, TreeLink
+from exactacq.visibility.links import START
 
-FORMAT, VERSION = "exactacq run", 2
+FORMAT, VERSION = "exactacq run", 3
 DIGITS = 20
 """Decimals beside exact values are for readers: they are not read back."""
-SENSED = {kind.value for kind in Kind}
 NAMES = {
     "corner": ("corner",),
     "circle": ("circle",),
@@ -35,6 +36,8 @@ NAMES = {
     "circles": ("circle", "circle", "crossing", "turn"),
 }
 """What names hold after their first word: numbers of edges, a truth value, 1 or -1."""
+FACTS = ("occasion", "other", "reason", "ending")
+"""Fields of events that are written where they apply."""
 CLOSED = 200
 """Closed forms up to so many characters are written beside the decimals."""
 
@@ -57,10 +60,8 @@ def run_to_json(run: Run) -> dict[str, Any]:
         "visits": list(run.visits),
         "unseen": list(run.unseen),
         "unvisited": list(run.unvisited),
-        "stack_depth": run.stack_depth,
-        **({} if run.sweeping is None else {"sweeping": _sweeping(out, run.sweeping)}),
         "bounds": [_bound(bound) for bound in run.bounds],
-        "links": [_link(out, link) for link in run.links],
+        **_of_strategy(out, run),
         "path": [_piece(out, piece) for piece in run.path],
         "events": [_event(out, event, positions) for event in run.events],
         "scene": scene_to_json(run.scene),
@@ -81,9 +82,10 @@ def load_run(source: str | os.PathLike[str] | dict[str, Any]) -> Run:
         document = parse_json(data)
         if not isinstance(document, dict) or document.get("format") != FORMAT:
             raise FormatError("not a run: write one with exactacq explore SCENE --trace F.json")
-        if int(document["version"]) != VERSION:
-            raise FormatError(f"version {int(document['version'])} of a run is not known here")
-        return _run(document)
+        version = int(document["version"])
+        if version not in (2, VERSION):
+            raise FormatError(f"version {version} of a run is not known here")
+        return _run(upgraded(document) if version == 2 else document)
     except ExactacqError as error:
         raise type(error)(
             [f"{name}: {error}"] if hasattr(error, "violations") else f"{name}: {error}"
@@ -98,56 +100,43 @@ def _run(document: dict[str, Any]) -> Run:
     numbers = _Points(Decoder(document["numbers"]))
     scene = scene_of(document["scene"])
     edges = [edge for obstacle in scene.obstacles for edge in obstacle.edges]
-    path = Path(_read_piece(numbers, piece, edges) for piece in document["path"])
-    links = tuple(_read_link(numbers, link) for link in document["links"])
     radius, start = rational(document["radius"]), numbers.point(document["start"])
     if radius <= 0:
         raise FormatError(f"the radius must be positive, not {radius}")
-    sweeping = _read_sweeping(numbers, document["sweeping"]) if "sweeping" in document else None
-    ground = None if sweeping is None else ground_of(scene)
+    strategy = document["strategy"]
+    if strategy not in (SightseerRun.strategy, SeedSpreaderRun.strategy):
+        raise FormatError(f"a run of the unknown strategy {str(strategy)[:40]!r}")
+    ground = ground_of(scene) if strategy == SeedSpreaderRun.strategy else None
+    count = len(scene.obstacles if ground is None else ground.components)
+    path = Path(_read_piece(numbers, piece, edges, count) for piece in document["path"])
     memory = None
     if any(event["point"] is None for event in document["events"]):
         memory = Memory.of(scene, radius, start, path, ground)
-    events = tuple(_read_events(numbers, document["events"], path, memory))
-    visits, unseen, unvisited = (
-        tuple(int(k) for k in document[key]) for key in ("visits", "unseen", "unvisited")
-    )
-    count = len(scene.obstacles if ground is None else ground.components)
-    swept = () if sweeping is None else (*sweeping.encounters, *sweeping.again)
-    diversions = () if sweeping is None else sweeping.diversions
-    if any(not 0 <= d.first <= d.last <= len(path) for d in diversions):
-        raise FormatError("a diversion names pieces that the path does not have")
-    named = [
-        *swept,
-        *(d.obstacle for d in diversions),
-        *visits,
-        *unseen,
-        *unvisited,
-        *(p.obstacle for p in path),
-        *(e.obstacle for e in events),
-    ]
-    if any(k is not None and not 0 <= k < count for k in named):
-        raise FormatError(f"the run names an obstacle that its scene of {count} does not have")
-    length = path.length_after(len(path))
-    if ground is None or sweeping is None:
-        bounds = sightseer_bounds(scene, radius, length, links, visits)
-    else:
-        bounds = spreader_bounds(ground, radius, sweeping, length)
-    return Run(
-        scene=scene,
-        radius=radius,
-        strategy=str(document["strategy"]),
-        start=start,
-        path=path,
-        visits=visits,
-        links=links,
-        events=events,
-        bounds=bounds,
-        unseen=unseen,
-        unvisited=unvisited,
-        stack_depth=int(document["stack_depth"]),
-        record=memory,
-        sweeping=sweeping,
+    common: dict[str, Any] = {
+        "scene": scene,
+        "radius": radius,
+        "start": start,
+        "path": path,
+        "visits": _indices(document["visits"], count),
+        "events": tuple(_read_events(numbers, document["events"], path, memory, count)),
+        "bounds": (),
+        "unseen": _indices(document["unseen"], count),
+        "unvisited": _indices(document["unvisited"], count),
+        "record": memory,
+    }
+    if ground is None:
+        links = tuple(_read_link(numbers, link, count) for link in document["links"])
+        return with_bounds(SightseerRun(**common, links=links, stack_depth=int(document["stack_depth"])))
+    return with_bounds(
+        SeedSpreaderRun(
+            **common,
+            lookahead=bool(document["lookahead"]),
+            target=str(document["target"]),
+            diversions=tuple(_read_diversion(numbers, d, path, count) for d in document["diversions"]),
+            encounters=_indices(document["encounters"], count),
+            again=_indices(document["again"], count),
+            unreached=_indices(document["unreached"], len(scene.obstacles)),
+        )
     )
 
 
@@ -179,10 +168,13 @@ def _link(out: Encoder, link: TreeLink) -> dict[str, Any]:
     }
 
 
-def _sweeping(out: Encoder, sweeping: Sweeping) -> dict[str, Any]:
+def _of_strategy(out: Encoder, run: Run) -> dict[str, Any]:
+    if isinstance(run, SightseerRun):
+        return {"stack_depth": run.stack_depth, "links": [_link(out, link) for link in run.links]}
+    assert isinstance(run, SeedSpreaderRun)
     return {
-        "lookahead": sweeping.lookahead,
-        "target": sweeping.target,
+        "lookahead": run.lookahead,
+        "target": run.target,
         "diversions": [
             {
                 "obstacle": d.obstacle,
@@ -192,11 +184,11 @@ def _sweeping(out: Encoder, sweeping: Sweeping) -> dict[str, Any]:
                 "first": d.first,
                 "last": d.last,
             }
-            for d in sweeping.diversions
+            for d in run.diversions
         ],
-        "encounters": list(sweeping.encounters),
-        "again": list(sweeping.again),
-        "unreached": list(sweeping.unreached),
+        "encounters": list(run.encounters),
+        "again": list(run.again),
+        "unreached": list(run.unreached),
     }
 
 
@@ -228,10 +220,11 @@ def _place(out: Encoder, point: Point) -> list[Number] | None:
 
 
 def _event(out: Encoder, event: Event, positions: list[str]) -> dict[str, Any]:
+    facts = {name: getattr(event, name) for name in FACTS}
     return {
         "kind": event.kind,
         "obstacle": event.obstacle,
-        "note": event.note,
+        **{name: fact for name, fact in facts.items() if fact is not None},
         "point": _place(out, event.point),
         "after": event.after,
         "inside": event.inside,
@@ -258,14 +251,15 @@ class _Points:
         return self._points[key]
 
 
-def _read_piece(numbers: _Points, document: dict[str, Any], edges: Sequence[Curve]) -> Piece:
+def _read_piece(numbers: _Points, document: dict[str, Any], edges: Sequence[Curve], count: int) -> Piece:
     start, end = numbers.point(document["start"]), numbers.point(document["end"])
     curve: Curve = Segment(start, end)
     if "arc" in document:
         arc = document["arc"]
         center, square = numbers.point(arc["center"]), rational(arc["radius_sq"])
         curve = Arc(start, end, center, square, arc["ccw"] is True, arc["full"] is True)
-    is_straight, obstacle = document["kind"] == "straight", _index(document["obstacle"])
+    is_straight, obstacle = document["kind"] == "straight", document["obstacle"]
+    obstacle = None if obstacle is None else _obstacle(obstacle, count)
     if not is_straight and document["kind"] != "boundary":
         raise FormatError("a piece of the path is straight or boundary")
     if is_straight != (obstacle is None) or (is_straight and isinstance(curve, Arc)):
@@ -296,11 +290,10 @@ def _read_name(name: list[Any], edges: Sequence[Curve]) -> tuple[Hashable, ...]:
     return tuple(read)
 
 
-def _read_link(numbers: _Points, document: dict[str, Any]) -> TreeLink:
-    source = document["source"]
+def _read_link(numbers: _Points, document: dict[str, Any], count: int) -> TreeLink:
     return TreeLink(
-        source="S" if source == "S" else int(source),
-        target=int(document["target"]),
+        source=_node(document["source"], count),
+        target=_obstacle(document["target"], count),
         leave=numbers.point(document["leave"]),
         hit=numbers.point(document["hit"]),
         length=Length(numbers.numbers.number(document["length"])),
@@ -308,56 +301,58 @@ def _read_link(numbers: _Points, document: dict[str, Any]) -> TreeLink:
     )
 
 
-def _read_sweeping(numbers: _Points, document: dict[str, Any]) -> Sweeping:
-    return Sweeping(
-        bool(document["lookahead"]),
-        str(document["target"]),
-        tuple(
-            Diversion(
-                int(d["obstacle"]),
-                numbers.point(d["leave"]),
-                numbers.point(d["hit"]),
-                str(d["reason"]),
-                int(d["first"]),
-                int(d["last"]),
-            )
-            for d in document["diversions"]
-        ),
-        tuple(int(k) for k in document["encounters"]),
-        tuple(int(k) for k in document["again"]),
-        tuple(int(k) for k in document["unreached"]),
+def _read_diversion(numbers: _Points, document: dict[str, Any], path: Path, count: int) -> Diversion:
+    first, last = int(document["first"]), int(document["last"])
+    if not 0 <= first <= last <= len(path):
+        raise FormatError("a diversion names pieces that the path does not have")
+    return Diversion(
+        _obstacle(document["obstacle"], count),
+        numbers.point(document["leave"]),
+        numbers.point(document["hit"]),
+        Reason(document["reason"]),
+        first,
+        last,
     )
 
 
 def _read_events(
-    numbers: _Points, documents: list[dict[str, Any]], path: Path, memory: Memory | None
+    numbers: _Points, documents: list[dict[str, Any]], path: Path, memory: Memory | None, count: int
 ) -> Iterator[Event]:
     """The events; those without a point happened where the repeated sensing says."""
     reports = iter(memory.reports) if memory else None
     for document in documents:
-        kind, obstacle = str(document["kind"]), _index(document["obstacle"])
+        kind = EventKind(document["kind"])
+        obstacle = None if document["obstacle"] is None else _obstacle(document["obstacle"], count)
         place: Point | None = None
         if reports is not None and kind in SENSED:
             report = next(reports, None)
-            if report is None or (report.kind.value, report.obstacle) != (kind, obstacle):
+            if report is None or (report.kind, report.obstacle) != (kind, obstacle):
                 raise FormatError(f"the path does not show the {kind} of obstacle {obstacle} that it names")
             place = report.place
         if document["point"] is not None:
             place = numbers.point(document["point"])
         if place is None:
             raise FormatError(f"an event of kind {kind} has no point")
-        yield _read_event(document, place, path)
+        after, inside = int(document["after"]), document["inside"] is True
+        if not 0 <= after <= len(path) - inside:
+            raise FormatError(f"an event after piece {after} of a path of {len(path)}")
+        other = None if "other" not in document else _node(document["other"], count)
+        reason = None if "reason" not in document else Reason(document["reason"])
+        ending = None if "ending" not in document else Ending(document["ending"])
+        occasion = None if "occasion" not in document else Occasion(document["occasion"])
+        why: dict[str, Any] = {"occasion": occasion, "other": other, "reason": reason, "ending": ending}
+        yield Event(kind, place, obstacle, after, path, inside, **why)
 
 
-def _read_event(document: dict[str, Any], place: Point, path: Path) -> Event:
-    after, inside = int(document["after"]), document["inside"] is True
-    if not 0 <= after <= len(path):
-        raise FormatError(f"an event after piece {after} of a path of {len(path)}")
-    if inside and after == len(path):
-        raise FormatError(f"an event inside piece {after} of a path of {len(path)}")
-    obstacle, note = _index(document["obstacle"]), str(document["note"])
-    return Event(str(document["kind"]), place, obstacle, note, after, path, inside)
+def _indices(values: Iterable[Any], count: int) -> tuple[int, ...]:
+    return tuple(_obstacle(value, count) for value in values)
 
 
-def _index(value: Any) -> int | None:
-    return None if value is None else int(value)
+def _obstacle(value: Any, count: int) -> int:
+    if not 0 <= int(value) < count:
+        raise FormatError(f"the run names an obstacle that its scene of {count} does not have")
+    return int(value)
+
+
+def _node(value: Any, count: int) -> int | str:
+    return START if value == START else _obstacle(value, count)

@@ -6,8 +6,9 @@ from dataclasses import dataclass, replace
 
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
+from exactacq.sensing.event import Event
 from exactacq.sensing.map import Map
-from exactacq.sensing.path import Event, Piece
+from exactacq.sensing.path import Piece
 from exactacq.strategies.run import Run
 from exactacq.visibility.isovist import Isovist
 

@@ -19,7 +19,7 @@ def offer(port: str, kind: str, module: str, function: str) -> None:
 
 
 def made(port: str, value: object) -> Any:
-    """What a port of an object gives; KeyError if its type has no such port."""
-    kind = type(value)
-    module, function = _MAKERS[port, f"{kind.__module__}.{kind.__qualname__}"]
+    """What a port of an object gives. Only types that `offer` names, and types derived from them, have it."""
+    kinds = ((port, f"{kind.__module__}.{kind.__qualname__}") for kind in type(value).__mro__)
+    module, function = next(_MAKERS[kind] for kind in kinds if kind in _MAKERS)
     return getattr(import_module(module), function)(value)

@@ -18,10 +18,11 @@ from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.scene import Scene
 from exactacq.scene.terrain_components import Ground
+from exactacq.sensing.event import EventKind, Reason
 from exactacq.sensing.legs import Leg, legs_of, parts_of
 from exactacq.sensing.map import Body, Map
 from exactacq.sensing.path import Piece
-from exactacq.sensing.sensor import Ahead, Kind, Senses
+from exactacq.sensing.sensor import Ahead, Senses
 from exactacq.sensing.targets import Targets
 
 
@@ -29,10 +30,10 @@ from exactacq.sensing.targets import Targets
 class Report:
     """A notice placed on the path: after ``after`` whole pieces, or inside the piece of that number."""
 
-    kind: Kind
+    kind: EventKind
     obstacle: int
     place: Point
-    note: str
+    reason: Reason | None
     after: int
     inside: bool
 
@@ -85,7 +86,7 @@ class Memory:
         """Look around at the start."""
         notices, learned = self._senses.look_around(start)
         self._learned.append(learned)
-        return self._reported([Report(n.kind, n.obstacle, n.place, n.note, 0, False) for n in notices])
+        return self._reported([Report(n.kind, n.obstacle, n.place, n.reason, 0, False) for n in notices])
 
     def walk(self, piece: Piece) -> list[Report]:
         """Take in all that a piece of the path shows; the reports in the order in which they come."""
@@ -103,7 +104,7 @@ class Memory:
                 at_end = k == len(legs) - 1 and leg.order(n.u, leg.last) == 0
                 after = count + 1 if at_end and not at_start else count
                 inside = not (at_start or at_end)
-                reports.append(Report(n.kind, n.obstacle, n.place, n.note, after, inside))
+                reports.append(Report(n.kind, n.obstacle, n.place, n.reason, after, inside))
         self._learned.append(learned)
         self._legs.append(legs)
         if retraced:

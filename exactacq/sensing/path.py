@@ -1,10 +1,13 @@
-"""A path and what happened on it: pieces, and events at places of them."""
+"""A path: straight pieces, and pieces of boundaries."""
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Hashable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cached_property
 from itertools import accumulate
+from typing import Any
 
 from exactacq.geometry.curves import Curve
 from exactacq.geometry.points import Point
@@ -45,63 +48,45 @@ class Piece:
 
 
 class Path(tuple[Piece, ...]):
-    """The pieces in order, each starting where the one before ends."""
+    """The pieces in order, each starting where the one before ends.
 
-    __slots__ = ()
+    It remembers the length up to the last place that was asked for, so asking for places in their order
+    adds every piece once. (The lengths to all places would hold every radical of the path as often as there
+    are places after it.)
+    """
 
     def __repr__(self) -> str:
-        return f"<Path of {len(self)} pieces, length {sum(float(piece.length) for piece in self):.6g}>"
+        return f"<Path of {len(self)} pieces, length {self._ends[-1]:.6g}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Path, (tuple(self),)
 
     def length_after(self, count: int) -> Length:
-        """Length of the first *count* pieces; linear in *count*."""
-        return Length.sum(piece.length for piece in self[:count])
+        """Length of the first *count* pieces. Cost: linear in the pieces since the last place asked for."""
+        first, done = self._measured if self._measured[0] <= count else (0, Length(0))
+        length = Length.sum((done, *(piece.length for piece in self[first:count])))
+        self._measured = count, length
+        return length
+
+    _measured = 0, Length(0)
+    """A number of pieces, and their length."""
+
+    @cached_property
+    def _ends(self) -> list[float]:
+        """About the length after each number of pieces."""
+        return list(accumulate((float(piece.length) for piece in self), initial=0.0))
 
     def find(self, length: Length) -> tuple[int, Length]:
         """Where the path is after a length: number of whole pieces, and what is left of the length.
 
         ValueError if the path is shorter, or the length negative.
         """
-        guesses = list(accumulate((float(piece.length) for piece in self), initial=0.0))
-        slack = 1e-6 * (guesses[-1] + 1.0)
-        count = max(sum(guess < float(length) - slack for guess in guesses) - 1, 0)
+        slack = 1e-6 * (self._ends[-1] + 1.0)
+        count = max(bisect_left(self._ends, float(length) - slack) - 1, 0)
         rest = length - self.length_after(count)
         while count < len(self) and rest >= self[count].length:
             rest = rest - self[count].length
             count += 1
         if rest.sign() < 0 or (count == len(self) and rest.sign() > 0):
-            raise ValueError(
-                f"the path has no place after length {length}: it is {float(guesses[-1]):.6g} long"
-            )
+            raise ValueError(f"the path has no place after length {length}: it is {self._ends[-1]:.6g} long")
         return count, rest
-
-
-@dataclass(frozen=True)
-class Event:
-    """Something that happened after the first ``after`` pieces of the path, or ``inside`` the next one.
-
-    Kinds: start, stop; hit, leave, backtrack (the Sightseer's moves); hit, cross (an acquired obstacle blocks
-    the M-line), leave, divert, return (the Seed Spreader's); sight, acquire, lose, regain (see
-    `exactacq.sensing.sensor`). Events are in the order in which they happened.
-    """
-
-    kind: str
-    point: Point
-    obstacle: int | None
-    note: str
-    after: int
-    path: Path = field(repr=False, compare=False)
-    inside: bool = False
-
-    @property
-    def at(self) -> Length:
-        """Path length so far, summed on demand."""
-        whole = self.path.length_after(self.after)
-        return whole + self.beyond if self.inside else whole
-
-    @property
-    def beyond(self) -> Length:
-        """Length walked since the end of the last whole piece."""
-        if not self.inside:
-            return Length(0)
-        curve = self.path[self.after].curve
-        return curve.part(curve.start, self.point).length

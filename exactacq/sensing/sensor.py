@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections import ChainMap
 from collections.abc import Iterator, Set
 from dataclasses import dataclass
-from enum import Enum
 from functools import cmp_to_key
 
 from flint import fmpq
@@ -23,6 +22,7 @@ from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.end_names import Seen
+from exactacq.sensing.event import SENSED, EventKind, Reason
 from exactacq.sensing.leg_views import Covers, Shares, add
 from exactacq.sensing.legs import Leg
 from exactacq.sensing.targets import Targets
@@ -32,31 +32,18 @@ VIEWS_KEPT = 64
 """Views from ends of legs that are remembered: enough for a walk along one boundary and back."""
 
 
-class Kind(Enum):
-    """What sensing reports; several reports from one place come in this order."""
-
-    SIGHT = "sight"
-    """The first point of an obstacle is known."""
-    REGAIN = "regain"
-    """An obstacle that is not acquired comes back into sight."""
-    ACQUIRE = "acquire"
-    """The whole boundary of an obstacle is known."""
-    LOSE = "lose"
-    """An obstacle that is not acquired goes out of sight."""
-
-
-ORDER = {kind: k for k, kind in enumerate(Kind)}
+ORDER = {kind: k for k, kind in enumerate(SENSED)}
 
 
 @dataclass(frozen=True, slots=True)
 class Notice:
-    """A report from a place of a leg (``u`` on its rail); ``note`` says why an obstacle was lost."""
+    """A report from a place of a leg (``u`` on its rail); ``reason`` says why an obstacle was lost."""
 
-    kind: Kind
+    kind: EventKind
     obstacle: int
     u: Real
     place: Point
-    note: str = ""
+    reason: Reason | None = None
 
 
 @dataclass(frozen=True)
@@ -111,9 +98,9 @@ class Senses:
         learned = self._with_view(view, seen)
         notices = []
         for k in seen:
-            notices.append(Notice(Kind.SIGHT, k, Real(0), place))
+            notices.append(Notice(EventKind.SIGHT, k, Real(0), place))
             if self.targets.is_whole(k, ChainMap(learned, self.covers)):
-                notices.append(Notice(Kind.ACQUIRE, k, Real(0), place))
+                notices.append(Notice(EventKind.ACQUIRE, k, Real(0), place))
         return self._settle(notices, learned)
 
     def follow(self, ahead: Ahead) -> tuple[list[Notice], dict[int, Cover]]:
@@ -135,7 +122,9 @@ class Senses:
         for k in sorted(shares.obstacles):
             whole = self._acquired(shares, k) if self.targets.is_whole(k, now) else None
             for notice in self._changes(shares, k):
-                if whole is None or leg.order(notice.u, whole.u) < (1 if notice.kind is Kind.SIGHT else 0):
+                if whole is None or leg.order(notice.u, whole.u) < (
+                    1 if notice.kind is EventKind.SIGHT else 0
+                ):
                     notices.append(notice)
             if whole is not None:
                 notices.append(whole)
@@ -171,10 +160,10 @@ class Senses:
     ) -> tuple[list[Notice], dict[int, Cover]]:
         self.covers.update(learned)
         for notice in notices:
-            if notice.kind is Kind.ACQUIRE:
+            if notice.kind is EventKind.ACQUIRE:
                 self.acquired.add(notice.obstacle)
                 self.in_sight.discard(notice.obstacle)
-            elif notice.kind is Kind.LOSE:
+            elif notice.kind is EventKind.LOSE:
                 self.in_sight.discard(notice.obstacle)
             else:
                 self.seen.add(notice.obstacle)
@@ -215,12 +204,14 @@ class Senses:
             if not leg.ahead:
                 begin, end = end, begin
             if not in_sight:
-                yield Notice(Kind.REGAIN if known else Kind.SIGHT, k, *begin)
+                yield Notice(EventKind.REGAIN if known else EventKind.SIGHT, k, *begin)
                 known = True
             in_sight = leg.order(end[0], leg.last) == 0
             if not in_sight:
                 # Out of range, if all last views were as long as the range; else occluded.
-                yield Notice(Kind.LOSE, k, *end, "occlusion" if shares.is_short(k, end[0]) else "range")
+                yield Notice(
+                    EventKind.LOSE, k, *end, Reason.OCCLUSION if shares.is_short(k, end[0]) else Reason.RANGE
+                )
 
     def _acquired(self, shares: Shares, k: int) -> Notice:
         """When an obstacle that is wholly known after a leg became so.
@@ -232,11 +223,11 @@ class Senses:
         leg = shares.leg
         before = ChainMap(self._with_view(self._view(leg.start, leg.own(leg.first)), [k]), self.covers)
         if self.targets.is_whole(k, before):
-            return Notice(Kind.ACQUIRE, k, leg.first, leg.start)
+            return Notice(EventKind.ACQUIRE, k, leg.first, leg.start)
         _, around = self._closing(shares, leg, k, before, before)
         late = self._until(shares, leg.upto(around.first, around.start), k, before)
         moment, _ = self._closing(shares, around, k, late, before)
-        return Notice(Kind.ACQUIRE, k, *moment)
+        return Notice(EventKind.ACQUIRE, k, *moment)
 
     def _closing(
         self, shares: Shares, around: Leg, k: int, known: Covers, before: ChainMap[int, Cover]

@@ -3,30 +3,34 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 from flint import fmpq
 
 from exactacq.geometry.intersections import nearest_points
-from exactacq.geometry.points import distance
 from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.scene import Scene
 from exactacq.scene.terrain_components import Ground
-from exactacq.strategies.run import Bound, Sweeping, TreeLink
+from exactacq.strategies.run import Bound, SeedSpreaderRun, SightseerRun
 from exactacq.strategies.seed_spreader.blocked import Blocking
 from exactacq.strategies.seed_spreader.mline import MLine
 from exactacq.visibility.links import START, pair_bounds
 
 HALF = fmpq(1, 2)
+AnyRun = TypeVar("AnyRun", SightseerRun, SeedSpreaderRun)
 
 
-def sightseer_bounds(
-    scene: Scene, radius: fmpq, length: Length, links: Sequence[TreeLink], visits: Sequence[int]
-) -> tuple[Bound, ...]:
+def with_bounds(run: AnyRun) -> AnyRun:
+    """A run with the bounds of its strategy."""
+    bounds = sightseer_bounds(run) if isinstance(run, SightseerRun) else spreader_bounds(run)
+    return replace(run, bounds=bounds)
+
+
+def sightseer_bounds(run: SightseerRun) -> tuple[Bound, ...]:
     """Bounds (1) and (2) as printed, and the forms of Theorem 1 that hold in model (a).
 
     n counts all obstacles of the scene. The corrected ones add the way S-S1 from a free start to the first
@@ -34,6 +38,7 @@ def sightseer_bounds(
     counts 2n - 3 traversals, and charges no return along the last obstacle. Outside model (a), where links
     can start at S twice, even these may fail. Empty without obstacles.
     """
+    scene, radius, length, links, visits = run.scene, run.radius, run.length, run.links, run.visits
     n = len(scene.obstacles)
     if n == 0:
         return ()
@@ -91,7 +96,7 @@ def census(ground: Ground, radius: fmpq) -> Census:
     return Census(tuple(inside[j] for j in strips), tuple(crossing_ones[j] for j in strips))
 
 
-def spreader_bounds(ground: Ground, radius: fmpq, sweeping: Sweeping, length: Length) -> tuple[Bound, ...]:
+def spreader_bounds(run: SeedSpreaderRun) -> tuple[Bound, ...]:
     """Bounds (4)-(6) and (8)-(11) as printed, and the forms of Lemma 3 and Theorem 2 that hold.
 
     n counts the components that can be reached, p is what the robot can walk of a boundary. n_j are the
@@ -99,6 +104,7 @@ def spreader_bounds(ground: Ground, radius: fmpq, sweeping: Sweeping, length: Le
     an acquired obstacle was met again on the M-line, and what diversions are longer than R one way. (4)
     bounds the number of visits, not a length.
     """
+    ground, radius, length = run.ground, run.radius, run.length
     components, mline = ground.components, MLine(ground.terrain, radius)
     counts = census(ground, radius)
     n, crossing, pairs = len(components), sum(counts.crossing), counts.pairs
@@ -109,10 +115,10 @@ def spreader_bounds(ground: Ground, radius: fmpq, sweeping: Sweeping, length: Le
     hops = largest * (2 * n * crossing + pairs)
     wide = sweep + Length(2 * n * radius)
     clear = all(c.closed for c in components)
-    met = Length.sum(perimeters[k] for k in sweeping.again)
+    met = Length.sum(perimeters[k] for k in run.again)
     share = HALF if clear else fmpq(1)
-    ways = (Length(distance(d.leave, d.hit)) for d in sweeping.diversions)
-    beyond = Length.sum(way - Length(radius) for way in ways if way > Length(radius))
+    far = (d.length - Length(radius) for d in run.diversions if d.length > Length(radius))
+    beyond = Length.sum(far)
     corrected = wide + beyond * 2 + total * (3 * share) + hops * share + met * share
     values = [
         ("(5)", "Theorem 2, as printed", Length(a + r * (w + a) + 2 * n * w) + total * 3 + hops),
@@ -123,11 +129,11 @@ def spreader_bounds(ground: Ground, radius: fmpq, sweeping: Sweeping, length: Le
         ("(11)", "Cases 2 and 3, as printed", wide + total * fmpq(3, 2)),
         ("T2 corrected", "(6) or (10), plus what is met again and far diversions", corrected),
     ]
-    visits = Length(len(sweeping.encounters))
+    visits = Length(len(run.encounters))
     most = Length(n + n * crossing + pairs * HALF)
     return (
         _bound("(4)", "Lemma 3, visits, as printed", most, visits),
-        _bound("L3 corrected", "(4), plus what is met again", most + Length(len(sweeping.again)), visits),
+        _bound("L3 corrected", "(4), plus what is met again", most + Length(len(run.again)), visits),
         *(_bound(name, source, value, length) for name, source, value in values),
     )
 

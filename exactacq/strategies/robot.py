@@ -7,12 +7,17 @@ the robots made for it: `exactacq.strategies.sightseer.robot` for the Sightseer,
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
 from exactacq.geometry.curves import Curve
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.scene.boundary_walk import Boundary
+from exactacq.sensing.event import Event, EventKind
 from exactacq.sensing.history import Memory, Report
-from exactacq.sensing.path import Event, Path, Piece
+from exactacq.sensing.path import Path, Piece
 from exactacq.visibility.links import START, Node
 
 
@@ -23,11 +28,11 @@ class Robot:
         self._memory = memory
         self._boundaries: dict[int, Boundary] = {}
         self._pieces: list[Piece] = []
-        self._marks: list[tuple[str, Point, int | None, str, int, bool]] = []
+        self._marks: list[Callable[..., Event]] = []
         self.start = self.position = start
         self.at: Node = START
         self.visited: list[int] = []
-        self.mark("start", None, "")
+        self.mark(EventKind.START, None)
         self._write(memory.begin(start))
 
     @property
@@ -78,15 +83,16 @@ class Robot:
 
     # -- the trace ---------------------------------------------------------------------------------
 
-    def mark(self, kind: str, obstacle: int | None, note: str) -> None:
-        """Write an event here and now."""
-        self._marks.append((kind, self.position, obstacle, note, len(self._pieces), False))
+    def mark(self, kind: EventKind, obstacle: int | None, **why: Any) -> None:
+        """Write an event here and now; *why* are its occasion, other, reason and ending (see `Event`)."""
+        self._marks.append(partial(Event, kind, self.position, obstacle, len(self._pieces), **why))
 
     def _write(self, reports: list[Report]) -> None:
         for r in reports:
-            self._marks.append((r.kind.value, r.place, r.obstacle, r.note, r.after, r.inside))
+            where = partial(Event, r.kind, r.place, r.obstacle, r.after, inside=r.inside)
+            self._marks.append(partial(where, reason=r.reason))
 
     def trace(self) -> tuple[Path, tuple[Event, ...], Memory]:
         """The path, the events and the memory so far."""
         path = Path(self._pieces)
-        return path, tuple(Event(*mark[:5], path, mark[5]) for mark in self._marks), self._memory
+        return path, tuple(mark(path=path) for mark in self._marks), self._memory

@@ -7,64 +7,21 @@ from dataclasses import dataclass, field, fields
 from functools import cached_property
 from html import escape
 from math import tan
-from typing import Any
+from typing import Any, ClassVar
 
 from flint import fmpq
 
 from exactacq.geometry.curves import Arc, Curve
-from exactacq.geometry.points import Point
+from exactacq.geometry.points import Point, distance
 from exactacq.numbers.length import Length
 from exactacq.scene.ports import JSON, SVG, made
 from exactacq.scene.scene import Scene
 from exactacq.scene.terrain_components import Ground, ground_of
+from exactacq.sensing.event import Ending, Event, EventKind, Reason
 from exactacq.sensing.history import Memory
 from exactacq.sensing.map import Body, Map
-from exactacq.sensing.path import Event, Path
+from exactacq.sensing.path import Path
 from exactacq.visibility.isovist import Isovist, isovist
-
-
-@dataclass(frozen=True)
-class TreeLink:
-    """An edge of the tree that the run walked: from ``leave`` on ``source`` ("S": the start) to ``hit``."""
-
-    source: int | str
-    target: int
-    leave: Point
-    hit: Point
-    length: Length
-    traversals: int
-
-
-@dataclass(frozen=True)
-class Diversion:
-    """A diversion of the Seed Spreader from ``leave`` (D) on the M-line to ``hit`` (Q), and back.
-
-    The pieces of the path from number ``first`` to ``last``, the latter excluded, belong to it.
-    """
-
-    obstacle: int
-    leave: Point
-    hit: Point
-    reason: str
-    first: int
-    last: int
-
-
-@dataclass(frozen=True)
-class Sweeping:
-    """What only a run of the Seed Spreader has: its options, and what it met.
-
-    ``encounters`` are the obstacles that were met on the M-line or on the way out on a diversion, in order;
-    ``again`` those that blocked the M-line and were acquired before. ``unreached`` are the obstacles of the
-    scene of which the terrain has a component that the robot cannot reach from the SW corner.
-    """
-
-    lookahead: bool
-    target: str
-    diversions: tuple[Diversion, ...]
-    encounters: tuple[int, ...]
-    again: tuple[int, ...]
-    unreached: tuple[int, ...]
 
 
 @dataclass(frozen=True)
@@ -81,30 +38,29 @@ class Bound:
     ratio: float
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, kw_only=True)
 class Run:
-    """A finished exploration. See the fields' types for what each entry holds.
+    """A finished exploration: a `SightseerRun` or a `SeedSpreaderRun`.
 
-    ``unseen`` obstacles never came on the map. ``unvisited`` ones did without being reached, or, for the Seed
-    Spreader, without becoming wholly known. Both are empty where the paper's model (a) holds for the
-    radius of the Sightseer. A run that was read from a file has no ``record``: its sensing is repeated
-    when it is first asked for.
+    ``visits`` are the obstacles in the order in which they were circumnavigated. ``unseen`` obstacles never
+    came on the map. ``unvisited`` ones did without being reached, or, for the Seed Spreader, without becoming
+    wholly known. A run that was read from a file has no ``record``: its sensing is repeated when it is first
+    asked for.
     """
+
+    strategy: ClassVar[str]
+    title: ClassVar[str]
 
     scene: Scene
     radius: fmpq
-    strategy: str
     start: Point
     path: Path
     visits: tuple[int, ...]
-    links: tuple[TreeLink, ...]
     events: tuple[Event, ...]
     bounds: tuple[Bound, ...]
     unseen: tuple[int, ...]
     unvisited: tuple[int, ...]
-    stack_depth: int
     record: Memory | None = field(default=None, repr=False, compare=False)
-    sweeping: Sweeping | None = None
 
     @cached_property
     def length(self) -> Length:
@@ -123,12 +79,10 @@ class Run:
             return self.record
         return Memory.of(self.scene, self.radius, self.start, self.path, self.ground)
 
-    @cached_property
+    @property
     def ground(self) -> Ground | None:
         """What the terrain leaves of the scene's obstacles; None for the Sightseer."""
-        if self.sweeping is None:
-            return None
-        return ground_of(self.scene) if self.record is None else self.record.ground
+        return None
 
     @property
     def obstacles(self) -> Sequence[Body]:
@@ -137,6 +91,11 @@ class Run:
         The scene's obstacles; for the Seed Spreader the components that its terrain leaves of them.
         """
         return self.scene.obstacles if self.ground is None else self.ground.components
+
+    @property
+    def ending(self) -> Ending | None:
+        """Why the path ends."""
+        return self.events[-1].ending
 
     @cached_property
     def map(self) -> Map:
@@ -196,23 +155,23 @@ class Run:
         count, rest = self.path.find(Length(length))
         if rest.sign() == 0:
             place = self.path[count - 1].end if count else self.start
-            return Event("moment", place, None, "", count, self.path)
+            return Event(EventKind.MOMENT, place, None, count, self.path)
         piece = self.path[count]
         if isinstance(piece.curve, Arc) or rest != Length(rest.algebraic):
             place = piece.point(_share(piece.curve, rest))
         else:
             place = piece.curve.after(rest)
-        return Event("moment", place, piece.obstacle, "", count, self.path, inside=True)
+        return Event(EventKind.MOMENT, place, piece.obstacle, count, self.path, inside=True)
 
     def __repr__(self) -> str:
         name = f" on {self.scene.name}" if self.scene.name else ""
         done = f"{len(self.visits)} of {len(self.obstacles)} obstacles visited"
-        return f"<Run: {self.strategy}{name}, R = {self.radius}, length {float(self.length):.6g}, {done}>"
+        return f"<{type(self).__name__}{name}, R = {self.radius}, length {float(self.length):.6g}, {done}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Without the sensing, which is repeated when it is first asked for: it knows places by identity."""
         state = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "record"}
-        return _again, (state,)
+        return _again, (type(self), state)
 
     def _repr_html_(self) -> str:
         """A line that says what the run is, and its figure."""
@@ -232,9 +191,9 @@ class Run:
         return (body.label for body in self.obstacles)
 
 
-def _again(state: dict[str, Any]) -> Run:
+def _again(kind: type[Run], state: dict[str, Any]) -> Run:
     """The run that was pickled or copied."""
-    return Run(**state)
+    return kind(**state)
 
 
 def _share(curve: Curve, length: Length) -> fmpq:
@@ -246,3 +205,82 @@ def _share(curve: Curve, length: Length) -> fmpq:
             half, parts = int(turned > whole / 2), 2
         share = tan((turned - half * whole / 2) / 4) / tan(whole / parts / 4)
     return min(max((fmpq(*share.as_integer_ratio()) + half) / parts, fmpq(0)), fmpq(1))
+
+
+@dataclass(frozen=True)
+class TreeLink:
+    """An edge of the tree that the run walked: from ``leave`` on ``source`` ("S": the start) to ``hit``."""
+
+    source: int | str
+    target: int
+    leave: Point
+    hit: Point
+    length: Length
+    traversals: int
+
+
+@dataclass(frozen=True)
+class Diversion:
+    """A diversion of the Seed Spreader from ``leave`` (D) on the M-line to ``hit`` (Q), and back.
+
+    The pieces of the path from number ``first`` to ``last``, the latter excluded, belong to it.
+    """
+
+    obstacle: int
+    leave: Point
+    hit: Point
+    reason: Reason
+    first: int
+    last: int
+
+    @cached_property
+    def length(self) -> Length:
+        """|DQ|, the straight way there."""
+        return Length(distance(self.leave, self.hit))
+
+
+@dataclass(frozen=True, repr=False, kw_only=True)
+class SightseerRun(Run):
+    """A finished exploration by the Sightseer Strategy.
+
+    ``links`` are the edges of the tree that it walked, in the order of the visits, and ``stack_depth`` the
+    most entries that its stack held. ``unseen`` and ``unvisited`` are empty where the paper's model (a) holds
+    for the radius.
+    """
+
+    strategy: ClassVar[str] = "sightseer"
+    title: ClassVar[str] = "Sightseer Strategy"
+
+    links: tuple[TreeLink, ...]
+    stack_depth: int
+
+
+@dataclass(frozen=True, repr=False, kw_only=True)
+class SeedSpreaderRun(Run):
+    """A finished exploration by the Seed Spreader Strategy, with its options ``lookahead`` and ``target``.
+
+    ``encounters`` are the obstacles that were met on the M-line or on the way out on a diversion, in order;
+    ``again`` those that blocked the M-line and were acquired before. ``unreached`` are the obstacles of the
+    scene of which the terrain has a component that the robot cannot reach from the SW corner.
+    """
+
+    strategy: ClassVar[str] = "seed-spreader"
+    title: ClassVar[str] = "Seed Spreader Strategy"
+
+    lookahead: bool
+    target: str
+    diversions: tuple[Diversion, ...]
+    encounters: tuple[int, ...]
+    again: tuple[int, ...]
+    unreached: tuple[int, ...]
+
+    @property
+    def links(self) -> tuple[Diversion, ...]:
+        """The diversions, by the name that the straight ways of both strategies share."""
+        return self.diversions
+
+    @cached_property
+    def ground(self) -> Ground:
+        """What the terrain leaves of the scene's obstacles."""
+        ground = None if self.record is None else self.record.ground
+        return ground_of(self.scene) if ground is None else ground

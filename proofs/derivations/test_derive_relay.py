@@ -63,13 +63,12 @@ def run(request) -> Run:
 
 def test_runs_are_m_line_ways_and_loops(run: Run) -> None:
     """Nothing else: no crossing, no passing; every diversion but the first is overdue."""
-    assert run.sweeping is not None
-    diversions = run.sweeping.diversions
+    diversions = run.diversions
     straight = Length.sum(Length(distance(d.leave, d.hit)) for d in diversions)
     loops = Length.sum(run.obstacles[k].perimeter for k in run.visits)
     assert run.length == exact(run, "(8)") + straight * 2 + loops
     assert [d.reason for d in diversions] == ["out of sight"] + ["overdue"] * (len(run.obstacles) // 3)
-    assert run.sweeping.again == ()
+    assert run.again == ()
     assert run.complete
 
 
@@ -82,7 +81,6 @@ def test_printed_bounds_of_runs(run: Run, name: str) -> None:
 
 
 def test_with_the_ways_as_they_are_the_bound_holds(run: Run) -> None:
-    assert run.sweeping is not None
-    reach = Length.sum(Length(distance(d.leave, d.hit)) for d in run.sweeping.diversions)
+    reach = Length.sum(Length(distance(d.leave, d.hit)) for d in run.diversions)
     most = exact(run, "(10)") - Length(2 * len(run.obstacles) * run.radius) + reach * 2
     assert run.length <= most

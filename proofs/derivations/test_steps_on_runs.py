@@ -12,7 +12,7 @@ from scenes import overlapping_links, relay, trapped_end
 from exactacq import Length, Run, seed_spreader, sightseer
 from exactacq.files import gallery
 from exactacq.geometry.points import Point, distance
-from exactacq.sensing.path import Event
+from exactacq.sensing.event import Ending, Event, Occasion
 
 SWEPT = ["case1", "case2", "case3", "e3", "figure3", "figure4", "m14", "m15", "m18", "m20-6", "m25"]
 HALF = fmpq(1, 2)
@@ -45,8 +45,7 @@ def straight(run: Run, first: int, last: int) -> Length:
 
 
 def test_sss_1_the_m_line_parts_add_up_to_no_more_than_the_m_line(sweep: Run) -> None:
-    assert sweep.sweeping is not None
-    off = Length.sum(straight(sweep, d.first, d.last) for d in sweep.sweeping.diversions)
+    off = Length.sum(straight(sweep, d.first, d.last) for d in sweep.diversions)
     whole = next(b.value for b in sweep.bounds if b.name == "(8)")
     assert straight(sweep, 0, len(sweep.path)) - off <= whole
 
@@ -55,14 +54,12 @@ def test_sss_1_the_m_line_parts_add_up_to_no_more_than_the_m_line(sweep: Run) ->
 
 
 def test_ways_a_diversion_walks_no_more_than_twice_d_q_straight(sweep: Run) -> None:
-    assert sweep.sweeping is not None
-    for d in sweep.sweeping.diversions:
+    for d in sweep.diversions:
         assert straight(sweep, d.first, d.last) <= Length(distance(d.leave, d.hit)) * 2
 
 
 def test_ways_only_overdue_ones_are_longer_than_the_radius(sweep: Run) -> None:
-    assert sweep.sweeping is not None
-    for d in sweep.sweeping.diversions:
+    for d in sweep.diversions:
         assert d.reason == "overdue" or Length(distance(d.leave, d.hit)) <= Length(sweep.radius)
 
 
@@ -70,16 +67,15 @@ def test_ways_meet_an_obstacle_once_there_and_once_back_and_a_pair_never_again(s
     pairs: list[frozenset[int | None]] = []
     for events in ways(sweep):
         aim = events[0].obstacle
-        for note in ("on the way", "on the way back"):
-            met = Counter(e.obstacle for e in events if e.kind == "hit" and e.note == note)
+        for occasion in (Occasion.WAY_OUT, Occasion.WAY_BACK):
+            met = Counter(e.obstacle for e in events if e.kind == "hit" and e.occasion is occasion)
             assert all(count == 1 for count in met.values())
         pairs += {frozenset((aim, e.obstacle)) for e in events if e.kind == "hit" and e.obstacle != aim}
     assert len(pairs) == len(set(pairs))
 
 
 def test_sss_5_every_diversion_has_an_aim_of_its_own(sweep: Run) -> None:
-    assert sweep.sweeping is not None
-    aims = [d.obstacle for d in sweep.sweeping.diversions]
+    aims = [d.obstacle for d in sweep.diversions]
     assert len(aims) == len(set(aims))
 
 
@@ -136,4 +132,4 @@ def test_sss_2_what_is_known_is_acquired_unless_the_end_is_trapped() -> None:
     assert seed_spreader(trapped_end(True)).complete
     run = seed_spreader(trapped_end(False))
     assert run.incomplete == (0,)
-    assert "trapped" in run.events[-1].note
+    assert run.ending is Ending.TRAPPED

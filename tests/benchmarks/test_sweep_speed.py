@@ -38,7 +38,7 @@ def test_sweep(benchmark: object, n: int, lookahead: bool) -> None:
     seconds = benchmark.stats.stats.median if not benchmark.disabled else float("nan")
     print(
         f"\nn = {n}, lookahead {lookahead}: {seconds:.1f} s, {len(run.visits)} visits,"
-        f" {len(run.sweeping.diversions)} diversions, path {float(run.length):.0f},"
+        f" {len(run.diversions)} diversions, path {float(run.length):.0f},"
         f" {seconds / float(run.length) * 1e3:.0f} ms per unit of it, M-line about {float(line):.0f}"
     )
     assert run.complete

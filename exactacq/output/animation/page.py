@@ -15,7 +15,6 @@ import base64
 import hashlib
 import json
 import math
-import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
@@ -33,8 +32,8 @@ from exactacq.numbers.length import Length
 from exactacq.output.figures.sweep import Sweep, window
 from exactacq.output.strokes import Region, Stroke
 from exactacq.scene.scene import Scene
-from exactacq.sensing.path import Event
-from exactacq.strategies.run import Run
+from exactacq.sensing.event import Event, EventKind
+from exactacq.strategies.run import Run, SightseerRun
 
 LIMIT = 2000
 """Most frames of a page: a few megabytes, and a list of events that a browser scrolls without effort."""
@@ -52,11 +51,8 @@ FINEST = 1e-9
 """Size over distance from the origin of a scene that is about to be lost in floating point."""
 CLOSED_FORM = 40
 """Closed forms of at most this many characters are shown, the decimal value of others."""
-PASSING = {"lose", "regain"}
+PASSING = {EventKind.LOSE, EventKind.REGAIN}
 """Kinds of events that are the first to be left out."""
-NUMBERED = re.compile(r"(^from |^to |^back to |\b(?=obstacle ))(?:obstacle )?(\d+)\b")
-"""An obstacle's number in a note, and what is kept of the words before."""
-STRATEGIES = {"sightseer": "Sightseer Strategy", "seed-spreader": "Seed Spreader Strategy"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,8 +180,8 @@ def _data(run: Run, frames: Iterable[Frame]) -> dict[str, Any]:
         for index in frame.acquired:
             acquired.setdefault(index, number)
         for event in frame.events:
-            note = _named(event.note, names)
-            events.append([numbers[id(event)], event.kind, event.obstacle, note, number])
+            what = event.kind, event.obstacle, event.describe(names)
+            events.append([numbers[id(event)], *what, number])
         shown.append(
             {
                 "at": paper.length(float(frame.at)),
@@ -198,9 +194,8 @@ def _data(run: Run, frames: Iterable[Frame]) -> dict[str, Any]:
     if not shown:
         raise ValueError("an animation has at least one frame")
     count, terrain = len(stops(run)), run.scene.terrain
-    title = STRATEGIES.get(run.strategy, run.strategy)
     return {
-        "title": f"{title}: {run.scene.name}" if run.scene.name else title,
+        "title": f"{run.title}: {run.scene.name}" if run.scene.name else run.title,
         "length": " ".join(readable(run.length, CLOSED_FORM, 8)),
         "radius": " ".join(readable(Length(run.radius), CLOSED_FORM, 6)),
         "happened": len(run.events),
@@ -229,7 +224,7 @@ def _regions(run: Run, sweep: Sweep | None) -> list[Region]:
 def _obstacle(paper: Paper, run: Run, number: int, region: Region, acquired: int | None) -> dict[str, Any]:
     body, heart, depth = run.obstacles[number], *region.heart()
     (left, _), (right, top) = region.box
-    is_wall = run.sweeping is None and run.scene.obstacles[number].is_enclosure
+    is_wall = isinstance(run, SightseerRun) and run.scene.obstacles[number].is_enclosure
     # The enclosure blocks what lies beyond its outline, off the paper too: the window may be wider.
     beyond = f"M{-FAR} {-FAR}H{FAR}V{FAR}H{-FAR}Z" if is_wall else ""
     return {
@@ -264,16 +259,6 @@ def _path(paper: Paper, run: Run) -> Iterator[list[float]]:
         if stroke.center is not None and radius < FLAT:
             entry += [radius, round(-stroke.angle, 9), round(-stroke.sweep, 9)]
         yield entry
-
-
-def _named(note: str, names: Sequence[str]) -> str:
-    """A note in which an obstacle is called by its name, not by its index."""
-
-    def called(found: re.Match[str]) -> str:
-        number = int(found[2])
-        return f"{found[1]}{names[number]}" if number < len(names) else found[0]
-
-    return NUMBERED.sub(called, note)
 
 
 @dataclass(frozen=True)

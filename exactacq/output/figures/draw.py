@@ -38,8 +38,8 @@ from exactacq.output.snapshot import Moment
 from exactacq.output.strokes import Region, Room, Steps, Stroke, clearance, closed
 from exactacq.scene.edge_table import Floats
 from exactacq.scene.scene import Scene
-from exactacq.sensing.path import Event
-from exactacq.strategies.run import Run
+from exactacq.sensing.event import Event, EventKind
+from exactacq.strategies.run import Run, SeedSpreaderRun, SightseerRun
 
 CLOSED_FORM = 40
 """Closed forms of at most this many characters are shown in the title, the decimal value of others."""
@@ -57,7 +57,6 @@ NAMED = 9
 DOTS = 200
 """Resolution of PNG files in dots per inch."""
 
-STRATEGIES = {"sightseer": "Sightseer Strategy", "seed-spreader": "Seed Spreader Strategy"}
 
 INK, SOFT, PAPER = "#22262b", "#70767d", "#ffffff"
 FILL, EDGE = "#dcd7cd", "#8a8377"
@@ -304,21 +303,20 @@ class _Drawing:
             count = sum(not o.is_enclosure for o in self.scene.obstacles)
             room = " in an enclosure" if self.scene.enclosure is not None else ""
             return [name or "Scene", f"{_counted(count)}{room}"]
-        strategy = STRATEGIES.get(run.strategy, run.strategy)
         length = " ".join(readable(run.length, CLOSED_FORM, digits=8))
         if self.moment is not None:
             so_far = " ".join(readable(self.moment.at, CLOSED_FORM, digits=8))
             seen = f"{len(self.moment.map.acquired)} of {_counted(self.count)} acquired"
-            return [f"{strategy}: {name}" if name else strategy, f"after {so_far} of {length},  {seen}"]
+            return [f"{run.title}: {name}" if name else run.title, f"after {so_far} of {length},  {seen}"]
         done, part = f"{len(run.visits)} of {_counted(self.count)} visited", "seen but never visited"
         if self.sweep is not None:
             done, part = f"{len(run.map.acquired)} of {_counted(self.count)} acquired", "seen in part"
         missed = [(len(run.unseen), "never seen"), (len(run.unvisited), part)]
-        if run.sweeping is not None:
-            missed.append((len(run.sweeping.unreached), "out of reach"))
+        if isinstance(run, SeedSpreaderRun):
+            missed.append((len(run.unreached), "out of reach"))
         words = [f"{number} {what}" for number, what in missed if number]
         words += ["ended before T"] if self.sweep is not None and not self.sweep.arrives else []
-        lines = [f"{strategy}: {name}" if name else strategy, f"length {length},  {done}", ", ".join(words)]
+        lines = [f"{run.title}: {name}" if name else run.title, f"length {length},  {done}", ", ".join(words)]
         return [line for line in lines if line]
 
     # -- the scene ---------------------------------------------------------------------------------
@@ -452,11 +450,11 @@ class _Drawing:
 
     def _marks(self) -> None:
         """Tree links, and the points where they leave and hit."""
-        if self.run is None or not self.run.links:
+        if not isinstance(self.run, SightseerRun) or not self.run.links:
             return
         walked = self.run.links
         if self.moment is not None:
-            hits = sum(e.kind == "hit" and e.after <= self.moment.count for e in self.run.events)
+            hits = sum(e.kind is EventKind.HIT and e.after <= self.moment.count for e in self.run.events)
             walked = walked[:hits]
         links = [(link.leave.xy, link.hit.xy) for link in walked]
         style: dict[str, Any] = {"alpha": 0.55, "linewidths": self.line + 4, "capstyle": "round"}
@@ -551,7 +549,7 @@ class _Drawing:
 
     def _wall_spot(self, index: int) -> tuple[float, float]:
         """A place for a label in the wall, near the point where it was first hit."""
-        assert self.run is not None
+        assert isinstance(self.run, SightseerRun)
         hit = next(link.hit.xy for link in self.run.links if link.target == index)
         return self._beside(hit, 10 + self.line)
 

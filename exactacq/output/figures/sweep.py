@@ -15,8 +15,9 @@ from exactacq.geometry.curves import Segment
 from exactacq.output.strokes import Region, Stroke
 from exactacq.scene.edge_table import EdgeTable, Floats
 from exactacq.scene.shapes import Terrain
-from exactacq.scene.terrain_components import Component, Ground
-from exactacq.strategies.run import Run
+from exactacq.scene.terrain_components import Component
+from exactacq.sensing.event import EventKind
+from exactacq.strategies.run import Run, SeedSpreaderRun
 from exactacq.strategies.seed_spreader.blocked import Blocking
 from exactacq.strategies.seed_spreader.mline import MLine
 
@@ -38,8 +39,8 @@ class Detour:
 class Sweep:
     """What the Seed Spreader's terrain looks like to a run."""
 
-    def __init__(self, run: Run, ground: Ground) -> None:
-        assert run.sweeping is not None
+    def __init__(self, run: SeedSpreaderRun) -> None:
+        ground = run.ground
         self.terrain, self.ground = ground.terrain, ground
         mline = MLine(ground.terrain, run.radius)
         self.line: Sequence[Segment] = mline.pieces
@@ -47,8 +48,8 @@ class Sweep:
         crossings = mline.crossings(Blocking(ground, EdgeTable(run.scene.obstacles)))
         self.crossings = list(dict.fromkeys(crossing.stop.point.xy for crossing in crossings))
         self.arrives = bool(run.path) and run.path[-1].end == mline.pieces[-1].end
-        self.detours = [Detour(d.leave.xy, d.hit.xy, range(d.first, d.last)) for d in run.sweeping.diversions]
-        starts = [event for event in run.events if event.kind == "divert"]
+        self.detours = [Detour(d.leave.xy, d.hit.xy, range(d.first, d.last)) for d in run.diversions]
+        starts = [event for event in run.events if event.kind is EventKind.DIVERT]
         # One at most: an obstacle closes the way there or back, and the run ends.
         for event in starts[len(self.detours) :]:
             self.detours.append(Detour(event.point.xy, None, range(event.after, len(run.path))))
@@ -57,7 +58,7 @@ class Sweep:
     @classmethod
     def of(cls, run: Run) -> Sweep | None:
         """The sweep of a run of the Seed Spreader, else None."""
-        return None if run.ground is None else cls(run, run.ground)
+        return cls(run) if isinstance(run, SeedSpreaderRun) else None
 
     @property
     def corners(self) -> list[Spot]:

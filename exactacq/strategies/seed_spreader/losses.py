@@ -9,14 +9,14 @@ comes back to the line, and it is out of reach already. Not so if it is known to
 from __future__ import annotations
 
 from collections.abc import Iterator
-from enum import StrEnum
 from typing import NamedTuple
 
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
+from exactacq.sensing.event import EventKind, Reason
 from exactacq.sensing.map import Map
-from exactacq.sensing.sensor import Ahead, Kind
+from exactacq.sensing.sensor import Ahead
 from exactacq.strategies.seed_spreader.prediction.decide import sees_later
 from exactacq.strategies.seed_spreader.range_thresholds import (
     first_out_of_reach,
@@ -25,15 +25,6 @@ from exactacq.strategies.seed_spreader.range_thresholds import (
     leftmost,
 )
 from exactacq.strategies.seed_spreader.robot import Surveyor
-
-
-class Reason(StrEnum):
-    """Why an obstacle is about to be lost."""
-
-    SIGHT = "out of sight"
-    REACH = "out of reach"
-    LINE_ENDS = "the line ends"
-    OVERDUE = "overdue"
 
 
 class Loss(NamedTuple):
@@ -98,20 +89,20 @@ class Line:
     def _gaps(self, ahead: Ahead) -> Iterator[_Gap]:
         """When the obstacles of the map, or that come on it, are out of sight, until they are acquired."""
         robot, leg = self.robot, ahead.leg
-        notices: dict[int, list[tuple[Kind, Real, Point]]] = {}
+        notices: dict[int, list[tuple[EventKind, Real, Point]]] = {}
         for notice in ahead.notices:
             notices.setdefault(notice.obstacle, []).append((notice.kind, notice.u, notice.place))
         for k in sorted({*robot.map.incomplete, *notices}):
             begin = None if k in robot.in_sight else (leg.first, leg.start, False)
             for kind, u, place in notices.get(k, []):
-                if kind is Kind.LOSE:
+                if kind is EventKind.LOSE:
                     begin = u, place, True
                 elif begin is not None:
                     # Where it is lost and seen again at one place, nothing lies between.
                     if self._order(begin[1].y, place.y) < 0:
                         yield _Gap(k, *begin, place.y)
                     begin = None
-                if kind is Kind.ACQUIRE:
+                if kind is EventKind.ACQUIRE:
                     begin = None
                     break
             if begin is not None:
@@ -127,7 +118,7 @@ class Line:
         if gap.fresh:
             around = robot.map_ahead(ahead, gap.u, gap.place, robot.near(curves))
             if not (self.lookahead and self._sees(k, around, y, Real(self.last))):
-                return y, Reason.SIGHT
+                return y, Reason.OUT_OF_SIGHT
         last = last_in_reach(self.x, self.upward, curves, robot.radius)
         if last is None or self._order(last, y) < 0:
             return y, Reason.OVERDUE
@@ -135,7 +126,7 @@ class Line:
             first = first_out_of_reach(self.x, self.upward, y, curves, robot.radius)
             last = last if first is None else first
         end = ahead.leg.end.y if gap.end is None else gap.end
-        return (last, Reason.REACH) if self._order(last, end) < 0 else None
+        return (last, Reason.OUT_OF_REACH) if self._order(last, end) < 0 else None
 
     def _is_at_stake(self, obstacle: int, chart: Map) -> bool:
         """Whether an obstacle is incomplete, known west of the line, and not known to block what is left."""
@@ -174,9 +165,9 @@ class Line:
             if leave is None:
                 found.append(Loss(k, Reason.LINE_ENDS))
             elif self._goes_out_of_reach(k, chart, leave):
-                found.append(Loss(k, Reason.REACH))
+                found.append(Loss(k, Reason.OUT_OF_REACH))
             elif k in robot.in_sight and not self._is_visible_from(k, chart, leave):
-                found.append(Loss(k, Reason.SIGHT))
+                found.append(Loss(k, Reason.OUT_OF_SIGHT))
         return found
 
     def _goes_out_of_reach(self, obstacle: int, chart: Map, leave: Point) -> bool:

@@ -14,9 +14,10 @@ from exactacq.numbers.rationals import rational
 from exactacq.scene.scene import Scene
 from exactacq.scene.terrain_components import Ground, ground_of
 from exactacq.scene.validation import sensor_flaws
-from exactacq.strategies.bounds import spreader_bounds
+from exactacq.sensing.event import Ending, EventKind, Occasion
+from exactacq.strategies.bounds import with_bounds
 from exactacq.strategies.gc_pause import uncollected
-from exactacq.strategies.run import Diversion, Run, Sweeping
+from exactacq.strategies.run import Diversion, SeedSpreaderRun
 from exactacq.strategies.seed_spreader.losses import Line, Loss, known
 from exactacq.strategies.seed_spreader.range_thresholds import nearest_of, nearest_point
 from exactacq.strategies.seed_spreader.robot import Hit, Surveyor
@@ -32,8 +33,11 @@ class TargetChoice(StrEnum):
     VISIBLE = "visible"
 
 
-class _Trapped(Exception):
-    """The strategy ends before T: what the robot is at leaves no way on."""
+class _Stuck(Exception):
+    """The strategy ends before T: an obstacle leaves no way on."""
+
+    def __init__(self, ending: Ending, obstacle: int) -> None:
+        self.ending, self.obstacle = ending, obstacle
 
 
 @uncollected()
@@ -44,7 +48,7 @@ def seed_spreader(
     lookahead: bool = True,
     target: str = "known",
     progress: Progress | None = None,
-) -> Run:
+) -> SeedSpreaderRun:
     """Explore the terrain of a scene by the Seed Spreader Strategy, from its SW corner.
 
     *radius* defaults to the scene's own and must be rational. Without *lookahead* an obstacle is about to be
@@ -80,7 +84,7 @@ class _Spreader:
         self.again: list[int] = []
         self.line: Line | None = None
 
-    def run(self, scene: Scene, ground: Ground) -> Run:
+    def run(self, scene: Scene, ground: Ground) -> SeedSpreaderRun:
         """Steps 0 to 3 of the paper; comments give their numbers."""
         robot = self.robot
         try:
@@ -90,11 +94,9 @@ class _Spreader:
                     self.progress(robot.piece + 1, len(robot.mline.pieces))
                 if not robot.turn():
                     break
-            reason = "the end of the M-line is reached"  # 1(a)
-        except _Trapped as trapped:
-            reason = str(trapped)
-        at = robot.at if isinstance(robot.at, int) else None
-        robot.mark("stop", at if robot.position != robot.mline.pieces[-1].end else None, reason)
+            robot.mark(EventKind.STOP, None, ending=Ending.END_OF_M_LINE)  # 1(a)
+        except _Stuck as stuck:
+            robot.mark(EventKind.STOP, stuck.obstacle, ending=stuck.ending)
         return self._finished(scene, ground)
 
     # -- step 1: along the M-line ------------------------------------------------------------------
@@ -127,7 +129,7 @@ class _Spreader:
         """Walk around an obstacle that blocks the M-line (step 2), or that is known, to where it goes on."""
         robot = self.robot
         met = robot.is_acquired(hit.obstacle)
-        robot.mark("cross" if met else "hit", hit.obstacle, "on the M-line")
+        robot.mark(EventKind.CROSS if met else EventKind.HIT, hit.obstacle, occasion=Occasion.M_LINE)
         self.encounters.append(hit.obstacle)
         if met:
             self.again.append(hit.obstacle)
@@ -135,7 +137,7 @@ class _Spreader:
             robot.circumnavigate()
         crossing = robot.leave_point(hit)
         if crossing is None:
-            raise _Trapped(f"the start or the end of the M-line is trapped in obstacle {hit.obstacle}")
+            raise _Stuck(Ending.TRAPPED, hit.obstacle)
         here = robot.position
         if self.line is not None and hit.crossing is not None and here == hit.crossing.stop.point:
             leave = crossing.stop.point if crossing.piece == robot.piece else None
@@ -143,7 +145,7 @@ class _Spreader:
                 self._divert(losses)
         robot.at = hit.obstacle
         robot.walk_to(crossing.stop.point)
-        robot.mark("leave", hit.obstacle, "on the M-line")
+        robot.mark(EventKind.LEAVE, hit.obstacle, occasion=Occasion.M_LINE)
         robot.resume(crossing)
 
     # -- step 3: diversions ------------------------------------------------------------------------
@@ -159,18 +161,18 @@ class _Spreader:
             return nearer or a[1].obstacle - b[1].obstacle
 
         aim, loss = min(aims, key=cmp_to_key(order))
-        robot.mark("divert", loss.obstacle, loss.reason)
+        robot.mark(EventKind.DIVERT, loss.obstacle, reason=loss.reason)
         first = robot.count
         robot.head_for(aim)
         self._approach(loss.obstacle)
         aim = robot.position
         robot.circumnavigate()
         robot.walk_to(aim)
-        robot.mark("leave", loss.obstacle, "back to the M-line")
+        robot.mark(EventKind.LEAVE, loss.obstacle, occasion=Occasion.DIVERSION)
         robot.head_back()
         self._approach(None)
-        robot.mark("return", loss.obstacle, loss.reason)
-        self.diversions.append(Diversion(loss.obstacle, leave, aim, str(loss.reason), first, robot.count))
+        robot.mark(EventKind.RETURN, loss.obstacle, reason=loss.reason)
+        self.diversions.append(Diversion(loss.obstacle, leave, aim, loss.reason, first, robot.count))
 
     def _aim(self, loss: Loss) -> Point:
         """The known, or visible, point of an obstacle nearest to the robot."""
@@ -182,10 +184,10 @@ class _Spreader:
     def _approach(self, obstacle: int | None) -> None:
         """Go the straight way, around what is in the way; or to the first hit of the aimed *obstacle*."""
         robot = self.robot
-        note = "on the way back" if obstacle is None else "on the way"
+        occasion = Occasion.WAY_BACK if obstacle is None else Occasion.WAY_OUT
         while (hit := robot.go()) is not None:
             k = hit.obstacle
-            robot.mark("hit", k, note)
+            robot.mark(EventKind.HIT, k, occasion=occasion)
             if obstacle is not None:
                 self.encounters.append(k)
             is_known = robot.is_acquired(k)
@@ -195,41 +197,34 @@ class _Spreader:
                 robot.circumnavigate()
             crossing = robot.pass_by(k)
             if crossing is None:
-                raise _Trapped(f"obstacle {k} closes the straight way")
+                raise _Stuck(Ending.WAY_CLOSED, k)
             robot.walk_to(crossing)
-            robot.mark("leave", k, note)
+            robot.mark(EventKind.LEAVE, k, occasion=occasion)
         if obstacle is not None:
             self.encounters.append(obstacle)
             robot.at = obstacle
-            robot.mark("hit", obstacle, "diversion")
+            robot.mark(EventKind.HIT, obstacle, occasion=Occasion.DIVERSION)
 
-    def _finished(self, scene: Scene, ground: Ground) -> Run:
+    def _finished(self, scene: Scene, ground: Ground) -> SeedSpreaderRun:
         robot = self.robot
         path, events, record = robot.trace()
-        chart = robot.map
-        length = path.length_after(len(path))
-        sweeping = Sweeping(
-            self.lookahead,
-            str(self.target),
-            tuple(self.diversions),
-            tuple(self.encounters),
-            tuple(self.again),
-            tuple(sorted({c.obstacle.index for c in ground.unreached})),
+        chart, every = robot.map, range(len(ground.components))
+        run = SeedSpreaderRun(
+            scene=scene,
+            radius=robot.radius,
+            start=robot.start,
+            path=path,
+            visits=tuple(robot.visited),
+            events=events,
+            bounds=(),
+            unseen=tuple(k for k in every if k not in chart.seen),
+            unvisited=tuple(k for k in every if k in chart.incomplete),
+            record=record,
+            lookahead=self.lookahead,
+            target=str(self.target),
+            diversions=tuple(self.diversions),
+            encounters=tuple(self.encounters),
+            again=tuple(self.again),
+            unreached=tuple(sorted({c.obstacle.index for c in ground.unreached})),
         )
-        count = len(ground.components)
-        return Run(
-            scene,
-            robot.radius,
-            "seed-spreader",
-            robot.start,
-            path,
-            tuple(robot.visited),
-            (),
-            events,
-            spreader_bounds(ground, robot.radius, sweeping, length),
-            tuple(k for k in range(count) if k not in chart.seen),
-            tuple(k for k in range(count) if k in chart.incomplete),
-            0,
-            record,
-            sweeping,
-        )
+        return with_bounds(run)

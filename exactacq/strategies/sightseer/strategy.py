@@ -12,9 +12,10 @@ from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.scene.scene import Scene
 from exactacq.scene.validation import sensor_flaws
-from exactacq.strategies.bounds import sightseer_bounds
+from exactacq.sensing.event import Ending, EventKind, Occasion
+from exactacq.strategies.bounds import with_bounds
 from exactacq.strategies.gc_pause import uncollected
-from exactacq.strategies.run import Run, TreeLink
+from exactacq.strategies.run import SightseerRun, TreeLink
 from exactacq.strategies.sightseer.robot import Scout
 from exactacq.visibility.links import START, Link, Node, lexicographic
 
@@ -28,7 +29,7 @@ def sightseer(
     *,
     start: Point | Sequence[object] | None = None,
     progress: Progress | None = None,
-) -> Run:
+) -> SightseerRun:
     """Explore a scene by the Sightseer Strategy.
 
     *radius* and *start* default to the scene's own; both must be rational. Raises `InvalidScene` if there is
@@ -54,7 +55,7 @@ def sightseer(
 
 
 @uncollected()
-def explored_by(robot: Scout, scene: Scene, progress: Progress | None = None) -> Run:
+def explored_by(robot: Scout, scene: Scene, progress: Progress | None = None) -> SightseerRun:
     """Explore a scene by the strategy with a robot at its start, which may have another rule of choice."""
     return _Sightseer(robot, progress, len(scene.obstacles)).run(scene)
 
@@ -66,7 +67,7 @@ class _Sightseer:
         self.tree: dict[int, TreeLink] = {}
         self.depth = 0
 
-    def run(self, scene: Scene) -> Run:
+    def run(self, scene: Scene) -> SightseerRun:
         """Steps 0 to 4 of the paper; comments give their numbers."""
         robot = self.robot
         while True:
@@ -77,7 +78,8 @@ class _Sightseer:
                 break
             else:
                 self._backtrack()  # 2
-        robot.mark("stop", robot.at if isinstance(robot.at, int) else None, self._reason())
+        at = robot.at if isinstance(robot.at, int) else None
+        robot.mark(EventKind.STOP, at, ending=self._ending())
         return self._finished(scene)
 
     def _advance(self, link: Link) -> None:
@@ -86,12 +88,12 @@ class _Sightseer:
         leave, hit = self._choose(link)
         if source != START:
             robot.walk_to(leave)
-            robot.mark("leave", int(source), f"to {link.target}")
+            robot.mark(EventKind.LEAVE, int(source), occasion=Occasion.ADVANCE, other=link.target)
         self.stack.append((source, leave, hit))
         self.depth = max(self.depth, len(self.stack))
         robot.linear_navigate(link.target, hit)
         self.tree[link.target] = TreeLink(source, link.target, leave, hit, Length(link.length), 1)
-        robot.mark("hit", link.target, f"from {source}")
+        robot.mark(EventKind.HIT, link.target, occasion=Occasion.ADVANCE, other=source)
         robot.circumnavigate()
         if self.progress is not None:
             self.progress(len(robot.visited), self.total)
@@ -102,10 +104,11 @@ class _Sightseer:
         assert isinstance(current, int)
         previous, leave, hit = self.stack.pop()
         robot.walk_to(hit)
-        robot.mark("leave", current, f"back to {previous}")
+        robot.mark(EventKind.LEAVE, current, occasion=Occasion.BACKTRACK, other=previous)
         robot.linear_navigate(previous, leave)
         self.tree[current] = replace(self.tree[current], traversals=2)
-        robot.mark("backtrack", previous if isinstance(previous, int) else None, f"from {current}")
+        at = previous if isinstance(previous, int) else None
+        robot.mark(EventKind.BACKTRACK, at, occasion=Occasion.BACKTRACK, other=current)
 
     def _choose(self, link: Link) -> tuple[Point, Point]:
         """The segment that the tie rule picks among the shortest: least walk, counterclockwise, L, H."""
@@ -121,34 +124,28 @@ class _Sightseer:
 
         return min(ways, key=cmp_to_key(order))[2:]
 
-    def _reason(self) -> str:
+    def _ending(self) -> Ending:
         robot = self.robot
         if len(robot.visited) == self.total:
-            return "every obstacle is visited"
-        if robot.at == START:
-            return "back at the start, nothing unvisited in sight"
-        return "no unvisited obstacle on the map"
+            return Ending.ALL_VISITED
+        return Ending.BACK_AT_START if robot.at == START else Ending.NOTHING_UNVISITED
 
-    def _finished(self, scene: Scene) -> Run:
+    def _finished(self, scene: Scene) -> SightseerRun:
         robot = self.robot
         path, events, record = robot.trace()
-        links = tuple(self.tree.values())
         unvisited, unseen = robot.unvisited()
-        length = path.length_after(len(path))
-        radius = robot.radius
-        bounds = sightseer_bounds(scene, radius, length, links, robot.visited)
-        return Run(
-            scene,
-            radius,
-            "sightseer",
-            robot.start,
-            path,
-            tuple(robot.visited),
-            links,
-            events,
-            bounds,
-            tuple(unseen),
-            tuple(unvisited),
-            self.depth,
-            record,
+        run = SightseerRun(
+            scene=scene,
+            radius=robot.radius,
+            start=robot.start,
+            path=path,
+            visits=tuple(robot.visited),
+            events=events,
+            bounds=(),
+            unseen=tuple(unseen),
+            unvisited=tuple(unvisited),
+            record=record,
+            links=tuple(self.tree.values()),
+            stack_depth=self.depth,
         )
+        return with_bounds(run)

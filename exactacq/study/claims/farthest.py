@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from exactacq.errors import InvalidScene
 from exactacq.scene.scene import Scene
-from exactacq.strategies.run import Run
+from exactacq.strategies.run import SightseerRun
 from exactacq.strategies.sightseer.robot import Scout
 from exactacq.strategies.sightseer.strategy import explored_by
 from exactacq.visibility.links import START, Link, Node
@@ -30,7 +30,7 @@ class _FarSighted(Scout):
         return best
 
 
-def farthest_first(scene: Scene, radius: object = None) -> Run:
+def farthest_first(scene: Scene, radius: object = None) -> SightseerRun:
     """Explore a scene from its start, always going to the farthest obstacle in sight.
 
     *radius* defaults to the scene's own. Raises `InvalidScene` if the scene has no rational start. Cost: all

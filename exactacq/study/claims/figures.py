@@ -10,6 +10,7 @@ from exactacq.geometry.curves import Arc
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.numbers.rationals import rational
+from exactacq.sensing.event import EventKind
 from exactacq.strategies.run import Run
 from exactacq.strategies.vertex_scan import polygon_limit
 from exactacq.study.claims.coverage import times_walked
@@ -31,7 +32,7 @@ def known_yet_needed() -> Finding:
     for name in ("figure1", "m11"):
         case = Case(gallery.scene(name))
         run = case.sightseer
-        leaves = next(event for event in run.events if event.kind == "leave")
+        leaves = next(event for event in run.events if event.kind is EventKind.LEAVE)
         chart = run.map_at(leaves)
         if 1 not in chart.acquired or 2 in chart.seen or sorted(case.graph[2]) != [1]:
             return flaw(

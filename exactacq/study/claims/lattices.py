@@ -12,6 +12,7 @@ from itertools import pairwise
 from exactacq.numbers.rationals import rational
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Polygon
+from exactacq.sensing.event import EventKind
 from exactacq.strategies.run import Run
 from exactacq.strategies.sightseer.strategy import sightseer
 from exactacq.study.claims.model import Finding, found
@@ -71,10 +72,10 @@ def _runs_dry(run: Run) -> bool:
     seen: set[int] = set()
     hits = 0
     for event in run.events:
-        if event.kind == "sight" and event.obstacle is not None:
+        if event.kind is EventKind.SIGHT and event.obstacle is not None:
             seen.add(event.obstacle)
-        elif event.kind == "hit":
+        elif event.kind is EventKind.HIT:
             hits += 1
-        elif event.kind in ("leave", "backtrack") and len(seen) == hits < len(run.visits):
+        elif event.kind in (EventKind.LEAVE, EventKind.BACKTRACK) and len(seen) == hits < len(run.visits):
             return True
     return False

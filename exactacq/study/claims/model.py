@@ -14,7 +14,8 @@ from exactacq.auditing.sweeps import Field
 from exactacq.auditing.world import World
 from exactacq.geometry.points import Point
 from exactacq.scene.scene import Scene
-from exactacq.strategies.run import Run
+from exactacq.sensing.event import Ending
+from exactacq.strategies.run import SeedSpreaderRun, SightseerRun
 from exactacq.strategies.seed_spreader.strategy import seed_spreader
 from exactacq.strategies.sightseer.strategy import sightseer
 from exactacq.study.claims.farthest import farthest_first
@@ -58,24 +59,24 @@ class Case:
 
     def __init__(self, scene: Scene, radius: object = None) -> None:
         self.scene, self.radius = scene, scene.radius if radius is None else radius
-        self._sweeps: dict[tuple[bool, str], Run] = {}
+        self._sweeps: dict[tuple[bool, str], SeedSpreaderRun] = {}
 
     @cached_property
-    def sightseer(self) -> Run:
+    def sightseer(self) -> SightseerRun:
         """The Sightseer's run from the scene's start."""
         return sightseer(self.scene, self.radius)
 
     @cached_property
-    def farthest(self) -> Run:
+    def farthest(self) -> SightseerRun:
         """The Sightseer's run if it goes to the farthest visible obstacle in place of the nearest."""
         return farthest_first(self.scene, self.radius)
 
     @property
-    def spreader(self) -> Run:
+    def spreader(self) -> SeedSpreaderRun:
         """The Seed Spreader's run with its usual options."""
         return self.sweep()
 
-    def sweep(self, lookahead: bool = True, target: str = "known") -> Run:
+    def sweep(self, lookahead: bool = True, target: str = "known") -> SeedSpreaderRun:
         """The Seed Spreader's run."""
         key = lookahead, target
         if key not in self._sweeps:
@@ -126,7 +127,7 @@ class Case:
     def swept_to_the_end(self) -> bool:
         """Whether the Seed Spreader came to T: no obstacle trapped S or T."""
         end: Point = self.spreader.path[-1].end
-        trapped = "trapped" in self.spreader.events[-1].note
+        trapped = self.spreader.events[-1].ending is Ending.TRAPPED
         return end == self.field.pieces[-1].end and not trapped
 
 

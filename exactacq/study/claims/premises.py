@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
+from exactacq.sensing.event import EventKind
 from exactacq.study.claims.model import Case
 from exactacq.study.claims.tallies import Tally
 from exactacq.visibility.links import START
@@ -25,7 +26,9 @@ def _is_seated(case: Case) -> bool:
 
 def _is_plain(case: Case) -> bool:
     """Whether the sweep follows the M-line all the way."""
-    return not any(event.kind in ("hit", "cross", "divert") for event in case.spreader.events)
+    return not any(
+        event.kind in (EventKind.HIT, EventKind.CROSS, EventKind.DIVERT) for event in case.spreader.events
+    )
 
 
 _SEATED = Premise("model (a), S on a boundary", _is_seated)

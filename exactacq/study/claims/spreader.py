@@ -5,6 +5,7 @@ from __future__ import annotations
 from exactacq.numbers.length import Length
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle, Outline, Polygon, Shape, Terrain
+from exactacq.sensing.event import EventKind, Occasion, Reason
 from exactacq.strategies.run import Diversion
 from exactacq.study.claims.coverage import times_walked
 from exactacq.study.claims.model import SILENT, Case, Claim, Finding, Statement, Subject, flaw, found
@@ -17,11 +18,12 @@ from exactacq.study.claims.sweeps import (
     is_convex,
     progress_flaw,
 )
-from exactacq.study.claims.tallies import HALF, Tally, reach, straight_length
+from exactacq.study.claims.tallies import HALF, Tally, straight_length
 from exactacq.study.claims.walks import is_circuit, stays
 
 SPREADER = Subject.SEED_SPREADER
-SIGHT, REACH = "out of sight", "out of reach"
+TIMELY = Reason.OUT_OF_SIGHT, Reason.OUT_OF_REACH
+"""Reasons of diversions that begin while the obstacle is within the radius of vision."""
 LONE: tuple[Shape, ...] = (
     Polygon([(1, 2), (3, 2), (3, 9), (1, 9)]),
     Polygon([(1, 1), ("39/10", "11/2"), (1, 10)]),
@@ -66,7 +68,10 @@ def acquires_by_sight_alone(case: Case) -> Finding:
     start from: then this reading never diverts, and its path is the bare M-line.
     """
     run = case.spreader
-    if any(event.kind in ("hit", "cross") and event.note == "on the M-line" for event in run.events):
+    if any(
+        event.kind in (EventKind.HIT, EventKind.CROSS) and event.occasion is Occasion.M_LINE
+        for event in run.events
+    ):
         return SILENT
     bare = bare_walk(case)
     if bare.lost:
@@ -81,8 +86,7 @@ def acquires_the_lone_convex(case: Case) -> Finding:
     if not alone:
         return SILENT
     run = case.spreader
-    assert run.sweeping is not None
-    met = {stay.obstacle for stay in stays(run)} | {d.obstacle for d in run.sweeping.diversions}
+    met = {stay.obstacle for stay in stays(run)} | {d.obstacle for d in run.diversions}
     for k in alone:
         if k in met:
             return flaw(f"{run.obstacles[k].label} is walked to")
@@ -113,7 +117,7 @@ def lone_convex() -> Finding:
         for terrain, radius in ((Terrain(4, 12), 4), (Terrain(4, 12), 9)):
             case = Case(Scene([shape], terrain=terrain, radius=radius))
             finding = acquires_the_lone_convex(case)
-            if case.spreader.sweeping is None or finding is SILENT or finding.detail:
+            if finding is SILENT or finding.detail:
                 return found(False, f"{shape!r} at R = {radius}: {finding.detail or 'not alone'}")
     return found(True)
 
@@ -121,8 +125,7 @@ def lone_convex() -> Finding:
 def diverts_for_occluders(case: Case) -> Finding:
     """Convex obstacles: at most n / 2 diversions, each of which circles an obstacle besides its target."""
     run = case.spreader
-    assert run.sweeping is not None
-    diversions, n = run.sweeping.diversions, len(run.obstacles)
+    diversions, n = run.diversions, len(run.obstacles)
     if not diversions or not all_convex(run):
         return SILENT
     count = f"{len(diversions)} diversions, n = {n}"
@@ -136,8 +139,7 @@ def diverts_for_occluders(case: Case) -> Finding:
 def diverts_too_often(case: Case) -> Finding:
     """At most n / 2 diversions for convex obstacles."""
     run = case.spreader
-    assert run.sweeping is not None
-    count, n = len(run.sweeping.diversions), len(run.obstacles)
+    count, n = len(run.diversions), len(run.obstacles)
     if not count or not all_convex(run):
         return SILENT
     return found(2 * count <= n, f"{count} diversions, n = {n}", 2 * count / n)
@@ -146,8 +148,7 @@ def diverts_too_often(case: Case) -> Finding:
 def diverts_once_each(case: Case) -> Finding:
     """At most n diversions, each to another obstacle."""
     run = case.spreader
-    assert run.sweeping is not None
-    targets = [diversion.obstacle for diversion in run.sweeping.diversions]
+    targets = [diversion.obstacle for diversion in run.diversions]
     if not targets:
         return SILENT
     return found(len(targets) == len(set(targets)), f"to {_labels(case, targets)}")
@@ -158,23 +159,21 @@ def diversions_within_width(case: Case) -> Finding:
     terrain = case.scene.terrain
     assert terrain is not None
     width = min(case.spreader.radius, terrain.width)
-    return _short(case, Length(2 * width), (SIGHT, REACH, "the line ends", "overdue"))
+    return _short(case, Length(2 * width), (*TIMELY, Reason.LINE_ENDS, Reason.OVERDUE))
 
 
 def diversions_within_radius(case: Case) -> Finding:
     """A diversion because of sight or reach walks at most 2R straight, any diversion at most 2 |DQ|."""
     run = case.spreader
-    assert run.sweeping is not None
-    for diversion in run.sweeping.diversions:
-        if straight_length(run, diversion) > reach(diversion) * 2:
+    for diversion in run.diversions:
+        if straight_length(run, diversion) > diversion.length * 2:
             return flaw(_way(case, diversion))
-    return _short(case, Length(2 * run.radius), (SIGHT, REACH))
+    return _short(case, Length(2 * run.radius), TIMELY)
 
 
-def _short(case: Case, most: Length, reasons: tuple[str, ...]) -> Finding:
+def _short(case: Case, most: Length, reasons: tuple[Reason, ...]) -> Finding:
     run = case.spreader
-    assert run.sweeping is not None
-    diversions = [d for d in run.sweeping.diversions if d.reason in reasons]
+    diversions = [d for d in run.diversions if d.reason in reasons]
     if not diversions:
         return SILENT
     longest = max(diversions, key=lambda d: straight_length(run, d))
@@ -245,7 +244,9 @@ def leaves_where_it_can(case: Case) -> Finding:
 
 
 def _crossings(case: Case, clear_only: bool) -> Finding:
-    if not any(event.note == "on the M-line" and event.kind == "leave" for event in case.spreader.events):
+    if not any(
+        event.occasion is Occasion.M_LINE and event.kind is EventKind.LEAVE for event in case.spreader.events
+    ):
         return SILENT
     return flaw(crossing_flaw(case, clear_only))
 

@@ -10,14 +10,12 @@ from exactacq.auditing.sweeps import Field, Mark
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
+from exactacq.sensing.event import Event, EventKind, Occasion
 from exactacq.sensing.history import Memory
-from exactacq.sensing.path import Event, Piece
+from exactacq.sensing.path import Piece
 from exactacq.strategies.run import Diversion, Run
 from exactacq.study.claims.model import Case
 from exactacq.study.claims.walks import is_circuit, stays
-
-ON_LINE = "on the M-line"
-
 
 # -- along the M-line ------------------------------------------------------------------------------
 
@@ -36,24 +34,24 @@ def progress_flaw(case: Case) -> str | None:
     run, field = case.spreader, case.field
     at, acquired, hit = Real(0), set[int | None](), False
     for event in run.events:
-        if event.kind == "acquire":
+        if event.kind is EventKind.ACQUIRE:
             acquired.add(event.obstacle)
-        if event.note != ON_LINE and event.kind not in ("divert", "return"):
+        if event.occasion is not Occasion.M_LINE and event.kind not in (EventKind.DIVERT, EventKind.RETURN):
             continue
         here = place(field, event.point)
-        if here < at or (hit and event.kind == "leave" and here == at):
+        if here < at or (hit and event.kind is EventKind.LEAVE and here == at):
             return f"the sweep does not advance at {event.point} ({event.kind})"
-        if event.kind == "divert" and event.obstacle in acquired:
+        if event.kind is EventKind.DIVERT and event.obstacle in acquired:
             return f"a diversion to obstacle {event.obstacle}, which is acquired"
-        if event.kind == "return" and event.obstacle not in acquired:
+        if event.kind is EventKind.RETURN and event.obstacle not in acquired:
             return f"a diversion did not acquire obstacle {event.obstacle}"
-        hit = event.note == ON_LINE and event.kind != "leave"
+        hit = event.occasion is Occasion.M_LINE and event.kind is not EventKind.LEAVE
         at = here
     last = run.events[-1]
-    if last.kind != "stop" or last.after != len(run.path):
+    if last.kind is not EventKind.STOP or last.after != len(run.path):
         return "the run does not end with its stop"
-    trapped = "trapped" in last.note or "closes" in last.note
-    return None if case.swept_to_the_end or trapped else f"it stops at {last.point}: {last.note}"
+    stuck = last.ending is not None and last.ending.is_early
+    return None if case.swept_to_the_end or stuck else f"it stops at {last.point}: {last.note}"
 
 
 class Hop(NamedTuple):
@@ -72,10 +70,10 @@ def hops(case: Case) -> Iterator[Hop]:
     marks, after = case.field.marks, -1
     hit = -1
     for event in case.spreader.events:
-        if event.note != ON_LINE:
+        if event.occasion is not Occasion.M_LINE:
             continue
         after = _mark(marks, after, event)
-        if event.kind == "leave":
+        if event.kind is EventKind.LEAVE:
             assert event.obstacle is not None
             yield Hop(event.obstacle, hit, after)
         else:
@@ -84,7 +82,7 @@ def hops(case: Case) -> Iterator[Hop]:
 
 def _mark(marks: Sequence[Mark], after: int, event: Event) -> int:
     for k in range(after + 1, len(marks)):
-        if marks[k].ends == (event.kind == "leave") and same(marks[k].point, event.point):
+        if marks[k].ends == (event.kind is EventKind.LEAVE) and same(marks[k].point, event.point):
             return k
     raise ValueError(f"{event.point} is no crossing point ahead")
 
@@ -142,7 +140,7 @@ def bare_walk(case: Case) -> Silence:
             for n in (report.after - 1, report.after)
             if 0 <= n < len(path)
         )
-        if report.kind.value == "lose" and on_line:
+        if report.kind is EventKind.LOSE and on_line:
             lost.add(report.obstacle)
     return Silence(frozenset(lost), memory.now.incomplete)
 

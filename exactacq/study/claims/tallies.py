@@ -18,19 +18,20 @@ from flint import fmpq
 from exactacq.geometry.box_index import box
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.intersections import nearest_points
-from exactacq.geometry.points import Point, distance
+from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import Real
 from exactacq.scene.scene import Obstacle, Scene
-from exactacq.strategies.run import Diversion, Run
+from exactacq.sensing.event import EventKind, Occasion
+from exactacq.strategies.run import Diversion, Run, SeedSpreaderRun, SightseerRun
 from exactacq.study.claims.model import Case
 from exactacq.study.claims.trees import circled
 from exactacq.study.claims.walks import moves
 from exactacq.visibility.links import START
 
 HALF = rational("1/2")
-HIT_NOTES = ("on the M-line", "on the way", "diversion")
+VISITS = Occasion.M_LINE, Occasion.WAY_OUT, Occasion.DIVERSION
 """Hits that are visits: on the M-line, and on the way out on a diversion; not those on the way back."""
 
 
@@ -82,7 +83,7 @@ def _gap(a: Curve, b: Curve) -> float:
     return float((across**2 + up**2) ** 0.5)
 
 
-def theorem_1_printed(run: Run) -> Length:
+def theorem_1_printed(run: SightseerRun) -> Length:
     """(1): 2(n - 1) min(R, d_max) + 1.5 sum p + (n - 2)/2 p_max."""
     perimeters = [obstacle.perimeter for obstacle in run.scene.obstacles]
     n = len(perimeters)
@@ -91,7 +92,7 @@ def theorem_1_printed(run: Run) -> Length:
     return Length.sum((step * (2 * (n - 1)), around))
 
 
-def theorem_1(run: Run) -> Length:
+def theorem_1(run: SightseerRun) -> Length:
     """S-S1 + (2n - 3) min(R, v_max) + 1.5 sum p - p_last/2 + (n - 2)/2 p_max; for n = 1, S-S1 + p.
 
     v_max is the longest segment between obstacles that was walked; p_last belongs to the obstacle that was
@@ -133,7 +134,7 @@ class Tally:
     case: Case
 
     @property
-    def run(self) -> Run:
+    def run(self) -> SeedSpreaderRun:
         """The sweep with the usual options."""
         return self.case.spreader
 
@@ -208,7 +209,10 @@ class Tally:
     @cached_property
     def visits(self) -> int:
         """Arrivals at obstacles on the M-line and on the way out on diversions."""
-        return sum(event.kind in ("hit", "cross") and event.note in HIT_NOTES for event in self.run.events)
+        return sum(
+            event.kind in (EventKind.HIT, EventKind.CROSS) and event.occasion in VISITS
+            for event in self.run.events
+        )
 
     @cached_property
     def met_again(self) -> tuple[int, ...]:
@@ -218,9 +222,9 @@ class Tally:
         for event in self.run.events:
             if event.obstacle is None:
                 continue
-            if event.kind == "acquire":
+            if event.kind is EventKind.ACQUIRE:
                 acquired.add(event.obstacle)
-            elif event.kind in ("hit", "cross") and event.note == HIT_NOTES[0]:
+            elif event.kind in (EventKind.HIT, EventKind.CROSS) and event.occasion is Occasion.M_LINE:
                 again += [event.obstacle] if event.obstacle in acquired else []
         return tuple(again)
 
@@ -252,14 +256,14 @@ class Tally:
             k = event.obstacle
             if k is None:
                 continue
-            if event.kind == "acquire":
+            if event.kind is EventKind.ACQUIRE:
                 acquired.add(k)
-            elif event.kind == "divert":
+            elif event.kind is EventKind.DIVERT:
                 found.append(_Meeting(k, event.point, [], [], set()))
-            elif event.kind == "hit" and event.note == "on the way":
+            elif event.kind is EventKind.HIT and event.occasion is Occasion.WAY_OUT:
                 found[-1].on_the_way.append(k)
                 found[-1].acquired.update({k} & acquired)
-            elif event.kind == "hit" and event.note == "on the way back":
+            elif event.kind is EventKind.HIT and event.occasion is Occasion.WAY_BACK:
                 found[-1].on_the_way_back.append(k)
         return found
 
@@ -283,8 +287,7 @@ class Tally:
     @cached_property
     def far(self) -> Length:
         """The sum of |DQ| - R over the diversions to obstacles farther than R."""
-        assert self.run.sweeping is not None
-        ways = (reach(diversion) for diversion in self.run.sweeping.diversions)
+        ways = (diversion.length for diversion in self.run.diversions)
         return Length.sum(way - Length(self.run.radius) for way in ways if way > Length(self.run.radius))
 
     def visit_bounds(self) -> dict[str, Length]:
@@ -343,11 +346,6 @@ class Tally:
 
     def _hops(self) -> Length:
         return Length.sum((self._largest * (2 * self.n * self.counts[0] + self.pairs),))
-
-
-def reach(diversion: Diversion) -> Length:
-    """|DQ|."""
-    return Length(distance(diversion.leave, diversion.hit))
 
 
 def straight_length(run: Run, diversion: Diversion) -> Length:

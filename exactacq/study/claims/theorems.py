@@ -6,7 +6,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from exactacq.numbers.length import Length
-from exactacq.strategies.run import Run
+from exactacq.sensing.event import EventKind
+from exactacq.strategies.run import SightseerRun
 from exactacq.study.claims.model import SILENT, Case, Claim, Finding, Statement, Subject, flaw, found
 from exactacq.study.claims.tallies import Tally, differs, theorem_1, theorem_1_printed
 
@@ -28,7 +29,7 @@ def keeps_corrected_theorem_1(case: Case) -> Finding:
     return _keeps(case, "T1 corrected", theorem_1)
 
 
-def _keeps(case: Case, name: str, recounted: Callable[[Run], Length]) -> Finding:
+def _keeps(case: Case, name: str, recounted: Callable[[SightseerRun], Length]) -> Finding:
     if not case.is_mutually_visible:
         return SILENT
     run = case.sightseer
@@ -81,7 +82,7 @@ def keeps_corrected_theorem_2(case: Case) -> Finding:
 def is_the_m_line(case: Case) -> Finding:
     """If no obstacle is hit and none diverted to, P is A + B + rA."""
     run = case.spreader
-    if any(event.kind in ("hit", "cross", "divert") for event in run.events):
+    if any(event.kind in (EventKind.HIT, EventKind.CROSS, EventKind.DIVERT) for event in run.events):
         return SILENT
     value = case.shared(Tally).base
     wrong = differs(run, {"(8)": value})

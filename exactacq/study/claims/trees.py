@@ -9,14 +9,15 @@ import networkx as nx
 from exactacq.auditing.world import visible
 from exactacq.geometry.box_index import box
 from exactacq.geometry.intersections import contacts
+from exactacq.sensing.event import EventKind
 from exactacq.sensing.path import Piece
-from exactacq.strategies.run import Run
+from exactacq.strategies.run import Run, SightseerRun
 from exactacq.study.claims.model import Case
 from exactacq.study.claims.walks import Move, is_circuit, is_same_segment, moves, node_at, stays, traversals
 from exactacq.visibility.links import START
 
 
-def traversal_flaw(run: Run) -> str | None:
+def traversal_flaw(run: SightseerRun) -> str | None:
     """A segment between obstacles that was walked more than twice."""
     for move, count in traversals(moves(run)):
         if count > 2:
@@ -24,13 +25,13 @@ def traversal_flaw(run: Run) -> str | None:
     return None
 
 
-def arrivals(run: Run) -> int:
+def arrivals(run: SightseerRun) -> int:
     """How often a Sightseer came to an obstacle; to start on one counts."""
     starts_on_one = node_at(run, run.start) != START
     return starts_on_one + sum(move.target != START for move in moves(run))
 
 
-def tree_flaw(run: Run) -> str | None:
+def tree_flaw(run: SightseerRun) -> str | None:
     """Whether the segments walked are a tree over the start and all obstacles, walked depth first.
 
     At most n - 1 obstacles may be on the stack, and at most n - 2 moves may lead back to obstacles.
@@ -108,7 +109,7 @@ def end_flaw(run: Run) -> str | None:
     around = [stay.obstacle for stay in stays(run) if is_circuit(run, stay)]
     if len(around) != len(set(around)):
         return f"the obstacles circled are {around}"
-    stops = [k for k, event in enumerate(run.events) if event.kind == "stop"]
+    stops = [k for k, event in enumerate(run.events) if event.kind is EventKind.STOP]
     if stops != [len(run.events) - 1] or run.events[-1].after != len(run.path):
         return "the run does not end with its stop"
     return None

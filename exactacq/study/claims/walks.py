@@ -13,8 +13,9 @@ from typing import NamedTuple
 from exactacq.auditing.measure import same
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
+from exactacq.sensing.event import EventKind
 from exactacq.sensing.path import Piece
-from exactacq.strategies.run import Run
+from exactacq.strategies.run import Run, SightseerRun
 from exactacq.visibility.links import START, Node
 
 BITS = 256
@@ -42,7 +43,7 @@ def stays(run: Run) -> Iterator[Stay]:
     An obstacle that is left may block the M-line again at once: then another stay begins there.
     """
     first = 0
-    left = {event.after for event in run.events if event.kind == "leave" and not event.inside}
+    left = {event.after for event in run.events if event.kind is EventKind.LEAVE and not event.inside}
     for k in range(1, len(run.path) + 1):
         if k < len(run.path) and run.path[k].obstacle == run.path[first].obstacle and k not in left:
             continue
@@ -99,7 +100,7 @@ def node_at(run: Run, point: Point) -> Node:
     return owners.pop()
 
 
-def moves(run: Run) -> list[Move]:
+def moves(run: SightseerRun) -> list[Move]:
     """The moves of a Sightseer's path, in order."""
     circled = {stay.first: stay.obstacle for stay in stays(run) if is_circuit(run, stay)}
     visited: frozenset[int] = frozenset()

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from exactacq.errors import FormatError
 from exactacq.files.whole_files import readable
 from exactacq.numbers.length import Length
-from exactacq.strategies.run import Bound, Run
+from exactacq.strategies.run import Bound, Run, SeedSpreaderRun
 from exactacq.study.claims import CLAIMS
 from exactacq.study.claims.model import Case, Finding, Outcome, Statement, Subject
 from exactacq.study.claims.premises import PREMISES
@@ -119,7 +119,7 @@ def _ratio(bound: Bound) -> float:
 
 def _detail(run: Run, bound: Bound) -> str:
     """Both sides in closed form, and how they compare: exactly."""
-    visits = run.sweeping is not None and bound.name in VISITS
+    visits = isinstance(run, SeedSpreaderRun) and bound.name in VISITS
     what, length = ("visits", Length(_encounters(run))) if visits else ("P", run.length)
     relation = ">" if not bound.holds else "=" if length == bound.value else "<"
     left, right = (" ".join(readable(value, 40, 12)) for value in (length, bound.value))
@@ -127,4 +127,4 @@ def _detail(run: Run, bound: Bound) -> str:
 
 
 def _encounters(run: Run) -> int:
-    return 0 if run.sweeping is None else len(run.sweeping.encounters)
+    return len(run.encounters) if isinstance(run, SeedSpreaderRun) else 0

@@ -1,0 +1,194 @@
+"""What happens on a path, as data: events with their kinds, occasions and reasons, and their prose."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from exactacq.geometry.points import Point
+from exactacq.numbers.length import Length
+from exactacq.sensing.path import Path
+
+
+class EventKind(StrEnum):
+    """What happened: to the robot, or to what it sees of an obstacle."""
+
+    START = "start"
+    """The path begins."""
+    STOP = "stop"
+    """The path ends."""
+    HIT = "hit"
+    """The robot comes to an obstacle."""
+    CROSS = "cross"
+    """The robot follows the M-line and an obstacle blocks it that is acquired already."""
+    LEAVE = "leave"
+    """The robot leaves the boundary of an obstacle."""
+    BACKTRACK = "backtrack"
+    """The Sightseer is back at the obstacle, or the start, from which it came."""
+    DIVERT = "divert"
+    """The Seed Spreader leaves the M-line for an obstacle that is about to be lost."""
+    RETURN = "return"
+    """The Seed Spreader is back on the M-line after a diversion."""
+    SIGHT = "sight"
+    """The first point of an obstacle is known."""
+    REGAIN = "regain"
+    """An obstacle that is not acquired comes back into sight."""
+    ACQUIRE = "acquire"
+    """The whole boundary of an obstacle is known."""
+    LOSE = "lose"
+    """An obstacle that is not acquired goes out of sight."""
+    MOMENT = "moment"
+    """Nothing in particular: a place of the path that was asked for (see `exactacq.Run.near`)."""
+
+
+SENSED = (EventKind.SIGHT, EventKind.REGAIN, EventKind.ACQUIRE, EventKind.LOSE)
+"""What the sensor reports. Reports from one place come in this order."""
+
+
+class Occasion(StrEnum):
+    """On which part of its way the robot hits, crosses or leaves an obstacle."""
+
+    ADVANCE = "advance"
+    """The Sightseer goes from the obstacle it has circled to an unvisited one (step 3 of the paper)."""
+    BACKTRACK = "backtrack"
+    """The Sightseer goes back to where it came from (step 2)."""
+    M_LINE = "M-line"
+    """The Seed Spreader follows the M-line."""
+    WAY_OUT = "way out"
+    """The Seed Spreader is on its way from the M-line to the point that a diversion aims at."""
+    DIVERSION = "diversion"
+    """The Seed Spreader hits the obstacle at the point that a diversion aims at, or leaves it to go back."""
+    WAY_BACK = "way back"
+    """The Seed Spreader is on its way back to the M-line."""
+
+
+class Reason(StrEnum):
+    """Why an obstacle goes out of sight, or why the Seed Spreader diverts to it."""
+
+    OCCLUSION = "occlusion"
+    """An obstacle hides it."""
+    RANGE = "range"
+    """It is farther than the radius of vision."""
+    OUT_OF_SIGHT = "out of sight"
+    """It goes out of sight and cannot be seen any more from the rest of the line."""
+    OUT_OF_REACH = "out of reach"
+    """What is known of it goes out of the radius of vision for the rest of the line."""
+    LINE_ENDS = "the line ends"
+    """The line of the M-line ends."""
+    OVERDUE = "overdue"
+    """It was out of reach already when the robot came back to the line."""
+
+
+class Ending(StrEnum):
+    """Why a path ends."""
+
+    ALL_VISITED = "all visited"
+    """The Sightseer has visited every obstacle of the scene."""
+    NOTHING_UNVISITED = "nothing unvisited"
+    """Every obstacle on the Sightseer's map is visited."""
+    BACK_AT_START = "back at the start"
+    """The Sightseer has backtracked to the start and sees nothing unvisited from there."""
+    END_OF_M_LINE = "end of the M-line"
+    """The Seed Spreader has come to T."""
+    TRAPPED = "trapped"
+    """An obstacle that blocks the M-line leaves no way on to T."""
+    WAY_CLOSED = "way closed"
+    """An obstacle closes the straight way of a diversion."""
+
+    @property
+    def is_early(self) -> bool:
+        """Whether an obstacle kept the Seed Spreader from T."""
+        return self in (Ending.TRAPPED, Ending.WAY_CLOSED)
+
+
+_AT = {
+    (EventKind.HIT, Occasion.ADVANCE): "from {other}",
+    (EventKind.LEAVE, Occasion.ADVANCE): "to {other}",
+    (EventKind.LEAVE, Occasion.BACKTRACK): "back to {other}",
+    (EventKind.BACKTRACK, Occasion.BACKTRACK): "from {other}",
+    (EventKind.HIT, Occasion.DIVERSION): "diversion",
+    (EventKind.LEAVE, Occasion.DIVERSION): "back to the M-line",
+}
+_ON = {
+    Occasion.M_LINE: "on the M-line",
+    Occasion.WAY_OUT: "on the way",
+    Occasion.WAY_BACK: "on the way back",
+}
+_ENDED = {
+    Ending.ALL_VISITED: "every obstacle is visited",
+    Ending.NOTHING_UNVISITED: "no unvisited obstacle on the map",
+    Ending.BACK_AT_START: "back at the start, nothing unvisited in sight",
+    Ending.END_OF_M_LINE: "the end of the M-line is reached",
+    Ending.TRAPPED: "the start or the end of the M-line is trapped in {obstacle}",
+    Ending.WAY_CLOSED: "{obstacle} closes the straight way",
+}
+
+
+@dataclass(frozen=True, repr=False)
+class Event:
+    """Something that happened after the first ``after`` pieces of the path, or ``inside`` the next one.
+
+    ``obstacle`` is the number of the obstacle it happened to, if any. Where they apply, ``occasion`` says on
+    which part of the robot's way it happened, ``other`` where the Sightseer comes from or goes to (the number
+    of an obstacle, or "S" for the start), ``reason`` why an obstacle is lost or diverted to, and ``ending``
+    why the path ends. Events are in the order in which they happened.
+
+    >>> import exactacq as xa
+    >>> run = xa.sightseer(xa.load("three-boxes"))
+    >>> [(event.kind.value, event.other) for event in run.events if event.kind == "hit"]
+    [('hit', 'S'), ('hit', 0), ('hit', 1)]
+    >>> run.events[-1].ending
+    <Ending.ALL_VISITED: 'all visited'>
+    """
+
+    kind: EventKind
+    point: Point
+    obstacle: int | None
+    after: int
+    path: Path = field(compare=False)
+    inside: bool = False
+    occasion: Occasion | None = field(default=None, kw_only=True)
+    other: int | str | None = field(default=None, kw_only=True)
+    reason: Reason | None = field(default=None, kw_only=True)
+    ending: Ending | None = field(default=None, kw_only=True)
+
+    def __repr__(self) -> str:
+        about = "" if self.obstacle is None else f" of obstacle {self.obstacle}"
+        x, y = self.point.xy
+        return f"<Event: {self.kind}{about} at ({x:.6g}, {y:.6g}){self.note and ', '}{self.note}>"
+
+    @property
+    def at(self) -> Length:
+        """Path length so far. Asking all events of a run in order costs time linear in the path."""
+        whole = self.path.length_after(self.after)
+        return whole + self.beyond if self.inside else whole
+
+    @property
+    def beyond(self) -> Length:
+        """Length walked since the end of the last whole piece."""
+        if not self.inside:
+            return Length(0)
+        curve = self.path[self.after].curve
+        return curve.part(curve.start, self.point).length
+
+    @property
+    def note(self) -> str:
+        """Occasion, reason or ending in words, with the numbers of obstacles."""
+        return self.describe()
+
+    def describe(self, names: Sequence[str] | None = None) -> str:
+        """Occasion, reason or ending in words; obstacles by their *names* if given, else by their numbers."""
+        if self.ending is not None:
+            text = _ENDED[self.ending]
+        elif self.reason is not None:
+            text = self.reason.value
+        elif self.occasion is not None:
+            text = _AT.get((self.kind, self.occasion)) or _ON.get(self.occasion, "")
+        else:
+            text = ""
+        other, obstacle = str(self.other), f"obstacle {self.obstacle}"
+        if names is not None:
+            other = names[self.other] if isinstance(self.other, int) else other
+            obstacle = obstacle if self.obstacle is None else names[self.obstacle]
+        return text.format(other=other, obstacle=obstacle)
