@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import ast
 import copy
 import doctest
 import pickle
+import re
 import subprocess
 import sys
 from fractions import Fraction
@@ -187,3 +189,21 @@ def test_examples_in_docstrings(module: ModuleType) -> None:
     found = doctest.testmod(module)
     assert found.attempted > 0
     assert found.failed == 0
+
+
+def docstrings(path: Path) -> list[str]:
+    """The docstrings of a file: of the module, its classes and all functions, inner ones too."""
+    kinds = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
+    nodes = (node for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(node, kinds))
+    return [text for node in nodes if (text := ast.get_docstring(node))]
+
+
+def test_docstrings_stand_alone() -> None:
+    """A docstring gives a contract of its own instead of a difference from its neighbour."""
+    leaning = [
+        (path.name, text)
+        for path in ROOT.rglob("*.py")
+        for text in docstrings(path)
+        if re.match(r"(The same|As)\b", text)
+    ]
+    assert leaning == []

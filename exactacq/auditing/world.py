@@ -145,7 +145,7 @@ class Range(NamedTuple):
 
 
 class Hits(NamedTuple):
-    """The same for several kinds of curves: each column's curve, and whether it is an arc's far root."""
+    """A `Range` for curves of mixed kinds, with each column's ``curve``; ``far``: an arc's far root."""
 
     low: Floats
     high: Floats

@@ -69,7 +69,11 @@ class Segment:
         return Segment(start, end)
 
     def reversed(self) -> Segment:
-        """The same piece walked the other way."""
+        """The segment from ``end`` to ``start``.
+
+        >>> Segment(Point(0, 0), Point(4, 0)).reversed()
+        Segment(Point(4, 0), Point(0, 0))
+        """
         return Segment(self.end, self.start)
 
     def __repr__(self) -> str:
@@ -202,7 +206,11 @@ class Arc:
         return Arc(start, end, self.center, self.radius_sq, self.ccw, full=whole)
 
     def reversed(self) -> Arc:
-        """The same piece walked the other way."""
+        """The arc from ``end`` to ``start``, which turns in the opposite sense.
+
+        >>> Arc.from_bulge(Point(1, 0), Point(-1, 0), fmpq(1)).reversed()
+        Arc(Point(-1, 0), Point(1, 0), center=Point(0, 0), cw)
+        """
         return Arc(self.end, self.start, self.center, self.radius_sq, not self.ccw, self.full)
 
     def __repr__(self) -> str:

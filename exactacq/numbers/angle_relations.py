@@ -34,7 +34,7 @@ FACTOR_BITS = 96
 
 
 def reduced(form: AngleSum) -> AngleSum:
-    """The same value over fewer angles; those with rational cosine and sine are independent with pi.
+    """An equal sum over fewer angles; those with rational cosine and sine are independent with pi.
 
     Raises `Undecided` if a coefficient or a product of cosines cannot be compared with 0.
     """
@@ -42,7 +42,7 @@ def reduced(form: AngleSum) -> AngleSum:
 
 
 def simplified(form: AngleSum) -> AngleSum:
-    """The same value over fewer angles, for reading: independent ones only where they are fewer."""
+    """An equal sum over fewer angles, for printing: independent angles only where that leaves fewer."""
     with suppress(Undecided):  # The form as it stands is right, too.
         telescoped = _telescoped(_nonzero(form))
         form = _eliminated(telescoped)
@@ -80,7 +80,7 @@ def _whole_quarters(form: AngleSum) -> int:
 
 
 def _telescoped(form: AngleSum) -> AngleSum:
-    """The same value by directions instead of angles between directions, wherever that leaves fewer.
+    """An equal sum over directions instead of angles between directions, wherever that leaves fewer.
 
     An arc's angle is kept where directions do not cancel: it alone is the same in a turned scene.
     Folding is linear in the arcs; look-ups are quadratic, at nanoseconds each.
@@ -167,7 +167,7 @@ def _modulo(form: AngleSum, relations: list[AngleSum]) -> AngleSum:
 
 
 def _in_gaussian_basis(form: AngleSum) -> AngleSum:
-    """The same value, its angles of rational cosine and sine replaced by independent ones.
+    """An equal sum in which angles with rational cosine and sine are replaced by independent ones.
 
     Such an angle is twice the argument of w = q + i p, tan(angle/2) = p/q. Split the norms of all w
     into coprime factors n; then w is a unit times a power of 1 + i times powers of Gaussian integers
@@ -283,7 +283,7 @@ def _generator(n: int, root: int) -> tuple[int, int]:
 
 
 def _eliminated(form: AngleSum) -> AngleSum:
-    """The same value with the terms of coefficient 0 and all angles that are proved dependent removed."""
+    """An equal sum without terms of coefficient 0 and without angles that are proved to be dependent."""
     form = _nonzero(form)
     for bundle in _bundles(form.angles):
         while (relation := _relation([angle for angle in bundle if angle in form.angles])) is not None:

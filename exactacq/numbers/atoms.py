@@ -91,7 +91,7 @@ class Node(ABC):
         return self._ball
 
     def precise_ball(self, bits: int) -> arb:
-        """As `ball`; sets the precision itself."""
+        """An enclosure computed with at least *bits* working bits, which this method sets itself."""
         with ctx.workprec(bits):
             return self.ball(bits)
 

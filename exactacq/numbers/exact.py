@@ -110,9 +110,9 @@ class Exact:
         return int(self.rational.p), int(self.rational.q)
 
     def __format__(self, spec: str) -> str:
-        """As a decimal formats; the text of the closed form if nothing is specified.
+        """The number formatted as a `decimal.Decimal` would be; without a specification its closed form.
 
-        Any number of digits is right: they are computed, not read off a float.
+        All digits shown are correct, however many are asked for: they are not read off a float.
         """
         if not spec:
             return str(self)

@@ -424,7 +424,7 @@ class Real(Exact):
             return self.working_ball(bits)
 
     def working_ball(self, bits: int) -> arb:
-        """As `ball`, where the caller has set the working precision to *bits*."""
+        """An enclosing ball; the caller must have set the working precision to *bits*."""
         if self._bits < bits:
             if self.rational is not None:
                 ball = arb(self.rational)

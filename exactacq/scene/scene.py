@@ -38,7 +38,7 @@ class Obstacle:
         return cls(index, shape, shape_edges(shape), is_enclosure)
 
     def oriented(self) -> Obstacle:
-        """The same loop with the blocked side on the left, decided by the exact sign of the area."""
+        """This loop, reversed if the blocked side is not on its left: the exact sign of the area decides."""
         if (signed_area(self.edges).sign() > 0) != self.is_enclosure:
             return self
         edges = tuple(edge.reversed() for edge in reversed(self.edges))

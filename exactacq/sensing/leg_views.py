@@ -184,7 +184,7 @@ class Shares:
             return self._taught(covers, same)
 
     def _taught(self, covers: Covers, same: Mapping[int, Pin]) -> dict[int, Cover]:
-        """The same; *same* as `_recognised` finds them."""
+        """The covers of `taught`; *same* maps ends, by identity of their parameters, to equal known ends."""
         learned: dict[int, Cover] = {}
         leg = self.leg
         for shares in self.of.values():

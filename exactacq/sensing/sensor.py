@@ -136,9 +136,10 @@ class Senses:
         return self._whole(leg).taught(covers)
 
     def known_within(self, leg: Leg, part: Leg, covers: Covers) -> dict[int, Cover]:
-        """The same along the first part of a leg. It is cut from what the leg shows.
+        """The covers that grow along *part*, the beginning of a leg, if *covers* are known before it.
 
-        To find that again from the end of the part, which is often an involved point, is harder.
+        They are restricted from what the whole leg shows. Sensing *part* by itself would be harder, since its
+        end often has complicated coordinates.
         """
         return self._whole(leg).cut(part).taught(covers)
 

@@ -115,7 +115,10 @@ def _image(sector: Sector, low: Real, high: Real) -> tuple[float, ...]:
 
 
 def _line(start: Point, end: Point) -> tuple[float, ...]:
-    """As `_image`; the difference of the points is exact, for that of their floats may have lost it."""
+    """The row of `_image` for the line through two points.
+
+    The points are subtracted exactly and then rounded: the difference of their floats could be 0.
+    """
     (ox, oy), (dx, dy) = rough(start), rough(end - start)
     angle = atan2(dy, dx)
     return ox, oy, angle, angle, 0.0, 0.0, 0.0, 0.0, _error(ox, oy, 0.0, hypot(dx, dy))

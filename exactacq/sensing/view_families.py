@@ -515,18 +515,18 @@ def _is_met(direction: Point, curve: Curve, end: Point, role: Role) -> bool:
 
 
 def _shared(end: End, k: int, point: Point, place: Real) -> End:
-    """The same view, with another name for its point on side k."""
+    """The view *end* with *point* and its parameter *place* on side k."""
     points = (point, end.points[1]) if k == 0 else (end.points[0], point)
     return _placed(End(end.t, points, end.places, end.tight), k, place)
 
 
 def _tight(end: End) -> End:
-    """The same view, known to be as long as the range."""
+    """The view *end*, marked as exactly as long as the range."""
     return End(end.t, end.points, end.places, tight=True)
 
 
 def _placed(end: End, k: int, place: Real) -> End:
-    """The same view with another parameter on side k."""
+    """The view *end* with the parameter *place* on side k."""
     places = (place, end.places[1]) if k == 0 else (end.places[0], place)
     return End(end.t, end.points, places, end.tight)
 

@@ -93,7 +93,7 @@ def turned(vector: Corner, bulge: fmpq) -> Corner:
 
 
 def subdivided(dice: Dice, shape: Shape, percent: int) -> Shape:
-    """The same shape drawn otherwise: a circle as two to four arcs, edges and arcs cut at rational points."""
+    """The shape with more vertices: a circle as two to four arcs, edges and arcs split at rational points."""
     if isinstance(shape, Circle):
         if not dice.chance(percent):
             return shape

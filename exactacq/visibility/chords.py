@@ -38,7 +38,7 @@ class Chord:
     touches: tuple[Hashable, ...] = ()
 
     def reversed(self) -> Chord:
-        """The same segment from the other end."""
+        """The chord from ``end`` to ``start``."""
         return Chord(self.end, self.start, self.length, self.touches)
 
 

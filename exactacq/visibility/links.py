@@ -70,7 +70,7 @@ class Link:
         return ()
 
     def reversed(self) -> Link:
-        """The same link from the other obstacle; the source must be an obstacle."""
+        """This link with source and target exchanged; the source must be an obstacle, not the start."""
         assert isinstance(self.source, int)
         return Link(self.target, self.source, self.length, tuple(_flipped(s) for s in self.shortest))
 

@@ -44,7 +44,7 @@ def within(
 
 
 def of_circle(circle: Arc, center: Vector, radius_sq: fmpq) -> list[Span] | None:
-    """As `within` of a full circle; None if all of it is within range."""
+    """The part of a full circle within a radius of a point: at most one; None if all of it is within."""
     w = minus(raw(circle.center), center)
     level, square = _level(circle, w, radius_sq), dot(w, w)
     rest = sign(circle.radius_sq * square - level * level)

@@ -71,7 +71,7 @@ def visits_few(case: Case) -> Finding:
 
 
 def visits_few_of_several(case: Case) -> Finding:
-    """The same for n >= 2."""
+    """At most 2(n - 1) arrivals at obstacles, claimed for n >= 2 only."""
     return visits_few(case) if len(case.scene.obstacles) > 1 else SILENT
 
 

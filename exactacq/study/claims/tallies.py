@@ -323,7 +323,10 @@ class Tally:
         return Length.sum((self._wide(), self.far * 2, self._around(), self._hops() * self._share))
 
     def proved_length(self) -> Length:
-        """The same with far diversions and overtaken aims; n^2 p_max if a diversion leaves its strip."""
+        """The proved bound: `met_again_bound` and the perimeters of overtaken aims.
+
+        If a diversion leaves its strip, n^2 p_max replaces the visits.
+        """
         hops = self._hops() if self.stays_in_strips else self._largest * self.n**2
         overtaken = Length.sum(self.perimeters[k] for k in self.overtaken)
         return Length.sum((self._wide(), self.far * 2, self._around(), (hops + overtaken) * self._share))

@@ -1,4 +1,7 @@
-"""The same search by hypothesis: it draws small scenes, aims at high scores, and shrinks what breaks."""
+"""Search for counterexamples by hypothesis instead of annealing.
+
+Hypothesis draws small scenes, steers towards high scores (`hypothesis.target`) and shrinks what breaks.
+"""
 
 from __future__ import annotations
 

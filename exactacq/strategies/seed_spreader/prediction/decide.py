@@ -389,7 +389,7 @@ class _Lines:
         return p, p + way * t
 
     def _sees_in_run(self, cell: Cell, lines: Lines) -> bool | None:
-        """The same for the cells between ordinates that floats cannot part."""
+        """Like `_sees_in`, for a run of cells whose ordinates floats cannot separate."""
         answer: bool | None = False
         for low, high in pairwise(sorted(self._ordinates(cell.below, lines))):
             if low.compare(high) == 0:

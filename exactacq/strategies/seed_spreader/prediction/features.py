@@ -142,7 +142,7 @@ class Gaps:
         self._marks.append((marks, first, last))
 
     def closed(self) -> Gaps:
-        """The same as arrays ``touch``, ``low``, ``high``, ``tiny``."""
+        """The collected cells as arrays ``touch``, ``low``, ``high``, ``tiny``; call it once, at the end."""
         self.touch = np.concatenate([np.empty(0, dtype=np.intp), *self._touch])
         self.low, self.high = (
             np.concatenate([np.empty(0), *self._low]),
