@@ -194,7 +194,8 @@ def test_examples_in_docstrings(module: ModuleType) -> None:
 def docstrings(path: Path) -> list[str]:
     """The docstrings of a file: of the module, its classes and all functions, inner ones too."""
     kinds = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
-    nodes = (node for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(node, kinds))
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    nodes = (node for node in ast.walk(tree) if isinstance(node, kinds))
     return [text for node in nodes if (text := ast.get_docstring(node))]
 
 

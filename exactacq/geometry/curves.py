@@ -1,7 +1,7 @@
 """Segments and circular arcs: directed pieces of boundaries and paths.
 
-On an obstacle's boundary the blocked side is on the left, so a counterclockwise arc is convex (the
-obstacle fills the circle's inside) and a clockwise arc is concave.
+An obstacle lies on the left of its boundary. So a counterclockwise arc of a boundary is convex (the obstacle
+is inside the circle) and a clockwise arc is concave.
 """
 
 from __future__ import annotations
@@ -19,7 +19,11 @@ from exactacq.numbers.transcendental import transcendental, turned
 
 
 class Segment:
-    """The straight piece from ``start`` to ``end``."""
+    """The straight piece from ``start`` to ``end``, which must be distinct points.
+
+    >>> print(Segment(Point(0, 0), Point(1, 1)).length)
+    sqrt(2)
+    """
 
     def __init__(self, start: Point, end: Point) -> None:
         self.start, self.end = start, end
@@ -35,25 +39,43 @@ class Segment:
         return Length(distance(self.start, self.end))
 
     def point(self, u: object) -> Point:
-        """The point at the rational fraction *u* of the way, 0 <= u <= 1."""
+        """The point at the rational fraction *u* of the way; ValueError unless 0 <= u <= 1.
+
+        >>> Segment(Point(0, 0), Point(3, 4)).point("1/2")
+        Point(3/2, 2)
+        """
         offset: Point = self.direction * _fraction(u)
         return self.start + offset
 
     def after(self, length: Length) -> Point:
-        """The point after a length, which is algebraic or, by Baker's theorem, transcendental."""
+        """The point at a distance *length* from the start; that it is not beyond the end is not checked.
+
+        A length with a multiple of pi or of an angle gives transcendental coordinates (Baker's theorem).
+
+        >>> Segment(Point(0, 0), Point(3, 4)).after(Length(1))
+        Point(3/5, 4/5)
+        """
         known = length == Length(length.algebraic)
         way = length.algebraic if known else transcendental(Real, length.ball)
         offset: Point = self.direction * (way / self.length.algebraic)
         return self.start + offset
 
     def contains(self, point: Point) -> bool:
-        """Whether a point *of the supporting line* lies on the closed segment."""
+        """Whether a point *of the supporting line* lies on the closed segment; see `passes` for any point.
+
+        >>> Segment(Point(0, 0), Point(3, 4)).contains(Point(6, 8))
+        False
+        """
         along = self.direction
         offset = (point - self.start).dot(along)
         return offset.sign() >= 0 and offset.compare(along.norm_sq()) <= 0
 
     def passes(self, point: Point) -> bool:
-        """Whether the closed segment contains the point."""
+        """Whether the closed segment contains the point.
+
+        >>> Segment(Point(0, 0), Point(3, 4)).passes(Point("3/2", 2))
+        True
+        """
         return self.direction.cross(point - self.start).sign() == 0 and self.contains(point)
 
     def may_pass(self, point: Point, bits: int) -> bool:
@@ -65,7 +87,11 @@ class Segment:
         return forward.clear_sign(bits) >= 0 and (forward - along.norm_sq()).clear_sign(bits) <= 0
 
     def part(self, start: Point, end: Point) -> Segment:
-        """The piece between two of its points."""
+        """The piece between two of its points, from the first to the second; not checked.
+
+        >>> Segment(Point(0, 0), Point(3, 4)).part(Point(0, 0), Point("3/2", 2))
+        Segment(Point(0, 0), Point(3/2, 2))
+        """
         return Segment(start, end)
 
     def reversed(self) -> Segment:
@@ -83,8 +109,12 @@ class Segment:
 class Arc:
     """The arc of a circle from ``start`` to ``end``, counterclockwise if ``ccw``.
 
-    ``center`` (rational) and ``radius_sq`` (rational) give the supporting circle. Any angle in (0, 2 pi]:
-    equal ends (by identity or by value) mean the full circle.
+    The supporting circle has a rational ``center`` and a rational squared radius ``radius_sq``. The angle is in
+    (0, 2 pi]; a full circle has equal ends and ``full``. It is not checked that the ends lie on the circle.
+
+    >>> east, north = Point(2, 0), Point(0, 2)
+    >>> print(Arc(east, north, Point(0, 0), fmpq(4), ccw=True).length)
+    pi
     """
 
     def __init__(
@@ -95,7 +125,13 @@ class Arc:
 
     @classmethod
     def from_bulge(cls, start: Point, end: Point, bulge: fmpq) -> Arc:
-        """The arc whose included angle is ``4 atan(bulge)``; start and end rational, bulge not 0."""
+        """The arc whose included angle is ``4 atan(bulge)``, clockwise for a negative bulge.
+
+        Start and end are rational and distinct, the bulge is rational and not 0; 1 makes a half circle.
+
+        >>> Arc.from_bulge(Point(1, 0), Point(-1, 0), fmpq(1))
+        Arc(Point(1, 0), Point(-1, 0), center=Point(0, 0), ccw)
+        """
         chord = end - start
         center = start + chord * fmpq(1, 2) + chord.left() * ((1 - bulge * bulge) / (4 * bulge))
         radius_sq = rational((start - center).norm_sq())
@@ -123,9 +159,12 @@ class Arc:
         return Length.between(self.radius, (a.x, a.y), (b.x, b.y), self.radius_sq)
 
     def contains(self, point: Point) -> bool:
-        """Whether a point *of the supporting circle* lies on the closed arc.
+        """Whether a point *of the supporting circle* lies on the closed arc; see `passes` for any point.
 
         A counterclockwise arc lies to the right of its chord, whatever its angle.
+
+        >>> Arc.from_bulge(Point(1, 0), Point(-1, 0), fmpq(1)).contains(Point(0, -1))
+        False
         """
         if self.full:
             return True
@@ -133,11 +172,19 @@ class Arc:
         return side != (Orientation.COUNTERCLOCKWISE if self.ccw else Orientation.CLOCKWISE)
 
     def on_circle(self, point: Point) -> bool:
-        """Whether the supporting circle contains the point."""
+        """Whether the supporting circle contains the point.
+
+        >>> Arc.from_bulge(Point(1, 0), Point(-1, 0), fmpq(1)).on_circle(Point(0, -1))
+        True
+        """
         return (point - self.center).norm_sq().compare(self.radius_sq) == 0
 
     def passes(self, point: Point) -> bool:
-        """Whether the closed arc contains the point."""
+        """Whether the closed arc contains the point.
+
+        >>> Arc.from_bulge(Point(1, 0), Point(-1, 0), fmpq(1)).passes(Point("3/5", "4/5"))
+        True
+        """
         return self.on_circle(point) and self.contains(point)
 
     def may_pass(self, point: Point, bits: int) -> bool:
@@ -149,10 +196,13 @@ class Arc:
         return self.full or not wrong
 
     def point(self, u: object) -> Point:
-        """A point that moves from start (u = 0) to end (u = 1), for rational *u*.
+        """A point that moves from start (u = 0) to end (u = 1), for rational *u*; ValueError for other u.
 
-        The quarter-angle tangent grows in proportion to u (on a full circle: on each half), so the
-        point is algebraic though not at the same fraction of the length.
+        The tangent of a quarter of the angle grows in proportion to u (on a full circle: on each half). So
+        the point is algebraic, but in general not at the fraction u of the length.
+
+        >>> Arc.from_bulge(Point(1, 0), Point(-1, 0), fmpq(1)).point("1/2")
+        Point(-7/25, 24/25)
         """
         fraction = _fraction(u)
         radial = self.start - self.center
@@ -178,11 +228,14 @@ class Arc:
         return ((1 - cosine) / 2).sqrt() / (1 + half_cos)
 
     def after(self, length: Length) -> Point:
-        """The point after a length of the arc; ValueError for a sum of angles that are no simple fractions.
+        """The point after a length of the arc, measured from its start.
 
-        With an algebraic part the coordinates are transcendental: by Baker's theorem so is e to the power of
-        an algebraic number that is not 0, times algebraic powers of algebraic numbers
-        (`exactacq.numbers.transcendental`).
+        The angle is the length over the radius. With an algebraic part the coordinates are transcendental
+        (Baker's theorem, see `exactacq.numbers.transcendental`). Without one ValueError, if the angle is not
+        a sum of simple fractions of pi and of angles with known cosine.
+
+        >>> Arc.from_bulge(Point(1, 0), Point(-1, 0), fmpq(1)).after(Length.turns(1, "1/6"))
+        Point(1/2, sqrt(3)/2)
         """
         sense = 1 if self.ccw else -1
         radial = self.start - self.center
@@ -196,12 +249,20 @@ class Arc:
         return self.center + radial * cosine + radial.left() * (sine * sense)
 
     def tangent(self, point: Point) -> Point:
-        """Direction of travel (not normalised) at a point of the arc."""
+        """Direction of travel at a point of the arc, as a vector as long as the radius.
+
+        >>> Arc.from_bulge(Point(1, 0), Point(-1, 0), fmpq(1)).tangent(Point(0, 1))
+        Point(-1, 0)
+        """
         radial = point - self.center
         return radial.left() if self.ccw else -radial.left()
 
     def part(self, start: Point, end: Point) -> Arc:
-        """The piece between two of its points, in the arc's sense; equal points give the full circle."""
+        """The piece between two of its points, in the arc's sense; equal points give the full circle.
+
+        >>> Arc.from_bulge(Point(1, 0), Point(-1, 0), fmpq(1)).part(Point(1, 0), Point(0, 1))
+        Arc(Point(1, 0), Point(0, 1), center=Point(0, 0), ccw)
+        """
         whole = start is end or start == end
         return Arc(start, end, self.center, self.radius_sq, self.ccw, full=whole)
 

@@ -31,7 +31,14 @@ class Location(IntEnum):
 
 
 class Point:
-    """A point (or vector) of the plane; equality and lexicographic order are exact."""
+    """A point, or a vector, of the plane with exact coordinates ``x`` and ``y``, both `Real`.
+
+    A coordinate is anything that `Real` accepts. Vectors are added, subtracted and scaled by numbers.
+    Equality is exact and may raise `Undecided`. Points with rational coordinates are hashable, others are not.
+
+    >>> Point(1, "1/2") + 2 * Point(0, "0.25")
+    Point(1, 1)
+    """
 
     __slots__ = ("x", "y")
 
@@ -41,7 +48,11 @@ class Point:
 
     @classmethod
     def of(cls, value: Point | Sequence[object]) -> Point:
-        """A point from a Point or a pair of numbers; `FormatError` for anything else."""
+        """A point from a Point or a pair of numbers; `FormatError` for anything else.
+
+        >>> Point.of(("1/2", 3))
+        Point(1/2, 3)
+        """
         if isinstance(value, Point):
             return value
         try:
@@ -84,32 +95,52 @@ class Point:
         return Point(-self.x, -self.y)
 
     def dot(self, other: Point) -> Real:
-        """Scalar product."""
+        """Scalar product with another vector.
+
+        >>> Point(1, 2).dot(Point(3, 4))
+        Real('11')
+        """
         a, b, c, d = self.x.rational, self.y.rational, other.x.rational, other.y.rational
         if a is None or b is None or c is None or d is None:
             return self.x * other.x + self.y * other.y
         return real(a * c + b * d)
 
     def cross(self, other: Point) -> Real:
-        """z of the vector product: positive if *other* lies counterclockwise of self."""
+        """The z coordinate of the vector product: positive if *other* lies counterclockwise of self.
+
+        >>> Point(1, 0).cross(Point(0, 2))
+        Real('2')
+        """
         a, b, c, d = self.x.rational, self.y.rational, other.x.rational, other.y.rational
         if a is None or b is None or c is None or d is None:
             return self.x * other.y - self.y * other.x
         return real(a * d - b * c)
 
     def norm_sq(self) -> Real:
-        """Squared length."""
+        """Squared length of the vector.
+
+        >>> Point(3, 4).norm_sq()
+        Real('25')
+        """
         x, y = self.x.rational, self.y.rational
         if x is None or y is None:
             return self.x * self.x + self.y * self.y
         return real(x * x + y * y)
 
     def left(self) -> Point:
-        """The vector turned by a quarter, counterclockwise."""
+        """The vector turned counterclockwise by a quarter of a full turn.
+
+        >>> Point(1, 2).left()
+        Point(-2, 1)
+        """
         return Point(-self.y, self.x)
 
     def compare(self, other: Point) -> int:
-        """Lexicographic order: x, then y."""
+        """-1, 0 or 1 as self comes before, equals or comes after *other* in the order by x, then by y.
+
+        >>> Point(1, 2).compare(Point(1, 3))
+        -1
+        """
         return self.x.compare(other.x) or self.y.compare(other.y)
 
     def __eq__(self, other: object) -> bool:

@@ -1,4 +1,4 @@
-"""What every exact number offers beside its arithmetic: order, hash, formats and rounding."""
+"""What every exact number offers besides arithmetic: order, hash, formats and rounding."""
 
 from __future__ import annotations
 
@@ -61,6 +61,10 @@ class Exact:
         """-1, 0 or 1 as self is less than, equal to or greater than *other*, which may be infinite.
 
         TypeError for what is no number, ValueError for a NaN, `Undecided` beyond the limits of the type.
+
+        >>> from exactacq.numbers.length import Length
+        >>> Length.turns(1).compare(7)
+        -1
         """
         return self._compared(other)
 
@@ -104,7 +108,12 @@ class Exact:
         return hash(self.rational)
 
     def as_integer_ratio(self) -> tuple[int, int]:
-        """Numerator and denominator; ValueError for an irrational number."""
+        """Numerator and denominator; ValueError for an irrational number.
+
+        >>> from exactacq.numbers.real import Real
+        >>> Real("0.75").as_integer_ratio()
+        (3, 4)
+        """
         if self.rational is None:
             raise ValueError(f"an irrational number is no ratio of integers: {self}")
         return int(self.rational.p), int(self.rational.q)

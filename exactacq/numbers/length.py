@@ -59,12 +59,18 @@ Number: TypeAlias = "Real | int | fmpz | fmpq | Fraction | Decimal | float"
 
 
 class Length(Exact):
-    """An exact length (or area): ``Length(value)`` of a number or Real; arcs by `between`, `arc`, `turns`.
+    """An exact length, in the unit of the scene, or an exact area, in its square.
 
+    ``Length(value)`` takes what `Real` takes; lengths of arcs are made by `turns`, `arc` and `between`.
     Lengths add, subtract and scale by numbers exactly, and compare with each other and with numbers
     (infinities are the ends of the order; comparisons with a NaN are False but for ``!=``).
     Comparisons are a total order, or raise `Undecided` (stage 5 above).  Irrational lengths are not
     hashable: equal ones may have different expressions.  The empty sum, and a full circle of radius 0, are 0.
+    The quotient of two lengths is a `Quotient`.
+
+    >>> path = Length(5) + Length.turns(6)
+    >>> print(path, path < Length("42.7"), f"{path:.3f}")
+    5 + 12*pi True 42.699
     """
 
     __slots__ = ("_algebraic", "_angular", "_ball", "_bits", "_sign")
@@ -89,8 +95,11 @@ class Length(Exact):
     def arc(cls, coefficient: Number, cosine: Number, sine: Number) -> Length:
         """*coefficient* times the angle in [0, 2 pi) of the complex number cosine + i sine.
 
-        ValueError if that number is not on the unit circle: exact for rational coordinates, else the
-        caller's promise, checked to 64 bits.
+        ValueError if that number is not on the unit circle. This is checked exactly for rational coordinates
+        and otherwise to 64 bits only: then it is up to the caller.
+
+        >>> print(Length.arc(1, "3/5", "4/5") + Length.arc(1, "4/5", "3/5"))
+        pi/2
         """
         return cls._make(Real(0), AngleSum.of(Real(cosine), Real(sine), Real(coefficient)))
 
@@ -98,9 +107,13 @@ class Length(Exact):
     def between(cls, coefficient: Number, start: Vector, end: Vector, norm_sq: fmpq) -> Length:
         """*coefficient* times the counterclockwise angle in [0, 2 pi) from one vector to another.
 
-        As `arc`, and the angle remembers its two directions: sums of contiguous arcs are decided however
-        finely their circle is cut, if pieces that meet are given the same vector (the same
-        expression) there. *norm_sq*, the squared length of both vectors, is promised and checked likewise.
+        *norm_sq* is the squared length of both vectors, checked as in `arc`. The angle remembers its two
+        directions, so sums of contiguous arcs are decided into however many pieces their circle is divided,
+        if pieces that meet are given the same vector (the same expression) there.
+
+        >>> east, north = (Real(1), Real(0)), (Real(0), Real(1))
+        >>> print(Length.between(2, north, east, fmpq(1)))
+        3*pi
         """
         (a, b), (c, d) = start, end
         share, sign, angle = folded((a * c + b * d) / norm_sq, (a * d - b * c) / norm_sq)
@@ -110,19 +123,33 @@ class Length(Exact):
 
     @classmethod
     def turns(cls, coefficient: Number, k: object = 1) -> Length:
-        """*coefficient* times k full turns, ``2 pi k coefficient``, for a rational k."""
+        """*coefficient* times k full turns, ``2 pi k coefficient``, for a rational k.
+
+        With a radius as coefficient it is the length of an arc that turns k times.
+
+        >>> print(Length.turns(3, "1/4"))
+        3*pi/2
+        """
         return cls._make(Real(0), AngleSum(Real(coefficient) * (2 * rational(k)), {}))
 
     @classmethod
     def sum(cls, values: Iterable[Length | Number]) -> Length:
-        """The exact sum; linear in the number of terms."""
+        """The exact sum; linear in the number of terms.
+
+        >>> print(Length.sum([1, "1/2", Length.turns(1)]))
+        3/2 + 2*pi
+        """
         parts = [Length(value) for value in values]
         algebraic = Real.sum(part._algebraic for part in parts)
         return cls._make(algebraic, AngleSum.sum(part._angular for part in parts))
 
     @staticmethod
     def running_decimals(values: Iterable[Length], digits: int) -> list[str]:
-        """Decimals of the sums of the first 0, 1, 2, ... values; linear: no exact partial sums are made."""
+        """Decimals of the sums of the first 0, 1, 2, ... values; linear: no exact partial sums are made.
+
+        >>> Length.running_decimals([Length.turns(1), Length(1)], digits=6)
+        ['0', '6.28319', '7.28319']
+        """
         bits = 4 * digits + 64
         total, sums = arb(0), ["0"]
         for value in values:
@@ -153,7 +180,14 @@ class Length(Exact):
         return self._algebraic, angular.turn, *angular.angles.values(), *directions
 
     def direction(self, radius: Real) -> Vector | None:
-        """Cosine and sine of the angle that a sum of angles alone is on a circle, if seen to be algebraic."""
+        """Cosine and sine of the angle that this length spans on a circle of that radius.
+
+        The algebraic part is left out. None if the angle is not a sum of simple fractions of pi and of angles
+        with known cosine.
+
+        >>> Length.turns(3, "1/4").direction(Real(3))
+        (Real('0'), Real('1'))
+        """
         return self._angular.direction(radius)
 
     @property
@@ -208,7 +242,11 @@ class Length(Exact):
     # -- order -------------------------------------------------------------------------------
 
     def sign(self) -> int:
-        """-1, 0 or 1, decided exactly; raises `Undecided` beyond the limits above."""
+        """-1, 0 or 1, decided exactly; raises `Undecided` beyond the limits above.
+
+        >>> (Length.turns("113/2") - 355).sign()
+        -1
+        """
         if self._sign is None:
             self._sign = self._decide_sign()
         return self._sign
@@ -268,7 +306,11 @@ class Length(Exact):
     # -- values ------------------------------------------------------------------------------
 
     def ball(self, bits: int) -> arb:
-        """An enclosing ball computed with *bits* working bits (more if cached)."""
+        """An enclosing ball, a `flint.arb`, computed with *bits* working bits (more if cached).
+
+        >>> Length.turns(1).ball(64)
+        [6.28318530717959 +/- 3.53e-15]
+        """
         if self._bits < bits:
             with ctx.workprec(bits):
                 ball = self._algebraic.ball(bits) + self._angular.ball(bits)
@@ -276,7 +318,12 @@ class Length(Exact):
         return self._ball
 
     def enclosure(self, bits: int) -> tuple[fmpq, fmpq]:
-        """Rational (low, high) around the value, at most 2^-bits apart; exact if rational."""
+        """Rational (low, high) around the value, at most 2^-bits apart; exact if rational.
+
+        >>> low, high = Length.turns(1).enclosure(100)
+        >>> low < Length.turns(1) < high, high - low < fmpq(1, 2**100)
+        (True, True)
+        """
         if self._is_algebraic:
             return self._algebraic.enclosure(bits)
         return enclose(self.ball, bits)
@@ -288,13 +335,21 @@ class Length(Exact):
         return round_to_float(self.ball, lambda middle: self.compare(middle) == 0) + 0.0  # never -0.0
 
     def decimal(self, digits: int) -> str:
-        """The value with *digits* significant digits, correctly rounded to one unit in the last."""
+        """The value with *digits* significant digits, right to within one unit of the last.
+
+        >>> Length.turns(1).decimal(30)
+        '6.28318530717958647692528676656'
+        """
         if ball_sign(self.ball(FILTER_BITS[-1])) == 0 and self.sign() == 0:
             return "0"
         return decimal_string(self.ball, digits)
 
     def sympy(self) -> sympy.Expr:
-        """The closed form as a sympy expression, full turns and proved relations folded to pi."""
+        """The closed form as a sympy expression, full turns and proved relations folded to pi.
+
+        >>> Length.arc(1, "3/5", "4/5").sympy()
+        2*atan(1/2)
+        """
         from sympy import Add, pi
 
         turn, terms = _readable(self._angular)
@@ -302,7 +357,11 @@ class Length(Exact):
         return Add(self._algebraic.sympy(), turn.sympy() * pi, *angles)
 
     def latex(self) -> str:
-        """The closed form in LaTeX."""
+        r"""The closed form in LaTeX.
+
+        >>> print((1 + Length.turns(1, "1/6")).latex())
+        1 + \frac{\pi}{3}
+        """
         from sympy import latex
 
         return str(latex(self.sympy()))

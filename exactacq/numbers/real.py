@@ -89,11 +89,16 @@ ZERO, ONE = fmpq(0), fmpq(1)
 class Real(Exact):
     """An exact real algebraic number.
 
-    ``Real(value)`` takes what `rational` takes.  Arithmetic with numbers is exact, `sqrt` of a
-    negative number raises ValueError, division by zero ZeroDivisionError.  Comparisons form a
-    total order, in which infinities are the ends and a NaN has no place (all comparisons but ``!=`` are
-    False, as for floats), and raise `Undecided` beyond the documented limits.  Bools are not numbers
-    here.  An irrational Real is not hashable: equal values may have different expressions.
+    ``Real(value)`` takes an int, Fraction, Decimal, text such as "21/2" or "0.1", or a float, which counts
+    as the binary fraction that it is.  Arithmetic with numbers is exact, `sqrt` of a negative number raises
+    ValueError, division by zero ZeroDivisionError.  Comparisons form a total order, in which infinities are
+    the ends and a NaN has no place (all comparisons but ``!=`` are False, as for floats), and raise
+    `Undecided` beyond the documented limits.  Bools are not numbers here.  An irrational Real is not
+    hashable: equal values may have different expressions.
+
+    >>> golden = (1 + Real(5).sqrt()) / 2
+    >>> golden * golden == golden + 1
+    True
     """
 
     __slots__ = ("_ball", "_bits", "_sign", "_terms", "rational")
@@ -123,7 +128,11 @@ class Real(Exact):
 
     @classmethod
     def sum(cls, values: Iterable[Real]) -> Real:
-        """The exact sum; linear in the number of terms."""
+        """The exact sum; linear in the number of terms.
+
+        >>> print(Real.sum([Real(2).sqrt(), Real(8).sqrt(), Real(1)]))
+        1 + 3*sqrt(2)
+        """
         terms: dict[Atom, fmpq] = {}
         for value in values:
             for atom, c in value._terms.items():
@@ -283,7 +292,11 @@ class Real(Exact):
         return result
 
     def sqrt(self) -> Real:
-        """The non-negative square root; ValueError for a negative number."""
+        """The non-negative square root; ValueError for a negative number.
+
+        >>> print(Real(12).sqrt())
+        2*sqrt(3)
+        """
         q = self.rational
         if q is not None and q > 0:
             return Real._form(square_root(q))
@@ -296,7 +309,11 @@ class Real(Exact):
         return _sqrt_node(self) if plain is None else Real._form(plain)
 
     def rational_ratio(self, other: Real) -> fmpq | None:
-        """The rational q with self = q * other if the forms show it, else None (also where other is 0)."""
+        """The rational q with self = q * other if the forms show it, else None (also where other is 0).
+
+        >>> print(Real(8).sqrt().rational_ratio(Real(2).sqrt()))
+        2
+        """
         if len(self._terms) != len(other._terms) and self._terms:
             return None
         ratio = ZERO
@@ -310,7 +327,11 @@ class Real(Exact):
     # -- order -------------------------------------------------------------------------------
 
     def sign(self) -> int:
-        """-1, 0 or 1, decided exactly; raises `Undecided` beyond `ZERO_TEST_BITS`."""
+        """-1, 0 or 1, decided exactly; raises `Undecided` beyond `ZERO_TEST_BITS`.
+
+        >>> (Real(2).sqrt() + Real(3).sqrt() - (5 + 2 * Real(6).sqrt()).sqrt()).sign()
+        0
+        """
         if self.rational is not None:
             return int(self.rational > 0) - int(self.rational < 0)
         if self._sign is None:
@@ -372,6 +393,9 @@ class Real(Exact):
         """-1, 0 or 1 as self is less than, equal to or greater than *other*, which may be infinite.
 
         TypeError for what is no number, ValueError for a NaN, `Undecided` beyond `ZERO_TEST_BITS`.
+
+        >>> Real(2).sqrt().compare(Real("1.41421356"))
+        1
         """
         if type(other) is Real:
             a, b = self.rational, other.rational
@@ -417,7 +441,11 @@ class Real(Exact):
     # -- values ------------------------------------------------------------------------------
 
     def ball(self, bits: int) -> arb:
-        """An enclosing ball computed with *bits* working bits (more if cached)."""
+        """An enclosing ball, a `flint.arb`, computed with *bits* working bits (more if cached).
+
+        >>> Real(2).sqrt().ball(64)
+        [1.41421356237310 +/- 4.96e-15]
+        """
         if self._bits >= bits:
             return self._ball
         with ctx.workprec(bits):
@@ -436,7 +464,12 @@ class Real(Exact):
         return self._ball
 
     def enclosure(self, bits: int) -> tuple[fmpq, fmpq]:
-        """Rational (low, high) around the value, at most 2^-bits apart; exact if rational."""
+        """Rational (low, high) around the value, at most 2^-bits apart; exact if rational.
+
+        >>> low, high = Real(2).sqrt().enclosure(100)
+        >>> low < Real(2).sqrt() < high, high - low < fmpq(1, 2**100)
+        (True, True)
+        """
         if self.rational is not None:
             return self.rational, self.rational
         return enclose(self.ball, bits)
@@ -452,19 +485,31 @@ class Real(Exact):
         return nearest_float(self.rational) if self.rational is not None else float(self.ball(64).mid())
 
     def decimal(self, digits: int) -> str:
-        """The value with *digits* significant digits, correctly rounded to one unit in the last."""
+        """The value with *digits* significant digits, right to within one unit of the last.
+
+        >>> Real(2).sqrt().decimal(30)
+        '1.41421356237309504880168872421'
+        """
         if not ball_sign(self.ball(FILTER_BITS[-1])) and self.sign() == 0:
             return "0"
         return decimal_string(self.ball, digits)
 
     def sympy(self) -> sympy.Expr:
-        """The closed form as a sympy expression."""
+        """The closed form as a sympy expression.
+
+        >>> (1 / Real(2).sqrt()).sympy()
+        sqrt(2)/2
+        """
         from sympy import Add
 
         return Add(*(sympy_rational(c) * atom_sympy(a) for a, c in self._terms.items()))
 
     def latex(self) -> str:
-        """The closed form in LaTeX."""
+        r"""The closed form in LaTeX.
+
+        >>> print((1 / Real(2).sqrt()).latex())
+        \frac{\sqrt{2}}{2}
+        """
         from sympy import latex
 
         return str(latex(self.sympy()))
