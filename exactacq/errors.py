@@ -1,14 +1,28 @@
-"""The errors a caller can meet; each message says what is wrong, where, and what to do."""
+"""The errors of the library; each message is one line that says what is wrong, where, and what to do."""
 
 from __future__ import annotations
 
 
 class ExactacqError(Exception):
-    """Root of all errors that exactacq raises on purpose."""
+    """Base class of the errors that exactacq defines.
+
+    >>> import exactacq as xa
+    >>> try:
+    ...     xa.load("nowhere")
+    ... except xa.ExactacqError as error:
+    ...     print(error)
+    nowhere: no such file or gallery scene; `exactacq gallery` lists the scenes
+    """
 
 
 class InvalidScene(ExactacqError, ValueError):
-    """A scene breaks a rule of the world: every violation found is in ``violations``."""
+    """A scene breaks a rule of `exactacq.scene.validation`: all violations found are in ``violations``.
+
+    >>> import exactacq as xa
+    >>> xa.Scene([xa.Circle((0, 0), 1)], start=(0, 0))
+    Traceback (most recent call last):
+    exactacq.errors.InvalidScene: start (0, 0) lies inside obstacle 0: it must lie in free space
+    """
 
     def __init__(self, violations: list[str]) -> None:
         self.violations = tuple(violations)
@@ -16,12 +30,32 @@ class InvalidScene(ExactacqError, ValueError):
 
 
 class FormatError(ExactacqError, ValueError):
-    """A file cannot be read as a scene, or a value cannot be read as a number."""
+    """A file cannot be read as a scene, or a value cannot be read as a number.
+
+    >>> import exactacq as xa
+    >>> xa.Length("1/2/3")
+    Traceback (most recent call last):
+    exactacq.errors.FormatError: not a number: '1/2/3'
+    """
 
 
 class Undecided(ExactacqError, ArithmeticError):
-    """An exact comparison lies beyond the documented limits; the message names it."""
+    """An exact comparison is beyond the library's limits; the message names it. It is never guessed.
+
+    >>> import exactacq as xa
+    >>> circle = xa.Length.turns(1)
+    >>> circle / xa.Length(3) == circle * 2 / xa.Length(6)
+    Traceback (most recent call last):
+    exactacq.errors.Undecided: two quotients of irrational lengths that may be equal
+    """
 
 
 class AuditError(ExactacqError, AssertionError):
-    """A finished run contradicts its scene; the message names the first flaw."""
+    """A finished run contradicts its scene; the message names the first flaw found.
+
+    >>> import exactacq as xa
+    >>> from dataclasses import replace
+    >>> xa.audit(replace(xa.sightseer(xa.load("circles")), visits=()))
+    Traceback (most recent call last):
+    exactacq.errors.AuditError: visits are [], but the hits were [0, 1]
+    """

@@ -1,4 +1,4 @@
-"""Files as scenes: one file a format, each -> Scene; the suffix of a file's name chooses the format."""
+"""Scenes from files; the suffix of the file's name chooses the format: JSON or DXF."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One way in: a file, or a scene of the gallery by its name."""
+"""Loading a scene from a file, or from the gallery by its name."""
 
 from __future__ import annotations
 
@@ -12,10 +12,15 @@ from exactacq.scene.scene import Scene
 
 
 def load(name: str | os.PathLike[str], **options: Any) -> Scene:
-    """The scene in a file, or else the gallery scene of that name.
+    """The scene in a .json or .dxf file, or else the gallery scene of that name.
 
     *options* (start, layers, outer, tolerance, union) are for drawings: see `exactacq.files.by_suffix.load`.
-    Raises `FormatError` if there is neither, and what reading and validation raise.
+    Raises `FormatError` if there is no such file or scene or the file cannot be read, `InvalidScene` if the
+    scene breaks the rules. Near linear in the size of the file.
+
+    >>> scene = load("circles")
+    >>> scene, scene.start, scene.radius
+    (<Scene 'circles': 2 obstacles>, Point(0, 0), 20)
     """
     text = os.fspath(name)
     if "\0" in text or os.path.lexists(text):

@@ -109,8 +109,8 @@ class Segment:
 class Arc:
     """The arc of a circle from ``start`` to ``end``, counterclockwise if ``ccw``.
 
-    The supporting circle has a rational ``center`` and a rational squared radius ``radius_sq``. The angle is in
-    (0, 2 pi]; a full circle has equal ends and ``full``. It is not checked that the ends lie on the circle.
+    The supporting circle has a rational ``center`` and a rational squared radius ``radius_sq``. The angle is
+    in (0, 2 pi]; a full circle has equal ends and ``full``. That the ends lie on the circle is not checked.
 
     >>> east, north = Point(2, 0), Point(0, 2)
     >>> print(Arc(east, north, Point(0, 0), fmpq(4), ccw=True).length)

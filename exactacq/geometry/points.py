@@ -34,7 +34,7 @@ class Point:
     """A point, or a vector, of the plane with exact coordinates ``x`` and ``y``, both `Real`.
 
     A coordinate is anything that `Real` accepts. Vectors are added, subtracted and scaled by numbers.
-    Equality is exact and may raise `Undecided`. Points with rational coordinates are hashable, others are not.
+    Equality is exact and may raise `Undecided`. Points with rational coordinates are hashable, others not.
 
     >>> Point(1, "1/2") + 2 * Point(0, "0.25")
     Point(1, 1)

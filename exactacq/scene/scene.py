@@ -1,4 +1,4 @@
-"""The world: obstacles with exact boundaries, an optional enclosure and terrain, and the start."""
+"""Scenes: obstacles with exact boundaries, an optional enclosure and terrain, and the start."""
 
 from __future__ import annotations
 
@@ -21,10 +21,16 @@ from exactacq.scene.validation import validate
 
 
 class Obstacle:
-    """A closed loop with the blocked side on its left: counterclockwise, the enclosure clockwise.
+    """An obstacle of a scene, or its enclosure, by its boundary.
 
-    ``edges[0]`` starts at the shape's first vertex, also if the shape was given in the other sense. A circle
-    is one full arc from its east point. Obstacles are compared by identity and are not changed once made.
+    ``edges`` has the blocked side on the left: an obstacle's boundary runs counterclockwise, an enclosure's
+    clockwise, in whichever sense the shape was given. ``edges[0]`` starts at the shape's first vertex. A
+    circle is one full arc from its east point. Obstacles are compared by identity and never change.
+
+    >>> import exactacq as xa
+    >>> obstacle = xa.Scene([xa.Circle((0, 0), 3, name="pillar")]).obstacles[0]
+    >>> print(obstacle.label, obstacle.perimeter, obstacle.area)
+    pillar 6*pi 9*pi
     """
 
     def __init__(self, index: int, shape: Shape, edges: Sequence[Curve], is_enclosure: bool = False) -> None:
@@ -34,7 +40,7 @@ class Obstacle:
 
     @classmethod
     def of(cls, index: int, shape: Shape, is_enclosure: bool = False) -> Obstacle:
-        """The loop exactly as the shape gives it, in its own sense."""
+        """An obstacle whose edges run in the sense in which the shape was given: see `oriented`."""
         return cls(index, shape, shape_edges(shape), is_enclosure)
 
     def oriented(self) -> Obstacle:
@@ -71,11 +77,20 @@ class Obstacle:
 
 
 class Scene:
-    """A validated world.
+    """A valid scene: disjoint obstacles, and where given a start, a terrain, an enclosure and a radius.
 
-    Raises `InvalidScene`, which lists every violation found. *start* is a pair of numbers or a `Point`;
-    *notes* are what an importer wants to tell the user. ``obstacles`` holds the shapes in the given order and
-    the enclosure last; ``shapes`` and ``enclosure`` are what was given. Not to be changed once made.
+    *obstacles* are `Polygon`, `Outline` and `Circle` shapes. *start* is a pair of numbers or a `Point` in
+    free space. *terrain* is the rectangle that the Seed Spreader sweeps; obstacles may cross its border.
+    *enclosure* is a shape that contains everything: the wall of a room. *radius* is the robot's radius of
+    vision, in the unit of the coordinates. *notes* are an importer's remarks to the user.
+
+    ``obstacles`` are the `Obstacle` objects in the given order, the enclosure last; ``shapes`` and
+    ``enclosure`` are the shapes as given. A scene is not changed once made. Raises `InvalidScene` with all
+    violations found of the rules in `exactacq.scene.validation`, and `FormatError` for a value of the wrong
+    kind. Cost: near linear in the number of edges.
+
+    >>> Scene([Circle((5, 0), 2), Circle((12, 0), 3)], start=(0, 0), radius=20, name="two discs")
+    <Scene 'two discs': 2 obstacles>
     """
 
     def __init__(
@@ -103,7 +118,10 @@ class Scene:
     def meets_border(self) -> list[int]:
         """Indices of the obstacles, the enclosure aside, that are not strictly inside the terrain.
 
-        Empty without a terrain. Decided without square roots for rational data.
+        Empty without a terrain. Linear in the number of edges.
+
+        >>> Scene([Circle((1, 2), 1), Circle((5, 5), 2)], terrain=Terrain(8, 8)).meets_border()
+        [0]
         """
         terrain = self.terrain
         if terrain is None:

@@ -1,4 +1,8 @@
-"""What a user writes: polygons, outlines with bulges, circles and the terrain, all with rational data."""
+"""Input shapes: polygons, outlines with bulges, circles and the terrain, all with rational data.
+
+Numbers are read exactly and without any check of the geometry: that is up to `exactacq.Scene`. Values that
+are no numbers raise `FormatError`.
+"""
 
 from __future__ import annotations
 
@@ -17,14 +21,23 @@ Vertex: TypeAlias = "tuple[fmpq, fmpq, fmpq]"
 
 @dataclass(frozen=True, slots=True)
 class Loop:
-    """A closed boundary of straight and bulged edges, in either orientation."""
+    """A closed boundary of straight edges and arcs, given clockwise or counterclockwise."""
 
     vertices: tuple[Vertex, ...]
     name: str | None = None
 
 
 class Outline(Loop):
-    """A loop from ``(x, y)`` or ``(x, y, bulge)`` vertices (bulge > 0: the edge turns counterclockwise)."""
+    """A closed boundary of straight edges and arcs, from vertices ``(x, y)`` or ``(x, y, bulge)``.
+
+    The bulge, as in DXF, is the tangent of a quarter of the angle of the edge that follows: positive for
+    counterclockwise arcs, 0 for a straight edge, 1 for a half circle. At least 3 vertices, or 2 with an arc.
+
+    >>> half = Outline([(-1, 0), (1, 0, 1)])
+    >>> import exactacq as xa
+    >>> print(xa.Scene([half]).obstacles[0].perimeter)
+    2 + pi
+    """
 
     __slots__ = ()
 
@@ -33,7 +46,13 @@ class Outline(Loop):
 
 
 class Polygon(Loop):
-    """A loop of straight edges from ``(x, y)`` vertices."""
+    """A closed boundary of straight edges, from at least 3 vertices ``(x, y)``.
+
+    >>> square = Polygon([(0, 0), (1, 0), (1, 1), (0, 1)], name="square")
+    >>> import exactacq as xa
+    >>> xa.Scene([square]).obstacles[0].perimeter
+    Length('4')
+    """
 
     __slots__ = ()
 
@@ -46,7 +65,12 @@ class Polygon(Loop):
 
 @dataclass(frozen=True, slots=True, init=False)
 class Circle:
-    """A full circle with rational centre and radius."""
+    """A disc, or as an enclosure a round room, with rational centre and positive rational radius.
+
+    >>> import exactacq as xa
+    >>> print(xa.Scene([Circle((0, 0), "1/2")]).obstacles[0].area)
+    pi/4
+    """
 
     center: tuple[fmpq, fmpq]
     radius: fmpq
@@ -63,7 +87,11 @@ Shape: TypeAlias = "Loop | Circle"
 
 @dataclass(frozen=True, slots=True, init=False)
 class Terrain:
-    """The rectangle [0, width] x [0, height]."""
+    """The rectangle [0, width] x [0, height] that the Seed Spreader sweeps; both sides are positive.
+
+    >>> Terrain(8, "13/2")
+    Terrain(width=8, height=13/2)
+    """
 
     width: fmpq
     height: fmpq

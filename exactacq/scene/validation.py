@@ -1,7 +1,15 @@
-"""The rules of the world: simple loops, pairwise disjoint, all within the enclosure, the start free.
+"""The rules of a legal scene, and the search for all violations of them.
+
+- A boundary is a simple closed curve: at least 3 vertices, or 2 with an arc, and no edge of length 0.
+- No two boundaries have a point in common: obstacles neither cross nor touch nor are tangent to each other or
+  to the enclosure, and none lies inside another. All lie within the enclosure.
+- The start lies in free space, which is closed: the start may lie on a boundary.
+- Radius, and width and height of the terrain, are positive. Obstacles may cross or touch the terrain's
+  border: `exactacq.scene.terrain_components` finds what remains of them.
+- Coordinates, radii and lengths of edges lie within `LIMIT`.
 
 Floats only choose which edges are compared (boxes rounded outward); every verdict is exact, so a gap of
-10^-60 passes and a tangency does not. Near linear in the number of edges plus that of overlapping boxes.
+10^-60 is legal and a tangency is not. Near linear in the number of edges plus that of overlapping boxes.
 """
 
 from __future__ import annotations

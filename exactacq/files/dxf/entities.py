@@ -1,4 +1,8 @@
-"""The entities of a DXF file, read through ezdxf, as chains and circles with rational data."""
+"""The entities of a DXF file, read through ezdxf, as chains of edges and circles with rational data.
+
+LWPOLYLINE and POLYLINE with their bulges, LINE, ARC and CIRCLE of the model space are read, also inside
+blocks (INSERT). Other kinds, such as ELLIPSE, SPLINE, TEXT and DIMENSION, are left out and counted by name.
+"""
 
 from __future__ import annotations
 
@@ -38,7 +42,7 @@ logging.getLogger("ezdxf").addHandler(logging.NullHandler())
 
 @dataclass(slots=True)
 class Drawing:
-    """What a drawing holds: chains, circles (each with its place in the file), and the rest by name."""
+    """The contents of a drawing: chains, circles (with their places in the file), other entities by name."""
 
     path: Path
     chains: list[Chain] = field(default_factory=list)
@@ -70,7 +74,7 @@ class Drawing:
 def read_drawing(path: str | Path, layers: Iterable[str] | None) -> Drawing:
     """The model space of a DXF file, all layers or those named (in any case).
 
-    Raises `FormatError` for what is no complete DXF file, or holds no such layer. Linear in the file.
+    Raises `FormatError` for what is no complete DXF file, or has no such layer. Linear in the file.
     """
     drawing = Drawing(Path(path))
     document = _open(path, drawing)
