@@ -66,14 +66,17 @@ FOLLOWS: dict[EventKind, tuple[EventKind | None, ...]] = {
 
 
 def audit(run: Run, *, samples: int = 64, seed: int = 0) -> None:
-    """Check a finished run; `AuditError` names the first flaw, None is praise.
+    """Check a finished run by other means than those that made it; raises `AuditError` with the first flaw.
 
-    *samples* is the number of random targets, of targets beside ends of known parts, and of places on the
-    path: what is known, and what a sweep was about to lose, is checked on a sample, all else completely. The
-    same *seed* takes the same sample. ValueError for runs of another strategy, `Undecided` where an exact
-    comparison is beyond its limits. Cost: about ten milliseconds a sample at ten obstacles in range, less
-    than one a piece and an event, and that of `MOMENTS` maps; of a sweep that of a map for each piece on its
-    lines besides.
+    Path, events, links, bounds and length are checked completely. What is known, and what a sweep was about
+    to lose, is checked on samples: *samples* random boundary points, as many beside ends of known parts, and
+    as many places on the path. Equal seeds give equal samples. Returns None if no flaw is found. ValueError
+    for runs of another strategy, `Undecided` where an exact comparison is beyond the limits. Cost: about ten
+    milliseconds a sample at ten obstacles in range, less than one for each piece and event, and that of
+    `MOMENTS` maps; for the Seed Spreader also of one map for each piece on its lines.
+
+    >>> import exactacq as xa
+    >>> audit(xa.sightseer(xa.load("circles")), samples=8)
     """
     if not isinstance(run, SightseerRun | SeedSpreaderRun):
         raise ValueError(f"no audit for a {type(run).__name__}")

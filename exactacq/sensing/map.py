@@ -1,6 +1,7 @@
-"""The map: for every boundary edge the union of closed intervals that the robot has seen.
+"""The map: for every boundary edge the union of the closed intervals that the robot has seen.
 
-Intervals are ordered by exact rail parameters and merged where they meet, which is decided exactly.
+Intervals are ordered by exact parameters along the edge (`exactacq.geometry.curve_parameter`) and merged
+where they meet; both are decided exactly.
 """
 
 from __future__ import annotations
@@ -20,9 +21,9 @@ from exactacq.sensing.targets import Target, Targets
 
 @dataclass(frozen=True)
 class Known:
-    """A known part of a boundary: on edge ``edge`` of its obstacle, from start to end along the edge.
+    """A known part of a boundary: on edge number ``edge`` of its obstacle, from start to end along the edge.
 
-    Equal ends are a single known point, or, if ``whole``, all of a full circle.
+    Equal ends are a single known point, with ``curve`` None, or, if ``whole``, a full circle.
     """
 
     edge: int
@@ -38,7 +39,7 @@ class Known:
 
 
 class Body(Protocol):
-    """What a map holds: an obstacle, or a component of one (see `exactacq.scene.terrain_components`)."""
+    """What maps are of: an obstacle, or a component of one (see `exactacq.scene.terrain_components`)."""
 
     @property
     def edges(self) -> Sequence[Curve]: ...
@@ -51,10 +52,20 @@ class Body(Protocol):
 
 
 class Map:
-    """What a robot knows at one moment. Immutable; exact.
+    """What a robot knows at one moment: which parts of which boundaries it has seen. Exact, and immutable.
 
-    An obstacle is *seen* if any point of its boundary is known, *acquired* if all of it is, *incomplete* if
-    some but not all.
+    A boundary point is *known* if it was visible from some point of the path so far. An obstacle is *seen* if
+    a point of its boundary is known, *acquired* if all of it is, *incomplete* if some but not all of it is.
+    Obstacles are given by their numbers in the run, from 0 (``Run.obstacles``). Linear in the number of known
+    parts; `knows` may raise `Undecided`.
+
+    >>> import exactacq as xa
+    >>> run = xa.sightseer(xa.load("circles"))
+    >>> known = run.map_at(2)
+    >>> known.seen, known.acquired, known.incomplete
+    ((0,), (), (0,))
+    >>> print(*(point for _, point in known.frontier))
+    (21/5, 2*sqrt(21)/5) (21/5, -2*sqrt(21)/5)
     """
 
     def __init__(
@@ -67,11 +78,22 @@ class Map:
         return f"<Map: {len(self.seen)} of {len(self.obstacles)} obstacles seen>"
 
     def known(self, i: int) -> tuple[Known, ...]:
-        """The known parts of obstacle i, by edge and then along it; parts that meet in an edge are one."""
+        """The known parts of obstacle i, edge by edge, in order along each; parts of an edge are disjoint.
+
+        >>> import exactacq as xa
+        >>> run = xa.sightseer(xa.load("circles"))
+        >>> [(part.edge, str(part.length)) for part in run.map_at(2).known(0)]
+        [(0, '2*acos(-17/25)')]
+        """
         return tuple(part for k in range(len(self.obstacles[i].edges)) for part in self._on_edge(i, k))
 
     def knows(self, i: int, point: Point) -> bool:
-        """Whether a point of the boundary of obstacle i is known; ValueError if it is not on it."""
+        """Whether a point of the boundary of obstacle i is known; ValueError if it is not on the boundary.
+
+        >>> import exactacq as xa
+        >>> xa.sightseer(xa.load("circles")).map_at(2).knows(0, xa.Point(7, 0))
+        False
+        """
         edges = [k for k, edge in enumerate(self.obstacles[i].edges) if edge.passes(point)]
         if not edges:
             raise ValueError(f"{point} is not on the boundary of obstacle {i}")
@@ -83,7 +105,12 @@ class Map:
         return any(cover.contains(u) for u in ends or [self._rails[target.edge].parameter(point)])
 
     def known_length(self, i: int | None = None) -> Length:
-        """Exact length of what is known of obstacle i, or of all obstacles."""
+        """Exact length of what is known of obstacle i, or of all obstacles.
+
+        >>> import exactacq as xa
+        >>> print(xa.sightseer(xa.load("circles")).map.known_length())
+        10*pi
+        """
         obstacles = range(len(self.obstacles)) if i is None else (i,)
         return Length.sum(
             self.obstacles[j].perimeter
@@ -117,7 +144,12 @@ class Map:
         return tuple((i, point) for i in self.incomplete for point in self._frontier(i))
 
     def is_incomplete(self, i: int) -> bool:
-        """Whether some but not all of an obstacle's boundary is known."""
+        """Whether some but not all of the boundary of obstacle i is known.
+
+        >>> import exactacq as xa
+        >>> xa.sightseer(xa.load("circles")).map_at(2).is_incomplete(0)
+        True
+        """
         return self._is_seen(i) and not self._is_acquired(i)
 
     def _frontier(self, i: int) -> Iterator[Point]:

@@ -1,8 +1,9 @@
-"""The sweep: how the view of a robot changes along one piece of a path, and what each stretch teaches.
+"""The sweep: how the view of a robot changes along one piece of a path, and what it sees between the changes.
 
-What is seen of an edge is bounded by windows: lines through the robot that touch a feature. A window moves
-with the robot along one glance; where that glance ends, or an edge comes into sight or goes out of it, is an
-*event*. Between neighbouring events, in a *cell*, the view keeps its combinatorial form.
+What is seen of an edge is bounded by windows: lines through the robot that touch a corner or a convex arc. A
+*visual event* is a place where a window begins to touch something else, or where an edge comes into sight or
+goes out of it (Hall-Holt, "Kinetic visibility", 2002). Between neighbouring events, in a *cell*, the view
+keeps its combinatorial form.
 """
 
 from __future__ import annotations
@@ -71,7 +72,7 @@ class SweepEvent:
 
 @dataclass(frozen=True)
 class SweepCell:
-    """A stretch of the piece without an event inside, from one place to another as the robot passes them."""
+    """A stretch of the piece without an event inside, from ``begin`` to ``end`` as the robot passes them."""
 
     leg: int
     begin: Place
@@ -95,15 +96,15 @@ class SweepCell:
 
     @cached_property
     def map(self) -> Map:
-        """What the cell teaches a robot that knows nothing: all that is seen from some place of it."""
+        """The map of a robot that has walked this cell only: all that is seen from some place of it."""
         part = self.shares.leg.between(self.begin, self.end)
         rails = self.shares.sightlines.ranges.rails
         return Map(self.scene.obstacles, self.shares.targets, rails, self.shares.cut(part).taught({}))
 
     def windows(self, u: fmpq) -> list[tuple[Point, Point | None]]:
-        """The windows of the view at a rational parameter: the touched point, and what is seen past it.
+        """The windows of the view at a rational parameter: the touched point, and the point seen beyond it.
 
-        None where that is out of range. A view along the leg's own line is no window here.
+        The latter is None if it is out of range. A view along the robot's own line is no window here.
         """
         at, place = Real(u), self.point(u)
         cut = [self.shares.at(share, at, place) for share in _bounds(self.shares)]
@@ -162,9 +163,16 @@ class Sweep:
 def sweep(scene: Scene, curve: Curve, radius: object = None, *, obstacle: int | None = None) -> Sweep:
     """How the view within a radius (the scene's own if None) changes along a curve.
 
-    The curve is a free segment, or part of one boundary edge of the obstacle of that number. It is trusted to
-    be free, as the pieces of a run are. Raises `InvalidScene` if the radius is missing or not positive, and
-    ValueError if the curve is no part of the boundary. Cost: near linear in the sightlines within reach.
+    The curve is a free segment, or part of one boundary edge of the obstacle of that number. That a segment
+    is free is not checked. Raises `InvalidScene` if the radius is missing or not positive, and ValueError if
+    the curve is no part of the boundary. Cost: near linear in the free lines within reach that touch two
+    corners or arcs.
+
+    >>> import exactacq as xa
+    >>> scene = xa.Scene([xa.Polygon([(2, -1), (3, -1), (3, 1), (2, 1)])])
+    >>> swept = sweep(scene, xa.Segment(xa.Point(0, 2), xa.Point(4, 2)), radius=5)
+    >>> [(event.change.value, event.edge, str(event.place)) for event in swept.events[::2]]
+    [('occlusion', 0, '(2, 2)'), ('reappearance', 1, '(3, 2)')]
     """
     reach = scene.radius if radius is None else rational(radius)
     if reach is None:

@@ -1,8 +1,9 @@
-"""The isovist: all that a point sees within a limited range, as one closed boundary.
+"""The isovist: the region that is visible from a point within a limited range, by its closed outline.
 
-`visible_boundary` decides what is seen and `outline` joins it. What is seen along single rays only, between
-obstacles that pinch a line or along an edge, bounds no area: it is in the isovist, not on its outline, and
-offered as `rays`.
+The term is Benedikt's ("To take hold of space: isovists and isovist fields", 1979). `visible_boundary`
+decides what is seen, and `outline` joins it. Some single rays see more than the rays next to them: those
+that pass between two obstacles which touch the same line from both sides, and those along a straight edge.
+They bound no area. They belong to the isovist, but not to its outline, and are listed as `rays`.
 """
 
 from __future__ import annotations
@@ -34,10 +35,16 @@ __all__ = ["Isovist", "ViewKind", "ViewPiece", "isovist"]
 
 
 class Isovist:
-    """The view from a free point within a rational radius.
+    """The region visible from a free point within a rational radius; made by `isovist`.
 
-    Made with it: which facet comes first in every direction, decided exactly. On first access: the exact end
-    points of ``pieces``, ``rays`` and `seen`, which need square roots where the range cuts.
+    Only the interior of an obstacle blocks: a line of sight may touch boundaries or run along them, and the
+    region is closed. What is seen first in every direction is decided, exactly, when the isovist is made; the
+    end points of `pieces`, `rays` and `seen` are computed on first access.
+
+    >>> import exactacq as xa
+    >>> view = xa.isovist(xa.Scene([xa.Circle((3, 0), 1)]), (3, 2), radius=1)
+    >>> print(view.area, view.perimeter)
+    pi 2*pi
     """
 
     def __init__(self, scene: Scene, point: Point, radius: fmpq, own: tuple[int, ...] | None = None) -> None:
@@ -46,9 +53,15 @@ class Isovist:
 
     @cached_property
     def pieces(self) -> tuple[ViewPiece, ...]:
-        """The closed outline, counterclockwise; from a boundary point it passes through the point itself.
+        """The closed outline, counterclockwise: parts of edges, windows and arcs of the range circle.
 
-        Empty where the point, at the tip of a crack, sees no area.
+        A window is a segment that joins a visible boundary point with what is seen beyond it. From a point on
+        a boundary the outline passes through the point itself. Empty where the point sees no area.
+
+        >>> import exactacq as xa
+        >>> wall = xa.Polygon([(2, -1), (3, -1), (3, 1), (2, 1)])
+        >>> [piece.kind.value for piece in xa.isovist(xa.Scene([wall]), (0, 0), radius=5).pieces]
+        ['window', 'edge', 'window', 'range']
         """
         return outline(self._view)
 
@@ -64,7 +77,14 @@ class Isovist:
     def seen(self) -> dict[tuple[int, int], list[Span]]:
         """All boundary points seen: by obstacle and edge, closed pieces (start, end) in the edge's direction.
 
-        As `seen_from` says, which see for vertices, single points and full circles.
+        The pieces of an edge are disjoint and in order; equal ends are a single point. A vertex is the end of
+        a piece of either edge, or alone with the edge that starts there. On a full circle a piece may run
+        over the circle's start, and a circle that is seen whole has its two halves as pieces.
+
+        >>> import exactacq as xa
+        >>> wall = xa.Polygon([(2, -1), (3, -1), (3, 1), (2, 1)])
+        >>> xa.isovist(xa.Scene([wall]), (0, 0), radius=5).seen()
+        {(0, 3): [(Point(2, 1), Point(2, -1))]}
         """
         table = self._view.table
         owner, first = table.owner.tolist(), table.first.tolist()
@@ -81,7 +101,14 @@ class Isovist:
         return Length.sum(piece.curve.length for piece in self.pieces)
 
     def contains(self, point: Point) -> bool:
-        """Whether a point of the closed free space is visible; False for points inside obstacles."""
+        """Whether a point is visible; False for points inside obstacles.
+
+        >>> import exactacq as xa
+        >>> wall = xa.Polygon([(2, -1), (3, -1), (3, 1), (2, 1)])
+        >>> view = xa.isovist(xa.Scene([wall]), (0, 0), radius=5)
+        >>> view.contains(xa.Point(4, 0)), view.contains(xa.Point(4, 2))
+        (False, True)
+        """
         if distance_sq(self.point, point).compare(self.radius * self.radius) > 0:
             return False
         if any(place is Location.INSIDE for place, _ in _Tables.of(self.scene).around(point)):
@@ -103,11 +130,15 @@ class Isovist:
 
 
 def isovist(scene: Scene, point: object, radius: object = None) -> Isovist:
-    """What a free point sees within the radius (the scene's own if None).
+    """The region visible from a free point within the radius (the scene's own if None).
 
-    The point, a `Point` or a pair of numbers, may be algebraic; the radius is rational. Raises `InvalidScene`
-    if the point is inside an obstacle or the radius missing or not positive. Cost: once the scene's edges are
-    tabled, near linear in those within the radius, whatever the size of the scene.
+    The point, a `Point` or a pair of numbers, may be algebraic and may lie on a boundary; the radius is
+    rational. Raises `InvalidScene` if the point is inside an obstacle or the radius missing or not positive.
+    Cost: near linear in the edges within the radius, after one pass over all edges of a scene.
+
+    >>> import exactacq as xa
+    >>> print(isovist(xa.load("circles"), (0, 0), radius=4).perimeter)
+    2*asin(31/200) + 4*asin(569/800) + 7*pi
     """
     place = Point.of(point)  # type: ignore[arg-type]
     reach = scene.radius if radius is None else rational(radius)

@@ -414,9 +414,16 @@ class _Best:
 def visibility_graph(scene: Scene, radius: object = None) -> nx.Graph:
     """The obstacle visibility graph: nodes are obstacle indices, and "S" if the scene has a start.
 
-    An edge joins two nodes that see each other within *radius* (the scene's own if None); ``weight`` is v
-    as a `Length`, ``link`` the `Link` with all shortest segments, ``leave`` (on the link's source) and
-    ``hit`` the lexicographically least of them. Near linear in the number of obstacles at constant density.
+    An edge joins two nodes that see each other within *radius* (the scene's own if None). Its ``weight`` is
+    v, the length of a shortest free segment between them (paper, section 3), as a `Length`; ``link`` is the
+    `Link` with all shortest segments; ``leave``, on the link's source, and ``hit`` are the ends of the
+    lexicographically least of them. Raises `InvalidScene` for a missing or illegal radius. Cost: near linear
+    in the number of obstacles at constant density.
+
+    >>> import exactacq as xa
+    >>> graph = visibility_graph(xa.load("circles"))
+    >>> [(i, j, str(v)) for i, j, v in graph.edges(data="weight")]
+    [(0, 1, '2'), (0, 'S', '3')]
     """
     links = Links(scene, scene.radius if radius is None else radius)
     graph = nx.Graph()
