@@ -75,19 +75,19 @@ STYLES: dict[str, dict[str, Any]] = {
 
 
 def figure(subject: Run | Scene, at: Event | Length | object = None) -> Figure:
-    """A figure of a run, or of a scene alone.
+    """A matplotlib figure of a run, or of a scene alone with the names or numbers of its obstacles.
 
-    With *at*, an event of the run or a length of its path, the figure shows that moment: the path so far,
-    what the robot sees (shaded), known boundary (strong), unknown boundary (faint), and the frontier
-    between them. Without, the map at the end is shown where it is not complete. As `Run.map_at`, ValueError
-    for a length that has no algebraic place.
+    A run's figure shows the order of visits, the path coloured by its length so far, hit and leave
+    points, tree links, start S, end T and the radius of vision R; of the Seed Spreader also the M-line,
+    its crossing points and the diversions from D to Q. With *at*, an event or a length of the path, it
+    shows that moment: the path so far, what the robot sees (shaded), known boundary (strong), unknown
+    boundary (faint), and the frontier between them. ValueError for a length without an algebraic place
+    (see `Run.near`); `FormatError` for a scene that is `FINEST` times its distance from the origin or
+    less.
 
-    Shows obstacles with the order of visits (in a scene alone: their names or numbers), the path coloured
-    by its length so far, hit and leave points, tree links, start S, end T, and the radius of vision R once.
-    Of a sweep by the Seed Spreader: the M-line and its crossing points, diversions and where they leave the
-    M-line (D) and reach an obstacle (Q); faint what lies beyond the border, or cannot be reached.
-
-    Raises `FormatError` for a scene that is `FINEST` times its distance from the origin or less.
+    >>> import exactacq as xa
+    >>> [text.get_text() for text in figure(xa.sightseer(xa.load("circles"))).axes[0].texts]
+    ['1', '2', 'S', 'T']
     """
     return _page([_Drawing(subject, at)])
 
@@ -112,7 +112,7 @@ def save(subject: Run | Scene, path: str | os.PathLike[str], at: Event | Length 
 
 
 def save_pair(first: Run, second: Run, path: str | os.PathLike[str]) -> None:
-    """Write the figures of two runs side by side to one file; as `save`."""
+    """Write the figures of two runs side by side to one file, with the suffixes and errors of `save`."""
     target = check_output(path, FIGURES)
     write_whole(target, _rendered(lambda: pair(first, second), target.suffix.lower()))
 
