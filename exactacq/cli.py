@@ -209,7 +209,7 @@ def check(
     tolerance: Tolerance = None,
     union: Union = False,
 ) -> None:
-    """Validate a scene, and say what it holds and what the import did."""
+    """Validate a scene; print its contents and what the import did."""
     console().print(scene_report(_scene(scene, start, layers, outer, tolerance, union)))
 
 

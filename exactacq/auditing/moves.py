@@ -349,7 +349,7 @@ class Replay:
         return visible(self.field.world, self.run.radius, self.here, point)
 
     def _is_visible(self, obstacle: int) -> bool | None:
-        """Whether something of an obstacle is in sight; None if the place is beyond the audit's eyes."""
+        """Whether something of an obstacle is in sight; None, for unknown, from an irrational place."""
         if self.here.rational is None:
             return None
         body = self.bodies[obstacle]

@@ -1,12 +1,12 @@
-"""Which curves in free space see a point, decided from the point's side: the audit's own eyes.
+"""Which curves in free space see a point, decided from the point's side by code of the audit's own.
 
 From a rational point q every direction is a ray. The critical rays lead to ends of edges and curves, touch
 arcs, or lead to where a curve passes the range. Between two of them nothing changes: a curve, which enters no
 interior, is met by all rays of the cell or by none, within range or beyond, before or behind what blocks.
 So a curve sees q if and only if it does along a critical ray or along one ray of each cell.
 
-Floats with margins settle most pairs of a ray and a curve; the rest is decided exactly along the ray. Nothing
-is shared with `exactacq.visibility` and `exactacq.sensing`.
+Floats with margins settle most pairs of a ray and a curve; the rest is decided exactly along the ray. No
+code of `exactacq.visibility` or `exactacq.sensing` is used.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What leaves the library: lengths in words of bounded size, and files written whole or not at all."""
+"""Output files written whole or not at all, and lengths as text of bounded size."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A short rational between two reals: places that stand for a cell are chosen by it."""
+"""A short rational strictly between two reals: it serves as a sample point of a cell."""
 
 from __future__ import annotations
 

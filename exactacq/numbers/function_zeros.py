@@ -153,7 +153,7 @@ def _zero_in(
 
 
 def _sign(function: Function, t: Real, exact: Callable[[Real], int] | None = None) -> int:
-    """The sign of a value: by a ball, and exactly if that does not tell."""
+    """The sign of a value: by a ball, and exactly if the ball contains 0."""
     with ctx.workprec(BITS):
         sign = ball_sign(function(t.working_ball(BITS)))
     return sign or (int(function(t).sign()) if exact is None else exact(t))

@@ -1,4 +1,4 @@
-"""Numbers at the edges of the library: exact parsing of input, certified rounding of output."""
+"""Exact parsing of numbers that users give, and certified rounding of numbers that they are shown."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Real roots of integer polynomials as balls: isolation and refinement. Knows of nothing but flint."""
+"""Real roots of integer polynomials as balls: isolation and refinement, on flint alone."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""The world: shapes, the rules for them, boundaries, terrains, and the table of all edges."""
+"""Scenes: shapes, the rules of legal scenes, boundaries, terrains, and the table of all edges."""

@@ -102,7 +102,7 @@ class EdgeTable:
     def near(self, low: tuple[float, float], high: tuple[float, float], reach: float) -> Ints:
         """The edges whose boxes come within *reach* of the box from *low* to *high*.
 
-        The last answers are kept: the pencils of a corner ask alike, and so do the ways along an edge.
+        The last answers are kept: all sectors of a corner ask for one box, as do ways along an edge.
         """
         found = self._near.get((low, high, reach))
         if found is None:

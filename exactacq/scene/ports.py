@@ -1,7 +1,7 @@
-"""Ports: what an object offers though a room above it makes it, such as its picture.
+"""Ports: how an object offers what a package above it makes, such as its picture.
 
-A module imports only from below, so a scene cannot import what draws it. It asks here, by the port's name,
-and the package's `__init__` says which function answers. That function's module is loaded when it is asked.
+A module imports only from below, so a scene cannot import what draws it. It looks up a function here, by the
+port's name; the package's `__init__` registers that function, and its module is loaded on first use.
 """
 
 from __future__ import annotations

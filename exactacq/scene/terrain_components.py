@@ -1,9 +1,9 @@
 """What a rectangular terrain leaves of its obstacles: components, and the boundary the robot can walk.
 
-Obstacles may cross the border. A component is a piece that the inside of the terrain cuts out of an obstacle;
-the robot, which starts in the SW corner, reaches one arc of its boundary at most, and none if other obstacles
-enclose it. Border points where a boundary only touches the border do not part it: free space is closed.
-Boundary that runs along the border belongs to no component.
+Obstacles may cross the border. A component is a connected piece of an obstacle within the terrain's
+interior. The robot starts in the SW corner and reaches at most one arc of the component's boundary, its
+*shore*, or none if other obstacles enclose it. A border point that a boundary only touches does not
+divide a component: free space is closed. Boundary that runs along the border belongs to no component.
 """
 
 from __future__ import annotations
@@ -47,9 +47,9 @@ Shore = tuple[Part, ...]
 class Component:
     """A component of an obstacle within the terrain.
 
-    ``shore`` is the boundary that the robot can walk, in the stored direction: a loop if ``closed``, an arc
-    with both ends on the border if not, nothing if the free region does not reach it. ``hidden`` are the
-    arcs it does not reach. To a strategy it is an obstacle with ``edges``, ``perimeter`` and ``name``.
+    ``shore`` is the boundary that the robot can reach, in the stored direction: a loop if ``closed``, an arc
+    with both ends on the border if not, and empty if the robot cannot reach the component. ``hidden`` are
+    the arcs out of its reach. A strategy treats it as an obstacle with ``edges``, ``perimeter``, ``name``.
     """
 
     index: int
@@ -66,7 +66,7 @@ class Component:
 
     @property
     def label(self) -> str:
-        """What the obstacle is called, with a letter if it has several components in reach."""
+        """The obstacle's label, with a letter if it has several components within reach."""
         space = " " if self.letter and self.name else ""
         return f"{self.obstacle.label}{space}{self.letter}"
 

@@ -206,7 +206,7 @@ class _Arrangement:
     def meetings(self) -> Iterator[str]:
         """Contacts between edges, but for the vertex that neighbours share; one violation a place.
 
-        What touches at the end of an overlap of the same loops is left out: the overlap tells it.
+        A contact at the end of an overlap of the same loops is left out, as the overlap is reported.
         """
         meetings: dict[object, _Meeting] = {}
         for i, j in self._candidates():

@@ -1,9 +1,10 @@
-"""Beams: the families of views of one feature, edge or corner, and how they are swept.
+"""Edges of the visibility complex: families of free lines that touch one corner, arc or edge.
 
-A beam is a cell of a pencil with what its lines meet. Its strands are the families of views between two of
-the three: what is met behind, the contact, what is met ahead. Two kinds of single lines join them: one along
-a straight edge shows that edge end on, from beyond its end; a *pinched* line that grazes several features
-shows what no neighbouring line does.
+A family (a `Beam`) is a maximal set of neighbouring lines that all meet the same two edges, one behind
+the contact and one ahead of it. It contains three families of views (a `Strand` each): from the edge
+behind to the contact, from the contact to the edge ahead, and from the one edge to the other. Two kinds
+of single lines are added. One runs along a straight edge and shows that edge end on. The other is
+*pinched*: it touches obstacles on both sides and shows what no neighbouring line does.
 """
 
 from __future__ import annotations

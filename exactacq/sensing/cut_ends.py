@@ -1,7 +1,8 @@
-"""From where the end of an obstacle's part is seen.
+"""The places from which the end of a component's boundary is seen.
 
-Where a terrain's border cuts an edge, or an edge along the border follows, the last point that counts is no
-feature of the scene: no family of lines tells when it comes into range. Its own view does: sight is mutual.
+Where a terrain's border cuts an edge, or an edge along the border follows, the boundary that counts ends
+at a point that is no corner of the scene. No family of tangent lines leads to it, so the view from that
+point itself is computed: if it sees a place of the path, that place sees it.
 """
 
 from __future__ import annotations

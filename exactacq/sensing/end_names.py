@@ -1,8 +1,8 @@
-"""What holds the ends of views, so that points made in two ways are known to be one without a proof.
+"""Names for the ends of views, by what determines them: equal ends are recognised without a proof.
 
-From a given place, the point of an edge past a corner, or past a circle on its left or right, is one point,
-whether the view from that place tells of it or a glance that passes there. So is the point of an edge as far
-away as the range, ahead or back along the edge.
+From a given place, the point of an edge seen past a corner, or past a circle on its left or right, is one
+point, whether it was computed by the view from that place or by a family of views that contains it. So is
+the point of an edge at the distance of the range, in either direction along the edge.
 """
 
 from __future__ import annotations

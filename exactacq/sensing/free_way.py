@@ -1,8 +1,9 @@
-"""What a way through free space crosses: the glances of a straight piece of the path.
+"""The views from a straight piece of the path through free space.
 
-The beams of the scene's features and edges are free lines. Where such a line crosses the way, inside its free
-part, the robot looks along it both ways: past the contact, at the contact, or, on an edge's normal, at
-the foot. Cut where the line passes an end of the way, a beam crosses it everywhere or nowhere.
+The scene's families of free lines (`exactacq.sensing.complex_edges`) are intersected with the piece.
+Where a line crosses it, the robot sees along the line in both directions: past the contact, to the
+contact, or, on the normal of an edge, to the foot. A family is divided at the lines through the two ends
+of the piece; each part then crosses the piece in all its lines or in none.
 """
 
 from __future__ import annotations

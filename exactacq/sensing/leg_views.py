@@ -1,7 +1,8 @@
-"""Shares: all that one leg shows of some obstacles, each glance with where on the leg it is seen from.
+"""All that one leg, a piece of the path, shows of some obstacles.
 
-A leg is on a boundary edge, where the glances are kept by the scene's sightlines, or a straight way through
-free space, which crosses them. The views from the two ends of the leg belong to what it shows.
+A `Share` is a family of views together with the part of the leg from which it is seen. On a boundary edge the
+families are those that the visibility complex keeps for the edge; on a straight way they are those that cross
+it. The views from the two ends of the leg are added.
 """
 
 from __future__ import annotations

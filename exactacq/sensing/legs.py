@@ -1,4 +1,4 @@
-"""Legs: the pieces of a path as spans of rails with rational data wherever possible."""
+"""Legs: the pieces of a path, each with an exact parameter along it, rational wherever possible."""
 
 from __future__ import annotations
 

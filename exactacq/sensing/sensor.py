@@ -1,8 +1,8 @@
-"""Sensing while moving: what each piece of a path teaches, and when obstacles come into sight or leave it.
+"""Sensing along a path: what each piece adds to the map, and where obstacles come into sight or go out of it.
 
-Nothing is sampled and nothing stepped. A piece of the path is a *leg* on the rail that carries it; what it
-shows is the union of the glances that start on it and of the views from its two ends (see `view_families`).
-Only obstacles that are not acquired yet are looked at.
+Nothing is sampled and there are no time steps. A piece of the path is a *leg*, with an exact parameter
+along it. What a leg shows is the union of the families of views that start on it and of the views from
+its two ends (see `view_families`). Only obstacles that are not acquired yet are considered.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""On which side of all lines of a beam a place lies: floats with proven margins, many beams at once.
+"""On which side of all lines of a family a place lies: floats with proven margins, many families at once.
 
-A single line is a beam whose first and last line are one.
+A single line is a family whose first and last line coincide.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""What there is to learn: obstacles by number, each the edges, or the parts of edges, that count for it.
+"""What a run has to acquire: obstacles by number, each with the edges, or parts of edges, that belong to it.
 
-Most often an obstacle counts with its whole boundary. Where a terrain's border cuts obstacles, only what the
-robot can walk along counts, and one edge may belong to several.
+An obstacle usually counts with its whole boundary. Where a terrain's border cuts obstacles, only boundary
+that the robot can reach counts, and one edge may belong to several components.
 """
 
 from __future__ import annotations

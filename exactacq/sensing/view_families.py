@@ -1,10 +1,12 @@
-"""Glances: one-parameter families of free segments between two boundary edges, none longer than the range.
+"""One-parameter families of views: free segments between two boundary edges, none longer than the range.
 
-A point of edge f that is seen from edge e has a *shortest* view from it, which cannot be shortened by moving
-its end on e: it is held by a feature that it touches, it is normal to e, or it starts at an end of e. So
-a feature's tangent lines, an edge's normals and a vertex's rays, families with one parameter each, tell all
-that edge e teaches about edge f; read the other way, they tell from which part of e anything of f is in
-sight. A `Strand` is such a family as a cell of a pencil gives it; `Ranges.glances` cuts it to the range.
+Take a point of edge f that is visible from edge e, and its *shortest* view from e. It cannot be shortened
+by moving its end along e. So it touches a corner or a convex arc that keeps it from moving, or it is
+normal to e, or it starts at an end of e. Hence the tangent lines of corners and arcs, the normals of
+edges and the rays from vertices, families with one parameter each, contain every shortest view: together
+they give all that e sees of f, and, with the roles exchanged, the part of e from which anything of f is
+in sight. A `Strand` is such a family before the range is considered; `Ranges.glances` restricts it to the
+range, and the results are `Glance` objects.
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
-"""The visibility complex of a scene within a radius: families of free lines, swept on demand and kept.
+"""The visibility complex of a scene within a radius: families of free lines, computed on demand and kept.
 
-Its edges are families of lines that touch one feature, its vertices lines that touch two, the free bitangents
-(Pocchiola and Vegter, "The visibility complex", 1996). Where a viewer crosses such a line its view changes: a
-visual event (Hall-Holt, "Kinetic visibility", 2002). Three kinds of families are swept where the robot comes
-near: the tangent lines of every feature, the normals of every edge, and the normals of every convex corner.
-Each is swept once; cost: near linear in the scene at constant density and range.
+Its edges are families of lines that touch one feature, its vertices are lines that touch two, the free
+bitangents (Pocchiola and Vegter, "The visibility complex", 1996). Where a viewer crosses such a line its
+view changes: a visual event (Hall-Holt, "Kinetic visibility", 2002). Three kinds of families are swept
+where the robot comes near: the tangent lines of every feature, the normals of every edge, and the normals
+of every convex corner. Each is swept once; cost: near linear in the scene at constant density and range.
 """
 
 from __future__ import annotations

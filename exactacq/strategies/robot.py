@@ -1,7 +1,7 @@
-"""The robot: the only door to the scene.
+"""The robot: the only access of a strategy to the scene.
 
-It walks boundaries and straight ways with open eyes and writes the trace. What else a strategy may ask is in
-the robots made for it: `exactacq.strategies.sightseer.robot` for the Sightseer,
+It walks along boundaries and straight ways, senses all the way, and records path and events. What else a
+strategy may ask is in the robots made for it: `exactacq.strategies.sightseer.robot` for the Sightseer,
 `exactacq.strategies.seed_spreader.robot` for the Seed Spreader.
 """
 

@@ -1,1 +1,1 @@
-"""The claims of the paper put to the test."""
+"""The claims of the paper as executable statements, tried on scenes."""

@@ -1,1 +1,1 @@
-"""What one place sees within a range, free segments, and links between obstacles."""
+"""What is visible from a place within a range, free segments, and shortest links between obstacles."""

@@ -1,11 +1,12 @@
-"""Chords: the shortest of the free segments that a cell of a pencil offers.
+"""Chords: the shortest segments in families of free segments.
 
-In a cell the chord through t runs from the first edge behind to the first edge ahead. Its length is,
-up to a constant factor, s g(t) with s = sqrt(1 + t^2) at a corner and s = 1 at a circle, where g is a
-sum of a rational function (straight edges, centres) and of rational multiples of sqrt(D_k(t)) (one for
-each circle that an end lies on). The derivative's zeros are among the roots of one rational polynomial;
-for two straight edges and a corner it is a cubic. Roots that squaring adds do no harm: every t of a
-closed cell gives a free chord.
+In one cell of a tangent family (see `exactacq.visibility.rotational_sweep`) the chord with parameter t
+runs from the first edge behind the contact to the first edge ahead. Its length is, up to a constant
+factor, s g(t) with s = sqrt(1 + t^2) at a corner and s = 1 at a circle, where g is a sum of a rational
+function (straight edges, centres) and of rational multiples of sqrt(D_k(t)) (one for each circle that an
+end lies on). The derivative's zeros are among the roots of one rational polynomial; for two straight
+edges and a corner it is a cubic. Squaring adds further roots, which do no harm: every t of a closed cell
+gives a free chord.
 """
 
 from __future__ import annotations

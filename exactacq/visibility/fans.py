@@ -1,4 +1,4 @@
-"""The fan of a point: all rays from it, cut into cells in which one edge is met first."""
+"""The fan of a point: all rays from it, divided into cells whose rays meet the same edge first."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""Features: what can stop a sightline from turning further, that is convex corners and convex arcs.
+"""Features: convex corners and convex arcs, the places that a line of sight can touch without being blocked.
 
-A corner is a circle of radius 0. A line touches a feature with the obstacle on its left; its
-direction then lies in the feature's *tangent range*, which turns counterclockwise from the direction
-of the incoming edge to that of the outgoing one. The range is cut into `Sector`s of at most a quarter turn.
+A corner is a circle of radius 0. A line touches a feature with the obstacle on its left; its direction
+then lies in the feature's *tangent range*, which turns counterclockwise from the direction of the
+incoming edge to that of the outgoing one. The range is divided into `Sector`s of at most a quarter turn.
 """
 
 from __future__ import annotations

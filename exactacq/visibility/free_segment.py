@@ -1,7 +1,7 @@
-"""Whether a segment is free: its open part meets no obstacle's interior (grazing does not block).
+"""Whether a segment is free: its open part meets no obstacle's interior (touching a boundary does not block).
 
-Floats settle the clear cases with proven margins. Otherwise the contacts with the doubtful edges cut the
-segment into pieces, and one exact point of each tells whether the piece is inside.
+Floats settle the clear cases with proven margins. Otherwise the contacts with the doubtful edges divide the
+segment into pieces, and one exact point of each decides whether the piece is inside an obstacle.
 """
 
 from __future__ import annotations

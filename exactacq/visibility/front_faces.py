@@ -1,9 +1,10 @@
-"""Facets: the parts of the boundary that turn their free side to a point, and where they begin and end.
+"""Front faces: the parts of the boundary that turn their free side to a point (facets in the code).
 
-A ray from the point enters an obstacle only through a facet, and meets each facet once: seen from the point
-a facet runs clockwise in the boundary's direction, since the obstacle lies on its left. A straight edge is a
-facet or none; an arc falls apart where the point's tangents touch its circle: the near part of a convex arc
-is a facet, the far part of a concave one, all of it if the point is inside the circle.
+A ray from the point enters an obstacle only through a facet, and meets each facet once. Seen from the
+point a facet runs clockwise in the boundary's direction, since the obstacle lies on its left. A straight
+edge is one facet or none. An arc is divided where tangents from the point touch its circle: the near part
+of a convex arc is a facet, the far part of a concave one, and all of a concave one if the point is inside
+the circle.
 
 The ends of facets are *events*, numbered: below the number of edges they are vertices, from there on *marks*,
 points that are no vertices (tangent points, the point itself). Floats decide what their margins prove.

@@ -1,10 +1,10 @@
-"""Names of lines: the same line found from two features has one name, so its points are made once.
+"""Names of lines: a line that is found from two features gets one name, so its points are made once.
 
-A line that touches two features bounds cells in the pencils of both. Its points on the edges, computed from
-either, are equal numbers in different forms, and with arcs their equality is long to prove. The name says
-which line it is: two vertices, a vertex and a circle with its side, or two circles with the kind of
-common tangent. Every name has a sense; 1 tells that the direction in which a sector runs along the line
-agrees with that of the name.
+A line that touches two features bounds a cell of each one's tangent family. Its points on the edges,
+computed from either feature, are equal numbers in different forms, and with arcs their equality takes
+long to prove. The name identifies the line: two vertices, a vertex and a circle with its side, or two
+circles with the kind of common tangent. Every name has a sense: 1 if a sector runs along the line in the
+direction of the name, else -1.
 """
 
 from __future__ import annotations

@@ -1,11 +1,12 @@
 """Links: the shortest visible segments between boundaries, and the obstacle visibility graph.
 
-v(i, j) is the least length of a free segment between the boundaries of obstacles i and j. Where it is
-attained, the segment meets no feature (a local minimum of the distance), pivots about one feature
-(a stationary chord of a cell), or is held by two or more (it bounds a cell, or is pinched). The first
-kind comes from `contacts.nearest_points`, the others from the pencils of the features of third
-obstacles: an obstacle's own features never hold a shortest segment, which meets both boundaries at its
-ends only. Candidates are visited in the order of proven lower bounds until the next one cannot be shorter.
+v(i, j) is the least length of a free segment between the boundaries of obstacles i and j. There are three
+kinds of shortest segments. One touches no feature: it is a local minimum of the distance, from
+`exactacq.geometry.intersections`. One touches one feature and is stationary when it turns about it. One
+touches two or more features and cannot turn at all. The last two kinds come from the tangent families of
+features of third obstacles (`rotational_sweep`, `chords`): a shortest segment meets i and j at its ends
+only, so their own features play no part. Candidates are visited in the order of proven lower bounds until
+the next one cannot be shorter.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Mirrored chords: equal lengths recognised by symmetry, where comparing them would be long.
+"""Mirrored chords: equal lengths recognised by symmetry, where comparing them would take long.
 
 If the centres of a feature and of the two arcs that a chord ends on lie on one line, reflection in it maps
 all three circles to themselves. A stationary chord's mirror image is then stationary too, so its parameter

@@ -1,7 +1,9 @@
-"""The outline of a view: its sights cut at the range, and joined by windows into one closed boundary.
+"""The outline of a view: visible boundary, clipped to the range and joined by windows and range arcs.
 
-Pieces run counterclockwise as the point sees them: parts of edges against the boundary's direction, range
-arcs with the circle. Which pieces there are follows from the sights and from which ends are within range.
+A window joins a visible boundary point with the point seen past it, a range arc two pieces between which
+only the range limits the view. Pieces run counterclockwise as the point sees them: parts of edges against
+the boundary's direction, range arcs with the circle. Which pieces there are follows from what is seen
+first in each direction and from which ends are within range.
 """
 
 from __future__ import annotations

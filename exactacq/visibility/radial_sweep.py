@@ -1,10 +1,11 @@
-"""The panorama of a point: which facet comes first in every direction.
+"""The panorama of a point: what is met first in every direction, by a radial sweep.
 
-The ends of the facets within reach, sorted by direction, cut the full turn into cells; in a cell the order of
-the facets along all rays is the same, since boundaries do not cross. So each cell asks for the nearest of
-the facets that cover it, on one ray. Floats propose the order of the events and the nearest facets; where
-their proven margins overlap, the exact values decide. Cost for n edges within reach: O(n log n + k), k the
-number of pairs of a cell and a facet covering it.
+Rays from the point meet front faces of obstacles (facets, see `exactacq.visibility.front_faces`). The
+ends of the facets within reach, sorted by direction, divide the full turn into cells; in a cell the order
+of the facets along all rays is the same, since boundaries do not cross. So for each cell the nearest of
+the facets that cover it is found on one ray. Floats propose the order of the events and the nearest
+facets; where their proven margins overlap, the exact values decide. Cost for n edges within reach: O(n
+log n + k), k the number of pairs of a cell and a facet covering it.
 """
 
 from __future__ import annotations

@@ -1,10 +1,11 @@
-"""The rotational sweep: the tangent lines of one feature, cut where what they meet changes.
+"""The rotational sweep: all tangent lines of one feature, divided where what they meet changes.
 
-A line that turns about a feature meets, ahead and behind, a first edge each. These edges change only
-where the line passes a vertex or becomes tangent to another convex arc: at an *event*. Between two
-neighbouring events the pair is constant, so one rational line tells it: a `Cell`. The lines that bound
-a cell (the sightlines of the feature) are limits of free lines, hence free. A line that grazes two
-further features may be free although no neighbour is: it is reported as a *pinch*.
+The tangent lines of a feature form a one-parameter family, its *pencil*. Each line meets a first edge
+ahead of the contact and one behind it. These edges change only where the line passes a vertex or becomes
+tangent to another convex arc: at an *event*. Between neighbouring events the pair of edges is constant,
+so one rational line determines it: a `Cell`. The lines that bound a cell are limits of free lines, hence
+free. A line that touches two further features may be free although no line next to it is: such a line is
+*pinched*, and reported separately.
 
 Floats propose the order of events and the first edges; where their proven margins overlap, the exact
 values decide. Cost for n edges within reach: O(n log n) for the events, n times the number of cells

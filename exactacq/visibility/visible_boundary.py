@@ -1,8 +1,9 @@
 """All of the boundary that a point sees within a range: closed pieces of edges, and single rays.
 
-Seen is what a free segment reaches, and free segments may graze. So the view is closed: beside the facets
-that come first over whole ranges of directions it holds what single rays reach that graze corners on both
-sides, edges seen edge-on, the edges through the point itself, and corners touched on the way.
+A boundary point is seen if a free segment reaches it, and a free segment may touch boundaries. So the
+visible set is closed. It contains the front faces that are met first over whole ranges of directions, and
+also what only single rays reach: rays that touch corners on both sides, edges seen end on, the edges
+through the point itself, and corners touched on the way.
 """
 
 from __future__ import annotations

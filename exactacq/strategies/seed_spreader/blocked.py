@@ -1,7 +1,8 @@
 """Where obstacles block a straight way through a terrain.
 
-A point of a way is blocked if the whole neighbourhood of it within the terrain is obstacle. So a way that
-touches a boundary or runs along it is free, except along the border of the terrain, where one side counts.
+A point of a way is blocked if its whole neighbourhood within the terrain belongs to an obstacle. So a way
+that touches a boundary or runs along it is free, except along the border of the terrain, where one side
+counts.
 """
 
 from __future__ import annotations

@@ -1,7 +1,10 @@
-"""The M-line of the Seed Spreader Strategy: lines from south to north, joined along the border.
+"""The M-line of the Seed Spreader Strategy (paper, section 4): the path that it would take without obstacles.
 
-Strips are w = min(R, B) wide, the last one perhaps narrower; lines lie at x_j = min(j w, B), j = 0..r with
-r = ceil(B / R), and are walked north for even j and south for odd j.
+It consists of lines from south to north, joined along the terrain's border.
+
+The strips between them are w = min(R, B) wide, the last one perhaps narrower, where B is the terrain's
+width. The lines lie at x_j = min(j w, B), j = 0..r with r = ceil(B / R), and are walked north for even j
+and south for odd j.
 """
 
 from __future__ import annotations

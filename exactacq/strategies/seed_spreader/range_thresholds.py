@@ -1,4 +1,4 @@
-"""How far a known piece of boundary is: its nearest point, and where on a line it comes into reach."""
+"""How far away a known piece of boundary is: its nearest point, and where on a line it comes within range."""
 
 from __future__ import annotations
 

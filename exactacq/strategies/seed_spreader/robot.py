@@ -1,7 +1,7 @@
 """The Seed Spreader's robot: it follows the M-line, and goes straight to known points.
 
-A strategy sees where the robot is, the map, what is in sight, and the crossing points of boundaries that are
-on the map. It learns what is in the way by meeting it.
+A strategy can ask for the robot's place, the map, what is in sight, and the crossing points of boundaries
+that are on the map. It learns what is in the way by meeting it.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The Sightseer's robot: it goes from obstacle to obstacle by the shortest segments that it has seen.
 
-A strategy sees where the robot is, which obstacles are on its map, and the links from boundaries that it
-has walked all around (or from the start). It cannot ask for anything else.
+A strategy can ask for the robot's place, the obstacles on its map, and the links from boundaries that it
+has walked all around (or from the start), and for nothing else.
 """
 
 from __future__ import annotations

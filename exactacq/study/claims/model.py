@@ -140,12 +140,12 @@ class Subject(Enum):
 
 @dataclass(frozen=True)
 class Statement:
-    """A claim in own words, and what decides it.
+    """A claim in words of this study, and what decides it.
 
-    ``check`` looks at one case. ``trial`` decides something that no single scene does, or tries an argument
-    out. ``counterexamples`` are gallery scenes that must fail the check exactly: naming one calls the
-    statement false. ``is_false`` calls it false where no single scene shows it: the trial must fail.
-    ``argument`` names the file under ``proofs/arguments`` with a written proof.
+    ``check`` decides one case. ``trial`` decides what no single scene can, or puts an argument to the
+    test. ``counterexamples`` are gallery scenes that must fail the check exactly; a statement with one is
+    classified as false. ``is_false`` classifies it as false where no single scene shows it: then the
+    trial must fail. ``argument`` names the file under ``proofs/arguments`` with a written proof.
     """
 
     text: str
@@ -158,7 +158,7 @@ class Statement:
 
     @property
     def is_called_false(self) -> bool:
-        """Whether the registry calls the statement false."""
+        """Whether the registry classifies the statement as false."""
         return self.is_false or bool(self.counterexamples)
 
 

@@ -1,4 +1,4 @@
-"""Whether a map holds what a path shows, asked from corner to corner by the audit's eyes."""
+"""Whether a map contains everything that a path shows, decided corner by corner with the audit's own code."""
 
 from __future__ import annotations
 

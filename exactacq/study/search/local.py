@@ -47,7 +47,7 @@ class Search:
     """A search for the highest score. It repeats itself for the same seed and number of steps.
 
     That is so as long as no candidate is dropped for its time. ``best`` is the best ruling so far,
-    ``started`` what is told at each improvement.
+    ``started`` what is reported at each improvement.
     """
 
     referee: Referee

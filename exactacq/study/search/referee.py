@@ -25,7 +25,7 @@ JUDGED = 400
 
 @dataclass(frozen=True)
 class Ruling:
-    """What came of a draft. Without a finding, ``reason`` tells why it was dropped.
+    """What came of a draft. Without a finding, ``reason`` says why it was dropped.
 
     ``score`` steers the search: the ratio, or `BROKEN` for a failure without one, else 0.
     """

@@ -1,1 +1,1 @@
-"""What the map lets one see from a line: the look ahead."""
+"""What the map allows the robot to foresee from a line of its sweep."""

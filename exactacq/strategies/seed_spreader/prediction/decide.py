@@ -1,9 +1,9 @@
-"""Whether an obstacle can be seen again from the rest of a line of the walk, by what is known.
+"""Whether an obstacle can be seen again from the rest of a line of the sweep, as far as the map shows.
 
-The visible pairs (place of the walk, point of the obstacle) form a closed set. If it has a pair beyond the
-start, its pair farthest along the walk is held by something (extremal principle):
+The visible pairs (place on the line, point of the obstacle) form a closed set. If it has a pair beyond the
+start, then in the pair farthest along the line neither point can be moved on (extremal principle):
 
-- the place is the end of the walk or on a known piece, or the target is an end of a piece, and the line of
+- the place is the end of the line or on a known piece, or the target is an end of a piece, and the line of
   sight touches a feature or is as long as the range;
 - the line of sight touches two features (a corner, a lone end, a convex arc, the target's own too);
 - it is as long as the range and perpendicular to the target, or touches one feature.

@@ -1,4 +1,7 @@
-"""What lines of sight touch, and the lines and cells of lines that a prediction looks at (see `decide`)."""
+"""What lines of sight can touch, and the lines and families of lines that a prediction examines.
+
+See `exactacq.strategies.seed_spreader.prediction.decide`.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Known pieces of boundaries as arrays of floats, which only prune: what certainly blocks a sight."""
+"""Known pieces of boundaries as float arrays, which only prune lines of sight that are certainly blocked."""
 
 from __future__ import annotations
 

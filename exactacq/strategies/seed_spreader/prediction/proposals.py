@@ -1,9 +1,9 @@
-"""Floats that propose lines of sight from a vertical line, or discard them with a margin.
+"""Candidates for lines of sight from a vertical line, in floats; some are discarded with a margin.
 
-A line of sight that cannot be moved on is held by what it touches: see
+A line of sight that cannot be moved on touches two things, or one at the distance of the range: see
 `exactacq.strategies.seed_spreader.prediction.decide`. Here the lines through two features (corners and lone
-ends of known pieces, convex arcs, points of the walk) are listed, and what is certainly blocked or out of
-range is dropped. Margins grow with the proven error of each line, so what is nearly degenerate stays and is
+ends of known pieces, convex arcs, points of the line) are listed, and what is certainly blocked or out of
+range is dropped. Margins grow with the proven error of each line, so what is nearly degenerate is kept and
 left to exact arithmetic.
 """
 

@@ -1,4 +1,4 @@
-"""The exact side of predictions: the part of the walk that is asked about, and whether one sight is free."""
+"""The exact part of predictions: the part of the line in question, and whether one line of sight is free."""
 
 from __future__ import annotations
 
