@@ -488,7 +488,7 @@ def test_readme_example_prints_what_it_says(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    (code,) = re.findall(r"```python\n(.*?)```", readme(), re.S)
+    code = "".join(re.findall(r"```python\n(.*?)```", readme(), re.S))
     exec(compile(code, "README.md", "exec"), {})
     printed = capsys.readouterr().out.splitlines()
     said = re.findall(r"^print\(.*# (.*)", code, re.M)
