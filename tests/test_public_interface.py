@@ -130,7 +130,7 @@ class TestReprs:
 
     def test_a_notebook_shows_a_line_and_the_figure(self, run: xa.Run) -> None:
         html = run._repr_html_()
-        assert html.startswith("<div><p>Run: ") and "<svg" in html and "<?xml" not in html
+        assert html.startswith("<div><p>SightseerRun on ") or html.startswith("<div><p>SeedSpreaderRun on ") and "<svg" in html and "<?xml" not in html
 
     def test_the_vocabulary(self) -> None:
         assert dir(xa) == sorted(xa.__all__)
@@ -208,3 +208,39 @@ def test_docstrings_stand_alone() -> None:
         if re.match(r"(The same|As)\b", text)
     ]
     assert leaning == []
+
+
+WITHOUT_EXAMPLE = {
+    "Arc.may_pass": "a filter in balls: `passes` decides",
+    "Segment.may_pass": "a filter in balls: `passes` decides",
+    "Real.affine": "a shortcut of the arithmetic",
+    "Real.clear_sign": "a filter in balls: `sign` decides",
+    "Real.generators": "a part of the zero test",
+    "Real.height_bound": "a part of the zero test",
+    "Real.of_atom": "what atoms are is no concern of users",
+    "Real.overlaps": "a filter in balls: `compare` decides",
+    "Real.rough": "a float to draw with: `float` gives the nearest one",
+    "Real.working_ball": "a step of `ball`",
+}
+"""Public methods that are machinery of the library, and why they need no example."""
+
+
+def public_docstrings() -> dict[str, str]:
+    """The docstrings of all that the package offers, and of the methods of its classes, by name."""
+    found = {}
+    for name in xa.__all__:
+        offered = getattr(xa, name)
+        found[name] = offered.__doc__ or ""
+        kinds = [kind for kind in getattr(offered, "__mro__", ()) if kind.__module__.startswith("exactacq.")]
+        for kind in reversed(kinds):
+            for member, value in vars(kind).items():
+                function = getattr(value, "__func__", value)
+                if not member.startswith("_") and callable(function):
+                    found[f"{name}.{member}"] = function.__doc__ or ""
+    return found
+
+
+def test_what_is_public_has_an_example() -> None:
+    """`test_examples_in_docstrings` runs them."""
+    bare = {name for name, text in public_docstrings().items() if ">>> " not in text}
+    assert bare == set(WITHOUT_EXAMPLE)

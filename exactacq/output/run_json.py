@@ -1,4 +1,10 @@
-"""Runs as JSON, exact and complete: what `load_run` reads is the run again."""
+"""Run files: runs as JSON, written and read without a rounding.
+
+A run file is one JSON object with ``"format": "exactacq run"`` and ``"version"``, the number of the
+format's version (`VERSION`); files of other versions are refused. It has the scene, the path, visits,
+links, events and bounds, and one table of all algebraic numbers. The map is not written: the sensing is
+repeated on first use.
+"""
 
 from __future__ import annotations
 
@@ -71,10 +77,16 @@ def run_to_json(run: Run) -> dict[str, Any]:
 
 
 def load_run(source: str | os.PathLike[str] | dict[str, Any]) -> Run:
-    """The run in a file that ``explore --trace`` wrote, or in the data of `run_to_json`.
+    """The run in a file that ``explore --trace`` wrote, or in the data of `Run.to_json`.
 
-    Lengths are summed and bounds evaluated anew. Raises `FormatError` for anything else, `InvalidScene` if
-    the scene breaks the rules. That the run is the one a strategy makes is not checked.
+    Lengths are summed and bounds evaluated anew. Raises `FormatError` for anything else, also for a run of
+    another version of the format, and `InvalidScene` if the scene breaks the rules. Whether a strategy would
+    make this run is not checked: see `audit`. Linear in the path.
+
+    >>> import exactacq as xa
+    >>> run = xa.sightseer(xa.load("circles"))
+    >>> load_run(run.to_json()).length == run.length
+    True
     """
     name = "the data" if isinstance(source, dict) else os.fspath(source)
     try:

@@ -16,10 +16,15 @@ from exactacq.numbers.length import Length
 
 @dataclass(frozen=True)
 class Piece:
-    """One piece of the path: ``kind`` "straight", or "boundary" along ``obstacle``.
+    """One piece of the path: ``kind`` is "straight", or "boundary" along an edge of ``obstacle``.
 
-    ``touches`` names the features that hold a straight piece (see `exactacq.visibility.line_names`): known
-    from how it was found, they spare long proofs.
+    ``touches`` names the features that a straight piece's line touches (see
+    `exactacq.visibility.line_names`): known from how the piece was found, they save long proofs.
+
+    >>> import exactacq as xa
+    >>> piece = xa.sightseer(xa.load("circles")).path[1]
+    >>> print(piece.kind, piece.obstacle, piece.start, piece.length)
+    boundary 0 (3, 0) 4*pi
     """
 
     kind: str
@@ -43,16 +48,20 @@ class Piece:
         return self.curve.length
 
     def point(self, u: object) -> Point:
-        """The point at rational parameter *u* in [0, 1] of the curve."""
+        """The point at rational parameter *u* in [0, 1] of the curve (see `Segment.point`, `Arc.point`)."""
         return self.curve.point(u)
 
 
 class Path(tuple[Piece, ...]):
-    """The pieces in order, each starting where the one before ends.
+    """The pieces of a run's path in order, each starting where the one before ends.
 
-    It remembers the length up to the last place that was asked for, so asking for places in their order
-    adds every piece once. (The lengths to all places would hold every radical of the path as often as there
-    are places after it.)
+    Boundary walks are divided at corners, so each piece is one `Segment` or one `Arc`. A path remembers the
+    length up to the last place that was asked for, so asking for places in their order adds every piece once.
+    (Lengths kept for all places would hold every radical of the path as often as there are places after it.)
+
+    >>> import exactacq as xa
+    >>> [str(piece.length) for piece in xa.sightseer(xa.load("circles")).path]
+    ['3', '4*pi', '2*pi', '2', '6*pi']
     """
 
     def __repr__(self) -> str:
@@ -62,7 +71,12 @@ class Path(tuple[Piece, ...]):
         return Path, (tuple(self),)
 
     def length_after(self, count: int) -> Length:
-        """Length of the first *count* pieces. Cost: linear in the pieces since the last place asked for."""
+        """Length of the first *count* pieces. Cost: linear in the pieces since the last place asked for.
+
+        >>> import exactacq as xa
+        >>> print(xa.sightseer(xa.load("circles")).path.length_after(2))
+        3 + 4*pi
+        """
         first, done = self._measured if self._measured[0] <= count else (0, Length(0))
         length = Length.sum((done, *(piece.length for piece in self[first:count])))
         self._measured = count, length
@@ -79,7 +93,11 @@ class Path(tuple[Piece, ...]):
     def find(self, length: Length) -> tuple[int, Length]:
         """Where the path is after a length: number of whole pieces, and what is left of the length.
 
-        ValueError if the path is shorter, or the length negative.
+        ValueError if the path is shorter, or the length negative. Linear in the number of pieces.
+
+        >>> import exactacq as xa
+        >>> xa.sightseer(xa.load("circles")).path.find(xa.Length(4))
+        (1, Length('1'))
         """
         slack = 1e-6 * (self._ends[-1] + 1.0)
         count = max(bisect_left(self._ends, float(length) - slack) - 1, 0)

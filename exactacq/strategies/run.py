@@ -1,4 +1,4 @@
-"""A finished run, and what it holds beside its path: links, diversions, bounds."""
+"""Finished runs: path, events, links, diversions, bounds, and the map at every moment."""
 
 from __future__ import annotations
 
@@ -26,9 +26,15 @@ from exactacq.visibility.isovist import Isovist, isovist
 
 @dataclass(frozen=True)
 class Bound:
-    """An upper bound of the path's length, evaluated exactly.
+    """A bound on the path's length, or on the number of visits, by the paper's formula (``source``).
 
-    ``holds`` compares exactly; ``ratio`` is the path's length over the value (NaN where the value is 0).
+    ``value`` is exact, and so is the comparison ``holds``; ``ratio``, a float, is what is bounded over the
+    value (NaN where the value is 0).
+
+    >>> import exactacq as xa
+    >>> bound = xa.sightseer(xa.load("circles")).bounds[0]
+    >>> print(bound.name, bound.value, bound.holds)
+    (1) 4 + 15*pi True
     """
 
     name: str
@@ -42,10 +48,16 @@ class Bound:
 class Run:
     """A finished exploration: a `SightseerRun` or a `SeedSpreaderRun`.
 
-    ``visits`` are the obstacles in the order in which they were circumnavigated. ``unseen`` obstacles never
-    came on the map. ``unvisited`` ones did without being reached, or, for the Seed Spreader, without becoming
-    wholly known. A run that was read from a file has no ``record``: its sensing is repeated when it is first
-    asked for.
+    ``path`` and ``events`` are in the order of the walk; ``visits`` are the numbers of obstacles in the order
+    in which the robot walked around them, ``bounds`` the paper's bounds on the length. ``unseen`` obstacles
+    never came on the map. ``unvisited`` ones did without being reached, or, for the Seed Spreader, without
+    becoming wholly known. ``record`` is the sensing; a run that was read from a file has none and repeats the
+    sensing on first use.
+
+    >>> import exactacq as xa
+    >>> run = xa.sightseer(xa.load("circles"))
+    >>> print(run.length, run.visits, run.complete, len(run.events))
+    5 + 12*pi (0, 1) True 11
     """
 
     strategy: ClassVar[str]
@@ -114,12 +126,21 @@ class Run:
         but what depends on the place has no closed form. ValueError if the path has no such place, or if it
         lies inside an arc after a sum of angles that are no simple fractions (see `near`). Cost: that of
         sensing one piece.
+
+        >>> import exactacq as xa
+        >>> print(xa.sightseer(xa.load("circles")).map_at(2).known_length())
+        2*acos(-17/25)
         """
         count, place = self.moment(moment)
         return self.memory.after(count) if place is None else self.memory.within(count, place)
 
     def view_at(self, moment: Event | Length | object) -> Isovist:
-        """What the robot sees at an event, or after a length of the path; as `map_at`."""
+        """What the robot sees at an event, or after a length of the path; raises what `map_at` raises.
+
+        >>> import exactacq as xa
+        >>> xa.sightseer(xa.load("circles")).view_at(2)
+        <Isovist from (2, 0) within 20>
+        """
         count, place = self.moment(moment)
         if place is None:
             place = (
@@ -132,7 +153,12 @@ class Run:
         return isovist(self.scene, place, self.radius)
 
     def moment(self, moment: Event | Length | object) -> tuple[int, Point | None]:
-        """The number of whole pieces before a moment, and the place in the next one if it lies inside it."""
+        """The number of whole pieces before a moment, and the place in the next one if it lies inside it.
+
+        >>> import exactacq as xa
+        >>> xa.sightseer(xa.load("circles")).moment(2)
+        (0, Point(2, 0))
+        """
         if isinstance(moment, Event):
             return moment.after, moment.point if moment.inside else None
         count, rest = self.path.find(Length(moment))
@@ -151,6 +177,11 @@ class Run:
 
         Where that is no algebraic place, a rational parameter beside it is taken: it is off by round-off
         only, and the event's own ``at`` is exact. ValueError if the path is shorter.
+
+        >>> import exactacq as xa
+        >>> near = xa.sightseer(xa.load("circles")).near(6)
+        >>> f"{near.at:.12f}", near.obstacle
+        ('6.000000000000', 0)
         """
         count, rest = self.path.find(Length(length))
         if rest.sign() == 0:
@@ -182,12 +213,23 @@ class Run:
         return str(made(SVG, self))
 
     def to_json(self) -> dict[str, Any]:
-        """The run as JSON data with exact numbers; `exactacq.load_run` reads it back."""
+        """The run as JSON data with exact numbers; `exactacq.load_run` reads it back. Linear in the path.
+
+        >>> import exactacq as xa
+        >>> data = xa.sightseer(xa.load("circles")).to_json()
+        >>> data["format"], data["length"]["closed"]
+        ('exactacq run', '5 + 12*pi')
+        """
         document: dict[str, Any] = made(JSON, self)
         return document
 
     def names(self) -> Iterator[str]:
-        """What the obstacles are called: by their names, or "O" and the number from 1."""
+        """The obstacles' labels: their names, or "O" and the number from 1.
+
+        >>> import exactacq as xa
+        >>> list(xa.sightseer(xa.load("circles")).names())
+        ['O1', 'O2']
+        """
         return (body.label for body in self.obstacles)
 
 

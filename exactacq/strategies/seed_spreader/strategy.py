@@ -49,13 +49,27 @@ def seed_spreader(
     target: str = "known",
     progress: Progress | None = None,
 ) -> SeedSpreaderRun:
-    """Explore the terrain of a scene by the Seed Spreader Strategy, from its SW corner.
+    """Explore the terrain of a scene by the Seed Spreader Strategy (paper, section 4), from its SW corner.
 
-    *radius* defaults to the scene's own and must be rational. Without *lookahead* an obstacle is about to be
-    lost as soon as it is out of sight, or out of reach, just after; *target* "visible" aims at the nearest
-    visible point in place of the nearest known one. Raises `InvalidScene` if there is no terrain, no
-    radius or an enclosure, if the start is another point than the SW corner, if that is not free, or
-    if an obstacle lies outside the terrain; ValueError for another target.
+    The robot follows the M-line, a path from south to north and back along strips, walks around obstacles
+    that block it, and makes a diversion to an obstacle that it is about to lose from sight. *radius*, up to
+    which it sees, defaults to the scene's own and is rational. With *lookahead* an obstacle is about to be
+    lost where, by the map, it cannot be seen again from the rest of the line; without, as soon as it goes out
+    of sight or out of reach. A diversion leads to the nearest known point of the obstacle, with *target*
+    "visible" to the nearest visible one. *progress* is called with the number of straight pieces of the
+    M-line behind the robot, and of all.
+
+    Numbers of obstacles in the run mean components that the terrain cuts out of obstacles (`Run.obstacles`).
+    Raises `InvalidScene` if there is no terrain, no radius or an enclosure, if the start is another point
+    than the SW corner, if that is not free, or if an obstacle lies outside the terrain; ValueError for
+    another target, `Undecided` for a comparison beyond the library's limits. Cost: a tenth to a fifth of a
+    second an obstacle at constant density and radius.
+
+    >>> import exactacq as xa
+    >>> discs = [xa.Circle((3, 4), 1), xa.Circle((6, 6), 1)]
+    >>> run = seed_spreader(xa.Scene(discs, terrain=xa.Terrain(8, 8)), radius=3)
+    >>> print(run.length, run.visits)
+    6*pi + 36 (0, 1)
     """
     choice = TargetChoice(target)
     reach = scene.radius if radius is None else rational(radius)
