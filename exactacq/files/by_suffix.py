@@ -37,6 +37,10 @@ def load(
 
     Raises `FormatError` for a file that cannot be read or an option that makes no sense, and `InvalidScene`
     for a scene that breaks the rules; each message is one line. Near linear in the file.
+
+    >>> from importlib.resources import files
+    >>> load(files("exactacq") / "files" / "data" / "issue42.dxf", start=(-30, -60))
+    <Scene 'issue42': 15 obstacles>
     """
     suffix = Path(path).suffix.lower()
     options = {"layers": layers, "outer": outer, "tolerance": tolerance, "union": union}

@@ -57,7 +57,11 @@ _PLATE_START, _PLATE_RADIUS = (-30, -60), 60
 
 
 def names() -> dict[str, str]:
-    """The scenes' names, each with one line on what it shows."""
+    """The scenes' names, each with one line on what it shows.
+
+    >>> names()["circles"]
+    'two circles in a row: the path is 5 + 12*pi long'
+    """
     return dict(_SCENES)
 
 
@@ -67,7 +71,11 @@ def is_swept(name: str) -> bool:
 
 
 def scene(name: str) -> Scene:
-    """The scene of that name, made anew. Raises `FormatError`, which lists the names, if there is none."""
+    """The scene of that name, made anew. Raises `FormatError`, which lists the names, if there is none.
+
+    >>> scene("circles")
+    <Scene 'circles': 2 obstacles>
+    """
     if name not in _SCENES:
         raise FormatError(f"no gallery scene {name[:40]!r}; there are {', '.join(_SCENES)}")
     data = files("exactacq") / "files" / "data"

@@ -41,7 +41,11 @@ CLAIMS: tuple[Claim, ...] = (
 
 
 def claim(name: str) -> Claim:
-    """The claim of that name, as "SS-6". Raises `FormatError`, which lists the names, if there is none."""
+    """The claim of that name, as "SS-6". Raises `FormatError`, which lists the names, if there is none.
+
+    >>> claim("T2").place
+    'Theorem 2, bounds (5), (6) and (9)-(11)'
+    """
     for found in CLAIMS:
         if found.name == name:
             return found

@@ -51,6 +51,9 @@ def goal(name: str, corrected: bool = False) -> Goal:
     """The printed or corrected statement of a claim, or of a bound by its name, with or without brackets.
 
     Raises `FormatError` if there is none, or if no single scene decides it.
+
+    >>> goal("(6)").subject.value
+    'seed-spreader'
     """
     found = _bound_statement(name, corrected) or _claim_statement(name, corrected)
     if found is None:
