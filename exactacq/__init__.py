@@ -1,7 +1,8 @@
 """exactacq: exact sensor-based terrain acquisition among segments and circular arcs.
 
-Names are loaded when they are first asked for: who wants `Length` does not wait for what draws or reads
-files.
+A robot with a limited radius of vision maps unknown obstacles by one of two strategies, `sightseer` and
+`seed_spreader`. Path, map and length are exact. Names are imported on first use: a program that needs
+`Length` only does not wait for the modules that draw or read files.
 """
 
 from importlib import import_module

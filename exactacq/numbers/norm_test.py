@@ -3,7 +3,7 @@
 A real made of rationals and nested square roots is a fraction N / D of polynomials in its radicals t_1,
 ..., t_k, linear in each, where t_i^2 is such a polynomial in earlier radicals. Split by the last one,
 N = A + B t, it is 0 only if A^2 - B^2 t^2 is, a polynomial in one radical less; and if that is 0, then N or
-A - B t is 0, and balls tell which. Radicals may depend on each other: nothing is assumed to be a field. The
+A - B t is 0, and balls decide which. Radicals may depend on each other: nothing is assumed to be a field. The
 coefficients are integers or, where the real holds a root of higher degree, elements of that root's field.
 The norms of a true zero cancel after few steps, whatever the degree of the numbers in it.
 """

@@ -77,7 +77,7 @@ class Robot:
             self._move(Piece("boundary", self.at, curve))
 
     def _move(self, piece: Piece) -> None:
-        """Walk a piece of the path with open eyes."""
+        """Walk a piece of the path and sense along it."""
         self._pieces.append(piece)
         self._write(self._memory.walk(piece))
 

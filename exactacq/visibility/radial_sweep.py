@@ -4,8 +4,8 @@ Rays from the point meet front faces of obstacles (facets, see `exactacq.visibil
 ends of the facets within reach, sorted by direction, divide the full turn into cells; in a cell the order
 of the facets along all rays is the same, since boundaries do not cross. So for each cell the nearest of
 the facets that cover it is found on one ray. Floats propose the order of the events and the nearest
-facets; where their proven margins overlap, the exact values decide. Cost for n edges within reach: O(n
-log n + k), k the number of pairs of a cell and a facet covering it.
+facets; where their proven margins overlap, the exact values decide.
+Cost for n edges within reach: O(n log n + k), k the number of pairs of a cell and a facet covering it.
 """
 
 from __future__ import annotations

@@ -32,7 +32,7 @@ class Stop(NamedTuple):
 class Gap(NamedTuple):
     """A maximal blocked stretch of a way, without its ends, and what blocks it.
 
-    The component is not told if both ends of the stretch are blocked themselves, at the ends of the way.
+    The component is None if both ends of the stretch are blocked, so that they are the ends of the way.
     """
 
     obstacle: Obstacle
