@@ -12,7 +12,11 @@ from exactacq.sensing.path import Path
 
 
 class EventKind(StrEnum):
-    """What happened: to the robot, or to what it sees of an obstacle."""
+    """What happened: to the robot, or to what it sees of an obstacle. Members are equal to their words.
+
+    >>> EventKind.HIT == "hit"
+    True
+    """
 
     START = "start"
     """The path begins."""
@@ -135,9 +139,9 @@ class Event:
     why the path ends. Events are in the order in which they happened.
 
     >>> import exactacq as xa
-    >>> run = xa.sightseer(xa.load("three-boxes"))
+    >>> run = xa.sightseer(xa.load("squares"))
     >>> [(event.kind.value, event.other) for event in run.events if event.kind == "hit"]
-    [('hit', 'S'), ('hit', 0), ('hit', 1)]
+    [('hit', 'S'), ('hit', 0)]
     >>> run.events[-1].ending
     <Ending.ALL_VISITED: 'all visited'>
     """
@@ -178,7 +182,13 @@ class Event:
         return self.describe()
 
     def describe(self, names: Sequence[str] | None = None) -> str:
-        """Occasion, reason or ending in words; obstacles by their *names* if given, else by their numbers."""
+        """Occasion, reason or ending in words; obstacles by their *names* if given, else by their numbers.
+
+        >>> import exactacq as xa
+        >>> run = xa.sightseer(xa.load("squares"))
+        >>> [event.describe(list(run.names())) for event in run.events if event.kind == "hit"]
+        ['from S', 'from O1']
+        """
         if self.ending is not None:
             text = _ENDED[self.ending]
         elif self.reason is not None:

@@ -287,7 +287,12 @@ class SightseerRun(Run):
 
     ``links`` are the edges of the tree that it walked, in the order of the visits, and ``stack_depth`` the
     most entries that its stack held. ``unseen`` and ``unvisited`` are empty where the paper's model (a) holds
-    for the radius.
+    for the radius: the start sees an obstacle, and chains of links join all obstacles.
+
+    >>> import exactacq as xa
+    >>> run = xa.sightseer(xa.load("circles"))
+    >>> [(link.source, link.target, str(link.length)) for link in run.links], run.ending.value
+    ([('S', 0, '3'), (0, 1, '2')], 'all visited')
     """
 
     strategy: ClassVar[str] = "sightseer"
@@ -304,6 +309,11 @@ class SeedSpreaderRun(Run):
     ``encounters`` are the obstacles that were met on the M-line or on the way out on a diversion, in order;
     ``again`` those that blocked the M-line and were acquired before. ``unreached`` are the obstacles of the
     scene of which the terrain has a component that the robot cannot reach from the SW corner.
+
+    >>> import exactacq as xa
+    >>> run = xa.seed_spreader(xa.load("case3"))
+    >>> [(diversion.obstacle, diversion.reason.value) for diversion in run.diversions]
+    [(2, 'out of sight')]
     """
 
     strategy: ClassVar[str] = "seed-spreader"
