@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from exactacq.scene.ports import JSON, SVG, offer
 
 if TYPE_CHECKING:
-    from exactacq.auditing.run import audit
+    from exactacq.auditing.audit import audit
     from exactacq.errors import AuditError, ExactacqError, FormatError, InvalidScene, Undecided
     from exactacq.files.load import load
     from exactacq.geometry.curves import Arc, Segment
@@ -91,7 +91,7 @@ _HOMES = {
     "SightseerRun": "exactacq.strategies.run",
     "Terrain": "exactacq.scene.shapes",
     "Undecided": "exactacq.errors",
-    "audit": "exactacq.auditing.run",
+    "audit": "exactacq.auditing.audit",
     "figure": "exactacq.output.figures",
     "isovist": "exactacq.visibility.isovist",
     "load": "exactacq.files.load",

@@ -16,7 +16,7 @@ from flint import fmpq
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from exactacq.auditing.run import audit
+from exactacq.auditing.audit import audit
 from exactacq.errors import ExactacqError, FormatError, InvalidScene
 from exactacq.files import gallery as scenes
 from exactacq.files.load import load

@@ -22,8 +22,8 @@ from strategies import EPS, Terrain, box, build, degenerate_terrain, random_terr
 from test_laws_of_runs import crowded_room, run_of
 
 import exactacq as xa
-from exactacq.auditing.run import audit
-from exactacq.auditing.world import Lookout, World, point_at, point_near, visible
+from exactacq.auditing.audit import audit
+from exactacq.auditing.visibility import Lookout, World, point_at, point_near, visible
 from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.points import Point

@@ -19,7 +19,7 @@ from sweeps import rectangle, swept_scene
 
 import exactacq as xa
 from exactacq import Circle, Polygon, Scene, Terrain
-from exactacq.auditing.run import audit
+from exactacq.auditing.audit import audit
 from exactacq.errors import AuditError
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Point

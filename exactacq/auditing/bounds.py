@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from flint import arb, ctx
 
+from exactacq.auditing.ground import Field
 from exactacq.auditing.measure import BITS, agrees, ball_sum
-from exactacq.auditing.sweeps import Field
-from exactacq.auditing.world import World
+from exactacq.auditing.visibility import World
 from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.intersections import nearest_points

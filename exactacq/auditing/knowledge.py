@@ -23,7 +23,7 @@ from exactacq.auditing.measure import (
     refined,
     same,
 )
-from exactacq.auditing.world import Lookout, World, point_at, point_near, visible
+from exactacq.auditing.visibility import Lookout, World, point_at, point_near, visible
 from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point

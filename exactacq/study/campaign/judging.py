@@ -9,7 +9,7 @@ from enum import StrEnum
 from time import perf_counter
 from typing import NamedTuple
 
-from exactacq.auditing.run import audit
+from exactacq.auditing.audit import audit
 from exactacq.errors import AuditError, InvalidScene, Undecided
 from exactacq.files.scene_json import scene_to_json
 from exactacq.strategies.run import Run

@@ -10,8 +10,8 @@ from typing import Any, TypeVar
 
 import networkx as nx
 
-from exactacq.auditing.sweeps import Field
-from exactacq.auditing.world import World
+from exactacq.auditing.ground import Field
+from exactacq.auditing.visibility import World
 from exactacq.geometry.points import Point
 from exactacq.scene.scene import Scene
 from exactacq.sensing.event import Ending

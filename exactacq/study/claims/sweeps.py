@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
+from exactacq.auditing.ground import Field, Mark
 from exactacq.auditing.measure import same
-from exactacq.auditing.sweeps import Field, Mark
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real

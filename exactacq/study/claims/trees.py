@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import networkx as nx
 
-from exactacq.auditing.world import visible
+from exactacq.auditing.visibility import visible
 from exactacq.geometry.box_index import box
 from exactacq.geometry.intersections import contacts
 from exactacq.sensing.event import EventKind

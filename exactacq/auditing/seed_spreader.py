@@ -2,7 +2,7 @@
 
 Step by step the run's next move has to be the one that the rules allow: along the M-line to the next blocked
 stretch, around what blocks it, out to an obstacle that is about to be lost, and back. Where obstacles block,
-and where boundaries lie, is found by `exactacq.auditing.sweeps`; what was known is taken from the run's maps,
+and where boundaries lie, is found by `exactacq.auditing.ground`; what was known is taken from the run's maps,
 which `exactacq.auditing.knowledge` checks.
 """
 
@@ -15,6 +15,7 @@ from typing import Any
 
 from flint import arb, ctx, fmpq
 
+from exactacq.auditing.ground import Field, Mark, Stretch
 from exactacq.auditing.knowledge import MOMENTS, is_whole, point_on
 from exactacq.auditing.measure import (
     BITS,
@@ -27,8 +28,7 @@ from exactacq.auditing.measure import (
     rational_on,
     same,
 )
-from exactacq.auditing.sweeps import Field, Mark, Stretch
-from exactacq.auditing.world import Lookout, visible
+from exactacq.auditing.visibility import Lookout, visible
 from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import contacts, nearest_points

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 from flint import arb, ctx, fmpq
 
 from exactacq.auditing.measure import BITS, ball_sum, ball_to, is_close, is_part, place_text, refined, same
-from exactacq.auditing.world import World, between
+from exactacq.auditing.visibility import World, between
 from exactacq.errors import AuditError
 from exactacq.geometry.box_index import bounds
 from exactacq.geometry.curves import Arc, Curve, Segment

@@ -1,9 +1,9 @@
 """The audit: a finished run checked again by other means than the code that made it.
 
 Lengths are re-added in balls, pieces are located among all edges, events are replayed, bounds are computed
-again from the paper's formulas, and knowledge is decided from the target's side (`exactacq.auditing.world`).
+again from the paper's formulas, and knowledge is decided from the target's side (`exactacq.auditing.visibility`).
 For the Seed Spreader the components, the M-line and what blocks it are found again
-(`exactacq.auditing.sweeps`), and its rules are replayed (`exactacq.auditing.moves`). Nothing of the
+(`exactacq.auditing.ground`), and its rules are replayed (`exactacq.auditing.seed_spreader`). Nothing of the
 strategies, the robot, the links or the sensing is used.
 
 Places that are not rational are compared with the path and with each other at `DIGITS` digits: there a
@@ -21,6 +21,7 @@ from typing import Any
 from flint import ctx
 
 from exactacq.auditing.bounds import check_bounds, check_links, link_name, sightseer_values, spreader_values
+from exactacq.auditing.ground import Field, check_components
 from exactacq.auditing.knowledge import MOMENTS, Knowledge
 from exactacq.auditing.measure import (
     BITS,
@@ -37,10 +38,9 @@ from exactacq.auditing.measure import (
     place_text,
     same,
 )
-from exactacq.auditing.moves import MOVES as SWEEP_MOVES
-from exactacq.auditing.moves import Replay
-from exactacq.auditing.sweeps import Field, check_components
-from exactacq.auditing.world import World
+from exactacq.auditing.seed_spreader import MOVES as SWEEP_MOVES
+from exactacq.auditing.seed_spreader import Replay
+from exactacq.auditing.visibility import World
 from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.points import Point
