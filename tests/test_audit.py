@@ -212,7 +212,7 @@ class TestRealMaps:
 
     @pytest.mark.parametrize(("step", "word"), [(-1, "lacks the point"), (1, "knows the point")])
     def test_off_by_an_event(self, step: int, word: str) -> None:
-        class Shifted(Run):
+        class Shifted(SightseerRun):
             def map_at(self, event: object) -> object:
                 k = next(k for k, other in enumerate(self.events) if other is event) + step
                 return super().map_at(self.events[min(max(k, 0), len(self.events) - 1)])

@@ -26,7 +26,7 @@ from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.sensing.event import Ending, Event, EventKind, Reason
 from exactacq.sensing.path import Path, Piece
-from exactacq.strategies.run import Run
+from exactacq.strategies.run import Run, SeedSpreaderRun
 from exactacq.study.claims.model import Subject
 from exactacq.study.random_scenes import random_scene
 
@@ -366,7 +366,6 @@ class TestHits:
             (lambda run: told(run, again=(0,)), "encounters of known obstacles are [0]"),
             (lambda run: replace(run, unseen=(0,)), "obstacles unseen are [0], by the map []"),
             (lambda run: replace(run, unvisited=(0,)), "obstacles unvisited are [0], by the map []"),
-            (lambda run: replace(run, stack_depth=1), "no stack"),
             (lambda run: told(run, unreached=(0,)), "obstacles out of reach are [0], not []"),
         ],
     )
@@ -555,7 +554,7 @@ class TestKnowledge:
 
     @pytest.mark.parametrize(("step", "word"), [(-1, "lacks the point"), (1, "knows the point")])
     def test_off_by_a_piece(self, step: int, word: str) -> None:
-        class Shifted(Run):
+        class Shifted(SeedSpreaderRun):
             def map_at(self, event: object) -> object:
                 if event.kind == "moment":
                     return super().map_at(event)

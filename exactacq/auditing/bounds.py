@@ -18,28 +18,10 @@ from exactacq.geometry.intersections import nearest_points
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
-from exactacq.strategies.run import Run, SeedSpreaderRun, SightseerRun, TreeLink
+from exactacq.strategies.run import Run, SeedSpreaderRun, SightseerRun
 
 VISITS = ("(4)", "L3 corrected")
 """Bounds of the number of visits, not of a length."""
-
-
-def link_name(link: TreeLink) -> str:
-    return f"the link from {link.source} to {link.target}"
-
-
-def check_links(run: SightseerRun) -> None:
-    """Links are as long as their segments, within the radius, and add up to the straight pieces."""
-    total = Length(0)
-    for link in run.links:
-        if not agrees(link.length, ball_sum([Segment(link.leave, link.hit)])):
-            raise AuditError(f"{link_name(link)} is not {link.length.decimal(20)}... long")
-        if link.length > run.radius:
-            raise AuditError(f"{link_name(link)} is longer than the radius")
-        total = total + link.length * link.traversals
-    straight = ball_sum([piece.curve for piece in run.path if piece.kind == "straight"])
-    if not agrees(total, straight):
-        raise AuditError(f"the links walked add up to {total.decimal(20)}..., the straight pieces do not")
 
 
 def check_bounds(run: Run, values: Mapping[str, arb]) -> None:
