@@ -11,13 +11,14 @@ def rectangle(left: object, bottom: object, right: object, top: object) -> Polyg
     return Polygon([(left, bottom), (right, bottom), (right, top), (left, top)])
 
 
-def relay(count: int) -> Scene:
+def relay(count: int, foot: int = 30) -> Scene:
     """A crumb with a pocket, and north of it *count* crumbs 19 apart, each between two screens.
 
     A screened crumb is seen from the crumb before it only: from both lines its screens hide it, and they
-    themselves become known from there. R = B = 20; all crumbs and screens are less than 1/5 around.
+    themselves become known from there. R = B = 20; all crumbs and screens are less than 1/5 around. The first
+    crumb is at height *foot*: if that is low, the eastern line ends before the crumb is out of reach.
     """
-    u, column, foot = Q(1, 100), 14, 30
+    u, column = Q(1, 100), 14
     pocket = [(0, 0), (3, 0), (3, 3), (0, 3), (0, 2), ("1/2", 2), ("1/2", "5/2"), (2, "5/2"), (2, 1), (0, 1)]
     shapes = [Polygon([(column + Q(x) * u, foot + Q(y) * u) for x, y in pocket])]
     for k in range(1, count + 1):
@@ -46,6 +47,18 @@ def overlapping_links() -> Scene:
         start=(5, 0),
         radius=10,
     )
+
+
+def comb(size: int, spacing: int = 10) -> Scene:
+    """Crumbs on a spine and on a tooth over every other crumb of it; only neighbours are within the radius.
+
+    The start is on the first crumb of the spine.
+    """
+    places = [(spacing * i, 0) for i in range(size)]
+    places += [(spacing * i, spacing * j) for i in range(0, size, 2) for j in range(1, size + 1)]
+    half = Q(1, 100)
+    crumbs = [rectangle(x - half, y - half, x + half, y + half) for x, y in places]
+    return Scene(crumbs, start=(0, half), radius=spacing, name=f"comb-{size}")
 
 
 def trapped_end(is_free: bool) -> Scene:

@@ -9,7 +9,7 @@ import pytest
 from flint import fmpq
 from scenes import overlapping_links, relay, trapped_end
 
-from exactacq import Length, Run, seed_spreader, sightseer
+from exactacq import Circle, Length, Run, Scene, Terrain, seed_spreader, sightseer
 from exactacq.files import gallery
 from exactacq.geometry.points import Point, distance
 from exactacq.sensing.event import Ending, Event, Occasion
@@ -58,9 +58,18 @@ def test_ways_a_diversion_walks_no_more_than_twice_d_q_straight(sweep: Run) -> N
         assert straight(sweep, d.first, d.last) <= Length(distance(d.leave, d.hit)) * 2
 
 
-def test_ways_only_overdue_ones_are_longer_than_the_radius(sweep: Run) -> None:
+def test_ways_that_sight_or_reach_begins_are_within_the_radius(sweep: Run) -> None:
     for d in sweep.diversions:
-        assert d.reason == "overdue" or Length(distance(d.leave, d.hit)) <= Length(sweep.radius)
+        near = Length(distance(d.leave, d.hit)) <= Length(sweep.radius)
+        assert near or d.reason not in ("out of sight", "out of reach")
+
+
+def test_ways_at_the_end_of_a_line_too() -> None:
+    """What was seen from a diversion that began where the line ends can be farther than the radius."""
+    run = seed_spreader(relay(2, foot=5))
+    assert [d.reason for d in run.diversions] == ["the line ends"] * 3
+    lengths = [float(distance(d.leave, d.hit)) for d in run.diversions]
+    assert lengths == pytest.approx([7.787, 24.738, 43.416], abs=1e-3)
 
 
 def test_ways_meet_an_obstacle_once_there_and_once_back_and_a_pair_never_again(sweep: Run) -> None:
@@ -77,6 +86,21 @@ def test_ways_meet_an_obstacle_once_there_and_once_back_and_a_pair_never_again(s
 def test_sss_5_every_diversion_has_an_aim_of_its_own(sweep: Run) -> None:
     aims = [d.obstacle for d in sweep.diversions]
     assert len(aims) == len(set(aims))
+
+
+# -- the lemma on shores ---------------------------------------------------------------------------
+
+
+def test_shores_a_disc_that_touches_two_borders_is_walked_around() -> None:
+    """Its collar within the terrain is in two pieces; its boundary is one loop, and is circled."""
+    run = seed_spreader(Scene([Circle((5, 2), 2)], terrain=Terrain(10, 4), radius=5))
+    (disc,) = run.obstacles
+    assert disc.closed
+    assert run.visits == (0,)
+    hit, leave = (e.point for e in run.events if e.kind in ("hit", "leave"))
+    assert (hit, leave) == (Point(5, 4), Point(5, 0))
+    assert run.path[-1].end == Point(10, 4)
+    assert sum(p.obstacle == 0 for p in run.path) > 1
 
 
 # -- SSS-7: what each boundary costs ---------------------------------------------------------------
