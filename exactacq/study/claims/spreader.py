@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from exactacq.numbers.length import Length
+from exactacq.numbers.rationals import rational
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle, Outline, Polygon, Shape, Terrain
 from exactacq.sensing.event import EventKind, Occasion, Reason
@@ -34,6 +35,8 @@ LONE: tuple[Shape, ...] = (
     Outline([(1, 2, 1), (3, 2), (3, 7, 1), (1, 7)]),
 )
 """Convex obstacles for a strip of width 4, some of which touch its lines in a point."""
+POCKETS = (1, 2, 3)
+"""How many obstacles with pockets; a second in all."""
 
 
 def advances(case: Case) -> Finding:
@@ -152,6 +155,30 @@ def diverts_once_each(case: Case) -> Finding:
     if not targets:
         return SILENT
     return found(len(targets) == len(set(targets)), f"to {_labels(case, targets)}")
+
+
+def pockets(count: int) -> Scene:
+    """Squares with a pocket that can be seen from inside only, out of each other's sight; R = B = 20.
+
+    The pocket opens to the west, and its upper western corner lies behind the wall above its mouth.
+    """
+    unit, column = rational("1/100"), 14
+    outer = [(0, 0), (3, 0), (3, 3), (0, 3)]
+    pocket = [(0, 2), (HALF, 2), (HALF, 5 * HALF), (2, 5 * HALF), (2, 1), (0, 1)]
+    outline = [(column + x * unit, 30 + y * unit) for x, y in outer + pocket]
+    shapes = [Polygon([(x, y + 90 * k) for x, y in outline]) for k in range(count)]
+    return Scene(shapes, terrain=Terrain(20, 90 * count), radius=20, name=f"pockets-{count}")
+
+
+def diverts_to_each_pocket() -> Finding:
+    """Obstacles with pockets, far from each other: as many diversions as obstacles."""
+    for count in POCKETS:
+        run = Case(pockets(count)).spreader
+        assert run.sweeping is not None
+        targets = sorted(diversion.obstacle for diversion in run.sweeping.diversions)
+        if targets != list(range(count)):
+            return found(False, f"{count} pockets, diversions to {targets}")
+    return found(True)
 
 
 def diversions_within_width(case: Case) -> Finding:
@@ -324,10 +351,16 @@ CLAIMS = (
             diverts_for_occluders,
             counterexamples=("m15", "sss5"),
         ),
-        Statement("There are at most n diversions.", SPREADER, diverts_once_each, argument="SSS-5"),
+        Statement(
+            "There are at most n diversions, and for every n there are n obstacles that take n.",
+            SPREADER,
+            diverts_once_each,
+            diverts_to_each_pocket,
+            argument="SSS-5",
+        ),
         "The occluder can be known already (m15), or lie beside the way to the target (sss5): there two "
         "diversions are made for three obstacles, by any option. The like scene m18 needs one diversion "
-        "only.",
+        "only. It takes obstacles with pockets to reach n; seven convex ones can take six (tight-sss5-fan).",
     ),
     Claim(
         "SSS-6",
