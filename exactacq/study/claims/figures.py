@@ -10,9 +10,11 @@ from exactacq.geometry.curves import Arc
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.numbers.rationals import rational
+from exactacq.scene.scene import Scene
+from exactacq.scene.shapes import Circle
 from exactacq.sensing.event import EventKind
 from exactacq.strategies.run import Run
-from exactacq.strategies.vertex_scan import polygon_limit
+from exactacq.strategies.vertex_scan import inscribed, polygon_limit
 from exactacq.study.claims.coverage import times_walked
 from exactacq.study.claims.model import Case, Claim, Finding, Statement, Subject, flaw, found
 from exactacq.study.claims.trees import circled
@@ -117,7 +119,16 @@ def _reverses(stay: Stay) -> bool:
 
 
 def circles_cost_what_polygons_do() -> Finding:
-    """Two circles as polygons of more and more sides: P tends to P on the circles, moves by vertices grow."""
+    """Two circles as polygons of more and more sides: P tends to P on the circles, moves by vertices grow.
+
+    The polygons are such as the argument speaks of: their longest sides tend to 0.
+    """
+    for shape in gallery.scene("circles").shapes:
+        assert isinstance(shape, Circle)
+        for k in SIDES:
+            longest = max(edge.length for edge in Scene([inscribed(shape, k)]).obstacles[0].edges)
+            if longest > Length(shape.radius) * rational(f"8/{k}"):
+                return flaw(f"one of {k} sides is {float(longest):.3g} long")
     rows = polygon_limit(SIDES)
     lacks = [row.gap for row in rows]
     closer = all(a > b > Length(0) for a, b in pairwise(lacks)) and lacks[-1] < Length(CLOSE)
