@@ -1,8 +1,10 @@
 """An infinite, locally finite terrain, tried on growing parts of it: the Sightseer never runs out.
 
 The obstacles are squares of side 1 around the points of the lattice of pitch 2, and the radius is 1: a square
-sees its four neighbours and no others. As long as the robot has circled inner squares of a finite part only,
-it has seen exactly what it would have seen on the whole lattice, so that its run there begins the same.
+sees its four neighbours and no others. All neighbours are equally near, and of these the southern one is
+preferred, so on the whole lattice the robot goes south for ever. As long as the robot has circled inner
+squares of a finite part only, it has seen exactly what it would have seen on the whole lattice, so that its
+run there begins the same.
 """
 
 from __future__ import annotations
@@ -49,11 +51,17 @@ def inner_visits(run: Run, rows: int) -> int:
     return count
 
 
+def column(rows: int) -> list[int]:
+    """The inner squares of a part that the robot circles first: south in the middle column."""
+    return [COLUMNS * row + COLUMNS // 2 for row in range(rows - 2, 0, -1)]
+
+
 def never_ends() -> Finding:
     """FAILS, with the growing numbers of visits, if the Sightseer does not end on an infinite lattice.
 
-    That is: on ever larger parts it circles ever more squares that it would circle on the whole lattice, and
-    after each visit but the very last one it has an unvisited square on its map.
+    That is: on ever larger parts it circles ever more squares that it would circle on the whole lattice, the
+    column that the argument predicts, and after each visit but the very last one it has an unvisited square
+    on its map.
     """
     inner = []
     for rows in ROWS:
@@ -63,6 +71,8 @@ def never_ends() -> Finding:
         if _runs_dry(run):
             return found(True, f"nothing unvisited is left on the map before the end of {rows} rows")
         inner.append(inner_visits(run, rows))
+        if circled(run)[: inner[-1]] != column(rows):
+            return found(True, f"{circled(run)[: inner[-1]]} are circled first in {rows} rows")
     grows = all(a < b for a, b in pairwise(inner))
     return found(not grows, f"visits that the whole lattice shares: {inner}, growing with the part")
 
