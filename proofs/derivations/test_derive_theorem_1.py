@@ -18,8 +18,13 @@ from formulas import (
     v_max,
     with_one_coefficient_changed,
 )
+from scenes import comb
 from sympy import Expr, IndexedBase, Min, Rational, Symbol, expand, interpolate, limit, oo, symbols
 from trees import Walk, walks
+
+from exactacq import Length
+from exactacq.study.claims.model import Case
+from exactacq.visibility.links import START
 
 SIZES = range(2, 8)
 """Numbers of obstacles for which all ordered trees are walked: 1 to 132 trees each."""
@@ -126,8 +131,24 @@ def test_one_obstacle_costs_its_approach_and_its_loop() -> None:
     assert expand(value - approach - p_1) == 0
 
 
-def test_a_star_of_crumbs_comes_as_near_to_2_as_one_likes() -> None:
-    """Leaves without perimeter at distance R around a crumb: P = (2n - 3) R against 2(n - 1) R."""
-    tour = most(links_walked) * radius
-    assert limit(tour / (2 * (n - 1) * radius), n, oo) == 1
-    assert expand(2 * (n - 1) * radius - tour) == radius
+def test_combs_of_crumbs_come_as_near_to_2_as_one_likes() -> None:
+    """Crumbs at distance R, without perimeters: the walks over links are all but those to the last crumb."""
+    size = Symbol("m", integer=True, positive=True)
+    fewest = size**2 / 2
+    ratio = (2 * (n - 1) - 2 * size) / (2 * (n - 1))
+    assert limit(ratio.subs(n, fewest), size, oo) == 1
+    m = 4
+    assert len(comb(m).obstacles) >= fewest.subs(size, m)
+
+
+@pytest.mark.parametrize("nearest", [True, False])
+def test_a_comb_by_two_rules(nearest: bool) -> None:
+    """No rule spares more walks than those between the first crumb and the last one."""
+    case = Case(comb(4))
+    run = case.sightseer if nearest else case.farthest
+    count = len(run.obstacles)
+    assert case.is_mutually_visible
+    assert len([link for link in run.links if link.source != START]) == count - 1
+    walks = [link.traversals for link in run.links if link.source != START]
+    assert sum(walks) >= 2 * (count - 1) - 2 * 4
+    assert run.length > Length(9 * sum(walks))
