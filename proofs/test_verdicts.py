@@ -6,6 +6,7 @@ random ones, and at least one of them spoke of it. Runs are made once for each s
 
 from __future__ import annotations
 
+import re
 from functools import cache
 from pathlib import Path
 
@@ -22,6 +23,11 @@ SEEDS = range(24)
 RADII = (4, 10)
 """From short to long for eighteen octagons."""
 ARGUMENTS = Path(__file__).parent / "arguments"
+WRITTEN = {path.stem: path.read_text(encoding="utf-8") for path in sorted(ARGUMENTS.glob("*.md"))}
+DEFINITIONS = (ARGUMENTS.parent / "definitions.md").read_text(encoding="utf-8")
+RULES = re.findall(r"^\*\*([A-Z]\d+)\. ", DEFINITIONS, re.MULTILINE)
+LETTERS = "WVGSKMPD"
+LINK = re.compile(r"\]\(([^)\s]+)\)")
 TAKEN_APART = {"plate", "figure2"}
 """Gallery scenes too large to be run for every claim; figure2 has a claim of its own."""
 STATEMENTS = [
@@ -68,6 +74,57 @@ def test_verdict(claim: Claim, statement: Statement) -> None:
 def test_argument_is_written(name: str) -> None:
     """What is called proved has its proof in words beside it."""
     assert (ARGUMENTS / f"{name}.md").is_file()
+
+
+def cited(text: str) -> set[str]:
+    """The rules that a text names: by number, or as the first or last of several, and those between."""
+    plain = re.sub(r"`[^`]*`", "", text)
+    rules = set(re.findall(rf"\b([{LETTERS}]\d+)\b", plain))
+    for letter, first, last in re.findall(rf"\b([{LETTERS}])(\d+) to \1(\d+)\b", plain):
+        rules |= {f"{letter}{k}" for k in range(int(first), int(last) + 1)}
+    return rules
+
+
+def test_rules_are_numbered_in_order_and_once() -> None:
+    for letter in LETTERS:
+        numbers = [int(rule[1:]) for rule in RULES if rule[0] == letter]
+        first = 0 if letter in "SP" else 1
+        assert numbers == list(range(first, first + len(numbers)))
+        assert numbers
+    assert {rule[0] for rule in RULES} == set(LETTERS)
+
+
+def test_citations_are_found() -> None:
+    text = "By (V2), S0 to S2 and P1(c), not `m15`, L1 or $S_1$."
+    assert cited(text) == {"V2", "S0", "S1", "S2", "P1"}
+
+
+@pytest.mark.parametrize("name", sorted({*WRITTEN, "definitions"} - {"README"}))
+def test_what_an_argument_cites_is_written(name: str) -> None:
+    """Rules are those of the definitions, lemmas are files; nothing is left to a text that is not here."""
+    text = DEFINITIONS if name == "definitions" else WRITTEN[name]
+    assert cited(text)
+    assert cited(text) <= set(RULES)
+    assert "contract" not in text
+    assert name == "definitions" or "**Assumptions.**" in text
+
+
+@pytest.mark.parametrize("name", sorted({*WRITTEN, "definitions"}))
+def test_links_of_arguments_resolve(name: str) -> None:
+    folder = ARGUMENTS.parent if name == "definitions" else ARGUMENTS
+    text = DEFINITIONS if name == "definitions" else WRITTEN[name]
+    assert [link for link in LINK.findall(text) if not (folder / link).is_file()] == []
+
+
+def test_every_rule_is_cited() -> None:
+    """A rule that no argument and no other rule needs would not belong there."""
+    others = re.sub(r"^\*\*[A-Z]\d+\. ", "", DEFINITIONS, flags=re.MULTILINE)
+    assert set(RULES) == set().union(*map(cited, [others, *WRITTEN.values()]))
+
+
+def test_every_argument_is_listed() -> None:
+    listed = {link.removesuffix(".md") for link in LINK.findall(WRITTEN["README"]) if "/" not in link}
+    assert listed == set(WRITTEN) - {"README"}
 
 
 def test_the_numbers_of_theorem_1() -> None:

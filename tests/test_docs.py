@@ -210,6 +210,22 @@ def test_what_is_written(extension: ModuleType, tmp_path: Path) -> None:
     assert copied == "# It stops\n\nwhy, see, [so](stops.md#x), [web](https://a.b) ![p](p.svg)\n"
 
 
+def test_the_definitions_are_a_page_beside_the_arguments(extension: ModuleType, tmp_path: Path) -> None:
+    (tmp_path / "arguments").mkdir()
+    (tmp_path / "arguments" / "README.md").write_text("# All\n\n[rules](../definitions.md), [it](stops.md)\n")
+    (tmp_path / "arguments" / "stops.md").write_text("# It stops\n\nBy (V2).\n")
+    (tmp_path / "definitions.md").write_text("# Rules\n\nSee [it](arguments/stops.md), [x](../x.md).\n")
+    folder = tmp_path / "out"
+    folder.mkdir()
+    extension.write(folder, [SHORT], 0, tmp_path / "arguments")
+    text = (folder / "verdicts.md").read_text()
+    assert "[definitions and rules](_generated/arguments/definitions.md)" in text
+    contents = (folder / "arguments" / "README.md").read_text()
+    assert "[rules](definitions.md), [it](stops.md)" in contents
+    assert listed(contents) == ["definitions", "stops"]
+    assert (folder / "arguments" / "definitions.md").read_text() == "# Rules\n\nSee [it](stops.md), x.\n"
+
+
 def test_formulas_on_display_stand_alone(extension: ModuleType) -> None:
     text = "for $n$,\n$$P \\le A\n+ B$$\nwhere $A$"
     assert extension.portable(text, set()) == "for $n$,\n\n$$\nP \\le A + B\n$$\n\nwhere $A$"

@@ -29,8 +29,8 @@ from exactacq.study.random_scenes import random_scene
 STRATEGIES = {Subject.SIGHTSEER: "Sightseer", Subject.SEED_SPREADER: "Seed Spreader"}
 FOLDER = "_generated"
 """The generated folder, as the page of claims sees it."""
-CONTENTS = "README"
-"""The argument that lists the others."""
+CONTENTS, DEFINITIONS = "README", "definitions"
+"""The argument that lists the others, and the page beside their folder with the rules that they cite."""
 DETAILS, FAILURES = 3, 5
 """Most findings, and most failing scenes, of one statement that the page quotes."""
 _LINK = re.compile(r"(?<!!)\[([^\]\n]+)\]\(([^)\s]+)\)")
@@ -49,7 +49,7 @@ def write(folder: Path, claims: Sequence[Claim], count: int, arguments: Path) ->
     """Judge the claims, and write verdicts.md, the pictures and the arguments that it names into a folder.
 
     Statements that gallery scenes do not refute are tried on *count* random scenes of their kind.
-    *arguments* is where the written proofs are; each becomes a page.
+    *arguments* is where the written proofs are; each becomes a page, and so do the definitions beside it.
     """
     cases = {
         subject: [
@@ -58,9 +58,8 @@ def write(folder: Path, claims: Sequence[Claim], count: int, arguments: Path) ->
         for subject in Subject
     }
     judged = [(claim, [judge(s, cases[s.subject], example) for s in claim.statements]) for claim in claims]
-    texts = in_reading_order(
-        {path.stem: path.read_text(encoding="utf-8") for path in sorted(arguments.glob("*.md"))}
-    )
+    written = [*sorted(arguments.glob("*.md")), *arguments.parent.glob(f"{DEFINITIONS}.md")]
+    texts = in_reading_order({path.stem: path.read_text(encoding="utf-8") for path in written})
     (folder / "verdicts.md").write_text(page(judged, count, list(texts)), encoding="utf-8")
     statements = [statement for claim in claims for statement in claim.statements]
     (folder / "scenes").mkdir()
@@ -102,6 +101,9 @@ def page(judged: Sequence[tuple[Claim, Sequence[Verdict]]], count: int, argument
     """The text that the page of claims includes; *arguments*, or their contents, are the pages below it."""
     lines = [f"When these pages were built, {count} random scenes of each kind were tried.", ""]
     lines += [_tally(verdicts[0].status for _, verdicts in judged), ""]
+    if DEFINITIONS in arguments:
+        link = f"[definitions and rules]({FOLDER}/arguments/{DEFINITIONS}.md)"
+        lines += [f"The arguments cite numbered {link} of the world, of sight and of both strategies.", ""]
     lines += _overview(judged)
     for claim, verdicts in judged:
         lines += _section(claim, verdicts)
@@ -198,16 +200,19 @@ def plain(text: str) -> str:
 def portable(text: str, known: set[str]) -> str:
     """An argument as a page: formulas on display stand alone, links lead to pages or are plain words.
 
-    Headings are in plain words too, for they are shown where formulas are not set.
+    All pages are in one folder. Headings are in plain words too: they are shown where formulas are not set.
     """
 
     def displayed(match: re.Match[str]) -> str:
         return f"\n\n$$\n{' '.join(match[1].split())}\n$$\n\n"
 
     def linked(match: re.Match[str]) -> str:
-        target = match[2].partition("#")[0]
-        is_page = target.endswith(".md") and "/" not in target and target[:-3] in known
-        return match[0] if is_page or "://" in target or not target else match[1]
+        target, hash_sign, part = match[2].partition("#")
+        if "://" in target or not target:
+            return match[0]
+        name = target.removeprefix("../").removeprefix("arguments/")
+        is_page = name.endswith(".md") and name[:-3] in known
+        return f"[{match[1]}]({name}{hash_sign}{part})" if is_page else match[1]
 
     text = _LINK.sub(linked, _DISPLAY.sub(displayed, text))
     return _HEADING.sub(lambda match: match[0].replace("$", "").replace("\\ge", "≥"), text)
@@ -216,6 +221,6 @@ def portable(text: str, known: set[str]) -> str:
 def in_reading_order(texts: dict[str, str]) -> dict[str, str]:
     """The arguments in the order in which their contents name them, then the others."""
     contents = texts.get(CONTENTS, "")
-    places = {name: contents.find(f"({name}.md)") for name in texts}
+    places = {name: max(contents.find(f"{before}{name}.md)") for before in "(/") for name in texts}
     order = sorted(texts, key=lambda name: (name != CONTENTS, places[name] < 0, places[name]))
     return {name: texts[name] for name in order}
