@@ -29,6 +29,7 @@ from exactacq.study.campaign.settings import CampaignError, Settings, Task, clai
 from exactacq.study.campaign.store import Store
 from exactacq.study.campaign.summary import faults, tallies, unfinished
 from exactacq.study.claims.model import Case, Claim, Finding, Outcome, Statement, Subject
+from exactacq.study.processes import ProcessError
 from exactacq.study.random_scenes import random_scene
 
 MARK = "EXACTACQ_TEST_MARK"
@@ -241,7 +242,7 @@ class TestKills:
 
     def test_workers_that_cannot_start_are_an_error(self) -> None:
         settings = replace(QUICK, claims="test_campaign:NOTHING")
-        with Store(None, settings, []) as store, pytest.raises(CampaignError, match="end before they judge"):
+        with Store(None, settings, []) as store, pytest.raises(ProcessError, match="end before they take up"):
             conduct(settings, store, 1)
 
     def test_a_killed_coordinator_loses_nothing(self, tmp_path: Path) -> None:

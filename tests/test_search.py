@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import sys
 import time
 from pathlib import Path
@@ -51,6 +52,19 @@ def is_short(case: Case) -> Finding:
     """P <= 40: a statement whose ratio can be raised step by step."""
     run = case.sightseer
     return Finding(Outcome.HOLDS if run.length <= 40 else Outcome.FAILS, "", float(run.length) / 40)
+
+
+def sleeps(case: Case) -> Finding:
+    """Takes a minute over two obstacles."""
+    time.sleep(60 if len(case.scene.shapes) == 2 else 0)
+    return Finding(Outcome.HOLDS, "", 0.5)
+
+
+def dies(case: Case) -> Finding:
+    """Ends its process over two obstacles."""
+    if len(case.scene.shapes) == 2:
+        os._exit(7)
+    return Finding(Outcome.HOLDS, "", 0.5)
 
 
 def explore(check: object, seed: int, steps: int, begin: Draft | None = None) -> Search:
@@ -184,17 +198,18 @@ def test_the_child_process_judges_alike_and_is_ended_when_slow() -> None:
         for draft in (two_boxes(), Draft((box(0, 0),), fmpq(1), start=(fmpq(0), fmpq(0)))):
             assert child.judge(draft) == here.judge(draft)
 
-    def sleeps(case: Case) -> Finding:
-        time.sleep(60 if len(case.scene.shapes) == 2 else 0)
-        return Finding(Outcome.HOLDS, "", 0.5)
-
     begun = time.monotonic()
     with Referee(sleeps, limit=0.3) as referee:
-        if referee.limit is None:
-            pytest.skip("no forks here")
         assert referee.judge(two_boxes()).reason == "too slow"
         assert referee.judge(Draft((box(0, 0),), fmpq(1), start=(fmpq(0), fmpq(0)))).score == 0.5
     assert time.monotonic() - begun < 20
+
+
+def test_a_draft_that_ends_the_process_is_a_fault() -> None:
+    with Referee(dies, limit=60) as referee:
+        assert referee.judge(two_boxes()).reason == "fault: 2 processes died, the last with exit status 7"
+        assert referee.judge(Draft((box(0, 0),), fmpq(1), start=(fmpq(0), fmpq(0)))).score == 0.5
+        assert referee.dropped == {"fault": 1}
 
 
 def test_a_failure_without_a_ratio_beats_what_holds() -> None:

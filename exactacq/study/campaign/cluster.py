@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable
 from importlib import import_module
 from importlib.metadata import version
 from typing import Any
 
-from exactacq.study.campaign.judging import Record, Result, lost
+from exactacq.study.campaign.judging import Record, Result, lost, records
 from exactacq.study.campaign.settings import CampaignError, Settings, Task
-from exactacq.study.campaign.team import Team
 
 BATCH = 8
 """Scenes of one task: enough to pay for the process that it starts, few enough to lose with a coordinator."""
@@ -17,7 +16,7 @@ PATIENCE = 15
 """Seconds to wait for the scheduler."""
 
 
-def cluster_records(settings: Settings, tasks: Iterable[Task], address: str) -> Iterator[Record]:
+def cluster_records(settings: Settings, tasks: Iterable[Task], address: str) -> Generator[Record, None, None]:
     """The records of all tasks from the workers of the scheduler at *address*, batch by batch.
 
     A task judges its batch in a process of its own beside the dask worker, so that scenes are bounded in time
@@ -39,14 +38,14 @@ def cluster_records(settings: Settings, tasks: Iterable[Task], address: str) -> 
         yield from _gathered(dask, client, settings, list(tasks))
 
 
-def _gathered(dask: Any, client: Any, settings: Settings, tasks: list[Task]) -> Iterator[Record]:
+def _gathered(dask: Any, client: Any, settings: Settings, tasks: list[Task]) -> Generator[Record, None, None]:
     batches = [tasks[k : k + BATCH] for k in range(0, len(tasks), BATCH)]
     futures = {_submit(client, settings, batch): batch for batch in batches}
     done = dask.as_completed(futures, loop=client.loop)
     for future in done:
         batch = futures.pop(future)
         try:
-            records = future.result()
+            judged = future.result()
         except dask.KilledWorker as error:
             if len(batch) == 1:
                 yield lost(batch[0], Result.CRASHED, 0.0, str(error))
@@ -56,7 +55,7 @@ def _gathered(dask: Any, client: Any, settings: Settings, tasks: list[Task]) -> 
                 futures[again] = [task]
                 done.add(again)
             continue
-        yield from records
+        yield from judged
 
 
 def _submit(client: Any, settings: Settings, batch: list[Task]) -> Any:
@@ -68,5 +67,4 @@ def judge_batch(settings: Settings, batch: list[Task], wanted: str) -> list[Reco
     """A dask task: the records of a few scenes. Raises `CampaignError` under another version of exactacq."""
     if version("exactacq") != wanted:
         raise CampaignError(f"a worker runs exactacq {version('exactacq')}, the coordinator {wanted}")
-    with Team(settings, 1) as team:
-        return list(team.records(batch))
+    return list(records(settings, batch, 1))

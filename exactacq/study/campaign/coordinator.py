@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Generator
+from collections.abc import Callable
 from contextlib import closing
 from time import monotonic
 
 from exactacq.study.campaign.cluster import cluster_records
-from exactacq.study.campaign.judging import Record
-from exactacq.study.campaign.settings import Settings, Task
+from exactacq.study.campaign.judging import Record, records
+from exactacq.study.campaign.settings import Settings
 from exactacq.study.campaign.store import Store
-from exactacq.study.campaign.team import Team
 
 
 def conduct(
@@ -25,26 +24,21 @@ def conduct(
 
     By *workers* processes on this machine, by default one a core, or by the dask cluster whose *scheduler*
     has that address. The verdicts are the same, timeouts aside. May be ended at any time, by a kill too: what
-    is committed stays, and the next call goes on from there. Raises `CampaignError`.
+    is committed stays, and the next call goes on from there. Raises `CampaignError`,
+    `exactacq.study.processes.ProcessError`.
     """
     judged = store.done()
     tasks = [task for task in settings.tasks() if task not in judged]
     began, before = monotonic(), store.wall
-    with closing(_records(settings, tasks, workers or _cores(), scheduler)) as records:
-        for record in records:
+    if scheduler is None:
+        judging = records(settings, tasks, workers or _cores())
+    else:
+        judging = cluster_records(settings, tasks, scheduler)
+    with closing(judging):
+        for record in judging:
             store.add([record], before + monotonic() - began)
             if report is not None:
                 report(record)
-
-
-def _records(
-    settings: Settings, tasks: list[Task], size: int, scheduler: str | None
-) -> Generator[Record, None, None]:
-    if scheduler is not None:
-        yield from cluster_records(settings, tasks, scheduler)
-        return
-    with Team(settings, size) as team:
-        yield from team.records(tasks)
 
 
 def _cores() -> int:

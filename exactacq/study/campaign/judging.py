@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 import traceback
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Generator, Iterable
 from enum import StrEnum
+from functools import partial
 from time import perf_counter
 from typing import NamedTuple
 
@@ -13,8 +14,9 @@ from exactacq.auditing.audit import audit
 from exactacq.errors import AuditError, InvalidScene, Undecided
 from exactacq.files.scene_json import scene_to_json
 from exactacq.strategies.run import Run
-from exactacq.study.campaign.settings import Called, Task
+from exactacq.study.campaign.settings import Called, Settings, Task, claims_at, parts
 from exactacq.study.claims.model import Case, Finding, Outcome, Statement, Subject
+from exactacq.study.processes import Lost, Team
 from exactacq.study.random_scenes import random_scene
 
 SAMPLES = 8
@@ -58,7 +60,7 @@ class Record(NamedTuple):
     rows: tuple[Row, ...] = ()
 
 
-def judge(task: Task, parts: Iterable[tuple[Called, Statement]], audited: bool) -> Record:
+def judge(task: Task, statements: Iterable[tuple[Called, Statement]], audited: bool) -> Record:
     """Make the scene, run the strategy on it, audit the run, and put the case to all its statements.
 
     Never raises: what goes wrong is part of the record. Apart from ``seconds`` it depends on nothing but the
@@ -68,7 +70,7 @@ def judge(task: Task, parts: Iterable[tuple[Called, Statement]], audited: bool) 
     case = Case(random_scene(Subject(task.strategy), task.seed))
     result, detail, length = _run(case, task, audited)
     # Without a run there is nothing to say, and each check would only meet the same error again.
-    asked = [] if length is None else [p for p in parts if p[0].strategy == task.strategy]
+    asked = [] if length is None else [s for s in statements if s[0].strategy == task.strategy]
     rows = tuple(_row(called, statement, case) for called, statement in asked)
     for row in rows:
         spoilt = _SPOILS.get(row.outcome, Result.PASSED)
@@ -77,6 +79,26 @@ def judge(task: Task, parts: Iterable[tuple[Called, Statement]], audited: bool) 
     seconds = perf_counter() - began
     failing = result is not Result.PASSED or any(row.outcome == FAILS for row in rows)
     return Record(task, result.value, seconds, length, detail, scene_text(task) if failing else None, rows)
+
+
+def records(settings: Settings, tasks: Iterable[Task], size: int) -> Generator[Record, None, None]:
+    """The records of all tasks by *size* processes of their own, in the order in which they are finished.
+
+    A scene that takes longer than ``settings.timeout`` seconds is recorded as a timeout, one over which two
+    processes died as crashed. Raises `exactacq.study.processes.ProcessError`.
+    """
+    with Team(partial(_judge_of, settings.claims, settings.audit), size, settings.timeout) as team:
+        for task, record in team.results(tasks):
+            if isinstance(record, Lost):
+                result = Result.CRASHED if record.died else Result.TIMEOUT
+                yield lost(task, result, record.seconds, record.detail)
+            else:
+                yield record
+
+
+def _judge_of(claims: str, audited: bool) -> Callable[[Task], Record]:
+    statements = list(parts(claims_at(claims)))
+    return lambda task: judge(task, statements, audited)
 
 
 def lost(task: Task, result: Result, seconds: float, detail: str) -> Record:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 from exactacq.errors import FormatError
 from exactacq.files.whole_files import readable
@@ -97,14 +98,12 @@ def _bound_statement(name: str, corrected: bool) -> Statement | None:
             raise FormatError(f"{key}: there is no corrected form of it")
         key = other
 
-    def check(case: Case) -> Finding:
-        return _compared(case, case.sightseer if subject is Subject.SIGHTSEER else case.spreader, key)
-
-    return Statement(f"bound {key} holds", subject, check)
+    return Statement(f"bound {key} holds", subject, partial(_compared, subject, key))
 
 
-def _compared(case: Case, run: Run, name: str) -> Finding:
+def _compared(subject: Subject, name: str, case: Case) -> Finding:
     """A run against one of its bounds; silent where the bound is not meant for it."""
+    run = case.sightseer if subject is Subject.SIGHTSEER else case.spreader
     bound = next((b for b in run.bounds if b.name == name), None)
     if bound is None:
         return Finding(Outcome.SILENT, "no such bound without obstacles")

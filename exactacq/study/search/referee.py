@@ -2,25 +2,20 @@
 
 from __future__ import annotations
 
-import multiprocessing
-import signal
-import warnings
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from math import isnan
-from multiprocessing.connection import Connection
-from multiprocessing.process import BaseProcess
 from types import TracebackType
 
 from exactacq.errors import InvalidScene, Undecided
 from exactacq.study.claims.model import Case, Finding, Outcome
+from exactacq.study.processes import Lost, Team
 from exactacq.study.search.drafts import Draft
 
 BROKEN = 2.0
 """The score of a failure that has no ratio: above that of any case that holds."""
-JUDGED = 400
-"""Drafts that one process judges before a fresh one takes over: what they intern is given back."""
 
 
 @dataclass(frozen=True)
@@ -60,20 +55,18 @@ Check = Callable[[Case], Finding]
 class Referee:
     """Decides drafts by a statement's check.
 
-    With a *limit* in seconds each draft is judged in a child process, which is ended where it takes longer;
-    where processes cannot be forked there is no limit. ``dropped`` counts why drafts were dropped;
-    ``faults`` keeps those on which the library itself failed. To be closed, or used in a with statement.
+    With a *limit* in seconds each draft is judged in a process of its own, which is killed where it takes
+    longer; the check must then be what pickle takes. ``dropped`` counts why drafts were dropped; ``faults``
+    keeps those on which the library itself failed. To be closed, or used in a with statement.
     """
 
     def __init__(self, check: Check, limit: float | None = None) -> None:
         self.check = check
-        self.limit = limit if "fork" in multiprocessing.get_all_start_methods() else None
+        self.limit = limit
         self.judged = 0
         self.dropped: Counter[str] = Counter()
         self.faults: list[Ruling] = []
-        self._worker: BaseProcess | None = None
-        self._line: Connection | None = None
-        self._since = 0
+        self._team = None if limit is None else Team(partial(_judge, check), 1, limit)
 
     def __enter__(self) -> Referee:
         return self
@@ -83,54 +76,21 @@ class Referee:
     ) -> None:
         self.close()
 
+    def close(self) -> None:
+        """End the process that judges."""
+        if self._team is not None:
+            self._team.close()
+
     def judge(self, draft: Draft) -> Ruling:
         """The exact verdict on a draft."""
         self.judged += 1
-        ruling = judged(self.check, draft) if self.limit is None else self._sent(draft)
+        ruling = judged(self.check, draft) if self._team is None else _sent(self._team, draft)
         if ruling.finding is None:
             kind = ruling.reason.partition(":")[0]
             self.dropped[kind] += 1
             if kind == "fault":
                 self.faults.append(ruling)
         return ruling
-
-    def close(self) -> None:
-        """End the child process."""
-        if self._worker is not None:
-            self._worker.kill()
-            self._worker.join()
-            self._worker = None
-        if self._line is not None:
-            self._line.close()
-            self._line = None
-
-    def _sent(self, draft: Draft) -> Ruling:
-        if self._since >= JUDGED:
-            self.close()
-        line = self._line or self._started()
-        self._since += 1
-        try:
-            line.send(draft)
-            if line.poll(self.limit):
-                finding, reason = line.recv()
-                return Ruling(draft, finding, reason)
-            reason = "too slow"
-        except (EOFError, OSError):
-            reason = "fault: the process that judged it died"
-        self.close()
-        return Ruling(draft, None, reason)
-
-    def _started(self) -> Connection:
-        context = multiprocessing.get_context("fork")
-        self._line, end = context.Pipe()
-        self._worker = context.Process(target=_serve, args=(end, self.check), daemon=True)
-        with warnings.catch_warnings():
-            # Newer Pythons warn of threads at a fork; the child only computes, and is ended with the search.
-            warnings.simplefilter("ignore", DeprecationWarning)
-            self._worker.start()
-        end.close()
-        self._since = 0
-        return self._line
 
 
 def judged(check: Check, draft: Draft) -> Ruling:
@@ -145,13 +105,13 @@ def judged(check: Check, draft: Draft) -> Ruling:
         return Ruling(draft, None, f"fault: {type(error).__name__}: {error}")
 
 
-def _serve(line: Connection, check: Check) -> None:
-    """Judge drafts until the line is closed. Control-C is left to the parent, which ends this process."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    while True:
-        try:
-            draft = line.recv()
-        except EOFError:
-            return
-        ruling = judged(check, draft)
-        line.send((ruling.finding, ruling.reason))
+def _judge(check: Check) -> Callable[[Draft], Ruling]:
+    return partial(judged, check)
+
+
+def _sent(team: Team[Draft, Ruling], draft: Draft) -> Ruling:
+    """The verdict of another process."""
+    ((_, ruling),) = team.results([draft])
+    if isinstance(ruling, Lost):
+        return Ruling(draft, None, f"fault: {ruling.detail}" if ruling.died else "too slow")
+    return ruling
