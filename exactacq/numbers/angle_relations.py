@@ -21,6 +21,7 @@ from flint import arb, ctx, fmpq, fmpz, fmpz_mat
 
 from exactacq.errors import Undecided
 from exactacq.numbers.angles import HALF, Angle, AngleSum, Ends
+from exactacq.numbers.rationals import coprime_base, valuation
 from exactacq.numbers.real import FILTER_BITS, Real
 
 RELATION_ANGLES = 12
@@ -217,7 +218,7 @@ def _gaussian_powers(angles: list[Angle]) -> dict[Angle, dict[tuple[int, int], i
         powers = {}
         for n in factors[angle]:
             root = _root_of_minus_one(angle, n)
-            powers[n, min(root, n - root)] = _valuation(norms[angle], n) * (1 if 2 * root < n else -1)
+            powers[n, min(root, n - root)] = valuation(norms[angle], n) * (1 if 2 * root < n else -1)
         result[angle] = powers
     return result
 
@@ -231,43 +232,18 @@ def _split_large(angles: list[Angle], norms: Mapping[Angle, int], primes: Iterab
     for angle in angles:
         rest = norms[angle]
         for prime in primes:
-            rest //= prime ** _valuation(rest, prime)
+            rest //= prime ** valuation(rest, prime)
         rests.append((rest, _root_of_minus_one(angle, rest)))
     numbers = [n for n, _ in rests]
     for (m, r), (n, s) in combinations(rests, 2):
         common = gcd(m, n)
         numbers += [gcd(common, r - s), gcd(common, r + s)]
-    return _coprime_base(numbers)
+    return coprime_base(numbers)
 
 
 def _root_of_minus_one(angle: Angle, n: int) -> int:
     u = angle.half_tangent
     return int(u.q) * pow(int(u.p), -1, n) % n  # type: ignore[union-attr]
-
-
-def _coprime_base(numbers: Iterable[int]) -> list[int]:
-    """Pairwise coprime numbers > 1 of which each given number is a product of powers."""
-    base: list[int] = []
-    todo = [n for n in numbers if n > 1]
-    while todo:
-        n = todo.pop()
-        for index, m in enumerate(base):
-            common = gcd(m, n)
-            if common > 1:
-                del base[index]
-                todo += [k for k in (m // common, common, n // common) if k > 1]
-                break
-        else:
-            base.append(n)
-    return base
-
-
-def _valuation(number: int, base: int) -> int:
-    exponent = 0
-    while number % base == 0:
-        number //= base
-        exponent += 1
-    return exponent
 
 
 def _generator(n: int, root: int) -> tuple[int, int]:

@@ -10,13 +10,12 @@ The norms of a true zero cancel after few steps, whatever the degree of the numb
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import Any, TypeAlias
 
 from flint import arb, ctx, fmpq_poly, fmpz
 
 from exactacq.numbers.atoms import Form, Inverse, Node, Product, Root, Sqrt
-from exactacq.numbers.rationals import ball_sign
+from exactacq.numbers.rationals import ball_sign, coprime_base
 
 Coefficient: TypeAlias = "fmpz | fmpq_poly"
 Polynomial: TypeAlias = "dict[int, Any]"
@@ -50,7 +49,7 @@ class _Tower:
         self.balls: list[tuple[Node | int, Polynomial | None]] = []
         self.known: dict[Node, Fraction] = {}
         self.work, self.field = 0, _field(value)
-        for d in _coprime(_radicands(value)):
+        for d in sorted(coprime_base(_radicands(value))):
             self._radical({0: self._constant(fmpz(d))}, d, None)
 
     def _constant(self, n: fmpz) -> Coefficient:
@@ -254,22 +253,3 @@ def _radicands(value: Form) -> set[int]:
                 if isinstance(atom, Sqrt | Product | Inverse):
                     waiting += atom.args
     return found
-
-
-def _coprime(numbers: Iterable[int]) -> list[int]:
-    """Pairwise coprime integers, not 1, whose products give all the numbers."""
-    base: list[fmpz] = []
-    waiting = [fmpz(n) for n in numbers]
-    while waiting:
-        n = waiting.pop()
-        if n == 1:
-            continue
-        for k, b in enumerate(base):
-            common = n.gcd(b)
-            if common != 1:
-                del base[k]
-                waiting += [common, n // common, b // common]
-                break
-        else:
-            base.append(n)
-    return sorted(int(b) for b in base)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from decimal import Decimal
 from fractions import Fraction
 from math import isfinite
@@ -149,6 +149,34 @@ def decimal_string(ball: Enclosing, digits: int) -> str:
         if value.rel_accuracy_bits() > digits * 3.33 + 4 or bits > 1 << 16:
             return text
         bits *= 2
+
+
+def coprime_base(numbers: Iterable[int]) -> list[int]:
+    """Pairwise coprime integers > 1 of which each of the positive numbers is a product of powers."""
+    base: list[fmpz] = []
+    todo = [fmpz(n) for n in numbers]
+    while todo:
+        n = todo.pop()
+        if n == 1:
+            continue
+        for index, m in enumerate(base):
+            common = m.gcd(n)
+            if common != 1:
+                del base[index]
+                todo += (m // common, common, n // common)
+                break
+        else:
+            base.append(n)
+    return [int(m) for m in base]
+
+
+def valuation(number: int, base: int) -> int:
+    """How often a number other than 0 can be divided by *base*."""
+    exponent = 0
+    while number % base == 0:
+        number //= base
+        exponent += 1
+    return exponent
 
 
 def sympy_rational(q: fmpq) -> sympy.Expr:
