@@ -14,6 +14,7 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 from flint import arb, ctx, fmpq
+from networkx.utils import UnionFind
 
 from exactacq.auditing.measure import BITS, ball_sum, ball_to, is_close, is_part, place_text, refined, same
 from exactacq.auditing.visibility import World, between
@@ -286,12 +287,12 @@ def check_components(run: SeedSpreaderRun, field: Field) -> None:
     claims = list(_claims(run, field))
     parts = [part for obstacle in field.world.obstacles for part in _parts(field, obstacle)]
     free, solid = _joined(field, parts)
-    home = free.root("S")
-    reached = {solid.root(n) for n in range(len(parts)) if free.root(n) == home}
+    home = free["S"]
+    reached = {solid[n] for n in range(len(parts)) if free[n] == home}
     numbers: dict[Hashable, int] = {}
     for n, part in enumerate(parts):
         where = f"the boundary of obstacle {part.obstacle} of the scene from {place_text(part.start)}"
-        group, is_near = solid.root(n), free.root(n) == home
+        group, is_near = solid[n], free[n] == home
         found = [claim for claim in claims if claim.holds(part)]
         if len(found) != (group in reached):
             raise AuditError(f"{where} is part of {len(found)} components, not of {int(group in reached)}")
@@ -307,8 +308,8 @@ def check_components(run: SeedSpreaderRun, field: Field) -> None:
         )
     groups = {number: group for group, number in numbers.items()}
     for k, component in enumerate(run.obstacles):
-        _check_component(field, k, component, [p for n, p in enumerate(parts) if solid.root(n) == groups[k]])
-    lost = sorted({part.obstacle for n, part in enumerate(parts) if solid.root(n) not in reached})
+        _check_component(field, k, component, [p for n, p in enumerate(parts) if solid[n] == groups[k]])
+    lost = sorted({part.obstacle for n, part in enumerate(parts) if solid[n] not in reached})
     if list(run.unreached) != lost:
         raise AuditError(f"obstacles out of reach are {list(run.unreached)}, not {lost}")
 
@@ -389,48 +390,28 @@ def _point_after(edge: Curve, length: arb) -> tuple[arb, arb]:
     return u + (x - u) * cosine - (y - v) * sine, v + (x - u) * sine + (y - v) * cosine
 
 
-class _Classes:
-    """Classes of things that were joined."""
-
-    def __init__(self) -> None:
-        self._above: dict[Hashable, Hashable] = {}
-
-    def root(self, item: Hashable) -> Hashable:
-        """What stands for all that was joined with a thing."""
-        while (above := self._above.get(item, item)) != item:
-            item = above
-        return item
-
-    def join(self, *items: Hashable) -> None:
-        """Make things one class."""
-        for item in items[1:]:
-            one, other = self.root(items[0]), self.root(item)
-            if one != other:
-                self._above[other] = one
-
-
-def _joined(field: Field, parts: Sequence[_Part]) -> tuple[_Classes, _Classes]:
+def _joined(field: Field, parts: Sequence[_Part]) -> tuple[UnionFind, UnionFind]:
     """Parts by their numbers, and "S": what closed free space joins, and what the obstacles join.
 
     A boundary that touches the border goes on there; so does the free border on its sides.
     """
-    free, solid = _Classes(), _Classes()
+    free, solid = UnionFind(), UnionFind()
     stops = field.stops
     blocked = [field.is_border_blocked(a, b) for a, b in zip(stops, [*stops[1:], stops[0]], strict=True)]
     for k, point in enumerate(stops):
         ends = [n for n, part in enumerate(parts) if same(part.start, point) or same(part.end, point)]
         for classes, kind in ((free, False), (solid, True)):
             beside = [("border", m % len(stops)) for m in (k - 1, k) if blocked[m] is kind]
-            classes.join(*beside, *(ends if beside else ()))
-    free.join("S", ("border", 0))
+            classes.union(*beside, *(ends if beside else ()))
+    free.union("S", ("border", 0))
     for obstacle in field.world.obstacles:
         mine = [n for n, part in enumerate(parts) if part.obstacle == obstacle.index]
         for n, m in zip(mine, [*mine[1:], *mine[:1]], strict=True):
             if same(parts[n].end, parts[m].start):
-                free.join(n, m)
-                solid.join(n, m)
+                free.union(n, m)
+                solid.union(n, m)
         if mine and not any(field.border_contacts(e) for e in field.world.edges_of(obstacle.index)):
-            free.join(_west_of(field, parts, obstacle), mine[0])
+            free.union(_west_of(field, parts, obstacle), mine[0])
     return free, solid
 
 

@@ -126,20 +126,14 @@ def _coincidences(angles: Iterable[Angle]) -> list[AngleSum]:
 
 def _connected(relations: list[AngleSum]) -> list[list[AngleSum]]:
     """The relations in groups that have no angle in common."""
-    parent: dict[Angle, Angle] = {}
+    from networkx.utils import UnionFind  # networkx takes long to import
 
-    def root(angle: Angle) -> Angle:
-        while (above := parent.setdefault(angle, angle)) is not angle:
-            parent[angle] = angle = parent[above]
-        return angle
-
+    classes = UnionFind()
     for relation in relations:
-        first, *others = relation.angles
-        for angle in others:
-            parent[root(angle)] = root(first)
+        classes.union(*relation.angles)
     groups: dict[Angle, list[AngleSum]] = {}
     for relation in relations:
-        groups.setdefault(root(next(iter(relation.angles))), []).append(relation)
+        groups.setdefault(classes[next(iter(relation.angles))], []).append(relation)
     return list(groups.values())
 
 

@@ -12,6 +12,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from flint import fmpq
+from networkx.utils import UnionFind
 
 from exactacq.files.dxf.chains import Chain, Corner, distance_above
 
@@ -120,24 +121,17 @@ def _merge_corners(kept: Corner, corner: Corner, done: Stitched) -> None:
 def _join_ends(pieces: list[Chain], tolerance: fmpq, done: Stitched) -> dict[tuple[int, int], int]:
     """Cluster the ends and move each onto its cluster's first stated end; the cluster of (id, side)."""
     ends = [(piece, side, piece.corners[-side]) for piece in pieces for side in (0, 1)]
-    parent = list(range(len(ends)))
-
-    def root(i: int) -> int:
-        while parent[i] != i:
-            parent[i] = i = parent[parent[i]]
-        return i
-
-    for i, j in _close_pairs([corner for _, _, corner in ends], tolerance):
-        a, b = root(i), root(j)
-        parent[max(a, b)] = min(a, b)
+    near = UnionFind(range(len(ends)))
+    for pair in _close_pairs([corner for _, _, corner in ends], tolerance):
+        near.union(*pair)
     clusters: defaultdict[int, list[int]] = defaultdict(list)
     for i in range(len(ends)):
-        clusters[root(i)].append(i)
+        clusters[near[i]].append(i)
     for members in clusters.values():
         target = ends[min(members, key=lambda i: (not ends[i][0].stated, i))][2]
         for i in members:
             done.joint(ends[i][2], target)
-    return {(id(piece), side): root(i) for i, (piece, side, _) in enumerate(ends)}
+    return {(id(piece), side): near[i] for i, (piece, side, _) in enumerate(ends)}
 
 
 def _collapsed(piece: Chain, done: Stitched) -> bool:

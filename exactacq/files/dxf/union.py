@@ -7,13 +7,13 @@ vertex is a vertex or a crossing of the input, every edge runs along input edges
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
 import pyclipper
 from flint import fmpq
+from networkx.utils import UnionFind
 
 from exactacq.errors import FormatError
 from exactacq.files.dxf.nesting import Loops
@@ -51,34 +51,16 @@ def unite(shapes: list[Shape], wall: Shape | None, start: Point) -> Merged:
     """
     every = [*([] if wall is None else [wall]), *shapes]
     merged = Merged([], wall)
-    for group in _groups(len(every), Loops(every).meeting):
+    groups = UnionFind(range(len(every)))
+    for pair in Loops(every).meeting:
+        groups.union(*pair)
+    for group in sorted(map(sorted, groups.to_sets())):
         members = [every[i] for i in group]
         if len(members) > 1:
             _merge(members, members[0] is wall, start, merged)
         elif members[0] is not wall:
             merged.obstacles.append(members[0])
     return merged
-
-
-def _groups(count: int, meeting: Iterable[tuple[int, int]]) -> list[list[int]]:
-    """Connected components, each ascending, in the order of their first members."""
-    neighbours: defaultdict[int, set[int]] = defaultdict(set)
-    for i, j in meeting:
-        neighbours[i].add(j)
-        neighbours[j].add(i)
-    seen: set[int] = set()
-    groups = []
-    for i in range(count):
-        group, queue = [], [i]
-        while queue:
-            here = queue.pop()
-            if here not in seen:
-                seen.add(here)
-                group.append(here)
-                queue += neighbours[here]
-        if group:
-            groups.append(sorted(group))
-    return groups
 
 
 def _merge(members: list[Shape], walled: bool, start: Point, merged: Merged) -> None:
