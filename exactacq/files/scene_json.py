@@ -15,7 +15,7 @@ from flint import fmpq
 
 from exactacq.errors import FormatError
 from exactacq.files.source import MAX_EDGES, check_edges, one_line, read_bytes
-from exactacq.numbers.rationals import rational
+from exactacq.numbers.rationals import rational, valuation
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle, Outline, Polygon, Shape, Terrain
 
@@ -77,47 +77,101 @@ def scene_to_json(scene: Scene) -> dict[str, Any]:
 
     Raises `FormatError` if the start is not rational.
     """
-    document: dict[str, Any] = {}
-    if scene.name is not None:
-        document["name"] = scene.name
-    if scene.start is not None:
-        place = scene.start.rational
-        if place is None:
-            raise FormatError("the start is not a rational point: a JSON scene cannot hold it")
-        document["start"] = [_written(c) for c in place]
-    if scene.radius is not None:
-        document["radius"] = _written(scene.radius)
-    if scene.terrain is not None:
-        terrain = scene.terrain
-        document["terrain"] = {"width": _written(terrain.width), "height": _written(terrain.height)}
-    if scene.enclosure is not None:
-        shape = _shape_to_json(scene.enclosure)
-        document["enclosure"] = shape["boundary"] if list(shape) == ["boundary"] else shape
-    document["obstacles"] = [_shape_to_json(shape) for shape in scene.shapes]
-    if scene.notes:
-        document["notes"] = list(scene.notes)
+    start = None if scene.start is None else scene.start.rational
+    if start is None and scene.start is not None:
+        raise FormatError("the start is not a rational point: a JSON scene cannot hold it")
+    parts = (scene.shapes, start, scene.radius, scene.terrain, scene.enclosure, scene.name, scene.notes)
+    document: dict[str, Any] = _plain(_document(*parts))
     return document
+
+
+def scene_text(
+    shapes: Iterable[Shape],
+    start: tuple[fmpq, fmpq] | None = None,
+    radius: fmpq | None = None,
+    terrain: Terrain | None = None,
+    name: str | None = None,
+) -> str:
+    """A scene file that is pleasant to read, for parts that need not make a valid scene.
+
+    One obstacle a line; numbers are decimals where these are finite.
+    """
+    rows = []
+    for key, value in _document(shapes, start, radius, terrain, name=name).items():
+        parts = ",\n    ".join(map(_text_of, value)) if key == "obstacles" else ""
+        rows.append(f'"{key}": ' + (f"[\n    {parts}\n  ]" if parts else _text_of(value)))
+    return "{\n  " + ",\n  ".join(rows) + "\n}\n"
 
 
 # -- writing ---------------------------------------------------------------------------------------
 
 
-def _written(value: fmpq) -> int | str:
-    return int(value.p) if value.q == 1 else f"{value.p}/{value.q}"
+def _document(
+    shapes: Iterable[Shape],
+    start: tuple[fmpq, fmpq] | None,
+    radius: fmpq | None,
+    terrain: Terrain | None,
+    enclosure: Shape | None = None,
+    name: str | None = None,
+    notes: tuple[str, ...] = (),
+) -> dict[str, Any]:
+    """A scene's JSON document with rationals for numbers; without what is not given."""
+    document: dict[str, Any] = {
+        "name": name,
+        "start": None if start is None else list(start),
+        "radius": radius,
+        "terrain": None if terrain is None else {"width": terrain.width, "height": terrain.height},
+        "enclosure": None if enclosure is None else _described(enclosure),
+        "obstacles": [_described(shape) for shape in shapes],
+        "notes": list(notes) or None,
+    }
+    if enclosure is not None and list(document["enclosure"]) == ["boundary"]:
+        document["enclosure"] = document["enclosure"]["boundary"]
+    return {key: value for key, value in document.items() if value is not None}
 
 
-def _shape_to_json(shape: Shape) -> dict[str, Any]:
+def _described(shape: Shape) -> dict[str, Any]:
     document: dict[str, Any] = {} if shape.name is None else {"name": shape.name}
     if isinstance(shape, Circle):
-        center = [_written(c) for c in shape.center]
-        document["circle"] = {"center": center, "radius": _written(shape.radius)}
+        document["circle"] = {"center": list(shape.center), "radius": shape.radius}
         return document
-    outline = isinstance(shape, Outline)
-    rows = [[_written(c) for c in (vertex if vertex[2] else vertex[:2])] for vertex in shape.vertices]
-    if outline and rows and not any(bulge for _, _, bulge in shape.vertices):
-        rows[0].append(0)  # a bulge, even 0, says that this is an Outline
+    rows = [list(vertex if vertex[2] else vertex[:2]) for vertex in shape.vertices]
+    if isinstance(shape, Outline) and rows and not any(bulge for _, _, bulge in shape.vertices):
+        rows[0].append(fmpq(0))  # a bulge, even 0, says that this is an Outline
     document["boundary"] = rows
     return document
+
+
+def _plain(value: Any) -> Any:
+    """Rationals as ints or strings "p/q"."""
+    if isinstance(value, fmpq):
+        return int(value.p) if value.q == 1 else f"{value.p}/{value.q}"
+    if isinstance(value, dict):
+        return {key: _plain(part) for key, part in value.items()}
+    return list(map(_plain, value)) if isinstance(value, list) else value
+
+
+def _text_of(value: Any) -> str:
+    """A value on one line, rationals as `_number_text`."""
+    if isinstance(value, fmpq):
+        return _number_text(value)
+    if isinstance(value, dict):
+        return "{" + ", ".join(f'"{key}": {_text_of(part)}' for key, part in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(_text_of, value)) + "]"
+    return json.dumps(value, ensure_ascii=False)
+
+
+def _number_text(value: fmpq) -> str:
+    """A JSON number if the value is a finite decimal, else the string "p/q"."""
+    bottom = int(value.q)
+    twos, fives = valuation(bottom, 2), valuation(bottom, 5)
+    if 2**twos * 5**fives != bottom:
+        return f'"{value.p}/{value.q}"'
+    places = max(twos, fives)
+    digits = str(abs(int(value.p)) * 10**places // bottom).rjust(places + 1, "0")
+    point = len(digits) - places
+    return ("-" if value < 0 else "") + digits[:point] + (f".{digits[point:]}" if places else "")
 
 
 # -- reading ---------------------------------------------------------------------------------------

@@ -21,7 +21,6 @@ from exactacq.study.search.local import Budget, Search
 from exactacq.study.search.moves import Rules
 from exactacq.study.search.referee import Referee, Ruling
 from exactacq.study.search.shrinking import shrink
-from exactacq.study.search.writing import scene_text
 
 SECONDS = 60.0
 """How long a search takes if neither --seconds nor --steps is given."""
@@ -119,9 +118,7 @@ def _report(target: Goal, referee: Referee, found: Ruling | None, out: str | Non
     show.print(f"{target.name}: {target.statement.text}")
     show.print(f"judged {referee.judged} scenes" + (f", dropped: {dropped}" if dropped else ""))
     for fault in referee.faults[:1]:
-        show.print(
-            f"first fault: {fault.reason} on {' '.join(scene_text(fault.draft).split())}", soft_wrap=True
-        )
+        show.print(f"first fault: {fault.reason} on {' '.join(fault.draft.text().split())}", soft_wrap=True)
     if found is None or found.finding is None:
         show.print("no scene that it speaks of was found")
         return
@@ -147,7 +144,7 @@ def _report(target: Goal, referee: Referee, found: Ruling | None, out: str | Non
 
 def _write(target: Goal, found: Ruling, out: str | None, figure: str | None) -> None:
     if out is not None:
-        write_whole(out, scene_text(found.draft, Path(out).stem).encode())
+        write_whole(out, found.draft.text(Path(out).stem).encode())
     if figure is not None:
         from exactacq.output.figures import save  # matplotlib takes long to import
 

@@ -9,6 +9,7 @@ from typing import NamedTuple
 from flint import fmpq
 
 from exactacq.errors import FormatError
+from exactacq.files.scene_json import scene_text
 from exactacq.numbers.rationals import nearest_float
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle, Outline, Polygon, Shape, Terrain, Vertex
@@ -57,6 +58,11 @@ class Draft:
         """The scene; `InvalidScene` if it breaks a rule."""
         terrain = None if self.size is None else Terrain(*self.size)
         return Scene(self.shapes, self.place, terrain=terrain, radius=self.radius, name=name)
+
+    def text(self, name: str | None = None) -> str:
+        """The scene file of a draft, valid or not, as `exactacq.load` reads it."""
+        terrain = None if self.size is None else Terrain(*self.size)
+        return scene_text(self.shapes, self.place, self.radius, terrain, name)
 
     @property
     def place(self) -> Pair | None:
