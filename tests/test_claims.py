@@ -9,6 +9,7 @@ from itertools import pairwise
 import pytest
 
 from exactacq import Circle, FormatError, Length, Outline, Polygon, Scene, Terrain
+from exactacq.auditing.bounds import clipped_distance
 from exactacq.files import gallery
 from exactacq.sensing.event import Occasion
 from exactacq.study.claims import CLAIMS, Case, Outcome, Statement, Status, Subject, claim, verdict
@@ -17,7 +18,7 @@ from exactacq.study.claims.model import SILENT, found
 from exactacq.study.claims.sights import overlooked
 from exactacq.study.claims.sightseer import farthest_keeps_the_bound
 from exactacq.study.claims.sweeps import bare_walk, hops, is_convex
-from exactacq.study.claims.tallies import Tally, differs, largest_distance, straight_length, theorem_1
+from exactacq.study.claims.tallies import Tally, bounds_flaw, bounds_of, straight_length
 from exactacq.study.claims.trees import arrivals, circled, tree_flaw
 from exactacq.study.claims.walks import is_circuit, moves, node_at, stays, traversals
 
@@ -122,17 +123,20 @@ class TestSightseerCounts:
         assert circled(Case(scene).sightseer) == [0, 1, 2]
 
     def test_largest_distance(self) -> None:
-        assert largest_distance(gallery.scene("m8")) == rational_half(7)
-        assert largest_distance(gallery.scene("l2")).sign() == 0
-        assert theorem_1(example("l2").sightseer) == Length(10)
+        far, lone = example("m8"), example("l2")
+        assert clipped_distance(far.sightseer, far.world) == rational_half(7)
+        assert clipped_distance(lone.sightseer, lone.world).sign() == 0
+        assert bounds_of(lone.sightseer)["T1 corrected"] == Length(10)
 
 
 class TestSweepCounts:
     def test_figure_4(self) -> None:
         """O1, O2, O4, O5 and O6 cross the M-line, O3 lies in strip 2; O1, O4 and O6 are met again."""
-        tally = example("figure4").shared(Tally)
-        assert tally.counts == (5, 0, 1, 0)
-        assert tally.pairs == 5 * 4
+        tally, field = example("figure4").shared(Tally), example("figure4").field
+        inside = {body.label: field.strip(k) for k, body in enumerate(tally.run.obstacles)}
+        assert {tally.run.obstacles[k].label for k in field.crossing} == {"O1", "O2", "O4", "O5", "O6"}
+        assert inside["O3"] == 2
+        assert bounds_of(tally.run)["(4)"] == Length("46")  # 6 + 6 * 5 + 5 * 4 / 2
         names = [tally.run.obstacles[k].label for k in tally.met_again]
         assert names == ["O1", "O6", "O4"]
         assert tally.visits == 9
@@ -142,13 +146,23 @@ class TestSweepCounts:
         """One obstacle touches a line from the west, one from the east, one lies on both sides of it."""
         shapes = [Circle((2, 2), 1), box(3, 4, 4, 5), box(2, 6, 4, 7)]
         case = Case(Scene(shapes, terrain=Terrain(6, 9), radius=3))
-        assert case.shared(Tally).counts == (1, 1, 1)
-        assert differs(case.spreader, case.shared(Tally).visit_bounds()) is None
+        assert case.field.crossing == {2}
+        assert [case.field.strip(k) for k in (0, 1)] == [1, 2]
+        assert bounds_of(case.spreader)["(4)"] == Length(6)
+        assert bounds_flaw(case, case.spreader) is None
 
     def test_a_wrong_value_is_named(self) -> None:
         case = example("m25")
-        assert differs(case.spreader, {"(4)": Length(1)}) == "bound (4) is 1, the run says 3"
-        assert differs(case.spreader, {"(12)": Length(1)}) == "the run reports no bound (12)"
+        run = case.spreader
+        wrong = replace(run, bounds=(replace(run.bounds[0], value=Length(1)), *run.bounds[1:]))
+        assert bounds_flaw(case, wrong) == f"bound (4) is 1.{'0' * 19}..., not 3.{'0' * 19}"
+        fewer = replace(run, bounds=run.bounds[1:])
+        assert bounds_flaw(case, fewer).startswith("the bounds are ['L3 corrected'")
+        again = replace(run, again=(0,))
+        assert bounds_flaw(case, again) is not None
+        tour = example("squares").sightseer
+        text = bounds_flaw(example("squares"), replace(tour, visits=(1, 0)))
+        assert text == "the run counts the obstacles [1, 0], its path and events [0, 1]"
 
     def test_far_diversions(self) -> None:
         """Each crumb of the relay is farther; the corrected bound fails without the term for them."""
@@ -158,8 +172,9 @@ class TestSweepCounts:
         assert not any(
             e.kind in ("hit", "cross") and e.occasion is Occasion.M_LINE for e in case.spreader.events
         )
-        bound = case.shared(Tally).met_again_bound()
-        assert bound - case.shared(Tally).far * 2 < case.spreader.length < bound
+        bound = bounds_of(case.spreader)["T2 corrected"]
+        far = Length.sum(d.length - Length(case.spreader.radius) for d in case.spreader.diversions)
+        assert bound - far * 2 < case.spreader.length < bound
         assert case.shared(Tally).stays_in_strips
         assert not case.shared(Tally).overtaken
         assert case.shared(Tally).proved_length() == bound

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
 
 import numpy as np
 from flint import arb, ctx
@@ -13,9 +12,8 @@ from exactacq.auditing.ground import Field
 from exactacq.auditing.measure import BITS, agrees, ball_sum
 from exactacq.auditing.visibility import World
 from exactacq.errors import AuditError
-from exactacq.geometry.curves import Arc, Segment
+from exactacq.geometry.curves import Segment
 from exactacq.geometry.intersections import nearest_points
-from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
 from exactacq.strategies.run import Run, SeedSpreaderRun, SightseerRun
@@ -70,7 +68,7 @@ def sightseer_values(run: SightseerRun, world: World) -> dict[str, arb]:
         corrected = approach + (step * (2 * n - 3) + around - last / 2 if n > 1 else perimeters[0])
         wide = 2 * (n - 1) * reach + around
         return {
-            "(1)": 2 * (n - 1) * _clipped_distance(run, world) + around,
+            "(1)": 2 * (n - 1) * clipped_distance(run, world).ball(BITS) + around,
             "(2)": wide,
             "T1 corrected": corrected,
             "(2) + S-S1": wide + approach,
@@ -90,8 +88,8 @@ def spreader_values(run: SeedSpreaderRun, field: Field) -> dict[str, arb]:
     """
     a, b, reach, n = field.height, field.width, run.radius, len(run.obstacles)
     r, w = len(field.lines) - 1, min(run.radius, field.width)
-    crossing = {mark.owner for mark in field.marks if mark.owner is not None}
-    counts = Counter(_strip(field, k) for k in range(n) if k not in crossing)
+    crossing = field.crossing
+    counts = Counter(field.strip(k) for k in range(n) if k not in crossing)
     counts[0] = len(crossing)
     pairs = sum(count * (count - 1) for count in counts.values())
     with ctx.workprec(BITS):
@@ -118,19 +116,6 @@ def spreader_values(run: SeedSpreaderRun, field: Field) -> dict[str, arb]:
         }
 
 
-def _strip(field: Field, k: int) -> int:
-    """The strip that a component lies in that does not cross the M-line: the first that reaches its east."""
-    component: Any = field.run.obstacles[k]
-    curves = [part.curve for shore in (component.shore, *component.hidden) for part in shore]
-    points = [end for curve in curves for end in (curve.start, curve.end)]
-    for curve in curves:
-        if isinstance(curve, Arc):
-            east = Point(curve.center.x + curve.radius, curve.center.y)
-            points += [east] if curve.contains(east) else []
-    far = max(point.x for point in points)
-    return next(j for j, x in enumerate(field.lines) if far <= x)
-
-
 def _greatest(balls: Sequence[arb]) -> arb:
     found = balls[0]
     for ball in balls[1:]:
@@ -138,8 +123,8 @@ def _greatest(balls: Sequence[arb]) -> arb:
     return found
 
 
-def _clipped_distance(run: Run, world: World) -> arb:
-    """The largest closest distance between two obstacles, or the radius if that is less.
+def clipped_distance(run: Run, world: World) -> Real:
+    """min(R, d_max): the largest closest distance between two obstacles, or the radius if that is less.
 
     Only pairs whose boxes do not keep them below the largest so far need an exact distance.
     """
@@ -152,8 +137,8 @@ def _clipped_distance(run: Run, world: World) -> arb:
             if reach[j] >= float(best):
                 best = max(best, _distance(world, ranges[i], ranges[j]))
                 if best.compare(run.radius) >= 0:
-                    return arb(run.radius)
-    return best.ball(BITS)
+                    return Real(run.radius)
+    return best
 
 
 def _distance(world: World, first: Iterable[int], second: Sequence[int]) -> Real:

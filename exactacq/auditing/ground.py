@@ -105,6 +105,27 @@ class Field:
         owner = self.owner(obstacle, point)
         return Mark(piece, at, point, ends, owner, owner is not None and self.is_ashore(owner, point))
 
+    @cached_property
+    def crossing(self) -> frozenset[int]:
+        """The components that block the M-line somewhere."""
+        return frozenset(mark.owner for mark in self.marks if mark.owner is not None)
+
+    def extent(self, k: int) -> tuple[Real, Real]:
+        """The least and the greatest x of a component's boundary in the terrain."""
+        component: Any = self.run.obstacles[k]
+        curves = [part.curve for shore in (component.shore, *component.hidden) for part in shore]
+        values = [end.x for curve in curves for end in (curve.start, curve.end)]
+        for curve in curves:
+            if isinstance(curve, Arc):
+                sides = (Point(curve.center.x + r, curve.center.y) for r in (curve.radius, -curve.radius))
+                values += [side.x for side in sides if curve.contains(side)]
+        return min(values), max(values)
+
+    def strip(self, k: int) -> int:
+        """The strip j, from line j - 1 to line j, that holds a component that does not cross the M-line."""
+        east = self.extent(k)[1]
+        return next(j for j, x in enumerate(self.lines) if east <= x)
+
     def owner(self, obstacle: int, point: Point) -> int | None:
         """The component of an obstacle on whose boundary, walkable or not, a point lies."""
         for k, component in enumerate(self.run.obstacles):

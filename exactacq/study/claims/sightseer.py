@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from exactacq.auditing.bounds import clipped_distance
 from exactacq.numbers.length import Length
 from exactacq.study.claims.lattices import never_ends
 from exactacq.study.claims.model import SILENT, Case, Claim, Finding, Statement, Subject, flaw, found
 from exactacq.study.claims.sights import overlooked
-from exactacq.study.claims.tallies import largest_distance, theorem_1
+from exactacq.study.claims.tallies import bounds_flaw, bounds_of
 from exactacq.study.claims.trees import arrivals, circled, end_flaw, move_flaw, traversal_flaw, tree_flaw
 from exactacq.study.claims.walks import moves
 from exactacq.visibility.links import START
@@ -85,7 +86,7 @@ def edges_within_distance(case: Case) -> Finding:
     steps = [m.piece.length for m in moves(case.sightseer) if START not in (m.source, m.target)]
     if not steps:
         return SILENT
-    most = min(Length(case.sightseer.radius), Length(largest_distance(case.scene)))
+    most = Length(clipped_distance(case.sightseer, case.world))
     longest = max(steps)
     text = f"the longest edge is {float(longest):.6g}, min(R, d_max) is {float(most):.6g}"
     return found(longest <= most, text, float(longest) / float(most))
@@ -109,10 +110,10 @@ def farthest_keeps_the_bound(case: Case) -> Finding:
     if not case.is_mutually_visible:
         return SILENT
     run = case.farthest
-    for text in (end_flaw(run), traversal_flaw(run), tree_flaw(run)):
+    for text in (end_flaw(run), traversal_flaw(run), tree_flaw(run), bounds_flaw(case, run)):
         if text is not None:
             return flaw(text)
-    value = theorem_1(run)
+    value = bounds_of(run)["T1 corrected"]
     return found(run.length <= value, "", float(run.length) / float(value))
 
 

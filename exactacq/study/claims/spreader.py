@@ -19,7 +19,7 @@ from exactacq.study.claims.sweeps import (
     is_convex,
     progress_flaw,
 )
-from exactacq.study.claims.tallies import HALF, Tally, straight_length
+from exactacq.study.claims.tallies import HALF, straight_length
 from exactacq.study.claims.walks import is_circuit, stays
 
 SPREADER = Subject.SEED_SPREADER
@@ -100,14 +100,14 @@ def acquires_the_lone_convex(case: Case) -> Finding:
 
 def _alone(case: Case) -> list[int]:
     """Convex obstacles clear of the border that share their strip with no point of another."""
-    tally, bodies = case.shared(Tally), case.spreader.obstacles
-    extents = [tally.extent(k) for k in range(len(bodies))]
+    field, bodies = case.field, case.spreader.obstacles
+    extents = [field.extent(k) for k in range(len(bodies))]
     lone = []
-    for k in sorted(set(range(len(bodies))) - tally.crossing):
+    for k in sorted(set(range(len(bodies))) - field.crossing):
         if not (bodies[k].closed and is_convex(bodies[k].edges)):
             continue
-        j = tally.strip(*extents[k])
-        west, east = tally.lines[j - 1], tally.lines[j]
+        j = field.strip(k)
+        west, east = field.lines[j - 1], field.lines[j]
         others = (extents[i] for i in range(len(bodies)) if i != k)
         if all(right.compare(west) < 0 or left.compare(east) > 0 for left, right in others):
             lone.append(k)

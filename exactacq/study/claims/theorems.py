@@ -1,15 +1,12 @@
-"""Theorem 1, Lemma 3, Theorem 2 and its first case: bounds, recounted and compared with the run (paper,
-sections 3.3 and 4.3)."""
+"""Theorem 1, Lemma 3, Theorem 2 and its first case: bounds, found again by the audit and compared with
+the run (paper, sections 3.3 and 4.3)."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from exactacq.numbers.length import Length
 from exactacq.sensing.event import EventKind
-from exactacq.strategies.run import SightseerRun
 from exactacq.study.claims.model import SILENT, Case, Claim, Finding, Statement, Subject, flaw, found
-from exactacq.study.claims.tallies import Tally, differs, theorem_1, theorem_1_printed
+from exactacq.study.claims.tallies import Tally, bounds_of, sweep_flaw, tour_flaw
 
 SIGHTSEER, SPREADER = Subject.SIGHTSEER, Subject.SEED_SPREADER
 
@@ -21,26 +18,24 @@ def _within(length: Length, value: Length) -> Finding:
 
 def keeps_theorem_1(case: Case) -> Finding:
     """P is at most (1), in model (a)."""
-    return _keeps(case, "(1)", theorem_1_printed)
+    return _keeps(case, "(1)")
 
 
 def keeps_corrected_theorem_1(case: Case) -> Finding:
     """P is at most the corrected (1), in model (a)."""
-    return _keeps(case, "T1 corrected", theorem_1)
+    return _keeps(case, "T1 corrected")
 
 
-def _keeps(case: Case, name: str, recounted: Callable[[SightseerRun], Length]) -> Finding:
+def _keeps(case: Case, name: str) -> Finding:
     if not case.is_mutually_visible:
         return SILENT
-    run = case.sightseer
-    value = recounted(run)
-    wrong = differs(run, {name: value})
-    return flaw(wrong) if wrong else _within(run.length, value)
+    run, wrong = case.sightseer, case.shared(tour_flaw)
+    return flaw(wrong) if wrong else _within(run.length, bounds_of(run)[name])
 
 
 def keeps_lemma_3(case: Case) -> Finding:
     """The visits are at most (4)."""
-    return _visits(case, case.shared(Tally).visit_bounds()["(4)"])
+    return _visits(case, bounds_of(case.spreader)["(4)"])
 
 
 def keeps_corrected_lemma_3(case: Case) -> Finding:
@@ -49,7 +44,7 @@ def keeps_corrected_lemma_3(case: Case) -> Finding:
 
 
 def _visits(case: Case, most: Length) -> Finding:
-    wrong = differs(case.spreader, case.shared(Tally).visit_bounds())
+    wrong = case.shared(sweep_flaw)
     return flaw(wrong) if wrong else _within(Length(case.shared(Tally).visits), most)
 
 
@@ -59,14 +54,14 @@ def keeps_theorem_2(case: Case) -> Finding:
     (9) and (11) are for diversions that meet no known obstacle, (10) and (11) for obstacles clear of the
     border.
     """
-    run, values = case.spreader, case.shared(Tally).length_bounds()
-    if (wrong := differs(run, values)) is not None:
+    if (wrong := case.shared(sweep_flaw)) is not None:
         return flaw(wrong)
+    run, names = case.spreader, {"(5)", "(6)", "(9)", "(10)", "(11)"}
     if not case.shared(Tally).is_clear:
-        del values["(10)"], values["(11)"]
+        names -= {"(10)", "(11)"}
     if case.shared(Tally).diversions_meet_known:
-        for name in {"(9)", "(11)"} & set(values):
-            del values[name]
+        names -= {"(9)", "(11)"}
+    values = {name: value for name, value in bounds_of(run).items() if name in names}
     broken = [name for name, value in values.items() if run.length > value]
     worst = max(float(run.length) / float(value) for value in values.values() if value.sign())
     return found(not broken, f"broken: {', '.join(broken)}" if broken else "", worst)
@@ -74,9 +69,8 @@ def keeps_theorem_2(case: Case) -> Finding:
 
 def keeps_corrected_theorem_2(case: Case) -> Finding:
     """P is at most (6), or (10) clear of the border, with what is met again and what far diversions add."""
-    run, tally = case.spreader, case.shared(Tally)
-    wrong = differs(run, {"T2 corrected": tally.met_again_bound()})
-    return flaw(wrong) if wrong else _within(run.length, tally.proved_length())
+    wrong = case.shared(sweep_flaw)
+    return flaw(wrong) if wrong else _within(case.spreader.length, case.shared(Tally).proved_length())
 
 
 def is_the_m_line(case: Case) -> Finding:
@@ -84,9 +78,10 @@ def is_the_m_line(case: Case) -> Finding:
     run = case.spreader
     if any(event.kind in (EventKind.HIT, EventKind.CROSS, EventKind.DIVERT) for event in run.events):
         return SILENT
-    value = case.shared(Tally).base
-    wrong = differs(run, {"(8)": value})
-    return flaw(wrong) if wrong else found(run.length == value, f"P = {run.length}, (8) is {value}")
+    if (wrong := case.shared(sweep_flaw)) is not None:
+        return flaw(wrong)
+    value = bounds_of(run)["(8)"]
+    return found(run.length == value, f"P = {run.length}, (8) is {value}")
 
 
 CLAIMS = (
