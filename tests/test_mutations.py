@@ -6,7 +6,6 @@ without a mutation, these statements hold.
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -43,13 +42,7 @@ def _change_bounds(patch: Patch, function: str, name: str) -> None:
             replace(b, value=b.value - Length("1/1000")) if b.name == name else b for b in original(*args)
         )
 
-    strategy = "sightseer" if function == "sightseer_bounds" else "seed_spreader"
-    patch.setattr(_module(f"exactacq.strategies.{strategy}.strategy"), function, changed)
-
-
-def _module(name: str) -> Any:
-    """A module of the package by its name: as an attribute it may be the function that is called so."""
-    return sys.modules[name]
+    patch.setattr(bounds, function, changed)
 
 
 def skipped_obstacle(patch: Patch) -> None:
