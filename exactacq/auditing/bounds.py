@@ -12,6 +12,7 @@ from exactacq.auditing.ground import Field
 from exactacq.auditing.measure import BITS, agrees, ball_sum
 from exactacq.auditing.visibility import World
 from exactacq.errors import AuditError
+from exactacq.geometry.box_index import united
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.intersections import nearest_points
 from exactacq.numbers.length import Length
@@ -129,7 +130,7 @@ def clipped_distance(run: Run, world: World) -> Real:
     Only pairs whose boxes do not keep them below the largest so far need an exact distance.
     """
     ranges = [world.edges_of(o.index) for o in run.scene.obstacles]
-    hulls = np.array([[*world.boxes[r, :2].min(axis=0), *world.boxes[r, 2:].max(axis=0)] for r in ranges])
+    hulls = united(world.boxes, world.first[:-1])
     best = Real(0)
     for i, hull in enumerate(hulls):
         reach = np.hypot(*np.maximum(hull[2:] - hulls[:, :2], hulls[:, 2:] - hull[:2]).T) * (1 + 1e-12)

@@ -57,6 +57,22 @@ def bounds(curves: Sequence[Curve]) -> Boxes:
     return np.array([box(curve) for curve in curves], dtype=np.float64).reshape(-1, 4)
 
 
+def united(boxes: Boxes, first: Sequence[int] | Indices) -> Boxes:
+    """The boxes around groups of boxes that follow each other, none empty; *first* is where groups begin."""
+    if not len(boxes):
+        return np.zeros((0, 4))
+    low = np.minimum.reduceat(boxes[:, :2], first, axis=0)
+    return np.hstack((low, np.maximum.reduceat(boxes[:, 2:], first, axis=0)))
+
+
+def circles(curves: Sequence[Curve]) -> NDArray[np.float64]:
+    """Centre and radius of the circle of every arc in the nearest floats, zeros for segments."""
+    rows = [
+        _nearest(c.center.x, c.center.y, c.radius) if isinstance(c, Arc) else (0.0, 0.0, 0.0) for c in curves
+    ]
+    return np.array(rows, dtype=np.float64).reshape(-1, 3)
+
+
 def _nearest(*values: Real) -> tuple[float, ...]:
     """The nearest floats; beyond their range an infinity, which `_up` and `_down` treat correctly."""
     return tuple(_float(value) for value in values)
@@ -230,14 +246,11 @@ class Separator:
     def __init__(self, curves: Sequence[Curve], boxes: Boxes) -> None:
         hulls = boxes[:, [0, 1, 2, 1, 2, 3, 0, 3]].reshape(-1, 4, 2)
         self.is_segment = np.array([isinstance(curve, Segment) for curve in curves], dtype=bool)
-        circles = np.zeros((len(curves), 3))
         for k, curve in enumerate(curves):
             if isinstance(curve, Segment):
                 ends = [_nearest(p.x, p.y) for p in (curve.start, curve.end)]
                 hulls[k] = [*ends, *ends]
-            else:
-                circles[k] = _nearest(curve.center.x, curve.center.y, curve.radius)
-        self.hulls, self.circles = hulls, circles
+        self.hulls, self.circles = hulls, circles(curves)
 
     def separated(self, first: Indices, second: Indices) -> NDArray[np.bool_]:
         """True only for pairs that certainly do not meet."""

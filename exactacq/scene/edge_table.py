@@ -14,7 +14,7 @@ import numpy as np
 from flint import fmpq
 from numpy.typing import NDArray
 
-from exactacq.geometry.box_index import BoxIndex, box
+from exactacq.geometry.box_index import BoxIndex, bounds, circles, united
 from exactacq.geometry.coordinates import raw
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
@@ -32,8 +32,8 @@ BITS = 64
 class EdgeTable:
     """All boundary edges of a scene, numbered obstacle by obstacle.
 
-    Edge ``e`` starts at vertex ``e`` and ends at vertex ``next[e]``; the edge of a full circle has
-    no vertex. Built in near linear time.
+    Edge ``e`` starts at vertex ``e``, where ``previous[e]`` ends, and ends at vertex ``next[e]``;
+    the edge of a full circle has no vertex. Built in near linear time.
     """
 
     def __init__(self, obstacles: Sequence[Obstacle]) -> None:
@@ -47,18 +47,15 @@ class EdgeTable:
         self.first: Ints = firsts[:-1]
         self.next: Ints = np.arange(1, len(self.curves) + 1)
         self.next[firsts[1:] - 1] = firsts[:-1]
+        self.previous: Ints = np.argsort(self.next)
         self.vertices = [_pair(c.start) for c in self.curves]
         self.kind = np.array([_kind(c) for c in self.curves], dtype=np.int8)
         self.full = np.array([isinstance(c, Arc) and c.full for c in self.curves], dtype=bool)
-        self.start = _array([_floats(v) for v in self.vertices])
+        self.start: Floats = np.array([_floats(v) for v in self.vertices], dtype=float).reshape(-1, 2)
         self.end = self.start[self.next] if len(self.curves) else self.start
-        circles = [
-            (*_floats(_pair(c.center)), float(c.radius)) if isinstance(c, Arc) else (0.0, 0.0, 0.0)
-            for c in self.curves
-        ]
-        table = _array(circles, 3)
-        self.center, self.radius = table[:, :2], table[:, 2]
-        self.boxes: Floats = _array([box(c) for c in self.curves], 4)
+        round_ = circles(self.curves)
+        self.center, self.radius = round_[:, :2], round_[:, 2]
+        self.boxes: Floats = bounds(self.curves)
         self._near: dict[tuple[tuple[float, float], tuple[float, float], float], Ints] = {}
         self.magnitude = float(np.abs(self.boxes).max(initial=0.0))
         self.roundoff = 2.0**-50 * max(self.magnitude, float(self.radius.max(initial=0.0)))
@@ -67,6 +64,11 @@ class EdgeTable:
     def index(self) -> BoxIndex:
         """Spatial index over the edges' boxes."""
         return BoxIndex(self.boxes)
+
+    @cached_property
+    def hulls(self) -> Floats:
+        """The boxes of the obstacles."""
+        return united(self.boxes, self.first)
 
     @cached_property
     def circles(self) -> dict[int, int]:
@@ -155,7 +157,3 @@ def _pair(point: Any) -> tuple[fmpq, fmpq]:
 
 def _floats(pair: tuple[fmpq, fmpq]) -> tuple[float, float]:
     return float(pair[0]), float(pair[1])
-
-
-def _array(rows: Sequence[Sequence[float]], width: int = 2) -> Floats:
-    return np.array(rows, dtype=float).reshape(len(rows), width)

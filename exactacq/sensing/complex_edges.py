@@ -13,7 +13,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
 from flint import fmpq
 
 from exactacq.geometry.coordinates import Vector, cross, dot, minus, raw
@@ -21,7 +20,7 @@ from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Point, distance_sq
 from exactacq.numbers.real import Real
-from exactacq.scene.edge_table import EdgeTable, Ints
+from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.side_filter import Sides
 from exactacq.sensing.view_families import Glance, Ranges, Role, Side, Strand
 from exactacq.visibility.chords import meet
@@ -261,18 +260,11 @@ class Sweeper:
             return feature.edges[0], feature.edges[1]
         (e,) = feature.edges
         curves = self.table.curves
-        before, after = int(self._previous[e]), int(self.table.next[e])
+        before, after = int(self.table.previous[e]), int(self.table.next[e])
         ends = leaving(curves[before], at_end=True), leaving(curves[e], at_end=False)
         incoming = before if _continues(*ends) else e
         ends = leaving(curves[e], at_end=True), leaving(curves[after], at_end=False)
         return incoming, after if _continues(*ends) else e
-
-    @cached_property
-    def _previous(self) -> Ints:
-        """The edge before each edge."""
-        before = np.zeros(len(self.table.curves), dtype=np.intp)
-        before[self.table.next] = np.arange(len(before))
-        return before
 
     def _pinched(self, sector: Sector, t: Real, own: tuple[int, ...]) -> Iterator[Ray]:
         """What the touched points and edges of a line that grazes several features show of each other."""

@@ -22,7 +22,7 @@ from exactacq.geometry.points import Location, Point, distance_sq
 from exactacq.numbers.length import Length
 from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import fmpq
-from exactacq.scene.edge_table import EdgeTable, Floats
+from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.ports import SVG, made
 from exactacq.scene.scene import Obstacle, Scene
 from exactacq.scene.validation import sensor_flaws
@@ -160,11 +160,6 @@ class _Tables:
     def __init__(self, scene: Scene) -> None:
         self.obstacles = scene.obstacles
         self.edges = EdgeTable(scene.obstacles)
-        boxes, first = self.edges.boxes, self.edges.first
-        self.hulls: Floats = np.zeros((0, 4))
-        if len(boxes):
-            low = np.minimum.reduceat(boxes[:, :2], first, axis=0)
-            self.hulls = np.hstack((low, np.maximum.reduceat(boxes[:, 2:], first, axis=0)))
 
     @classmethod
     def of(cls, scene: Scene) -> _Tables:
@@ -179,7 +174,7 @@ class _Tables:
         are asked."""
         x, y = point.xy
         slack = 8 * self.edges.roundoff_at((x, y))
-        left, low, right, high = self.hulls.T
+        left, low, right, high = self.edges.hulls.T
         near = (left <= x + slack) & (right >= x - slack) & (low <= y + slack) & (high >= y - slack)
         if self.obstacles and self.obstacles[-1].is_enclosure:
             near[-1] = True

@@ -110,25 +110,10 @@ class Links:
         sizes = [float(Real(f.radius_sq).sqrt()) if f.round else 0.0 for f in self.features]
         return np.array(centers).reshape(-1, 2), np.array(sizes) + 8 * self.table.roundoff
 
-    @cached_property
-    def hulls(self) -> Floats:
-        """Bounding boxes of the obstacles."""
-        boxes, first = self.table.boxes, self.table.first
-        if not len(boxes):
-            return np.zeros((0, 4))
-        low = np.minimum.reduceat(boxes[:, :2], first, axis=0)
-        high = np.maximum.reduceat(boxes[:, 2:], first, axis=0)
-        return np.hstack((low, high))
-
     @property
     def count(self) -> int:
         """Number of obstacles, the enclosure included."""
         return len(self.scene.obstacles)
-
-    def edges_of(self, obstacle: int) -> range:
-        """Edge numbers of an obstacle."""
-        first = int(self.table.first[obstacle])
-        return range(first, first + len(self.scene.obstacles[obstacle].edges))
 
     # -- between two obstacles ---------------------------------------------------------------------
 
@@ -142,17 +127,17 @@ class Links:
 
     def lower_bounds(self, i: int) -> Floats:
         """Lower bounds of v(i, j) for every j: the gaps between bounding boxes."""
-        return self.gaps(self.hulls[i])
+        return self.gaps(self.table.hulls[i])
 
     def gaps(self, box: Floats) -> Floats:
-        hulls = self.hulls
+        hulls = self.table.hulls
         apart = np.maximum(np.maximum(hulls[:, :2] - box[2:], box[:2] - hulls[:, 2:]), 0.0)
         gaps: Floats = np.hypot(apart[:, 0], apart[:, 1]) * (1 - 1e-14) - self.table.roundoff
         return np.maximum(gaps, 0.0)
 
     def neighbours(self, i: int) -> list[int]:
         """The obstacles other than i whose bounding boxes come within the radius of i's."""
-        near = self._box_neighbours(self.hulls[i])
+        near = self._box_neighbours(self.table.hulls[i])
         return [j for j in near if j != i]
 
     def _box_neighbours(self, box: Floats) -> list[int]:
@@ -161,7 +146,7 @@ class Links:
 
     def _shortest_between(self, i: int, j: int) -> Link | None:
         best = _Best(self.limit)
-        unblocked = self._nearest(self.edges_of(i), self.edges_of(j), best)
+        unblocked = self._nearest(self.table.edges_of(i), self.table.edges_of(j), best)
         if not unblocked:
             self._pivoting(i, j, best)
         return best.link(i, j)
@@ -215,7 +200,7 @@ class Links:
         """
         curves = self.table.curves
         if foot is curves[e].start:
-            x, y = leaving(curves[self._previous[e]], at_end=True)
+            x, y = leaving(curves[int(self.table.previous[e])], at_end=True)
             x, y = -x, -y
         elif foot is curves[e].end:
             x, y = leaving(curves[int(self.table.next[e])], at_end=False)
@@ -223,13 +208,6 @@ class Links:
             return True
         nearer: Real = (other.x - foot.x) * x + (other.y - foot.y) * y
         return nearer.sign() <= 0
-
-    @cached_property
-    def _previous(self) -> list[int]:
-        """The edge before each edge."""
-        before = np.zeros(len(self.table.curves), dtype=np.intp)
-        before[self.table.next] = np.arange(len(before))
-        return before.tolist()
 
     def free_part(self, item: Nearest | Family, length: Real) -> Iterator[Shortest]:
         if isinstance(item, Family):
@@ -242,7 +220,7 @@ class Links:
         centers, sizes = self.spots
         if not len(centers):
             return
-        bounds = box_gaps(centers, self.hulls[i], sizes) + box_gaps(centers, self.hulls[j], sizes)
+        bounds = box_gaps(centers, self.table.hulls[i], sizes) + box_gaps(centers, self.table.hulls[j], sizes)
         order = count()
         heap: list[tuple[float, int, tuple[int, Pencil, Cell, bool]]] = []
         mirrors: dict[tuple[Hashable, ...], Mirrors] = {}

@@ -119,18 +119,12 @@ class View:
                 onward.insert(0, pieces[e][-1])
             pieces[e].pop()
         for e in [e for e, spans in pieces.items() if spans and spans[0][0] is spans[0][1]]:
-            vertex, before = pieces[e][0][0], self.previous(e)
+            vertex, before = pieces[e][0][0], int(self.table.previous[e])
             if vertex is self.table.curves[e].start and before != e:
                 ends = pieces.get(before, ())
                 if ends and ends[-1][1] is vertex:
                     pieces[e].pop(0)
         return {e: spans for e, spans in pieces.items() if spans}
-
-    def previous(self, e: int) -> int:
-        """The edge before an edge on its boundary."""
-        owner = int(self.table.owner[e])
-        first = int(self.table.first[owner])
-        return e - 1 if e > first else first + len(self.table.obstacles[owner].edges) - 1
 
     def spans(self, sight: Sight) -> list[Span]:
         """The parts within range of what is seen of a facet, in the boundary's direction."""

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from exactacq.errors import FormatError
-from exactacq.geometry.box_index import BoxIndex, bounds, box
+from exactacq.geometry.box_index import BoxIndex, bounds, box, united
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.intersections import contacts, winding
 from exactacq.geometry.points import Point
@@ -42,9 +41,7 @@ class Loops:
     def _hulls(self) -> NDArray[np.float64]:
         """The box of every loop."""
         array, begin = self._boxes
-        parts = [array[a:b] for a, b in pairwise(begin)]
-        rows = [(*part[:, :2].min(axis=0), *part[:, 2:].max(axis=0)) for part in parts]
-        return np.array(rows, dtype=np.float64).reshape(-1, 4)
+        return united(array, begin[:-1])
 
     @cached_property
     def meeting(self) -> frozenset[tuple[int, int]]:
