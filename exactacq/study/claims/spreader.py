@@ -174,8 +174,7 @@ def diverts_to_each_pocket() -> Finding:
     """Obstacles with pockets, far from each other: as many diversions as obstacles."""
     for count in POCKETS:
         run = Case(pockets(count)).spreader
-        assert run.sweeping is not None
-        targets = sorted(diversion.obstacle for diversion in run.sweeping.diversions)
+        targets = sorted(diversion.obstacle for diversion in run.diversions)
         if targets != list(range(count)):
             return found(False, f"{count} pockets, diversions to {targets}")
     return found(True)

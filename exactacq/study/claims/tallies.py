@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
-from exactacq.auditing.bounds import check_bounds, check_links, sightseer_values, spreader_values
+from exactacq.auditing.bounds import check_bounds, sightseer_values, spreader_values
+from exactacq.auditing.sightseer import check_links
 from exactacq.errors import AuditError
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
