@@ -1,4 +1,7 @@
-"""The command line. Errors are one line on standard error and exit status 2; files are written whole."""
+"""The command line. Errors are one line on standard error and exit status 2; files are written whole.
+
+What a command needs is imported when it runs: help and refusals of wrong options wait for none of it.
+"""
 
 from __future__ import annotations
 
@@ -9,27 +12,20 @@ from collections.abc import Callable, Sequence
 from enum import StrEnum
 from importlib.metadata import version
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from flint import fmpq
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from exactacq.auditing.audit import audit
 from exactacq.errors import ExactacqError, FormatError, InvalidScene
-from exactacq.files import gallery as scenes
-from exactacq.files.load import load
-from exactacq.files.whole_files import FIGURES, PAGES, TRACES, check_output, write_whole
-from exactacq.numbers.rationals import rational
-from exactacq.output.report import comparison, console, run_report, scene_list, scene_report
-from exactacq.scene.scene import Scene
-from exactacq.scene.shapes import Terrain
-from exactacq.strategies.run import Run
-from exactacq.strategies.seed_spreader.strategy import TargetChoice, seed_spreader
-from exactacq.strategies.sightseer.strategy import sightseer
+from exactacq.strategies.choices import Strategy, TargetChoice
 from exactacq.study.campaign.command import verify
 from exactacq.study.search.command import search
+
+if TYPE_CHECKING:
+    from flint import fmpq
+
+    from exactacq.scene.scene import Scene
+    from exactacq.strategies.run import Run
 
 REFUSED, INTERNAL, INTERRUPTED = 2, 1, 130
 """Exit statuses: bad input or a file that cannot be written; a fault of exactacq itself; control-C."""
@@ -37,13 +33,6 @@ VIOLATIONS = 8
 """Most violations of a scene that the one line of an error names."""
 UsageError: type[Exception] = typer.BadParameter.__bases__[0]
 """What typer raises for a wrong command line; where it lives depends on typer's release."""
-
-
-class Strategy(StrEnum):
-    """The paper's strategies."""
-
-    SIGHTSEER = "sightseer"
-    SEED_SPREADER = "seed-spreader"
 
 
 class Outer(StrEnum):
@@ -126,6 +115,9 @@ def explore(
     union: Union = False,
 ) -> None:
     """Explore a scene; print a summary, or write the figure and the exact trace."""
+    from exactacq.files.whole_files import FIGURES, PAGES, TRACES, check_output, write_whole
+    from exactacq.output.report import console, run_report
+
     range_ = _range(radius)
     if at is not None and figure is None:
         raise FormatError("--at: names a moment of a figure; give the figure with --figure F")
@@ -139,7 +131,7 @@ def explore(
         raise FormatError(f"{scene}: the scene has no radius of vision: give one with --radius R")
     run = _explored(world, range_, strategy, lookahead, target)
     if figure is not None:
-        from exactacq.output.figures import save  # matplotlib takes long to import
+        from exactacq.output.figures import save
 
         try:
             save(run, figure, length)
@@ -150,6 +142,8 @@ def explore(
 
         write_whole(animate, page(run, frames_of(run)).encode())
     if check_run:
+        from exactacq.auditing.audit import audit
+
         audit(run)
     if as_json or trace is not None:
         text = json.dumps(run.to_json(), indent=1, ensure_ascii=False) + "\n"
@@ -183,13 +177,16 @@ def compare(
 
     The Seed Spreader starts in the SW corner of the terrain, the Sightseer there if no other start is given.
     """
+    from exactacq.files.whole_files import FIGURES, check_output
+    from exactacq.output.report import comparison, console
+
     range_ = _range(radius)
     if figure is not None and _same_file(check_output(figure, FIGURES), scene):
         raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
     world = _scene(scene, start, layers, outer, tolerance, union, terrain)
     if range_ is None and world.radius is None:
         raise FormatError(f"{scene}: the scene has no radius of vision: give one with --radius R")
-    corner = _scene_with(world, start=(fmpq(0), fmpq(0)))
+    corner = _scene_with(world, start=(0, 0))
     seen = _explored(corner if world.start is None else world, range_, Strategy.SIGHTSEER)
     spread = _explored(corner, range_, Strategy.SEED_SPREADER)
     console().print(comparison(seen, spread))
@@ -210,6 +207,8 @@ def check(
     union: Union = False,
 ) -> None:
     """Validate a scene; print its contents and what the import did."""
+    from exactacq.output.report import console, scene_report
+
     console().print(scene_report(_scene(scene, start, layers, outer, tolerance, union)))
 
 
@@ -225,6 +224,9 @@ def gallery(
 
     The Seed Spreader runs on the scenes that are there for it.
     """
+    from exactacq.files import gallery as scenes
+    from exactacq.output.report import console, scene_list, scene_report
+
     if name is None and figure is not None:
         raise FormatError(
             "--figure: name the scene to be drawn, as in: exactacq gallery figure2 --figure F.svg"
@@ -249,6 +251,8 @@ app.command()(search)
 
 
 def _draw_gallery(folder: Path) -> None:
+    from exactacq.files import gallery as scenes
+    from exactacq.files.whole_files import FIGURES, check_output
     from exactacq.output.figures import save
 
     folder.mkdir(exist_ok=True)
@@ -270,6 +274,8 @@ def _scene(
     terrain: str | None = None,
 ) -> Scene:
     """The scene in the file, or else of the gallery, of that name; an error names it too."""
+    from exactacq.scene.shapes import Terrain
+
     size = None if terrain is None else Terrain(*_pair("--terrain", terrain))
     try:
         scene = _loaded(name, start, layers, outer, tolerance, union)
@@ -282,6 +288,9 @@ def _scene(
 def _loaded(
     name: str, start: str | None, layers: str | None, outer: Outer, tolerance: str | None, union: bool
 ) -> Scene:
+    from exactacq.files.gallery import names
+    from exactacq.files.load import load
+
     place = None if start is None else _pair("--start", start)
     options: dict[str, object] = {"outer": outer.value} if outer is not Outer.WALL else {}
     if layers is not None:
@@ -292,13 +301,15 @@ def _loaded(
         options["union"] = True
     if place is None:
         return load(name, **options)
-    if name not in scenes.names() or os.path.lexists(name):
+    if name not in names() or os.path.lexists(name):
         return load(name, start=place, **options)
     return _scene_with(load(name, **options), start=place)
 
 
 def _scene_with(scene: Scene, **changed: Any) -> Scene:
     """A scene with another start or terrain."""
+    from exactacq.scene.scene import Scene
+
     parts: dict[str, Any] = {
         "start": scene.start, "terrain": scene.terrain, "enclosure": scene.enclosure, "radius": scene.radius,
         "name": scene.name, "notes": scene.notes,
@@ -314,6 +325,8 @@ def _explored(
     target: TargetChoice = TargetChoice.KNOWN,
 ) -> Run:
     """The run; with a progress bar if it is long and a terminal watches."""
+    from exactacq.strategies.seed_spreader.strategy import seed_spreader
+    from exactacq.strategies.sightseer.strategy import sightseer
 
     def run(progress: Callable[[int, int], None] | None) -> Run:
         if strategy is Strategy.SIGHTSEER:
@@ -322,6 +335,9 @@ def _explored(
 
     if not sys.stderr.isatty():
         return run(None)
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
     columns = (TextColumn("exploring"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("", total=len(scene.obstacles))
@@ -337,6 +353,8 @@ def _range(radius: str | None) -> fmpq | None:
 
 
 def _number(option: str, text: str) -> fmpq:
+    from exactacq.numbers.rationals import rational
+
     try:
         return rational(text)
     except FormatError as error:

@@ -405,7 +405,7 @@ def test_interruptions_and_faults_cost_one_line(
     def fail(*_: object, **__: object) -> None:
         raise error
 
-    monkeypatch.setattr(cli, "sightseer", fail)
+    monkeypatch.setattr("exactacq.strategies.sightseer.strategy.sightseer", fail)
     assert cli.main(["explore", "circles", "--figure", str(tmp_path / "f.svg")]) == status
     out, err = capsys.readouterr()
     assert out == ""

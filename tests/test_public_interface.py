@@ -144,7 +144,7 @@ class TestImports:
     def loaded(statement: str) -> set[str]:
         code = f"import sys, exactacq as xa; {statement}; print(*sys.modules)"
         done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-        return {name.split(".")[0] for name in done.stdout.split()}
+        return {name.split(".")[0] for name in done.stdout.splitlines()[-1].split()}
 
     def test_the_package_itself_is_light(self) -> None:
         assert not self.loaded("pass") & {"numpy", "flint", "networkx", "sympy"}
@@ -153,6 +153,18 @@ class TestImports:
         heavy = {"networkx", "sympy", "matplotlib", "ezdxf", "typer", "rich", "pyclipper"}
         assert not self.loaded("xa.Length") & heavy
         assert not self.loaded("xa.sightseer; xa.audit; xa.isovist") & (heavy - {"networkx"})
+
+    @pytest.mark.parametrize(
+        "line", ["--help", "--version", "explore --help", "verify --help", "search --help"]
+    )
+    def test_the_command_line_says_what_it_takes_without_what_it_does(self, line: str) -> None:
+        loaded = self.loaded(f"from exactacq.cli import main; assert main({line.split()}) == 0")
+        heavy = {"numpy", "flint", "networkx", "sympy", "matplotlib", "ezdxf", "pyclipper", "hypothesis"}
+        assert "typer" in loaded and not loaded & heavy
+
+    def test_a_command_loads_what_it_uses(self) -> None:
+        loaded = self.loaded("from exactacq.cli import main; assert main(['explore', 'squares']) == 0")
+        assert {"networkx", "rich"} <= loaded and not loaded & {"sympy", "matplotlib", "ezdxf", "pyclipper"}
 
     def test_names_that_are_not_there(self) -> None:
         with pytest.raises(AttributeError, match="no attribute 'sightseeing'"):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from enum import StrEnum
 from functools import cmp_to_key
 
 from flint import fmpq
@@ -16,6 +15,7 @@ from exactacq.scene.terrain_components import Ground, ground_of
 from exactacq.scene.validation import sensor_flaws
 from exactacq.sensing.event import Ending, EventKind, Occasion
 from exactacq.strategies.bounds import with_bounds
+from exactacq.strategies.choices import TargetChoice
 from exactacq.strategies.gc_pause import uncollected
 from exactacq.strategies.run import Diversion, SeedSpreaderRun
 from exactacq.strategies.seed_spreader.losses import Line, Loss, known
@@ -24,13 +24,6 @@ from exactacq.strategies.seed_spreader.robot import Hit, Surveyor
 
 Progress = Callable[[int, int], None]
 """Called with the number of the M-line's straight pieces behind the robot, and of all."""
-
-
-class TargetChoice(StrEnum):
-    """Among which points of an obstacle that is about to be lost the nearest one is aimed at."""
-
-    KNOWN = "known"
-    VISIBLE = "visible"
 
 
 class _Stuck(Exception):

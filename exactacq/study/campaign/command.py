@@ -1,4 +1,4 @@
-"""The command ``exactacq verify``."""
+"""The command ``exactacq verify``; what it needs is imported when it runs."""
 
 from __future__ import annotations
 
@@ -8,21 +8,15 @@ from contextlib import contextmanager
 from enum import StrEnum
 from pathlib import Path
 from time import monotonic
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 from exactacq.errors import FormatError
-from exactacq.files.whole_files import check_output
-from exactacq.output.report import console
-from exactacq.study.campaign.coordinator import conduct
-from exactacq.study.campaign.judging import Record, Result, judge
 from exactacq.study.campaign.settings import MOST_SCENES, Settings, Task, claims_at, parts
-from exactacq.study.campaign.store import Store
-from exactacq.study.campaign.summary import faults, is_faulty, record_report, summary
-from exactacq.study.campaign.table import SUFFIXES, arrow, export
+
+if TYPE_CHECKING:
+    from exactacq.study.campaign.judging import Record
 
 CONTRADICTED = 1
 """Exit status if a statement that is called true failed, or an audit did, or a scene went wrong."""
@@ -74,6 +68,9 @@ def verify(
     Exit status 1 if a statement that is called true fails on a scene, an audit fails, or a scene cannot be
     judged; timeouts and undecided scenes are counted apart.
     """
+    from exactacq.files.whole_files import check_output
+    from exactacq.study.campaign.table import SUFFIXES, arrow
+
     if replay is not None:
         if out is not None or table is not None or scheduler is not None:
             raise FormatError("--replay: judges one scene here and writes nothing; leave the files out")
@@ -100,6 +97,12 @@ def run_campaign(
     table: Path | None = None,
 ) -> bool:
     """Judge what is not judged yet, print the summary, and write the table; whether anything went wrong."""
+    from exactacq.output.report import console
+    from exactacq.study.campaign.coordinator import conduct
+    from exactacq.study.campaign.store import Store
+    from exactacq.study.campaign.summary import faults, summary
+    from exactacq.study.campaign.table import export
+
     called = [c for c, _ in parts(claims_at(settings.claims)) if c.strategy in settings.strategies]
     with Store(None if out is None else Path(out), settings, called) as store:
         total = sum(1 for _ in settings.tasks())
@@ -119,6 +122,10 @@ def _task(text: str) -> Task:
 
 
 def _replay(task: Task, settings: Settings) -> None:
+    from exactacq.output.report import console
+    from exactacq.study.campaign.judging import judge
+    from exactacq.study.campaign.summary import is_faulty, record_report
+
     statements = list(parts(claims_at(settings.claims)))
     record = judge(task, statements, settings.audit)
     console().print(record_report(record))
@@ -132,6 +139,9 @@ def _progress(done: int, total: int) -> Iterator[Callable[[Record], None]]:
     if not sys.stderr.isatty():
         yield _lines(done, total)
         return
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
     columns = (TextColumn("verifying"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("", total=total, completed=done)
@@ -139,6 +149,8 @@ def _progress(done: int, total: int) -> Iterator[Callable[[Record], None]]:
 
 
 def _lines(done: int, total: int) -> Callable[[Record], None]:
+    from exactacq.study.campaign.judging import Result
+
     began, count, apart = monotonic(), done, 0
     if done:
         print(f"verify: {done} of {total} scenes are judged already", file=sys.stderr, flush=True)

@@ -6,10 +6,13 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from importlib import import_module
 from importlib.metadata import version
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from exactacq.errors import ExactacqError
-from exactacq.study.claims.model import Claim, Statement, Subject
+from exactacq.strategies.choices import Strategy
+
+if TYPE_CHECKING:
+    from exactacq.study.claims.model import Claim, Statement
 
 CLAIMS = "exactacq.study.claims:CLAIMS"
 """Where the claims are, as module:name: processes import them, for checks need not be picklable."""
@@ -47,7 +50,7 @@ class Settings:
 
     scenes: int = 100
     seed: int = 0
-    strategies: tuple[str, ...] = tuple(subject.value for subject in Subject)
+    strategies: tuple[str, ...] = tuple(strategy.value for strategy in Strategy)
     audit: bool = True
     timeout: float = 120.0
     claims: str = CLAIMS

@@ -1,26 +1,24 @@
-"""``exactacq search``: find a scene that breaks a statement, make it small, say how to see it again."""
+"""``exactacq search``: find a scene that breaks a statement, make it small, say how to see it again.
+
+What the command needs is imported when it runs.
+"""
 
 from __future__ import annotations
 
 import shlex
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from exactacq.errors import FormatError
-from exactacq.files.load import load
-from exactacq.files.whole_files import FIGURES, TRACES, check_output, write_whole
-from exactacq.output.report import console
-from exactacq.study.claims.model import Case, Outcome, Subject
-from exactacq.study.search.blind import hypothesis_search
-from exactacq.study.search.drafts import Draft
-from exactacq.study.search.goals import Goal, goal
-from exactacq.study.search.local import Budget, Search
-from exactacq.study.search.moves import Rules
-from exactacq.study.search.referee import Referee, Ruling
-from exactacq.study.search.shrinking import shrink
+from exactacq.strategies.choices import Strategy
+
+if TYPE_CHECKING:
+    from exactacq.study.search.goals import Goal
+    from exactacq.study.search.local import Search
+    from exactacq.study.search.referee import Referee, Ruling
 
 SECONDS = 60.0
 """How long a search takes if neither --seconds nor --steps is given."""
@@ -47,7 +45,7 @@ def search(
     claim: Annotated[str, typer.Argument(metavar="CLAIM", help="A claim, or a bound like (6) or 6.")],
     statement: Annotated[Wording, typer.Option(help="As printed, or as corrected.")] = Wording.PRINTED,
     strategy: Annotated[
-        Subject | None, typer.Option(help="Checks that the claim speaks of this strategy.")
+        Strategy | None, typer.Option(help="Checks that the claim speaks of this strategy.")
     ] = None,
     method: Annotated[Method, typer.Option(help="How candidates are made.")] = Method.LOCAL,
     begin: Annotated[
@@ -75,8 +73,18 @@ def search(
 
     Every candidate is decided exactly; floats only tell which way to go on.
     """
+    from exactacq.files.load import load
+    from exactacq.files.whole_files import FIGURES, TRACES, check_output
+    from exactacq.study.claims.model import Subject
+    from exactacq.study.search.drafts import Draft
+    from exactacq.study.search.goals import goal
+    from exactacq.study.search.local import Budget, Search
+    from exactacq.study.search.moves import Rules
+    from exactacq.study.search.referee import Referee
+    from exactacq.study.search.shrinking import shrink
+
     target = goal(claim, statement is Wording.CORRECTED)
-    if strategy is not None and strategy is not target.subject:
+    if strategy is not None and strategy.value != target.subject.value:
         raise FormatError(f"--strategy: {target.name} speaks of the {target.subject.value}")
     for path, kinds in ((out, TRACES), (figure, FIGURES)):
         if path is not None:
@@ -98,6 +106,9 @@ def search(
 
 def _found(hunt: Search, method: Method, seconds: float | None, steps: int | None) -> Ruling | None:
     """The best of one method, or of both, which then share the budget."""
+    from exactacq.study.search.blind import hypothesis_search
+    from exactacq.study.search.local import Budget
+
     methods = (Method.HYPOTHESIS, Method.LOCAL) if method is Method.BOTH else (method,)
     share = (1 - SHRINKING) / len(methods)
     for each in methods:
@@ -113,6 +124,9 @@ def _found(hunt: Search, method: Method, seconds: float | None, steps: int | Non
 
 def _report(target: Goal, referee: Referee, found: Ruling | None, out: str | None) -> None:
     """What was found, exactly; how many candidates there were; how to see it again."""
+    from exactacq.output.report import console
+    from exactacq.study.claims.model import Outcome
+
     show = console()
     dropped = ", ".join(f"{count} {kind}" for kind, count in sorted(referee.dropped.items()))
     show.print(f"{target.name}: {target.statement.text}")
@@ -144,9 +158,12 @@ def _report(target: Goal, referee: Referee, found: Ruling | None, out: str | Non
 
 def _write(target: Goal, found: Ruling, out: str | None, figure: str | None) -> None:
     if out is not None:
+        from exactacq.files.whole_files import write_whole
+
         write_whole(out, found.draft.text(Path(out).stem).encode())
     if figure is not None:
-        from exactacq.output.figures import save  # matplotlib takes long to import
+        from exactacq.output.figures import save
+        from exactacq.study.claims.model import Case, Subject
 
         case = Case(found.draft.scene(Path(figure).stem))
         save(case.sightseer if target.subject is Subject.SIGHTSEER else case.spreader, figure)

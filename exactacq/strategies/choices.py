@@ -1,0 +1,19 @@
+"""What a user chooses among: words alone, so that the command line's help loads nothing else."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+
+
+class Strategy(StrEnum):
+    """The paper's strategies."""
+
+    SIGHTSEER = "sightseer"
+    SEED_SPREADER = "seed-spreader"
+
+
+class TargetChoice(StrEnum):
+    """Among which points of an obstacle that is about to be lost the nearest one is aimed at."""
+
+    KNOWN = "known"
+    VISIBLE = "visible"
