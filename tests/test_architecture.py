@@ -99,6 +99,16 @@ def test_the_audit_shares_nothing_with_what_it_checks() -> None:
     }
 
 
+def test_no_class_name_is_used_twice() -> None:
+    """Nor with an underscore: a name has one meaning in the whole package."""
+    homes: dict[str, list[str]] = {}
+    for name, path in files().items():
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ClassDef):
+                homes.setdefault(node.name.lstrip("_"), []).append(name)
+    assert {name: where for name, where in homes.items() if len(where) > 1} == {}
+
+
 def test_the_picture_fits_a_screen() -> None:
     text = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
     lines = re.search(r"```\n(.*?)```", text, re.S)[1].splitlines()

@@ -23,7 +23,7 @@ from test_laws_of_runs import crowded_room, run_of
 
 import exactacq as xa
 from exactacq.auditing.audit import audit
-from exactacq.auditing.visibility import Lookout, World, point_at, point_near, visible
+from exactacq.auditing.visibility import Viewpoints, World, point_at, point_near, visible
 from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.points import Point
@@ -261,7 +261,7 @@ class TestLookout:
     @staticmethod
     def _sees(shapes: list, curve: object, radius: object, q: tuple = (0, 0)) -> bool:
         world = World(build(shapes))
-        return Lookout(world, fmpq(*Q(radius).as_integer_ratio()), [curve]).first(Point(*q)) is not None
+        return Viewpoints(world, fmpq(*Q(radius).as_integer_ratio()), [curve]).first(Point(*q)) is not None
 
     @EXAMPLES
     @given(st.randoms(use_true_random=False))
@@ -279,7 +279,7 @@ class TestLookout:
             places = rational_points(curve, world)
             if q is None or not places:
                 continue
-            seen = Lookout(world, run.radius, [curve]).first(q) is not None
+            seen = Viewpoints(world, run.radius, [curve]).first(q) is not None
             views = [visible(world, run.radius, q, place) for place in places]
             for place, view in zip(places, views, strict=True):
                 gap = float((place - q).norm_sq()) ** 0.5 - float(run.radius)
@@ -292,7 +292,9 @@ class TestLookout:
             middle = places[len(places) // 2]
             if middle not in (curve.start, curve.end):
                 parts = curve.part(curve.start, middle), curve.part(middle, curve.end)
-                assert seen == any(Lookout(world, run.radius, [part]).first(q) is not None for part in parts)
+                assert seen == any(
+                    Viewpoints(world, run.radius, [part]).first(q) is not None for part in parts
+                )
 
     @pytest.mark.parametrize(("lift", "expected"), [(0, True), (EPS, False), (-EPS, True)])
     def test_pinch(self, lift: Fraction, expected: bool) -> None:
@@ -346,7 +348,7 @@ class TestLookout:
     def test_first(self) -> None:
         """Numbers count the curves as given, also if one comes twice."""
         far, near = Segment(Point(3, 9), Point(4, 9)), Segment(Point(1, 0), Point(2, 0))
-        lookout = Lookout(World(build([box(20, 21, 0, 1)])), fmpq(5), [far, far, near, near])
+        lookout = Viewpoints(World(build([box(20, 21, 0, 1)])), fmpq(5), [far, far, near, near])
         assert lookout.first(Point(0, 0)) == 2
         assert lookout.first(Point(30, 0)) is None
 

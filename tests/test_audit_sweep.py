@@ -502,7 +502,7 @@ class TestComponents:
     @staticmethod
     @cache
     def run() -> Run:
-        """A wall across, one end of a beam beyond it, and one obstacle before it."""
+        """A wall across, one end of a line family beyond it, and one obstacle before it."""
         shapes = [rectangle(-1, 4, 7, 5), rectangle(1, 1, 2, 2), rectangle(3, -1, 4, 1)]
         return xa.seed_spreader(Scene(shapes, terrain=Terrain(6, 8)), 3)
 
@@ -610,7 +610,7 @@ class TestBounds:
         1001113,  # a view past a corner is as long as the range
         1000221,  # the start of a circle is known alone
         1000251,  # a way touches an arc
-        1000230,  # a leg ends where a glance does
+        1000230,  # a leg ends where a family does
         1000756,  # parts end at one height on both sides of an arc
         1001201,  # points of vertical edges
         1001472,  # on the way back nothing is learned

@@ -17,8 +17,8 @@ from shapely import Polygon as ShapelyPolygon
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import (
     ContactKind,
-    Family,
-    FamilyKind,
+    NearestFamily,
+    NearestFamilyKind,
     contacts,
     line_contacts,
     locate,
@@ -338,10 +338,16 @@ def test_nearest_pairs_lie_on_their_curves_and_swap(a, b):
 
     found, swapped = nearest_points(a, b), nearest_points(b, a)
     for pair in found:
-        first, second = (pair.first, pair.second) if isinstance(pair, Family) else (pair.start, pair.end)
+        first, second = (
+            (pair.first, pair.second) if isinstance(pair, NearestFamily) else (pair.start, pair.end)
+        )
         check(a, first)
         check(b, second)
-        if isinstance(pair, Family) and isinstance(first, (Segment, Arc)) and not isinstance(second, Point):
+        if (
+            isinstance(pair, NearestFamily)
+            and isinstance(first, (Segment, Arc))
+            and not isinstance(second, Point)
+        ):
             starts, ends = first.start - second.start, first.end - second.end
             assert starts.norm_sq() == ends.norm_sq() == pair.distance_sq
     assert sorted(float(p.distance_sq) for p in found) == sorted(float(p.distance_sq) for p in swapped)
@@ -350,7 +356,7 @@ def test_nearest_pairs_lie_on_their_curves_and_swap(a, b):
 def test_parallel_segments_give_the_facing_pieces():
     a, b = segment(0, 0, 4, 0), segment(6, 3, 1, 3)
     (family,) = nearest_points(a, b)
-    assert family.kind is FamilyKind.PARALLEL and family.distance_sq == 9
+    assert family.kind is NearestFamilyKind.PARALLEL and family.distance_sq == 9
     assert (family.first.start, family.first.end) == (Point(1, 0), Point(4, 0))
     assert (family.second.start, family.second.end) == (Point(1, 3), Point(4, 3))
     for x, far in ((4, 7), (0, -3)):
@@ -362,7 +368,7 @@ def test_parallel_segments_give_the_facing_pieces():
 def test_concentric_arcs_give_the_common_angles():
     outer = Arc(Point(5, 0), Point(-5, 0), Point(0, 0), rational(25), ccw=True)
     inner = Arc(Point("-6/5", "8/5"), Point("6/5", "8/5"), Point(0, 0), rational(4), ccw=False)
-    families = [f for f in nearest_points(outer, inner) if isinstance(f, Family)]
+    families = [f for f in nearest_points(outer, inner) if isinstance(f, NearestFamily)]
     (family,) = families
     assert family.distance_sq == 9
     assert family.first.ccw and family.second.ccw
@@ -373,8 +379,10 @@ def test_concentric_arcs_give_the_common_angles():
 
 
 def test_the_centre_of_an_arc_is_a_family():
-    families = [f for f in nearest_points(segment(0, 0, -1, 0), circle(0, 0, 2)) if isinstance(f, Family)]
-    assert [(f.kind, f.distance_sq) for f in families] == [(FamilyKind.CONCENTRIC, Real(4))]
+    families = [
+        f for f in nearest_points(segment(0, 0, -1, 0), circle(0, 0, 2)) if isinstance(f, NearestFamily)
+    ]
+    assert [(f.kind, f.distance_sq) for f in families] == [(NearestFamilyKind.CONCENTRIC, Real(4))]
     assert families[0].first == Point(0, 0)
 
 

@@ -25,7 +25,7 @@ from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import fmpq
 from exactacq.output.figures.draw import AWAY, figure, pair, save, save_pair, svg
-from exactacq.output.figures.sweep import Sweep, component_region
+from exactacq.output.figures.sweep import SweptTerrain, component_region
 from exactacq.output.strokes import Region, Stroke
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle, Polygon, Terrain
@@ -284,7 +284,7 @@ def area(region: Region) -> float:
 
 def test_components_are_closed_along_the_border(crossing: Run) -> None:
     """The half disc, the two tines of a fork whose handle lies outside, and what lies inside as it is."""
-    sweep = Sweep.of(crossing)
+    sweep = SweptTerrain.of(crossing)
     assert sweep is not None
     assert [body.label for body in crossing.obstacles] == ["O1", "O2", "fork a", "fork b"]
     found = [area(region) for region in sweep.regions]

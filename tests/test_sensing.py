@@ -440,7 +440,7 @@ def test_a_circle_s_start_alone_is_not_told_beside_its_end() -> None:
 def test_the_map_where_a_line_along_the_way_touches_another_circle() -> None:
     """At these events of a real part the robot, on one arc, sees another one along their common tangent.
 
-    Its point there came in two forms, from the view and from a glance, whose equality took minutes to prove.
+    Its point there came in two forms, from the view and from a family, whose equality took minutes to prove.
     """
     run = xa.sightseer(xa.load("plate"))
     for number in (13, 21, 24, 26):

@@ -1,7 +1,7 @@
-"""Sides of beams: what floats call left or right is so exactly, and what is well apart is called so.
+"""Sides of line families: what floats call left or right is so exactly, and what is well apart is called so.
 
-The law is put to beams of tiny and of huge lengths, far from the origin, and to places beside them, near and
-far. The exact side is a cross product of exact numbers, at sampled lines of the beam.
+The law is put to families of tiny and of huge lengths, far from the origin, and to places beside them, near
+and far. The exact side is a cross product of exact numbers, at sampled lines of the family.
 """
 
 from __future__ import annotations

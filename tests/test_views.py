@@ -16,7 +16,7 @@ from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.points import Location, distance_sq
 from exactacq.numbers.rationals import rational
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.visibility import front_faces as facets
+from exactacq.visibility import front_faces as faces
 from exactacq.visibility.visible_boundary import seen_from
 
 Q = Fraction
@@ -148,7 +148,7 @@ def test_floats_only_prune(
     for eye in eyes(scene, rng):
         fast = seen_from(table, eye, rational(4))
         with monkeypatch.context() as patch:
-            patch.setattr(facets, "SLACK", 2.0**52)
+            patch.setattr(faces, "SLACK", 2.0**52)
             slow = seen_from(table, eye, rational(4))
         assert fast.keys() == slow.keys()
         for e, pieces in fast.items():

@@ -10,7 +10,7 @@ from flint import fmpq
 
 from exactacq import Circle, Outline, Point, Polygon, Scene, visibility_graph
 from exactacq.geometry.curves import Segment
-from exactacq.geometry.intersections import Family, nearest_points
+from exactacq.geometry.intersections import NearestFamily, nearest_points
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
@@ -71,11 +71,11 @@ def test_the_isolated_segment_of_a_family_is_found() -> None:
         for a in table.curves[:4]
         for b in table.curves[4:8]
         for found in nearest_points(a, b)
-        if isinstance(found, Family) and found.distance_sq == 36
+        if isinstance(found, NearestFamily) and found.distance_sq == 36
     ]
     pieces = list(free_pieces(table, family))
     isolated = [(p.start.x, p.end.x) for p in pieces if isinstance(p, Chord)]
-    strips = sorted(sorted((p.first.start.x, p.first.end.x)) for p in pieces if isinstance(p, Family))
+    strips = sorted(sorted((p.first.start.x, p.first.end.x)) for p in pieces if isinstance(p, NearestFamily))
     assert isolated == [(0, 0)]
     assert strips == [[-10, -9], [15, 20]]
 

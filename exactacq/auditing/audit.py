@@ -20,7 +20,7 @@ from exactacq.auditing.bounds import check_bounds, sightseer_values, spreader_va
 from exactacq.auditing.events import check_events, check_sights
 from exactacq.auditing.ground import Field, check_components
 from exactacq.auditing.knowledge import Knowledge
-from exactacq.auditing.measure import Body
+from exactacq.auditing.measure import AuditedBody
 from exactacq.auditing.path import check_continuity, check_length, check_pieces
 from exactacq.auditing.seed_spreader import MOVES as SWEEP_MOVES
 from exactacq.auditing.seed_spreader import Replay
@@ -73,14 +73,14 @@ def audit(run: Run, *, samples: int = 64, seed: int = 0) -> None:
     knowledge.check_in_sight(samples)
 
 
-def _bodies(run: Run, world: World) -> Iterator[Body]:
+def _bodies(run: Run, world: World) -> Iterator[AuditedBody]:
     """What the numbers of obstacles in a run mean: obstacles of the scene, or shores of components."""
     for k, obstacle in enumerate(run.obstacles):
         body: Any = obstacle
         owner = k if run.ground is None else body.obstacle.index
         first, parts = world.first[owner], range(len(body.edges))
         edges = parts if run.ground is None else [part.edge for part in body.shore]
-        yield Body(k, owner, body.edges, [first + e for e in edges], body.closed)
+        yield AuditedBody(k, owner, body.edges, [first + e for e in edges], body.closed)
 
 
 def _check_accounts(run: Run) -> None:

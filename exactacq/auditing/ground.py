@@ -38,7 +38,7 @@ class Stretch(NamedTuple):
     end: Point
 
 
-class Mark(NamedTuple):
+class CrossingPoint(NamedTuple):
     """An end of a blocked stretch of the M-line: on which straight piece, and at which length from S.
 
     ``owner`` is the component that blocks, None for one that cannot be reached; ``ashore`` if the place is
@@ -82,9 +82,9 @@ class Field:
         return self.bases[piece] + abs(offset.x) + abs(offset.y)
 
     @cached_property
-    def marks(self) -> list[Mark]:
+    def marks(self) -> list[CrossingPoint]:
         """All ends of blocked stretches, in the order of the M-line; T is none if it is blocked itself."""
-        found: list[Mark] = []
+        found: list[CrossingPoint] = []
         for k, way in enumerate(self.pieces):
             for stretch in self.stretches(way):
                 obstacle = self.world.obstacles[stretch.obstacle]
@@ -99,11 +99,13 @@ class Field:
                 found.pop()
         return found
 
-    def _mark(self, piece: int, obstacle: int, point: Point, ends: bool) -> Mark:
+    def _mark(self, piece: int, obstacle: int, point: Point, ends: bool) -> CrossingPoint:
         at = self.position(piece, point)
         assert at is not None
         owner = self.owner(obstacle, point)
-        return Mark(piece, at, point, ends, owner, owner is not None and self.is_ashore(owner, point))
+        return CrossingPoint(
+            piece, at, point, ends, owner, owner is not None and self.is_ashore(owner, point)
+        )
 
     @cached_property
     def crossing(self) -> frozenset[int]:
@@ -276,7 +278,7 @@ def _runs_into(edge: Curve, point: Point, inward: Sequence[Point]) -> bool:
 # -- components ------------------------------------------------------------------------------------
 
 
-class _Part(NamedTuple):
+class _EdgePart(NamedTuple):
     """A part of an edge of the scene in the open terrain, between two lengths along the edge."""
 
     obstacle: int
@@ -287,7 +289,7 @@ class _Part(NamedTuple):
     end: Point
 
 
-class _Claim(NamedTuple):
+class _ClaimedComponent(NamedTuple):
     """A part of an edge of the scene that a component claims, as its shore or hidden."""
 
     component: int
@@ -296,7 +298,7 @@ class _Claim(NamedTuple):
     low: arb
     high: arb
 
-    def holds(self, part: _Part) -> bool:
+    def holds(self, part: _EdgePart) -> bool:
         """Whether the middle of a part is claimed."""
         with ctx.workprec(BITS):
             middle = (part.low + part.high) / 2
@@ -335,7 +337,7 @@ def check_components(run: SeedSpreaderRun, field: Field) -> None:
         raise AuditError(f"obstacles out of reach are {list(run.unreached)}, not {lost}")
 
 
-def _claims(run: SeedSpreaderRun, field: Field) -> Iterator[_Claim]:
+def _claims(run: SeedSpreaderRun, field: Field) -> Iterator[_ClaimedComponent]:
     """What components claim; each is a part of an edge of their obstacle."""
     obstacles, before = field.world.obstacles, 0
     for k, body in enumerate(run.obstacles):
@@ -351,10 +353,12 @@ def _claims(run: SeedSpreaderRun, field: Field) -> Iterator[_Claim]:
                 low, size = _length_to(edges[part.edge], part.curve.start), ball_sum([part.curve])
                 with ctx.workprec(BITS):
                     high = low + size
-                yield _Claim(k, shore is component.shore, field.world.first[i] + part.edge, low, high)
+                yield _ClaimedComponent(
+                    k, shore is component.shore, field.world.first[i] + part.edge, low, high
+                )
 
 
-def _check_component(field: Field, k: int, component: Any, parts: Sequence[_Part]) -> None:
+def _check_component(field: Field, k: int, component: Any, parts: Sequence[_EdgePart]) -> None:
     """A component has the length of its parts, and its shore is a loop, or leads from border to border."""
     claimed = ball_sum([part.curve for shore in (component.shore, *component.hidden) for part in shore])
     with ctx.workprec(BITS):
@@ -378,7 +382,7 @@ def _length_to(edge: Curve, point: Point) -> arb:
     return refined(lambda bits: ball_to(edge, point, bits))
 
 
-def _parts(field: Field, obstacle: Obstacle) -> Iterator[_Part]:
+def _parts(field: Field, obstacle: Obstacle) -> Iterator[_EdgePart]:
     """The parts of an obstacle's boundary in the open terrain, cut where they meet lines of the border."""
     for e in field.world.edges_of(obstacle.index):
         edge = field.world.edges[e]
@@ -391,7 +395,7 @@ def _parts(field: Field, obstacle: Obstacle) -> Iterator[_Part]:
             with ctx.workprec(BITS):
                 inside = field.is_well_inside(*_point_after(edge, (low + high) / 2))
             if inside:
-                yield _Part(obstacle.index, e, low, high, start, end)
+                yield _EdgePart(obstacle.index, e, low, high, start, end)
 
 
 def _order(a: tuple[arb, Point], b: tuple[arb, Point]) -> int:
@@ -411,7 +415,7 @@ def _point_after(edge: Curve, length: arb) -> tuple[arb, arb]:
     return u + (x - u) * cosine - (y - v) * sine, v + (x - u) * sine + (y - v) * cosine
 
 
-def _joined(field: Field, parts: Sequence[_Part]) -> tuple[UnionFind, UnionFind]:
+def _joined(field: Field, parts: Sequence[_EdgePart]) -> tuple[UnionFind, UnionFind]:
     """Parts by their numbers, and "S": what closed free space joins, and what the obstacles join.
 
     A boundary that touches the border goes on there; so does the free border on its sides.
@@ -436,7 +440,7 @@ def _joined(field: Field, parts: Sequence[_Part]) -> tuple[UnionFind, UnionFind]
     return free, solid
 
 
-def _west_of(field: Field, parts: Sequence[_Part], obstacle: Obstacle) -> Hashable:
+def _west_of(field: Field, parts: Sequence[_EdgePart], obstacle: Obstacle) -> Hashable:
     """What lies just west of an obstacle's westernmost point: a part, or an interval of the border."""
     points = [edge.start for edge in obstacle.edges]
     for edge in obstacle.edges:

@@ -10,7 +10,7 @@ from flint import arb, ctx, fmpq
 
 from exactacq.auditing.measure import (
     BITS,
-    Body,
+    AuditedBody,
     Tracks,
     agrees,
     ball_of,
@@ -23,7 +23,7 @@ from exactacq.auditing.measure import (
     refined,
     same,
 )
-from exactacq.auditing.visibility import Lookout, World, point_at, point_near, visible
+from exactacq.auditing.visibility import Viewpoints, World, point_at, point_near, visible
 from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
@@ -37,7 +37,7 @@ ASIDE = fmpq(1, 10**11)
 """How far beside the ends of known parts targets are taken: an end that is farther off is found."""
 
 
-class _Moment(NamedTuple):
+class _Instant(NamedTuple):
     """A name for messages, whole pieces so far, the place if it is inside the next one, and the map there."""
 
     name: str
@@ -49,20 +49,22 @@ class _Moment(NamedTuple):
 class Knowledge:
     """The maps of a run, checked in themselves and against what the path sees."""
 
-    def __init__(self, run: Run, world: World, bodies: Sequence[Body], tracks: Tracks, rng: Random) -> None:
+    def __init__(
+        self, run: Run, world: World, bodies: Sequence[AuditedBody], tracks: Tracks, rng: Random
+    ) -> None:
         self.run, self.world, self.tracks, self.rng = run, world, tracks, rng
         self.bodies = bodies
         self.on = [None if track is None else track.edge for track in tracks]
-        self.lookout = Lookout(world, run.radius, [piece.curve for piece in run.path], self.on)
+        self.lookout = Viewpoints(world, run.radius, [piece.curve for piece in run.path], self.on)
         self.events = {
             (e.kind, e.obstacle): e for e in run.events if e.kind in (EventKind.SIGHT, EventKind.ACQUIRE)
         }
         chosen = sorted(rng.sample(range(len(run.events)), min(MOMENTS, len(run.events))))
         self.moments = [
-            _Moment(f"the map at {event_name(run, event)}", event.after, _inside(event), run.map_at(event))
+            _Instant(f"the map at {event_name(run, event)}", event.after, _inside(event), run.map_at(event))
             for event in (run.events[k] for k in chosen)
         ]
-        self.moments.append(_Moment("the final map", len(run.path), None, run.map))
+        self.moments.append(_Instant("the final map", len(run.path), None, run.map))
 
     # -- maps in themselves ------------------------------------------------------------------------
 
@@ -79,7 +81,7 @@ class Knowledge:
             if sorted(chart.seen) != sorted((*chart.acquired, *chart.incomplete)):
                 raise AuditError(f"{name}: seen obstacles are {list(chart.seen)}")
 
-    def _check_parts(self, name: str, chart: Any, body: Body) -> str:
+    def _check_parts(self, name: str, chart: Any, body: AuditedBody) -> str:
         """Parts of one obstacle are on their edges, in order and apart; returns what they make of it."""
         total, before = arb(0), (-1, arb(0))
         i, parts = body.number, chart.known(body.number)
@@ -161,7 +163,7 @@ class Knowledge:
             return False
         curve = self.run.path[after].curve
         part = curve.part(curve.start, inside)
-        return Lookout(self.world, self.run.radius, [part], [self.on[after]]).first(target) is not None
+        return Viewpoints(self.world, self.run.radius, [part], [self.on[after]]).first(target) is not None
 
     def _targets(self, samples: int) -> Iterator[tuple[int, Point]]:
         """Obstacles with rational points of their boundaries: anywhere, and beside ends of known parts."""
@@ -188,7 +190,7 @@ class Knowledge:
 
     def check_in_sight(self, samples: int) -> None:
         """At sampled places between events, obstacles are in sight if and only if the events say so."""
-        lookouts: dict[int, Lookout] = {}
+        lookouts: dict[int, Viewpoints] = {}
         for _ in range(samples):
             place = self._anywhere()
             if place is None:
@@ -198,7 +200,7 @@ class Knowledge:
             for i in self.rng.sample(sorted(states), min(3, len(states))):
                 body = self.bodies[i]
                 lookout = lookouts.setdefault(
-                    i, Lookout(self.world, self.run.radius, body.curves, body.edges)
+                    i, Viewpoints(self.world, self.run.radius, body.curves, body.edges)
                 )
                 if (lookout.first(point) is not None) != states[i]:
                     claim = "in sight" if states[i] else "out of sight"

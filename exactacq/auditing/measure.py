@@ -33,7 +33,7 @@ class Track(NamedTuple):
 Tracks: TypeAlias = "list[Track | None]"
 
 
-class Body(NamedTuple):
+class AuditedBody(NamedTuple):
     """A boundary that the robot can walk, number ``number`` of a run: ``curves``, a loop if ``closed``.
 
     ``edges`` are the numbers of the scene's edges on which the curves lie, all of obstacle ``obstacle``.

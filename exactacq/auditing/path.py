@@ -5,7 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from exactacq.auditing.ground import Field
-from exactacq.auditing.measure import DIGITS, Body, Track, Tracks, agrees, ball_sum, is_part, place_text, same
+from exactacq.auditing.measure import (
+    DIGITS,
+    AuditedBody,
+    Track,
+    Tracks,
+    agrees,
+    ball_sum,
+    is_part,
+    place_text,
+    same,
+)
 from exactacq.auditing.visibility import World
 from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Curve
@@ -23,7 +33,7 @@ def check_continuity(run: Run) -> None:
         here = piece.end
 
 
-def check_pieces(run: Run, world: World, bodies: Sequence[Body], field: Field | None) -> Tracks:
+def check_pieces(run: Run, world: World, bodies: Sequence[AuditedBody], field: Field | None) -> Tracks:
     """Straight pieces stay out of interiors, boundary pieces keep to one edge, which is returned.
 
     Of a sweep both stay in the terrain: boundaries are shores, and it is enough that ends do.
@@ -59,7 +69,7 @@ def _check_straight(world: World, k: int, curve: Curve) -> None:
         raise AuditError(f"piece {k} passes through the interior of obstacle {inside} at {place_text(point)}")
 
 
-def _track(body: Body, curve: Curve) -> Track | None:
+def _track(body: AuditedBody, curve: Curve) -> Track | None:
     for forward in (True, False):
         walked = curve if forward else curve.reversed()
         for number, edge in zip(body.edges, body.curves, strict=True):

@@ -15,11 +15,11 @@ from typing import Any
 
 from flint import arb, ctx, fmpq
 
-from exactacq.auditing.ground import Field, Mark, Stretch
+from exactacq.auditing.ground import CrossingPoint, Field, Stretch
 from exactacq.auditing.knowledge import MOMENTS, is_whole, point_on
 from exactacq.auditing.measure import (
     BITS,
-    Body,
+    AuditedBody,
     Tracks,
     ball_sum,
     event_name,
@@ -28,7 +28,7 @@ from exactacq.auditing.measure import (
     rational_on,
     same,
 )
-from exactacq.auditing.visibility import Lookout, visible
+from exactacq.auditing.visibility import Viewpoints, visible
 from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import contacts, nearest_points
@@ -51,7 +51,7 @@ class Replay:
     """
 
     def __init__(
-        self, run: SeedSpreaderRun, field: Field, bodies: Sequence[Body], tracks: Tracks, rng: Random
+        self, run: SeedSpreaderRun, field: Field, bodies: Sequence[AuditedBody], tracks: Tracks, rng: Random
     ) -> None:
         self.run, self.field, self.bodies, self.tracks, self.rng = run, field, bodies, tracks, rng
         self.moves = [event for event in run.events if event.kind in MOVES]
@@ -252,7 +252,7 @@ class Replay:
 
     # -- diversions --------------------------------------------------------------------------------
 
-    def _divert(self, leap: Mark | None) -> None:
+    def _divert(self, leap: CrossingPoint | None) -> None:
         """Out to an obstacle, around it, and back; *leap* is where another one that was hit will be left."""
         event = self.upcoming
         if self.diverted == len(self.run.diversions):
@@ -353,7 +353,7 @@ class Replay:
         if self.here.rational is None:
             return None
         body = self.bodies[obstacle]
-        lookout = Lookout(self.field.world, self.run.radius, body.curves, body.edges)
+        lookout = Viewpoints(self.field.world, self.run.radius, body.curves, body.edges)
         return lookout.first(self.here) is not None
 
     # -- what is about to be lost ------------------------------------------------------------------
@@ -400,7 +400,7 @@ class Replay:
         square = self.run.radius**2
         return min(_distance_sq(curve, rest).compare(square) for curve in self._known(chart, obstacle))
 
-    def _check_reason(self, event: Event, chart: Any, leap: Mark | None) -> None:
+    def _check_reason(self, event: Event, chart: Any, leap: CrossingPoint | None) -> None:
         """An obstacle is about to be lost here, or when the robot has gone around another one to *leap*."""
         assert event.obstacle is not None
         i, reason, name = event.obstacle, event.reason, self.name(event)
@@ -478,7 +478,7 @@ class Replay:
                 if event.obstacle in self._at_stake(self.run.map_at(event)):
                     raise AuditError(f"{self.name(event)} is not followed by a diversion")
 
-    def _check_hop(self, leave: Mark) -> None:
+    def _check_hop(self, leave: CrossingPoint) -> None:
         """Nothing that is at stake is lost between a hit and the leave point."""
         if self._line is None:
             return

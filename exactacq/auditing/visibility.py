@@ -120,7 +120,7 @@ class World:
         return [e for e, box in zip(near, inside, strict=True) if box and self.edges[e].passes(point)]
 
 
-class Ray:
+class Direction:
     """A direction: a float unit vector within 2^-50 of it, and the exact vector, made on demand.
 
     ``aim`` is the number of the point that is one such vector away, if it has one.
@@ -154,7 +154,7 @@ class Hits(NamedTuple):
     far: Bools
 
 
-class Lookout:
+class Viewpoints:
     """Curves in free space, in order, of which `first` finds the first that sees a point within the radius.
 
     ``on`` names for each curve the scene's edge on which it lies, or None. Curves must not enter interiors.
@@ -245,7 +245,7 @@ def _within(boxes: Floats, point: Point, radius: fmpq) -> Ints:
 class _View:
     """All rays from q, and how they meet the edges and the curves within range."""
 
-    lookout: Lookout
+    lookout: Viewpoints
     q: Point
     near: Ints
 
@@ -263,9 +263,9 @@ class _View:
 
     # -- rays --------------------------------------------------------------------------------------
 
-    def _critical(self) -> list[Ray]:
+    def _critical(self) -> list[Direction]:
         """The critical rays, and the east so that there is at least one."""
-        rays = [Ray((1.0, 0.0), lambda: Point(1, 0))]
+        rays = [Direction((1.0, 0.0), lambda: Point(1, 0))]
         for number, offset in self.offsets.items():
             rays += self._ray_to(self.lookout.world.points[number], offset, number)
         for point in self._range_crossings():
@@ -275,10 +275,10 @@ class _View:
             rays += [_ray(vector) for vector in _tangents(self.q, arc)]
         return rays
 
-    def _ray_to(self, point: Point, offset: tuple[float, float], aim: int | None = None) -> list[Ray]:
+    def _ray_to(self, point: Point, offset: tuple[float, float], aim: int | None = None) -> list[Direction]:
         """The ray to a point; none to q itself."""
         unit = _unit(*offset)
-        return [] if unit is None else [Ray(unit, lambda: point - self.q, aim)]
+        return [] if unit is None else [Direction(unit, lambda: point - self.q, aim)]
 
     def _range_crossings(self) -> Iterator[Point]:
         q, radius = self.q, self.lookout.radius
@@ -419,10 +419,10 @@ def _unit(x: float, y: float) -> tuple[float, float] | None:
     return (x / size, y / size) if size else None
 
 
-def _ray(vector: Point) -> Ray:
+def _ray(vector: Point) -> Direction:
     unit = _unit(_rounded(vector.x), _rounded(vector.y))
     assert unit is not None
-    return Ray(unit, lambda: vector)
+    return Direction(unit, lambda: vector)
 
 
 def _vector(arc: Arc) -> tuple[float, float]:
@@ -446,9 +446,9 @@ def _tangents(q: Point, arc: Arc) -> list[Point]:
     return [along + across, along - across]
 
 
-def _with_cells(critical: Iterable[Ray]) -> list[Ray]:
+def _with_cells(critical: Iterable[Direction]) -> list[Direction]:
     """The critical rays, counterclockwise, equal ones once, each followed by one of the cell behind it."""
-    ordered: list[Ray] = []
+    ordered: list[Direction] = []
     for ray in sorted(critical, key=cmp_to_key(_compare)):
         if not ordered or _compare(ordered[-1], ray):
             ordered.append(ray)
@@ -459,24 +459,24 @@ def _with_cells(critical: Iterable[Ray]) -> list[Ray]:
     return found
 
 
-def _compare(a: Ray, b: Ray) -> int:
+def _compare(a: Direction, b: Direction) -> int:
     """Order by the angle in (-pi, pi]: rounding keeps the signs of coordinates, so none leaves that range."""
     if abs(a.angle - b.angle) > APART:
         return -1 if a.angle < b.angle else 1
     return -a.exact().cross(b.exact()).sign()
 
 
-def _middle(angle: float) -> Ray:
+def _middle(angle: float) -> Direction:
     """A ray within a cell; the float vector is the exact one."""
     unit = cos(angle), sin(angle)
-    return Ray(unit, lambda: Point(*unit))
+    return Direction(unit, lambda: Point(*unit))
 
 
-def _halfway(a: Ray, b: Ray) -> Ray:
+def _halfway(a: Direction, b: Direction) -> Direction:
     """A ray between two that floats cannot tell apart: the sum of vectors of about equal length."""
     u, v = a.exact(), b.exact()
     scale = rational(hypot(*u.xy) / hypot(*v.xy))
-    return Ray(a.unit, lambda: u + v * scale)
+    return Direction(a.unit, lambda: u + v * scale)
 
 
 def _cross(a: Floats, b: Floats) -> Floats:

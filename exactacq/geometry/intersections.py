@@ -62,7 +62,7 @@ class Contact:
     end: Point
 
 
-class FamilyKind(Enum):
+class NearestFamilyKind(Enum):
     """Why two curves keep their distance along a whole piece."""
 
     PARALLEL = "parallel"
@@ -83,7 +83,7 @@ class Nearest:
 
 
 @dataclass(frozen=True)
-class Family:
+class NearestFamily:
     """A continuum of nearest pairs: points of ``first`` (part of one curve) and ``second`` (of the other).
 
     Starts correspond to starts and ends to ends, so ``second`` may run against its curve. PARALLEL:
@@ -91,7 +91,7 @@ class Family:
     centre; or ``first`` or ``second`` is the centre itself, which corresponds to every point of the other.
     """
 
-    kind: FamilyKind
+    kind: NearestFamilyKind
     first: Curve | Point
     second: Curve | Point
 
@@ -118,7 +118,7 @@ def spans(arc: Arc, direction: Vector, strict: bool = False) -> bool:
 
 
 @dataclass(frozen=True, slots=True)
-class _Hit:
+class _LineHit:
     """Where a line meets a curve: the parameter on the line, the curve's end if it is one, tangency."""
 
     parameter: Any
@@ -136,25 +136,25 @@ def line_contacts(origin: Point, direction: Point, curve: Curve) -> list[Real]:
     return sorted(Real(hit.parameter) for hit in hits)
 
 
-def _line_hits(origin: Vector, direction: Vector, curve: Curve) -> list[_Hit]:
+def _line_hits(origin: Vector, direction: Vector, curve: Curve) -> list[_LineHit]:
     if isinstance(curve, Segment):
         return _line_segment(origin, direction, curve)
     return _line_arc(origin, direction, curve)
 
 
-def _line_segment(origin: Vector, direction: Vector, segment: Segment) -> list[_Hit]:
+def _line_segment(origin: Vector, direction: Vector, segment: Segment) -> list[_LineHit]:
     start, end = minus(raw(segment.start), origin), minus(raw(segment.end), origin)
     s, e = cross(direction, start), cross(direction, end)
     before, after = sign(s), sign(e)
     if before * after > 0:
         return []
     if before and after:
-        return [_Hit(cross(start, end) / (e - s))]
-    hits = [] if before else [_Hit(ratio(start, direction), segment.start)]
-    return hits if after else [*hits, _Hit(ratio(end, direction), segment.end)]
+        return [_LineHit(cross(start, end) / (e - s))]
+    hits = [] if before else [_LineHit(ratio(start, direction), segment.start)]
+    return hits if after else [*hits, _LineHit(ratio(end, direction), segment.end)]
 
 
-def _line_arc(origin: Vector, direction: Vector, arc: Arc) -> list[_Hit]:
+def _line_arc(origin: Vector, direction: Vector, arc: Arc) -> list[_LineHit]:
     """Roots of A l^2 + 2 B l + C with A = |d|^2, B = w.d, where w = origin - centre.
 
     The discriminant is A r^2 - (d x w)^2. If an end of the arc lies on the line it is one root and -2B/A
@@ -172,16 +172,16 @@ def _line_arc(origin: Vector, direction: Vector, arc: Arc) -> list[_Hit]:
     ends = [] if arc.full else [(p, minus(raw(p), origin)) for p in (arc.start, arc.end)]
     on_line = [(p, v) for p, v in ends if sign(cross(direction, v)) == 0]
     if len(on_line) == 2 and count == 2:
-        return [_Hit(ratio(v, direction), p) for p, v in on_line]
+        return [_LineHit(ratio(v, direction), p) for p, v in on_line]
     if on_line:
         p, v = on_line[0]
-        first = _Hit(ratio(v, direction), p, tangent=count == 1)
+        first = _LineHit(ratio(v, direction), p, tangent=count == 1)
         other = 2 * middle - first.parameter
-        return [first, _Hit(other)] if count == 2 and _spans_at(arc, w, direction, other) else [first]
+        return [first, _LineHit(other)] if count == 2 and _spans_at(arc, w, direction, other) else [first]
     if count == 1:
-        return [_Hit(middle, tangent=True)] if _spans_at(arc, w, direction, middle) else []
+        return [_LineHit(middle, tangent=True)] if _spans_at(arc, w, direction, middle) else []
     half = Real(discriminant).sqrt() / square
-    return [_Hit(root) for root in (middle - half, middle + half) if _spans_at(arc, w, direction, root)]
+    return [_LineHit(root) for root in (middle - half, middle + half) if _spans_at(arc, w, direction, root)]
 
 
 def _spans_at(arc: Arc, w: Vector, direction: Vector, parameter: Any) -> bool:
@@ -424,21 +424,21 @@ def locate(edges: Sequence[Curve], point: Point, ccw: bool | None = None) -> Loc
 # -- nearest points --------------------------------------------------------------------------------
 
 
-def nearest_points(a: Curve, b: Curve) -> list[Nearest | Family]:
+def nearest_points(a: Curve, b: Curve) -> list[Nearest | NearestFamily]:
     """All local minima of the distance between two closed curves, a function on a x b, and perhaps more.
 
     Pairs of ends are kept if no first-order move along the curves brings them nearer; an end and an inner
     point if the latter is the foot of the end's perpendicular (on an arc: on the ray from the centre through
     the end); two inner points if their line is the common normal. Of the normals of two circles only one
     gives a minimum, none if the circles cross: their other three are maxima or saddles. Whole pieces
-    at one distance come as a `Family`, which stands for the pairs in it. All decisions for rational curves
-    are rational.
+    at one distance come as a `NearestFamily`, which stands for the pairs in it. All decisions for rational
+    curves are rational.
     """
     if isinstance(a, Segment) and isinstance(b, Segment):
         family = _parallel(a, b)
         if family is not None:
             return [family]
-    found: list[Nearest | Family] = []
+    found: list[Nearest | NearestFamily] = []
     ends, others = _ends(a), _ends(b)
     for p, into in ends:
         at_p = raw(p)
@@ -452,10 +452,10 @@ def nearest_points(a: Curve, b: Curve) -> list[Nearest | Family]:
     return found + _inner_pairs(a, b)
 
 
-def _swapped(pair: Nearest | Family) -> Nearest | Family:
+def _swapped(pair: Nearest | NearestFamily) -> Nearest | NearestFamily:
     if isinstance(pair, Nearest):
         return Nearest(pair.end, pair.start)
-    return Family(pair.kind, pair.second, pair.first)
+    return NearestFamily(pair.kind, pair.second, pair.first)
 
 
 def _ends(curve: Curve) -> list[tuple[Point, Vector]]:
@@ -470,7 +470,7 @@ def _ends(curve: Curve) -> list[tuple[Point, Vector]]:
     return [(curve.start, (-y * flip, x * flip)), (curve.end, (v * flip, -u * flip))]
 
 
-def _from_end(p: Point, into: Vector, curve: Curve) -> list[Nearest | Family]:
+def _from_end(p: Point, into: Vector, curve: Curve) -> list[Nearest | NearestFamily]:
     """The end p of one curve against the inner points of the other."""
     if isinstance(curve, Segment):
         start = raw(curve.start)
@@ -486,7 +486,7 @@ def _from_end(p: Point, into: Vector, curve: Curve) -> list[Nearest | Family]:
     ray = minus(raw(p), center)
     square = dot(ray, ray)
     if sign(square) == 0:
-        return [Family(FamilyKind.CONCENTRIC, p, curve)]
+        return [NearestFamily(NearestFamilyKind.CONCENTRIC, p, curve)]
     # p - q is a multiple of the ray: positive outside the circle, negative inside, 0 on it.
     if sign(square - curve.radius_sq) * sign(dot(ray, into)) < 0 or not spans(curve, ray, strict=True):
         return []
@@ -500,7 +500,7 @@ def _projected(arc: Arc, point: Point) -> Point:
     return advance(center, ray, square_root(arc.radius_sq / dot(ray, ray)))
 
 
-def _parallel(a: Segment, b: Segment) -> Family | None:
+def _parallel(a: Segment, b: Segment) -> NearestFamily | None:
     """The pieces of two parallel segments that face each other, if they are longer than a point."""
     along = minus(raw(a.end), raw(a.start))
     heading, other = _heading(along), _heading(minus(raw(b.end), raw(b.start)))
@@ -523,7 +523,7 @@ def _parallel(a: Segment, b: Segment) -> Family | None:
         else:
             ends.append((advance(raw(q), offset, -1) if side else p, q))
     (p, first), (q, last) = ends
-    return Family(FamilyKind.PARALLEL, a.part(p, q), b.part(first, last))
+    return NearestFamily(NearestFamilyKind.PARALLEL, a.part(p, q), b.part(first, last))
 
 
 def _heading(vector: Vector) -> Vector:
@@ -540,7 +540,7 @@ def _heading(vector: Vector) -> Vector:
     return (slope * unit, unit) if steep else (unit, slope * unit)
 
 
-def _inner_pairs(a: Curve, b: Curve) -> list[Nearest | Family]:
+def _inner_pairs(a: Curve, b: Curve) -> list[Nearest | NearestFamily]:
     """Minima between inner points of both curves; segments have none that `_parallel` does not find."""
     if isinstance(a, Segment):
         return [] if isinstance(b, Segment) else _segment_to_arc(a, b)
@@ -566,7 +566,7 @@ def _inner_pairs(a: Curve, b: Curve) -> list[Nearest | Family]:
     return [Nearest(*points)]
 
 
-def _segment_to_arc(segment: Segment, arc: Arc) -> list[Nearest | Family]:
+def _segment_to_arc(segment: Segment, arc: Arc) -> list[Nearest | NearestFamily]:
     """The foot of the centre on the segment, if not within the circle, and the arc's point next to it."""
     start, center = raw(segment.start), raw(arc.center)
     along = minus(raw(segment.end), start)
@@ -580,9 +580,9 @@ def _segment_to_arc(segment: Segment, arc: Arc) -> list[Nearest | Family]:
     return [Nearest(foot, _projected(arc, foot))]
 
 
-def _concentric(a: Arc, b: Arc) -> list[Nearest | Family]:
+def _concentric(a: Arc, b: Arc) -> list[Nearest | NearestFamily]:
     """The pieces of two concentric arcs that span the same angles."""
-    found: list[Nearest | Family] = []
+    found: list[Nearest | NearestFamily] = []
     for start, end in _common(a, b):
         if start is end and not (a.full and b.full):
             continue
@@ -591,5 +591,5 @@ def _concentric(a: Arc, b: Arc) -> list[Nearest | Family]:
             own = [p if p in (arc.start, arc.end) else _projected(arc, p) for p in (start, end)]
             sense = arc if arc.ccw == a.ccw else arc.reversed()
             parts.append(sense if arc.full and own[0] is own[1] else sense.part(own[0], own[1]))
-        found.append(Family(FamilyKind.CONCENTRIC, parts[0], parts[1]))
+        found.append(NearestFamily(NearestFamilyKind.CONCENTRIC, parts[0], parts[1]))
     return found

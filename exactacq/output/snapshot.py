@@ -14,7 +14,7 @@ from exactacq.visibility.isovist import Isovist
 
 
 @dataclass(frozen=True)
-class Moment:
+class Snapshot:
     """How many whole pieces were walked, all of the way (the last perhaps in part), the map and the view."""
 
     count: int
@@ -25,7 +25,7 @@ class Moment:
     view: Isovist
 
     @classmethod
-    def of(cls, run: Run, at: Event | object) -> Moment:
+    def of(cls, run: Run, at: Event | object) -> Snapshot:
         """The moment of an event, or after a length of the path (see `Run.near`)."""
         if not isinstance(at, Event):
             at = run.near(at)

@@ -99,7 +99,7 @@ class Ground:
         for obstacle in obstacles:
             for shore, closed in _shores(obstacle, terrain):
                 (loops if closed else arcs).append((obstacle, shore))
-        border = _Border(terrain, [shore for _, shore in arcs])
+        border = _BorderCircle(terrain, [shore for _, shore in arcs])
         walked = set(border.reached)
         found: list[tuple[Obstacle, Shore, tuple[Shore, ...], bool, bool]]
         found = [(obstacle, shore, (), True, border.surrounds(shore)) for obstacle, shore in loops]
@@ -238,7 +238,7 @@ def _where(point: Point, terrain: Terrain) -> _Where:
     return _Where(min(sides_of))
 
 
-class _Border:
+class _BorderCircle:
     """The border as a circle from the SW corner, counterclockwise, cut by the ends of arcs.
 
     From the end of an arc the border is blocked, counterclockwise, as far as the next start of one.

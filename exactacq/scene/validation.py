@@ -42,7 +42,7 @@ DISJOINT = "obstacles must be disjoint, also at their boundaries"
 WITHIN = "obstacles must lie strictly within the enclosure"
 
 
-class Loop(Protocol):
+class ValidatedLoop(Protocol):
     """What is validated: a shape and its boundary as curves, edge i from vertex i, in either sense."""
 
     @property
@@ -58,10 +58,10 @@ class Loop(Protocol):
 
 
 @dataclass
-class _Meeting:
+class _MeetingLoops:
     """Two loops (maybe one and the same) that meet at a place, and all their edges that do so there."""
 
-    loops: tuple[Loop, Loop]
+    loops: tuple[ValidatedLoop, ValidatedLoop]
     contact: Contact
     first: set[int] = field(default_factory=set)
     second: set[int] = field(default_factory=set)
@@ -72,7 +72,7 @@ class _Meeting:
         return self.loops[0].index, self.loops[1].index
 
     def order(self) -> tuple[object, ...]:
-        """Loop by loop, edge by edge."""
+        """ValidatedLoop by loop, edge by edge."""
         return *self.indices, sorted(self.first), sorted(self.second), self.contact.kind.value
 
     def __str__(self) -> str:
@@ -89,7 +89,7 @@ class _Meeting:
 
 
 def validate(
-    loops: Sequence[Loop], start: Point | None, radius: fmpq | None, terrain: Terrain | None
+    loops: Sequence[ValidatedLoop], start: Point | None, radius: fmpq | None, terrain: Terrain | None
 ) -> None:
     """Raise `InvalidScene` with every violation of the rules, if there is any.
 
@@ -111,7 +111,7 @@ def validate(
 
 
 def _violations(
-    loops: Sequence[Loop], start: Point | None, radius: fmpq | None, terrain: Terrain | None
+    loops: Sequence[ValidatedLoop], start: Point | None, radius: fmpq | None, terrain: Terrain | None
 ) -> Iterator[str]:
     yield from sensor_flaws(start, radius)
     sides = [] if terrain is None else [("width", terrain.width), ("height", terrain.height)]
@@ -146,7 +146,7 @@ def sensor_flaws(start: Point | None, radius: fmpq | None) -> Iterator[str]:
         yield f"start: it must not lie farther than {LIMIT_TEXT} from the axes"
 
 
-def _shape_flaws(loop: Loop) -> Iterator[str]:
+def _shape_flaws(loop: ValidatedLoop) -> Iterator[str]:
     if isinstance(loop.shape, Circle):
         if loop.shape.radius <= 0:
             yield f"{_label(loop)}: circle radius {_number(loop.shape.radius)}: must be positive"
@@ -162,7 +162,7 @@ def _shape_flaws(loop: Loop) -> Iterator[str]:
             yield f"{_label(loop)}: edge {i} has zero length at {_place(edge.start)}: leave out the vertex"
 
 
-def _size_flaws(loop: Loop) -> Iterator[str]:
+def _size_flaws(loop: ValidatedLoop) -> Iterator[str]:
     """What is too large or too small for the float images that prune; exact decisions have no such limit."""
     rule = f"sizes must lie between 1/{LIMIT_TEXT} and {LIMIT_TEXT}"
     for i, edge in enumerate(loop.edges):
@@ -191,7 +191,7 @@ def _is_point(edge: Curve) -> bool:
 class _Arrangement:
     """All edges of positive length in one list, loop after loop, with an index of their boxes."""
 
-    def __init__(self, loops: Sequence[tuple[Loop, list[tuple[int, Curve]]]]) -> None:
+    def __init__(self, loops: Sequence[tuple[ValidatedLoop, list[tuple[int, Curve]]]]) -> None:
         self.loops = [loop for loop, _ in loops]
         self.curves = [curve for _, edges in loops for _, curve in edges]
         self.numbers = [number for _, edges in loops for number, _ in edges]
@@ -208,7 +208,7 @@ class _Arrangement:
 
         A contact at the end of an overlap of the same loops is left out, as the overlap is reported.
         """
-        meetings: dict[object, _Meeting] = {}
+        meetings: dict[object, _MeetingLoops] = {}
         for i, j in self._candidates():
             a, b = self.owner[i], self.owner[j]
             shared = self._shared(i, j) if a == b else []
@@ -219,14 +219,14 @@ class _Arrangement:
                 self.met.add((a, b))
                 site = (a, b, contact.kind, contact.start.key, contact.end.key)
                 if site not in meetings:
-                    meetings[site] = _Meeting((self.loops[a], self.loops[b]), contact)
+                    meetings[site] = _MeetingLoops((self.loops[a], self.loops[b]), contact)
                 meetings[site].first.add(self.numbers[i])
                 meetings[site].second.add(self.numbers[j])
             if len(meetings) >= COUNTED:
                 break
         overlaps = [m for m in meetings.values() if m.contact.kind is ContactKind.OVERLAP]
         ends = {(*m.indices, p.key) for m in overlaps for p in (m.contact.start, m.contact.end)}
-        for meeting in sorted(meetings.values(), key=_Meeting.order):
+        for meeting in sorted(meetings.values(), key=_MeetingLoops.order):
             overlap = meeting.contact.kind is ContactKind.OVERLAP
             if overlap or (*meeting.indices, meeting.contact.start.key) not in ends:
                 yield str(meeting)
@@ -290,7 +290,7 @@ def _unions(boxes: Boxes, begin: list[int]) -> Boxes:
     return np.hstack([low, high])
 
 
-def _label(loop: Loop) -> str:
+def _label(loop: ValidatedLoop) -> str:
     label = "the enclosure" if loop.is_enclosure else f"obstacle {loop.index}"
     return f"{label} {loop.name!r}" if loop.name else label
 

@@ -1,7 +1,7 @@
 """Edges of the visibility complex: families of free lines that touch one corner, arc or edge.
 
-A family (a `Beam`) is a maximal set of neighbouring lines that all meet the same two edges, one behind
-the contact and one ahead of it. It contains three families of views (a `Strand` each): from the edge
+A family (a `LineFamily`) is a maximal set of neighbouring lines that all meet the same two edges, one behind
+the contact and one ahead of it. It contains three families of views (a `FreeViews` each): from the edge
 behind to the contact, from the contact to the edge ahead, and from the one edge to the other. Two kinds
 of single lines are added. One runs along a straight edge and shows that edge end on. The other is
 *pinched*: it touches obstacles on both sides and shows what no neighbouring line does.
@@ -22,7 +22,7 @@ from exactacq.geometry.points import Point, distance_sq
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.side_filter import Sides
-from exactacq.sensing.view_families import Glance, Ranges, Role, Side, Strand
+from exactacq.sensing.view_families import FreeViews, Ranges, Role, Side, ViewFamily
 from exactacq.visibility.chords import meet
 from exactacq.visibility.features import Feature, features, leaving
 from exactacq.visibility.free_segment import walk_line
@@ -32,7 +32,7 @@ from exactacq.visibility.rotational_sweep import Cell, Passed, Pencil, pencil
 
 
 @dataclass(slots=True)
-class Beam:
+class LineFamily:
     """A cell of a pencil with what its lines meet; None where nothing is met within reach.
 
     Normals have nothing ``behind`` and do not go back: they start at the contact, which lies on an edge. So
@@ -59,12 +59,12 @@ class Beam:
         return [side for side in (self.behind, self.contact, self.ahead) if side is not None]
 
     def bundles(self) -> tuple[Bundle, ...]:
-        """The glances of its strands; made at the first call, as most beams are never asked."""
+        """The families of its free views; made at the first call, as most line families are never asked."""
         if self._bundles is None:
-            self._bundles = tuple(Bundle(strand.sides, strand) for strand in self.strands())
+            self._bundles = tuple(Bundle(free_views.sides, free_views) for free_views in self.free_views())
         return self._bundles
 
-    def strands(self) -> Iterator[Strand]:
+    def free_views(self) -> Iterator[FreeViews]:
         """The families of views between any two of the three."""
         for one, other in (
             (self.behind, self.ahead),
@@ -72,7 +72,7 @@ class Beam:
             (self.contact, self.ahead),
         ):
             if one is not None and other is not None:
-                yield Strand(
+                yield FreeViews(
                     self.sector,
                     self.low,
                     self.high,
@@ -84,7 +84,7 @@ class Beam:
 
 
 @dataclass(slots=True)
-class Ray:
+class SingleLine:
     """A single line: from ``place`` it shows edge ``shown`` from one point of a run to the other.
 
     The place lies on edge ``edge``, or in free space within reach (None); what lies between sees the run too.
@@ -97,42 +97,50 @@ class Ray:
 
 
 class Bundle:
-    """The glances of one strand, cut to the range when they are first asked for."""
+    """The parts of one family of free views within range, found when they are first asked for."""
 
     __slots__ = ("_source", "sides")
 
-    def __init__(self, sides: tuple[Side, Side], source: Strand | list[Glance]) -> None:
+    def __init__(self, sides: tuple[Side, Side], source: FreeViews | list[ViewFamily]) -> None:
         self.sides = sides
         self._source = source
 
-    def glances(self, ranges: Ranges) -> list[Glance]:
+    def families(self, ranges: Ranges) -> list[ViewFamily]:
         """The families within range."""
-        if isinstance(self._source, Strand):
-            self._source = ranges.glances(self._source)
+        if isinstance(self._source, FreeViews):
+            self._source = ranges.families(self._source)
         return self._source
 
 
-class Family:
-    """The beams and single rays of one feature, edge or corner; *single* are the bundles of the rays."""
+class FeatureFamilies:
+    """The line families and single lines of one feature, edge or corner.
 
-    def __init__(self, beams: tuple[Beam, ...], rays: tuple[Ray, ...], single: Iterable[Bundle]) -> None:
-        self.beams, self.rays = beams, rays
-        self._beams_on: dict[int, list[Beam | Bundle]] = {}
+    *bundles* are those of the single lines.
+    """
+
+    def __init__(
+        self,
+        line_families: tuple[LineFamily, ...],
+        single_lines: tuple[SingleLine, ...],
+        bundles: Iterable[Bundle],
+    ) -> None:
+        self.line_families, self.single_lines = line_families, single_lines
+        self._families_on: dict[int, list[LineFamily | Bundle]] = {}
         self._on: dict[int, list[tuple[Bundle, int]]] = {}
-        sources: list[Beam | Bundle] = [*beams, *single]
+        sources: list[LineFamily | Bundle] = [*line_families, *bundles]
         for source in sources:
             for e in {side.edge for side in source.sides if not side.fixed}:
-                self._beams_on.setdefault(e, []).append(source)
+                self._families_on.setdefault(e, []).append(source)
 
     def on(self, edge: int) -> Sequence[tuple[Bundle, int]]:
         """The bundles with a side on an edge, with the number of that side; not if it stays at a corner."""
-        if edge not in self._beams_on:
+        if edge not in self._families_on:
             return ()
         if edge not in self._on:
             self._on[edge] = [
                 (bundle, k)
-                for source in self._beams_on[edge]
-                for bundle in (source.bundles() if isinstance(source, Beam) else (source,))
+                for source in self._families_on[edge]
+                for bundle in (source.bundles() if isinstance(source, LineFamily) else (source,))
                 for k, side in enumerate(bundle.sides)
                 if side.edge == edge and not side.fixed
             ]
@@ -140,16 +148,16 @@ class Family:
 
     @cached_property
     def sides(self) -> Sides:
-        """The beams as `Sides`."""
-        return Sides([(beam.sector, beam.low, beam.high) for beam in self.beams])
+        """The line families as `Sides`."""
+        return Sides([(family.sector, family.low, family.high) for family in self.line_families])
 
     @cached_property
-    def ray_sides(self) -> Sides:
-        """The lines of the rays as `Sides`."""
-        return Sides.of_lines([(ray.place, ray.run[0]) for ray in self.rays])
+    def single_line_sides(self) -> Sides:
+        """The lines of the single lines as `Sides`."""
+        return Sides.of_lines([(single.place, single.run[0]) for single in self.single_lines])
 
 
-class Sweeper:
+class FamilySweeper:
     """Sweeps the families of one scene within one radius. It keeps none of them."""
 
     def __init__(self, table: EdgeTable, radius: fmpq) -> None:
@@ -163,40 +171,46 @@ class Sweeper:
         """Convex corners and arcs."""
         return features(self.table)
 
-    def normals(self, e: int) -> Family:
+    def normals(self, e: int) -> FeatureFamilies:
         """The normals of an edge."""
         return self._family(self._normals(e))
 
-    def tangents(self, k: int) -> Family:
+    def tangents(self, k: int) -> FeatureFamilies:
         """The tangent lines of a feature, and the single lines that join them."""
         return self._family(*self._tangents(self.features[k]))
 
-    def corner_normals(self, k: int) -> Family:
+    def corner_normals(self, k: int) -> FeatureFamilies:
         """The normals of the boundary at a feature that is a corner."""
         return self._family(self._corner_normals(self.features[k]))
 
-    def _family(self, beams: Iterable[Beam], rays: Iterable[Ray] = ()) -> Family:
-        """Beams and rays, and what the rays show to edges."""
-        beams, rays = tuple(beams), tuple(rays)
-        single: list[Bundle] = []
-        for ray in rays:
-            if ray.edge is not None:
-                ends = self.ranges.along(ray.place, self.ranges.rails[ray.edge], ray.run, ray.shown)
-                sides = Side(ray.edge, Role.CONTACT), Side(ray.shown, Role.AHEAD)
-                single.append(Bundle(sides, [Glance((ray.edge, ray.shown), *end) for end in ends]))
-        return Family(beams, rays, single)
+    def _family(
+        self, line_families: Iterable[LineFamily], single_lines: Iterable[SingleLine] = ()
+    ) -> FeatureFamilies:
+        """Line families and single lines, and what the single lines show to edges."""
+        line_families, single_lines = tuple(line_families), tuple(single_lines)
+        bundles: list[Bundle] = []
+        for line in single_lines:
+            if line.edge is not None:
+                ends = self.ranges.along(line.place, self.ranges.rails[line.edge], line.run, line.shown)
+                sides = Side(line.edge, Role.CONTACT), Side(line.shown, Role.AHEAD)
+                bundles.append(Bundle(sides, [ViewFamily((line.edge, line.shown), *end) for end in ends]))
+        return FeatureFamilies(line_families, single_lines, bundles)
 
     # -- the families ------------------------------------------------------------------------------
 
-    def _tangents(self, feature: Feature) -> tuple[list[Beam], list[Ray]]:
+    def _tangents(self, feature: Feature) -> tuple[list[LineFamily], list[SingleLine]]:
         """The tangent lines of a feature, and the single lines that join them."""
         contact = Side(feature.edges[-1], Role.CONTACT, fixed=not feature.round)
         sweeps = [pencil(self.table, s, feature.edges, self.reach) for s in feature.sectors]
-        beams = [self._beam(feature, s.sector, cell, contact) for s in sweeps for cell in s.cells]
-        rays = [ray for s in sweeps for t in s.pinches for ray in self._pinched(s.sector, t, feature.edges)]
-        return beams, [*rays, *self._end_on(feature, sweeps[0], sweeps[-1])]
+        line_families = [
+            self._line_family(feature, s.sector, cell, contact) for s in sweeps for cell in s.cells
+        ]
+        single_lines = [
+            single for s in sweeps for t in s.pinches for single in self._pinched(s.sector, t, feature.edges)
+        ]
+        return line_families, [*single_lines, *self._end_on(feature, sweeps[0], sweeps[-1])]
 
-    def _beam(self, feature: Feature, sector: Sector, cell: Cell, contact: Side) -> Beam:
+    def _line_family(self, feature: Feature, sector: Sector, cell: Cell, contact: Side) -> LineFamily:
         behind = None if cell.behind is None else Side(cell.behind, Role.BEHIND)
         ahead = None if cell.ahead is None else Side(cell.ahead, Role.AHEAD)
         first, last = (
@@ -204,17 +218,17 @@ class Sweeper:
             for t, passed in zip((cell.low, cell.high), cell.bounds, strict=True)
         )
         anchor = self._namer.anchor(feature)
-        return Beam(
+        return LineFamily(
             sector, cell.low, cell.high, behind, contact, ahead, True, anchor, (first, last), cell.bounds
         )
 
-    def _normals(self, e: int) -> Iterator[Beam]:
+    def _normals(self, e: int) -> Iterator[LineFamily]:
         """The views along the normals of an edge."""
         for sector in normals(self.table.curves[e]):
             sweep = pencil(self.table, sector, (e,), self.reach)
             yield from (_outward(sector, cell, Side(e, Role.CONTACT)) for cell in sweep.cells)
 
-    def _corner_normals(self, feature: Feature) -> Iterator[Beam]:
+    def _corner_normals(self, feature: Feature) -> Iterator[LineFamily]:
         """The views from a convex corner along the normals of the boundary there."""
         incoming, outgoing = feature.edges
         ax, ay = leaving(self.table.curves[incoming], at_end=True)
@@ -227,7 +241,7 @@ class Sweeper:
 
     # -- single lines ------------------------------------------------------------------------------
 
-    def _end_on(self, feature: Feature, first: Pencil, last: Pencil) -> Iterator[Ray]:
+    def _end_on(self, feature: Feature, first: Pencil, last: Pencil) -> Iterator[SingleLine]:
         """The straight edges beside a feature as seen along their own lines, from where these first end."""
         incoming, outgoing = self._beside(feature)
         for e, sweep, cell, ahead in (
@@ -249,7 +263,7 @@ class Sweeper:
             if far is None:
                 far = self.radius / direction.norm_sq().sqrt()
             place = contact + direction * far
-            yield Ray(place, met, (edge.end, edge.start) if ahead else (edge.start, edge.end), e)
+            yield SingleLine(place, met, (edge.end, edge.start) if ahead else (edge.start, edge.end), e)
 
     def _beside(self, feature: Feature) -> tuple[int, int]:
         """The edges into and out of a feature; an arc's neighbours only where they go on in its direction.
@@ -266,7 +280,7 @@ class Sweeper:
         ends = leaving(curves[e], at_end=True), leaving(curves[after], at_end=False)
         return incoming, after if _continues(*ends) else e
 
-    def _pinched(self, sector: Sector, t: Real, own: tuple[int, ...]) -> Iterator[Ray]:
+    def _pinched(self, sector: Sector, t: Real, own: tuple[int, ...]) -> Iterator[SingleLine]:
         """What the touched points and edges of a line that grazes several features show of each other."""
         behind, ahead = walk_line(self.table, sector, t, self.reach)
         contact, direction = sector.touch(t)
@@ -285,14 +299,14 @@ class Sweeper:
                 for place in (start, end) if start != end else (start,):
                     near, far = (low, high) if _nearer(place, low, high) else (high, low)
                     if place != near:
-                        yield Ray(place, e, (near, far), f)
+                        yield SingleLine(place, e, (near, far), f)
         step = direction * (self.radius / direction.norm_sq().sqrt())
         for walk, place in ((behind, contact - step), (ahead, contact + step)):
             if not walk.blocked:
                 for f, low, high in runs:
                     near, far = (low, high) if _nearer(place, low, high) else (high, low)
                     if place != near:
-                        yield Ray(place, None, (near, far), f)
+                        yield SingleLine(place, None, (near, far), f)
 
 
 def normals(curve: Curve) -> Iterator[Sector]:
@@ -309,9 +323,9 @@ def normals(curve: Curve) -> Iterator[Sector]:
         yield Spokes(center, base, low, high, radius_sq=curve.radius_sq, outward=curve.ccw)
 
 
-def _outward(sector: Sector, cell: Cell, start: Side, anchor: Anchor | None = None) -> Beam:
+def _outward(sector: Sector, cell: Cell, start: Side, anchor: Anchor | None = None) -> LineFamily:
     ahead = None if cell.ahead is None else Side(cell.ahead, Role.AHEAD)
-    return Beam(sector, cell.low, cell.high, None, start, ahead, False, anchor, passed=cell.bounds)
+    return LineFamily(sector, cell.low, cell.high, None, start, ahead, False, anchor, passed=cell.bounds)
 
 
 def _continues(a: Vector, b: Vector) -> bool:

@@ -23,10 +23,10 @@ from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.legs import Leg
 from exactacq.visibility.free_segment import is_free
 from exactacq.visibility.outline import outline
-from exactacq.visibility.visible_boundary import View
+from exactacq.visibility.visible_boundary import BoundaryView
 
 
-class Lookout:
+class CutEnd:
     """A point of edge ``edge``, at parameter ``u`` of its rail, that looks around within a radius."""
 
     def __init__(self, table: EdgeTable, radius: fmpq, edge: int, u: Real, point: Point) -> None:
@@ -66,8 +66,8 @@ class Lookout:
         return found
 
     @cached_property
-    def _view(self) -> View:
-        return View(self.table, self.point, self.radius, None)
+    def _view(self) -> BoundaryView:
+        return BoundaryView(self.table, self.point, self.radius, None)
 
     @cached_property
     def _outline(self) -> list[Curve]:

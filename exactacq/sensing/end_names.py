@@ -17,8 +17,8 @@ from exactacq.geometry.curves import Arc
 from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.points import Point
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.sensing.view_families import End, Glance, Pin, Strand
-from exactacq.visibility.visible_boundary import Hold, View
+from exactacq.sensing.view_families import End, FreeViews, Pin, ViewFamily
+from exactacq.visibility.visible_boundary import BoundaryView, Hold
 
 RANGE = "range"
 BITS = 128
@@ -37,7 +37,7 @@ class Seen:
         own: tuple[int, ...] | None,
     ) -> None:
         self.table, self.place = table, place
-        self._view = View(table, place, radius, own)
+        self._view = BoundaryView(table, place, radius, own)
         self._rails = rails
 
     @cached_property
@@ -48,20 +48,20 @@ class Seen:
             for e, parts in self._view.seen().items()
         }
 
-    def tell(self, end: End, glance: Glance, side: int) -> None:
-        """Take note of an extreme view of a glance from this place that is as long as the range.
+    def tell(self, end: End, family: ViewFamily, side: int) -> None:
+        """Take note of an extreme view of a family from this place that is as long as the range.
 
         Told before anything is asked, it spares the proof that the same end of what is seen is at the range.
         """
-        e, point = glance.edges[1 - side], end.points[1 - side]
-        self._view.tight.update(self._holds(e, point, False, glance.strand))
+        e, point = family.edges[1 - side], end.points[1 - side]
+        self._view.tight.update(self._holds(e, point, False, family.free_views))
 
-    def pinned(self, end: End, glance: Glance, side: int) -> End:
-        """An extreme view of a glance from this place, its other end the view's own point if it is one."""
-        e, point = glance.edges[1 - side], end.points[1 - side]
-        for hold in self._holds(e, point, end.tight, glance.strand):
+    def pinned(self, end: End, family: ViewFamily, side: int) -> End:
+        """An extreme view of a family from this place, its other end the view's own point if it is one."""
+        e, point = family.edges[1 - side], end.points[1 - side]
+        for hold in self._holds(e, point, end.tight, family.free_views):
             pin = self._held.get(hold)
-            # A full circle's start has two parameters: a glance over it keeps the one on its side.
+            # A full circle's start has two parameters: a family over it keeps the one on its side.
             if pin is not None and (pin[1] - end.places[1 - side]).clear_sign(BITS) == 0:
                 here = end.points[side], end.places[side]
                 (p, u), (q, v) = (here, pin) if side == 0 else (pin, here)
@@ -84,17 +84,17 @@ class Seen:
                     found.update((hold, (point, u)) for hold in self._view.holds(e, point))
         return {hold: pin for hold, pin in found.items() if hold[1] != RANGE or hold[2]}
 
-    def _holds(self, e: int, point: Point, tight: bool, strand: Strand | None) -> Iterator[Hold]:
+    def _holds(self, e: int, point: Point, tight: bool, free_views: FreeViews | None) -> Iterator[Hold]:
         if tight:
             yield e, RANGE, self._onward(e, point)
-        if strand is None or strand.anchor is None:
+        if free_views is None or free_views.anchor is None:
             return
-        kind, number = strand.anchor
+        kind, number = free_views.anchor
         if kind == "circle":
-            yield e, strand.anchor, self._turn(number, point)
-        elif not any(one.fixed for one in strand.sides):
-            # Only past the corner: from there the lines of the glance show different points.
-            yield e, strand.anchor, 0
+            yield e, free_views.anchor, self._turn(number, point)
+        elif not any(one.fixed for one in free_views.sides):
+            # Only past the corner: from there the lines of the family show different points.
+            yield e, free_views.anchor, 0
 
     def _onward(self, e: int, point: Point) -> int:
         """1 or -1 as a point of an edge lies to one side or the other from here; 0 if balls do not tell."""

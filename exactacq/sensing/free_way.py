@@ -25,114 +25,117 @@ from exactacq.geometry.points import Point, distance_sq
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.sensing.complex_edges import Beam, Ray
+from exactacq.sensing.complex_edges import LineFamily, SingleLine
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.legs import Leg
 from exactacq.sensing.side_filter import Sides, rough
-from exactacq.sensing.view_families import End, Glance, Pin, Role, Side, Strand
-from exactacq.sensing.visibility_complex import Sightlines
+from exactacq.sensing.view_families import End, FreeViews, Pin, Role, Side, ViewFamily
+from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.visibility.chords import meet
 from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes
 from exactacq.visibility.line_names import Names
 from exactacq.visibility.rotational_sweep import pencil
 
 Cut: TypeAlias = "tuple[Real, Pin | None, Names]"
-"""A parameter where a beam is cut, the point of the way there, and the names of the line."""
+"""A parameter where a line family is cut, the point of the way there, and the names of the line."""
 
 BITS = 256
 """Precision of the balls that propose ties."""
 
 
-class Crossing:
-    """The glances at some edges from one straight way: a span of a rail in closed free space.
+class WayViews:
+    """The families at some edges from one straight way: a span of a rail in closed free space.
 
     *view* tells what is seen from an end of the way.
     """
 
     def __init__(
         self,
-        sightlines: Sightlines,
+        complex_: VisibilityComplex,
         leg: Leg,
         wanted: frozenset[int],
         view: Callable[[Point, None], Seen],
     ) -> None:
-        self.sightlines, self.span, self.wanted, self.view = sightlines, leg.span, wanted, view
+        self.complex, self.span, self.wanted, self.view = complex_, leg.span, wanted, view
         self.touches: frozenset[Any] = frozenset(leg.touches)
         self.rail = rail = leg.rail
         self.piece = Segment(leg.span.start, leg.span.end)
         self.line = rail.curve
         self.places = [rough(p) for p in (leg.span.start, leg.span.end)]
-        self.ranges = sightlines.ranges.with_way(rail, leg.touches)
+        self.ranges = complex_.ranges.with_way(rail, leg.touches)
         self.way = len(self.ranges.rails) - 1
         self.slack = 256 * self.ranges.roundoff
         self._through: dict[int, tuple[Sector, list[tuple[Pin, list[Real]]]]] = {}
 
-    def glances(self) -> Iterator[Glance]:
-        """All glances at wanted edges whose first side lies on the way."""
+    def families(self) -> Iterator[ViewFamily]:
+        """All families at wanted edges whose first side lies on the way."""
         (ax, ay), (bx, by) = self.places
         box = np.array((min(ax, bx), min(ay, by), max(ax, bx), max(ay, by)))
-        families = list(self.sightlines.near(box, self.wanted))
-        beams = [beam for family in families for beam in family.beams]
-        for k, certain in self._crossing(Sides.joined([family.sides for family in families])):
-            yield from self._across(beams[k], certain)
-        rays = [ray for family in families for ray in family.rays]
-        for k, _ in self._crossing(Sides.joined([family.ray_sides for family in families])):
-            if rays[k].shown in self.wanted:
-                yield from self._along(rays[k])
+        families = list(self.complex.near(box, self.wanted))
+        line_families = [line_family for feature in families for line_family in feature.line_families]
+        for k, certain in self._crossing(Sides.joined([feature.sides for feature in families])):
+            yield from self._across(line_families[k], certain)
+        single_lines = [single for feature in families for single in feature.single_lines]
+        for k, _ in self._crossing(Sides.joined([feature.single_line_sides for feature in families])):
+            if single_lines[k].shown in self.wanted:
+                yield from self._along(single_lines[k])
         yield from self._normals()
         yield from self._own_line()
 
     def _crossing(self, sides: Sides) -> Iterator[tuple[int, bool]]:
-        """The beams that do not leave the whole way on one side; True if all their lines cross it."""
+        """The line families that do not leave the whole way on one side; True if all their lines cross it."""
         one, other = (sides.of(x, y, self.slack) for x, y in self.places)
         for k in np.flatnonzero((one != other) | (one == 0)).tolist():
             yield k, bool(one[k] and other[k])
 
-    def _across(self, beam: Beam, certain: bool) -> Iterator[Glance]:
-        """The glances along a beam's lines; *certain* if each of them passes between the ends of the way."""
-        if not any(side.edge in self.wanted for side in beam.sides):
+    def _across(self, line_family: LineFamily, certain: bool) -> Iterator[ViewFamily]:
+        """Views along the lines of a family; *certain* if each line passes between the ends of the way."""
+        if not any(side.edge in self.wanted for side in line_family.sides):
             return
-        if not beam.sector.round and beam.anchor in self.touches:
+        if not line_family.sector.round and line_family.anchor in self.touches:
             # Every line through a corner that the way touches crosses it there and shows nothing else.
             return
-        cuts: list[Cut] = [(beam.low, None, beam.names[0]), (beam.high, None, beam.names[1])]
+        cuts: list[Cut] = [
+            (line_family.low, None, line_family.names[0]),
+            (line_family.high, None, line_family.names[1]),
+        ]
         if not certain:
-            cuts = self._cuts(beam)
+            cuts = self._cuts(line_family)
         for (low, first, called), (high, last, named) in pairwise(cuts):
-            role = self._role(beam, rational_between(low, high))
+            role = self._role(line_family, rational_between(low, high))
             if role is None:
                 continue
             here = Side(self.way, role)
-            for other in self._shown(beam, role):
+            for other in self._shown(line_family, role):
                 names, pins = (called, named), (first, last)
                 passed = (
-                    beam.passed[0] if low is beam.low else (),
-                    beam.passed[1] if high is beam.high else (),
+                    line_family.passed[0] if low is line_family.low else (),
+                    line_family.passed[1] if high is line_family.high else (),
                 )
-                strand = Strand(
-                    beam.sector,
+                free_views = FreeViews(
+                    line_family.sector,
                     low,
                     high,
                     (here, other),
                     names,
                     pins,
                     passed,
-                    beam.anchor if beam.goes_back else None,
+                    line_family.anchor if line_family.goes_back else None,
                 )
-                yield from self.ranges.glances(strand)
+                yield from self.ranges.families(free_views)
 
-    def _shown(self, beam: Beam, role: Role) -> list[Side]:
-        """The wanted sides that a beam shows from behind or ahead of its contact."""
-        shown = (beam.contact, beam.ahead if role is Role.BEHIND else beam.behind)
+    def _shown(self, line_family: LineFamily, role: Role) -> list[Side]:
+        """The wanted sides that a line family shows from behind or ahead of its contact."""
+        shown = (line_family.contact, line_family.ahead if role is Role.BEHIND else line_family.behind)
         return [side for side in shown if side is not None and side.edge in self.wanted]
 
-    def _cuts(self, beam: Beam) -> list[Cut]:
-        """A beam's ends, and the parameters between them of the lines through the way's ends, in order."""
+    def _cuts(self, line_family: LineFamily) -> list[Cut]:
+        """The ends of a family and, between them, the lines through the way's ends: parameters in order."""
         lines: list[tuple[Real, Pin]] = []
-        ends = self._through_ends(beam.sector)
+        ends = self._through_ends(line_family.sector)
         # All normals of an arc pass its centre. If one end of the way is there, the line through the other
         # one is the way's own, and its neighbours cross the way in the centre.
-        centers = [pin for pin, _ in ends if _is_center(beam.sector, pin[0])]
+        centers = [pin for pin, _ in ends if _is_center(line_family.sector, pin[0])]
         if centers:
             ends = [(centers[0], through) for _, through in ends]
         for pin, through in ends:
@@ -140,15 +143,17 @@ class Crossing:
                 same = next((k for k, (known, _) in enumerate(lines) if known.overlaps(t)), None)
                 if same is None:
                     lines.append((t, pin))
-                elif beam.anchor in self.touches or self._is_own(beam.sector, t, lines[same][0]):
-                    lines[same] = t, self._pin_of_own(beam, beam.sector.touch(t)[0])
+                elif line_family.anchor in self.touches or self._is_own(
+                    line_family.sector, t, lines[same][0]
+                ):
+                    lines[same] = t, self._pin_of_own(line_family, line_family.sector.touch(t)[0])
                 else:
                     lines.append((t, pin))
         low, high = (
-            (t, self._pin_at(beam, t, names), names)
-            for t, names in zip((beam.low, beam.high), beam.names, strict=True)
+            (t, self._pin_at(line_family, t, names), names)
+            for t, names in zip((line_family.low, line_family.high), line_family.names, strict=True)
         )
-        inner = [line for line in lines if self._is_inside(beam, *line)]
+        inner = [line for line in lines if self._is_inside(line_family, *line)]
         inner.sort(key=cmp_to_key(_by_parameter))
         cuts = [low]
         for t, pin in inner:
@@ -157,7 +162,7 @@ class Crossing:
         return [*cuts, high]
 
     def _through_ends(self, sector: Sector) -> list[tuple[Pin, list[Real]]]:
-        """The way's ends with the parameters of a sector's lines through them; kept, as beams share it."""
+        """The way's ends, with the parameters of a sector's lines through them; families share sectors."""
         kept = self._through.get(id(sector))
         if kept is None:
             span = self.span
@@ -178,83 +183,88 @@ class Crossing:
         excess: Real = height * height - along.norm_sq() * radius_sq
         return excess.sign() == 0
 
-    def _is_inside(self, beam: Beam, t: Real, pin: Pin) -> bool:
-        """Whether a line through a point of the way lies strictly inside a beam.
+    def _is_inside(self, line_family: LineFamily, t: Real, pin: Pin) -> bool:
+        """Whether a line through a point of the way lies strictly inside a line family.
 
-        A way often ends on a line that bounds a beam. That is asked of the point: comparing parameters would
-        take a root more. If the way's own line bounds the beam, its name tells.
+        A way often ends on a line that bounds a line family. That is asked of the point: comparing parameters
+        would take a root more. If the way's own line bounds the family, its name says so.
         """
-        for bound, side, names in ((beam.low, 1, beam.names[0]), (beam.high, -1, beam.names[1])):
+        for bound, side, names in (
+            (line_family.low, 1, line_family.names[0]),
+            (line_family.high, -1, line_family.names[1]),
+        ):
             if t.overlaps(bound):
                 if any(name in self.touches for name, _ in names):
                     return False
-                contact, direction = beam.sector.touch(bound)
+                contact, direction = line_family.sector.touch(bound)
                 if direction.cross(pin[0] - contact).sign() == 0:
                     return False
             if t.compare(bound) != side:
                 return False
         return True
 
-    def _pin_at(self, beam: Beam, t: Real, names: Names) -> Pin | None:
-        """The point of the way on a line that bounds a beam, where it need not be computed."""
+    def _pin_at(self, line_family: LineFamily, t: Real, names: Names) -> Pin | None:
+        """The point of the way on a line that bounds a line family, where it need not be computed."""
         is_own = any(name in self.touches for name, _ in names)
         # No parameter: the end may be the point about which the lines turn.
         near = [
             pin
-            for pin, through in self._through_ends(beam.sector)
+            for pin, through in self._through_ends(line_family.sector)
             if not through or any(t.overlaps(u) for u in through)
         ]
         if not near and not is_own:
             return None
-        contact, direction = beam.sector.touch(t)
+        contact, direction = line_family.sector.touch(t)
         if is_own:
             return contact, self.rail.parameter(contact)
         on_line = [pin for pin in near if direction.cross(pin[0] - contact).sign() == 0]
         if len(on_line) == 2:
-            return self._pin_of_own(beam, contact)
+            return self._pin_of_own(line_family, contact)
         return on_line[0] if on_line else None
 
-    def _pin_of_own(self, beam: Beam, contact: Point) -> Pin:
-        """Where the lines of a beam near one that is the way's own cross the way.
+    def _pin_of_own(self, line_family: LineFamily, contact: Point) -> Pin:
+        """Where the lines of a line family near one that is the way's own cross the way.
 
         Tangents do so near their contact, normals of an arc in its centre.
         """
-        place = Point(*beam.sector.center) if isinstance(beam.sector, Spokes) else contact
+        place = Point(*line_family.sector.center) if isinstance(line_family.sector, Spokes) else contact
         return place, self.rail.parameter(place)
 
-    def _role(self, beam: Beam, t: fmpq) -> Role | None:
+    def _role(self, line_family: LineFamily, t: fmpq) -> Role | None:
         """On which side of the contact the line crosses the way within its free part, if it does."""
-        contact, direction = beam.sector.touch(Real(t))
+        contact, direction = line_family.sector.touch(Real(t))
         met = line_contacts(contact, direction, self.piece)
         if not met or met[0].sign() == 0:
             return None
         side = met[0].sign()
         role = Role.AHEAD if side > 0 else Role.BEHIND
-        if not self._shown(beam, role):
+        if not self._shown(line_family, role):
             return None
-        wall = beam.ahead if side > 0 else beam.behind
+        wall = line_family.ahead if side > 0 else line_family.behind
         if wall is None:
             # Nothing was met within reach; normals do not go back from their edge.
-            return role if side > 0 or beam.goes_back else None
+            return role if side > 0 or line_family.goes_back else None
         limit = meet(contact, direction, self.ranges.curve(wall.edge), side)
         return role if (limit - met[0]).sign() * side >= 0 else None
 
-    def _along(self, ray: Ray) -> Iterator[Glance]:
+    def _along(self, single: SingleLine) -> Iterator[ViewFamily]:
         """A single line that crosses the way between its place and the run that it shows."""
-        direction = ray.run[0] - ray.place
-        met = line_contacts(ray.place, direction, self.piece)
+        direction = single.run[0] - single.place
+        met = line_contacts(single.place, direction, self.piece)
         if not met:
             return
         for place in {id(m): m for m in (met[0], met[-1])}.values():
             if place.sign() < 0 or place.compare(1) > 0:
                 continue
-            point = ray.place + direction * place
-            for first, last in self.ranges.along(point, self.ranges.rails[self.way], ray.run, ray.shown):
-                yield Glance((self.way, ray.shown), first, last)
+            point = single.place + direction * place
+            for first, last in self.ranges.along(
+                point, self.ranges.rails[self.way], single.run, single.shown
+            ):
+                yield ViewFamily((self.way, single.shown), first, last)
 
-    def _own_line(self) -> Iterator[Glance]:
+    def _own_line(self) -> Iterator[ViewFamily]:
         """The views along the way itself: of its ends, of corners it touches, and of what lies beyond."""
-        table, span = self.sightlines.table, self.span
+        table, span = self.complex.table, self.span
         shown = [(e, p) for p in (span.start, span.end) for e in _edges_near(table, p)]
         along = self.line.end - self.line.start
         shown += [*self._beyond(span.end, along), *self._beyond(span.start, -along)]
@@ -269,11 +279,11 @@ class Crossing:
                 near = self._within(point)
                 ends = [End(Real(0), (p, point), (u, place)) for p, u in near]
                 if ends:
-                    yield Glance((self.way, e), ends[0], ends[-1])
+                    yield ViewFamily((self.way, e), ends[0], ends[-1])
 
     def _touched(self) -> Iterator[tuple[int, Point]]:
         """The corners and the tangent points of wanted edges on the way's line, named or not."""
-        table, start = self.sightlines.table, self.line.start
+        table, start = self.complex.table, self.line.start
         along = self.line.end - start
         (x, y), (dx, dy) = rough(start), rough(along)
         slack = self.slack * hypot(dx, dy)
@@ -295,7 +305,7 @@ class Crossing:
 
     def _beyond(self, end: Point, onward: Point) -> Iterator[tuple[int, Point]]:
         """What the way's line meets beyond an end, as far as it is seen from there."""
-        table = self.sightlines.table
+        table = self.complex.table
         own = _edges_near(table, end)
         (x, y), (dx, dy) = rough(end), rough(onward)
         size = hypot(dx, dy)
@@ -342,19 +352,19 @@ class Crossing:
                 ends[k] = place, u
         return ends
 
-    def _normals(self) -> Iterator[Glance]:
+    def _normals(self) -> Iterator[ViewFamily]:
         """The views along the normals of the way itself, to both sides."""
         start, end = raw(self.line.start), raw(self.line.end)
         low, high = self.span.low, self.span.high
         here = Side(self.way, Role.CONTACT)
         for leftward in (True, False):
             sector = Sliding(start, minus(end, start), low, high, leftward=leftward)
-            sweep = pencil(self.sightlines.table, sector, (), self.sightlines.reach)
+            sweep = pencil(self.complex.table, sector, (), self.complex.reach)
             for cell in sweep.cells:
                 if cell.ahead is not None and cell.ahead in self.wanted:
                     sides = here, Side(cell.ahead, Role.AHEAD)
-                    strand = Strand(sector, cell.low, cell.high, sides, passed=cell.bounds)
-                    yield from self.ranges.glances(strand)
+                    free_views = FreeViews(sector, cell.low, cell.high, sides, passed=cell.bounds)
+                    yield from self.ranges.families(free_views)
 
 
 def _edges_near(table: EdgeTable, point: Point) -> list[int]:

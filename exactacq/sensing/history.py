@@ -57,7 +57,7 @@ class Memory:
         targets = None if ground is None else Targets.of_components(ground.components, self._table, radius)
         self._senses = Senses(self._table, radius, targets)
         self.reports: list[Report] = []
-        # The parameters of the reports' places, and on which leg of the piece they are: numbers that glances
+        # The parameters of the reports' places, and on which leg of the piece they are: numbers that families
         # share, so that ties with them are free.
         self._parameters: dict[tuple[int, int], tuple[Point, Real, int]] = {}
         self._looked: tuple[Piece | None, Ahead | None] = None, None

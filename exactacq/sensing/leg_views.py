@@ -18,13 +18,13 @@ from exactacq.geometry.interval_union import EMPTY, Cover, Interval
 from exactacq.geometry.points import Point, distance_sq
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
-from exactacq.sensing.cut_ends import Lookout
+from exactacq.sensing.cut_ends import CutEnd
 from exactacq.sensing.end_names import Seen
-from exactacq.sensing.free_way import Crossing
+from exactacq.sensing.free_way import WayViews
 from exactacq.sensing.legs import Leg
 from exactacq.sensing.targets import Targets
-from exactacq.sensing.view_families import End, Glance, Pin, Ranges
-from exactacq.sensing.visibility_complex import Sightlines
+from exactacq.sensing.view_families import End, Pin, Ranges, ViewFamily
+from exactacq.sensing.visibility_complex import VisibilityComplex
 
 Covers: TypeAlias = "Mapping[int, Cover]"
 """What is known of each edge, by its number; nothing is known of an edge that is missing."""
@@ -32,33 +32,33 @@ Covers: TypeAlias = "Mapping[int, Cover]"
 
 @dataclass(slots=True)
 class Share:
-    """A glance of a leg: where it is seen from, and which part of edge ``edge`` it shows."""
+    """A family of a leg: where it is seen from, and which part of edge ``edge`` it shows."""
 
     source: Interval
     edge: int
     shown: Interval
-    glance: Glance
+    family: ViewFamily
     side: int
 
     @classmethod
-    def of(cls, glance: Glance, side: int) -> Share:
-        """The share of a glance whose one side lies on the leg."""
-        a, b = glance.first, glance.last
+    def of(cls, family: ViewFamily, side: int) -> Share:
+        """The share of a family whose one side lies on the leg."""
+        a, b = family.first, family.last
         source, shown = (
             Interval.of(a.places[k], a.points[k], b.places[k], b.points[k]) for k in (side, 1 - side)
         )
-        return cls(source, glance.edges[1 - side], shown, glance, side)
+        return cls(source, family.edges[1 - side], shown, family, side)
 
-    def cut(self, glance: Glance) -> Share:
-        """The share of a part of its glance, whose sides run as its own do: nothing is to be compared."""
-        first, a, b = self.glance.first, glance.first, glance.last
+    def cut(self, family: ViewFamily) -> Share:
+        """The share of a part of its family, whose sides run as its own do: nothing is to be compared."""
+        first, a, b = self.family.first, family.first, family.last
         source, shown = (
             Interval(a.places[k], a.points[k], b.places[k], b.points[k])
             if whole.low is first.places[k]
             else Interval(b.places[k], b.points[k], a.places[k], a.points[k])
             for whole, k in ((self.source, self.side), (self.shown, 1 - self.side))
         )
-        return Share(source, self.edge, shown, glance, self.side)
+        return Share(source, self.edge, shown, family, self.side)
 
 
 class Shares:
@@ -69,39 +69,39 @@ class Shares:
 
     def __init__(
         self,
-        sightlines: Sightlines,
+        complex_: VisibilityComplex,
         targets: Targets,
         leg: Leg,
         obstacles: Collection[int],
         view: Callable[[Point, tuple[int, ...] | None], Seen],
         of: dict[int, list[Share]] | None = None,
-        ends: dict[int, list[tuple[Lookout, Interval]]] | None = None,
+        ends: dict[int, list[tuple[CutEnd, Interval]]] | None = None,
     ) -> None:
-        self.sightlines, self.targets, self.leg = sightlines, targets, leg
+        self.complex, self.targets, self.leg = complex_, targets, leg
         self.obstacles, self.view = obstacles, view
         self.of = self._found() if of is None else of
         self.ends = self._seen_ends() if ends is None else ends
 
     def _found(self) -> dict[int, list[Share]]:
-        parts: list[tuple[int, Glance, int, None]] = []
-        for glance, side in self._glances():
-            for k, target in self.targets.on(glance.edges[1 - side]):
+        parts: list[tuple[int, ViewFamily, int, None]] = []
+        for family, side in self._families():
+            for k, target in self.targets.on(family.edges[1 - side]):
                 if k in self.obstacles:
-                    part = self._ranges.clipped(glance, 1 - side, target.span)
+                    part = self._ranges.clipped(family, 1 - side, target.span)
                     if part is not None:
                         parts.append((k, part, side, None))
         return self._shares(parts, self.leg, self.obstacles)
 
     def _shares(
         self,
-        parts: Iterable[tuple[int, Glance, int, Share | None]],
+        parts: Iterable[tuple[int, ViewFamily, int, Share | None]],
         leg: Leg,
         obstacles: Collection[int],
     ) -> dict[int, list[Share]]:
-        """What of some glances, or of their shares, is seen from a leg; views from its ends share points."""
-        cuts: list[tuple[int, Glance, int, Share | None]] = []
-        for k, glance, side, whole in parts:
-            cut = self._ranges.clipped(glance, side, leg.span)
+        """What of some families, or of their shares, is seen from a leg; views from its ends share points."""
+        cuts: list[tuple[int, ViewFamily, int, Share | None]] = []
+        for k, family, side, whole in parts:
+            cut = self._ranges.clipped(family, side, leg.span)
             if cut is not None:
                 cuts.append((k, cut, side, whole))
                 for end in (cut.first, cut.last):
@@ -111,11 +111,11 @@ class Shares:
         found: dict[int, list[Share]] = {k: [] for k in obstacles}
         for k, cut, side, whole in cuts:
             first, last = (self._pinned(end, cut, side, leg) for end in (cut.first, cut.last))
-            part = Glance(cut.edges, first, last, cut.strand)
+            part = ViewFamily(cut.edges, first, last, cut.free_views)
             found[k].append(Share.of(part, side) if whole is None else whole.cut(part))
         return found
 
-    def _seen_ends(self) -> dict[int, list[tuple[Lookout, Interval]]]:
+    def _seen_ends(self) -> dict[int, list[tuple[CutEnd, Interval]]]:
         """From where the ends of obstacles are seen that are cut by a border."""
         lookouts = self.targets.lookouts
         return {
@@ -124,9 +124,9 @@ class Shares:
             if k in lookouts
         }
 
-    def _pinned(self, end: End, glance: Glance, side: int, leg: Leg) -> End:
+    def _pinned(self, end: End, family: ViewFamily, side: int, leg: Leg) -> End:
         view = self._view_from(end, side, leg)
-        return end if view is None else view.pinned(end, glance, side)
+        return end if view is None else view.pinned(end, family, side)
 
     def _view_from(self, end: End, side: int, leg: Leg) -> Seen | None:
         """What is seen from where an extreme view begins, if that is an end of the leg."""
@@ -134,29 +134,29 @@ class Shares:
         place = leg.start if u is leg.first else leg.end if u is leg.last else None
         return None if place is None else self.view(place, leg.own(u))
 
-    def _glances(self) -> Iterator[tuple[Glance, int]]:
-        sightlines, leg, obstacles = self.sightlines, self.leg, self.obstacles
+    def _families(self) -> Iterator[tuple[ViewFamily, int]]:
+        complex_, leg, obstacles = self.complex, self.leg, self.obstacles
         x, y, right, top = leg.box
-        near = sightlines.table.near((x, y), (right, top), sightlines.reach).tolist()
+        near = complex_.table.near((x, y), (right, top), complex_.reach).tolist()
         wanted = frozenset(near).intersection(chain.from_iterable(self.targets.edges[k] for k in obstacles))
         if leg.edge is None:
-            crossing = Crossing(sightlines, leg, wanted, self.view)
-            yield from ((glance, 0) for glance in crossing.glances())
+            crossing = WayViews(complex_, leg, wanted, self.view)
+            yield from ((family, 0) for family in crossing.families())
             return
-        for bundle, side in sightlines.on(leg.edge, wanted):
-            for glance in bundle.glances(sightlines.ranges):
-                yield glance, side
+        for bundle, side in complex_.on(leg.edge, wanted):
+            for family in bundle.families(complex_.ranges):
+                yield family, side
 
     @cached_property
     def _ranges(self) -> Ranges:
-        ranges = self.sightlines.ranges
+        ranges = self.complex.ranges
         return ranges if self.leg.edge is not None else ranges.with_way(self.leg.rail)
 
     def cut(self, leg: Leg, obstacles: Collection[int] | None = None) -> Shares:
         """What a part of the leg shows, of some of the obstacles if these are given."""
         obstacles = self.obstacles if obstacles is None else obstacles
         of = self._shares(
-            ((k, share.glance, share.side, share) for k in obstacles for share in self.of[k]),
+            ((k, share.family, share.side, share) for k in obstacles for share in self.of[k]),
             leg,
             obstacles,
         )
@@ -165,11 +165,11 @@ class Shares:
             for k in obstacles
             if k in self.ends
         }
-        return Shares(self.sightlines, self.targets, leg, obstacles, self.view, of, ends)
+        return Shares(self.complex, self.targets, leg, obstacles, self.view, of, ends)
 
     def at(self, share: Share, u: Real, place: Point) -> Share | None:
         """The one view of a share from a place of the leg, if it has one."""
-        cut = self._ranges.clipped(share.glance, share.side, Interval(u, place, u, place))
+        cut = self._ranges.clipped(share.family, share.side, Interval(u, place, u, place))
         return None if cut is None else share.cut(cut)
 
     def taught(self, covers: Covers) -> dict[int, Cover]:
@@ -211,12 +211,12 @@ class Shares:
         A leg often ends where an end of what is known comes in sight: found again from there, it is a number
         that is hard to compare with itself.
         """
-        glance, side = share.glance, 1 - share.side
-        for end in (glance.first, glance.last):
+        family, side = share.family, 1 - share.side
+        for end in (family.first, family.last):
             u = end.places[side]
             for old in cover.intervals:
                 for pin in ((old.start, old.low), (old.end, old.high)):
-                    if self._ranges.is_again(glance, end, side, *pin):
+                    if self._ranges.is_again(family, end, side, *pin):
                         yield id(u), pin
 
     def _is_along(self, k: int) -> bool:
@@ -247,18 +247,18 @@ class Shares:
             (end.places[share.side], end)
             for share in self.of[k]
             if edge is None or share.edge == edge
-            for end in (share.glance.first, share.glance.last)
+            for end in (share.family.first, share.family.last)
         ]
         # Most often the very number was copied: no proof is needed that it is equal.
         ends.sort(key=lambda end: end[0] is not u)
-        square = self.sightlines.ranges.square
+        square = self.complex.ranges.square
         if self._is_near(k, u, edge) or self._is_end_near(k, u):
             return True
         return any(end.is_short(square) for place, end in ends if place is u or place.compare(u) == 0)
 
     def _is_end_near(self, k: int, u: Real) -> bool:
         """Whether a cut end is seen last or first from *u*, nearer than the range."""
-        square = self.sightlines.ranges.square
+        square = self.complex.ranges.square
         return any(
             (v is u or v.compare(u) == 0) and distance_sq(place, end.point).compare(square) < 0
             for end, part in self.ends.get(k, ())
@@ -267,7 +267,7 @@ class Shares:
 
     def _is_near(self, k: int, u: Real, edge: int | None) -> bool:
         """Whether *u* is an end of the leg from which something nearer than the range is seen."""
-        leg, square = self.leg, self.sightlines.ranges.square
+        leg, square = self.leg, self.complex.ranges.square
         if u is not leg.first and u is not leg.last:
             return False
         place = leg.start if u is leg.first else leg.end
@@ -284,13 +284,13 @@ class Shares:
             yield self._ranges.rails[e].point(rational_between(interval.low, interval.high))
 
     def reaching(self, k: int, e: int, u: Real, point: Point) -> Iterator[tuple[Real, Point]]:
-        """Where glances show a point of edge *e* of an obstacle, whose parameter is *u*."""
+        """Where families show a point of edge *e* of an obstacle, whose parameter is *u*."""
         single = Interval(u, point, u, point)
         for share in self.of[k]:
             if share.edge == e:
-                glance = self._ranges.clipped(share.glance, 1 - share.side, single)
-                if glance is not None:
-                    yield glance.first.places[share.side], glance.first.points[share.side]
+                family = self._ranges.clipped(share.family, 1 - share.side, single)
+                if family is not None:
+                    yield family.first.places[share.side], family.first.points[share.side]
 
 
 def size(interval: Interval) -> float:

@@ -26,7 +26,7 @@ from exactacq.sensing.event import SENSED, EventKind, Reason
 from exactacq.sensing.leg_views import Covers, Shares, add
 from exactacq.sensing.legs import Leg
 from exactacq.sensing.targets import Targets
-from exactacq.sensing.visibility_complex import Sightlines
+from exactacq.sensing.visibility_complex import VisibilityComplex
 
 VIEWS_KEPT = 64
 """Views from ends of legs that are remembered: enough for a walk along one boundary and back."""
@@ -73,8 +73,8 @@ class Senses:
 
     def __init__(self, table: EdgeTable, radius: fmpq, targets: Targets | None = None) -> None:
         self.table, self.radius, self.square = table, radius, radius * radius
-        self.sightlines = Sightlines(table, radius)
-        self.rails = self.sightlines.ranges.rails
+        self.complex = VisibilityComplex(table, radius)
+        self.rails = self.complex.ranges.rails
         self.targets = Targets.whole(table, self.rails) if targets is None else targets
         self.covers: dict[int, Cover] = {}
         self.seen: set[int] = set()
@@ -154,7 +154,7 @@ class Senses:
         return self._shares(leg, self._near(leg))
 
     def _shares(self, leg: Leg, obstacles: set[int]) -> Shares:
-        return Shares(self.sightlines, self.targets, leg, obstacles, self._view)
+        return Shares(self.complex, self.targets, leg, obstacles, self._view)
 
     def _settle(
         self, notices: list[Notice], learned: dict[int, Cover]
@@ -174,7 +174,7 @@ class Senses:
     def _near(self, leg: Leg) -> set[int]:
         """The obstacles with an edge whose box is within reach of the leg's."""
         x, y, right, top = leg.box
-        edges = self.table.near((x, y), (right, top), self.sightlines.reach)
+        edges = self.table.near((x, y), (right, top), self.complex.reach)
         return self.targets.near(edges.tolist())
 
     def _view(self, place: Point, own: tuple[int, ...] | None = None) -> Seen:
@@ -257,12 +257,12 @@ class Senses:
     def _moments(self, shares: Shares, leg: Leg, k: int, known: Covers) -> list[tuple[Real, Point]]:
         """The places of a part of a leg, in its order, at one of which the last gap closes.
 
-        There a glance begins or ends, or what it shows reaches the end of a gap, or the end of a gap comes
+        There a family begins or ends, or what it shows reaches the end of a gap, or the end of a gap comes
         into range, or the leg itself reaches it.
         """
         found: list[tuple[Real, Point]] = [(leg.first, leg.start), (leg.last, leg.end)]
         for share in shares.of[k]:
-            for end in (share.glance.first, share.glance.last):
+            for end in (share.family.first, share.family.last):
                 found.append((end.places[share.side], end.points[share.side]))
         for _, part in shares.ends.get(k, ()):
             found += [(part.low, part.start), (part.high, part.end)]

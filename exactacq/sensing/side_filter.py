@@ -18,7 +18,7 @@ from exactacq.visibility.line_families import Sector, Sliding
 
 ERROR = 2.0**-45
 """Bounds the error of a distance, as a part of what it comes from: the coordinates of the place and of the
-beam's origin, added up, and the beam's extent.
+line family's origin, added up, and the line family's extent.
 
 Let e = 2^-53. Coordinates are off by 4 e of themselves, parameters (at most 1) and directions of base vectors
 by 4 e, functions by 4 units in the last place, that is 8 e. So the directions of lines, below 8, are off by
@@ -30,10 +30,10 @@ all; doubled.
 
 
 class Sides:
-    """Float images of beams, each a sector with a least and a greatest parameter."""
+    """Float images of line families, each a sector with a least and a greatest parameter."""
 
-    def __init__(self, beams: Sequence[tuple[Sector, Real, Real]]) -> None:
-        self._table = _table([_image(*beam) for beam in beams])
+    def __init__(self, line_families: Sequence[tuple[Sector, Real, Real]]) -> None:
+        self._table = _table([_image(*line_family) for line_family in line_families])
 
     def __len__(self) -> int:
         return len(self._table)
@@ -47,14 +47,14 @@ class Sides:
 
     @classmethod
     def joined(cls, parts: Sequence[Sides]) -> Sides:
-        """All beams of several."""
+        """All line families of several."""
         whole = cls([])
         if parts:
             whole._table = np.concatenate([part._table for part in parts])
         return whole
 
     def of(self, x: float, y: float, slack: float) -> Ints:
-        """1 or -1 for each beam if the place is certainly to the left or right of all its lines, else 0.
+        """For each line family 1 or -1 if the place is certainly left or right of all its lines, else 0.
 
         The place may be off by *slack*, besides the error of `rough`.
         """
@@ -63,7 +63,7 @@ class Sides:
         return np.where(low > margin, 1, np.where(high < -margin, -1, 0))
 
     def distances(self, x: float, y: float) -> tuple[Floats, Floats]:
-        """Bounds, up to round-off, of the distances of a place from each beam's lines, positive to the left.
+        """Bounds, up to round-off, of a place's distances from each family's lines, positive to the left.
 
         Lines that turn have a direction between two angles, a rolling contact lifts them by its radius. A
         normal that goes left leaves what lies farther along its segment to its right. All normals of an arc
@@ -125,7 +125,7 @@ def _line(start: Point, end: Point) -> tuple[float, ...]:
 
 
 def _error(ox: float, oy: float, extent: float, size: float) -> float:
-    """The part of the margin that belongs to a beam; infinite where underflow may spoil the base vector."""
+    """The part of the margin that belongs to a family; infinite where underflow may spoil the base vector."""
     return TINY + ERROR * (abs(ox) + abs(oy) + extent) if size > TINY else inf
 
 

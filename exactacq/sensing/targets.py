@@ -15,7 +15,7 @@ from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.interval_union import EMPTY, Cover, Interval
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.terrain_components import Component
-from exactacq.sensing.cut_ends import Lookout
+from exactacq.sensing.cut_ends import CutEnd
 
 
 class Target(NamedTuple):
@@ -45,7 +45,7 @@ class Targets:
     """
 
     def __init__(
-        self, of: Sequence[tuple[Target, ...]], lookouts: Mapping[int, Sequence[Lookout]] | None = None
+        self, of: Sequence[tuple[Target, ...]], lookouts: Mapping[int, Sequence[CutEnd]] | None = None
     ) -> None:
         self.of, self.lookouts = tuple(of), lookouts or {}
         self.edges = [frozenset(target.edge for target in targets) for targets in self.of]
@@ -74,8 +74,8 @@ class Targets:
             if not component.closed:
                 begin, end = targets[0], targets[-1]
                 lookouts[component.index] = (
-                    Lookout(table, radius, begin.edge, begin.span.low, begin.span.start),
-                    Lookout(table, radius, end.edge, end.span.high, end.span.end),
+                    CutEnd(table, radius, begin.edge, begin.span.low, begin.span.start),
+                    CutEnd(table, radius, end.edge, end.span.high, end.span.end),
                 )
             of.append(targets)
         return cls(of, lookouts)

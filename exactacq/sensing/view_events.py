@@ -98,7 +98,7 @@ class SweepCell:
     def map(self) -> Map:
         """The map of a robot that has walked this cell only: all that is seen from some place of it."""
         part = self.shares.leg.between(self.begin, self.end)
-        rails = self.shares.sightlines.ranges.rails
+        rails = self.shares.complex.ranges.rails
         return Map(self.scene.obstacles, self.shares.targets, rails, self.shares.cut(part).taught({}))
 
     def windows(self, u: fmpq) -> list[tuple[Point, Point | None]]:
@@ -113,7 +113,7 @@ class SweepCell:
         for share in cut:
             if share is None:
                 continue
-            near, seen = _sector(share).touch(share.glance.first.t)[0], share.shown.start
+            near, seen = _sector(share).touch(share.family.first.t)[0], share.shown.start
             if _shown(share).role is Role.CONTACT:
                 touched.append(near)
             elif (near, seen) not in found:
@@ -197,7 +197,7 @@ def _events(number: int, shares: Shares) -> list[SweepEvent]:
     for u, place, e in _turnings(shares):
         if all(u.compare(other) != 0 for other, _, _ in found[e]):
             found[e].append((u, place, Change.TURNING))
-    table, leg = shares.sightlines.table, shares.leg
+    table, leg = shares.complex.table, shares.leg
     events: list[SweepEvent] = [
         SweepEvent(change, table.owners[e], e - table.edges_of(table.owners[e]).start, number, u, place)
         for e in sorted(found)
@@ -208,7 +208,7 @@ def _events(number: int, shares: Shares) -> list[SweepEvent]:
 
 def _sightings(shares: Shares, e: int) -> Iterator[tuple[Real, Point, Change]]:
     """When an edge comes into sight and goes out of it, inside the leg."""
-    leg, owner = shares.leg, shares.sightlines.table.owners[e]
+    leg, owner = shares.leg, shares.complex.table.owners[e]
     for interval in shares.times(owner, e).intervals:
         ends = [(interval.low, interval.start), (interval.high, interval.end)]
         for k, (u, place) in enumerate(ends):
@@ -243,11 +243,11 @@ def _turnings(shares: Shares) -> Iterator[tuple[Real, Point, int]]:
 
 
 def _bounds(shares: Shares) -> Iterator[Share]:
-    """The glances that bound what is seen, over more than one place of the leg."""
+    """The families that bound what is seen, over more than one place of the leg."""
     for found in shares.of.values():
         for share in found:
-            strand, i = share.glance.strand, share.source
-            if strand is not None and strand.anchor is not None and i.low.compare(i.high) < 0:
+            free_views, i = share.family.free_views, share.source
+            if free_views is not None and free_views.anchor is not None and i.low.compare(i.high) < 0:
                 yield share
 
 
@@ -259,13 +259,13 @@ def _feature(share: Share) -> Hashable:
 
 
 def _sector(share: Share) -> Sector:
-    assert share.glance.strand is not None
-    return share.glance.strand.sector
+    assert share.family.free_views is not None
+    return share.family.free_views.sector
 
 
 def _shown(share: Share) -> Side:
-    assert share.glance.strand is not None
-    return share.glance.strand.sides[1 - share.side]
+    assert share.family.free_views is not None
+    return share.family.free_views.sides[1 - share.side]
 
 
 def _distinct(points: list[Point]) -> list[Point]:

@@ -5,8 +5,8 @@ by moving its end along e. So it touches a corner or a convex arc that keeps it 
 normal to e, or it starts at an end of e. Hence the tangent lines of corners and arcs, the normals of
 edges and the rays from vertices, families with one parameter each, contain every shortest view: together
 they give all that e sees of f, and, with the roles exchanged, the part of e from which anything of f is
-in sight. A `Strand` is such a family before the range is considered; `Ranges.glances` restricts it to the
-range, and the results are `Glance` objects.
+in sight. A `FreeViews` is such a family before the range is considered; `Ranges.families` restricts it to the
+range, and the results are `ViewFamily` objects.
 """
 
 from __future__ import annotations
@@ -85,7 +85,7 @@ class End:
 
 
 @dataclass(slots=True)
-class Strand:
+class FreeViews:
     """The views between two sides along the lines of a sector from ``low`` to ``high``.
 
     ``names`` are what else the first and the last line are called (see `line_names`); ``pinned`` are their
@@ -104,20 +104,20 @@ class Strand:
 
 
 @dataclass(slots=True)
-class Glance:
+class ViewFamily:
     """A family of free views within range, from one extreme view to the other; both ends move monotonically.
 
-    Without a strand the family has one fixed end, and all views lie on one line.
+    Without a free views the family has one fixed end, and all views lie on one line.
     """
 
     edges: tuple[int, int]
     first: End
     last: End
-    strand: Strand | None = None
+    free_views: FreeViews | None = None
 
 
 class Ranges:
-    """Cuts strands to a range and finds their views; holds the rails of the scene's edges by number."""
+    """Cuts free views to a range and finds their views; holds the rails of the scene's edges by number."""
 
     def __init__(self, rails: list[Rail], radius: fmpq, roundoff: float, circles: Mapping[int, int]) -> None:
         self.rails, self.radius, self.roundoff, self.circles = rails, radius, roundoff, circles
@@ -138,45 +138,45 @@ class Ranges:
         """The curve of a number."""
         return self.rails[e].curve
 
-    def glances(self, strand: Strand) -> list[Glance]:
-        """The parts of a strand that lie within range, as closed families; single views count."""
-        found = list(self._within(strand))
-        for k, side in enumerate(strand.sides):
+    def families(self, free_views: FreeViews) -> list[ViewFamily]:
+        """The parts of a free views that lie within range, as closed families; single views count."""
+        found = list(self._within(free_views))
+        for k, side in enumerate(free_views.sides):
             if getattr(self.curve(side.edge), "full", False):
-                found = [part for glance in found for part in self._unrolled(glance, k)]
+                found = [part for family in found for part in self._unrolled(family, k)]
         return found
 
-    def _unrolled(self, glance: Glance, k: int) -> Iterator[Glance]:
+    def _unrolled(self, family: ViewFamily, k: int) -> Iterator[ViewFamily]:
         """On a full circle: cut where a side passes the circle's start, whose parameter is 0 or 4."""
-        first, last, strand = glance.first, glance.last, glance.strand
-        if strand is None or first is last:
-            yield glance
+        first, last, free_views = family.first, family.last, family.free_views
+        if free_views is None or first is last:
+            yield family
             return
         a, b = first.places[k], last.places[k]
-        middle = self.end(strand, Real(rational_between(first.t, last.t))).places[k]
+        middle = self.end(free_views, Real(rational_between(first.t, last.t))).places[k]
         if a.sign() == 0 and middle.compare(b) > 0:
             a = Real(4)
         if b.sign() == 0 and middle.compare(a) > 0:
             b = Real(4)
         first, last = _placed(first, k, a), _placed(last, k, b)
         if min(a, b) <= middle <= max(a, b):
-            yield Glance(glance.edges, first, last, strand)
+            yield ViewFamily(family.edges, first, last, free_views)
             return
-        seam = self.view_from(glance, k, self.curve(glance.edges[k]).start)
+        seam = self.view_from(family, k, self.curve(family.edges[k]).start)
         before, after = (Real(4), Real(0)) if a > b else (Real(0), Real(4))
-        yield Glance(glance.edges, first, _placed(seam, k, before), strand)
-        yield Glance(glance.edges, _placed(seam, k, after), last, strand)
+        yield ViewFamily(family.edges, first, _placed(seam, k, before), free_views)
+        yield ViewFamily(family.edges, _placed(seam, k, after), last, free_views)
 
-    def _within(self, strand: Strand) -> Iterator[Glance]:
-        low, high = self.end(strand, strand.low), self.end(strand, strand.high)
-        certain = self._certain(strand, low, high)
-        edges = strand.sides[0].edge, strand.sides[1].edge
+    def _within(self, free_views: FreeViews) -> Iterator[ViewFamily]:
+        low, high = self.end(free_views, free_views.low), self.end(free_views, free_views.high)
+        certain = self._certain(free_views, low, high)
+        edges = free_views.sides[0].edge, free_views.sides[1].edge
         if certain is not None:
             if certain:
-                yield Glance(edges, low, high, strand)
+                yield ViewFamily(edges, low, high, free_views)
             return
-        ends = [low, *self._at_range(strand, low, high), high]
-        inside = [self._is_inside(strand, rational_between(a.t, b.t)) for a, b in pairwise(ends)]
+        ends = [low, *self._at_range(free_views, low, high), high]
+        inside = [self._is_inside(free_views, rational_between(a.t, b.t)) for a, b in pairwise(ends)]
         begin: End | None = None
         for k, end in enumerate(ends):
             before, after = k > 0 and inside[k - 1], k < len(inside) and inside[k]
@@ -184,10 +184,10 @@ class Ranges:
                 begin = _tight(end) if k > 0 else end
             elif before and not after:
                 assert begin is not None
-                yield Glance(edges, begin, _tight(end) if k < len(inside) else end, strand)
+                yield ViewFamily(edges, begin, _tight(end) if k < len(inside) else end, free_views)
                 begin = None
             elif not before and not after and distance_sq(*end.points).compare(self.square) <= 0:
-                yield Glance(edges, end, end, strand)
+                yield ViewFamily(edges, end, end, free_views)
 
     def along(
         self, place: Point, near: Rail, run: tuple[Point, Point], shown: int
@@ -203,17 +203,17 @@ class Ranges:
         one, other = (End(Real(0), (place, p), (here, far.parameter(p))) for p in (first, last))
         yield one, other
 
-    def end(self, strand: Strand, t: Real) -> End:
-        """The view of a strand at a parameter."""
+    def end(self, free_views: FreeViews, t: Real) -> End:
+        """The view of a free views at a parameter."""
         names: Names = ()
         pin: Pin | None = None
         passed: Passed = ()
-        for k, bound in enumerate((strand.low, strand.high)):
+        for k, bound in enumerate((free_views.low, free_views.high)):
             if t is bound:
-                names, pin, passed = strand.names[k], strand.pinned[k], strand.passed[k]
+                names, pin, passed = free_views.names[k], free_views.pinned[k], free_views.passed[k]
         pins = [
-            pin if pin is not None and k == 0 else self._pin(strand.sector, t, side, names, passed)
-            for k, side in enumerate(strand.sides)
+            pin if pin is not None and k == 0 else self._pin(free_views.sector, t, side, names, passed)
+            for k, side in enumerate(free_views.sides)
         ]
         return End(t, (pins[0][0], pins[1][0]), (pins[0][1], pins[1][1]))
 
@@ -263,28 +263,28 @@ class Ranges:
                     return end
         return None
 
-    def clipped(self, glance: Glance, side: int, span: Interval) -> Glance | None:
-        """The part of a glance whose one side lies in an interval of that side's rail."""
-        a, b = glance.first.places[side], glance.last.places[side]
-        if span.low.rational == 0 and span.high is self.rails[glance.edges[side]].top:
-            return glance
+    def clipped(self, family: ViewFamily, side: int, span: Interval) -> ViewFamily | None:
+        """The part of a family whose one side lies in an interval of that side's rail."""
+        a, b = family.first.places[side], family.last.places[side]
+        if span.low.rational == 0 and span.high is self.rails[family.edges[side]].top:
+            return family
         low, high = (a, b) if a.compare(b) <= 0 else (b, a)
         if low.compare(span.high) > 0 or high.compare(span.low) < 0:
             return None
-        first = self._moved(glance, glance.first, glance.last, side, span)
-        last = self._moved(glance, glance.last, glance.first, side, span)
-        if glance.strand is not None and first.t.compare(last.t) > 0:
+        first = self._moved(family, family.first, family.last, side, span)
+        last = self._moved(family, family.last, family.first, side, span)
+        if family.free_views is not None and first.t.compare(last.t) > 0:
             first, last = last, first
-        return Glance(glance.edges, first, last, glance.strand)
+        return ViewFamily(family.edges, first, last, family.free_views)
 
-    def _moved(self, glance: Glance, end: End, other: End, side: int, span: Interval) -> End:
+    def _moved(self, family: ViewFamily, end: End, other: End, side: int, span: Interval) -> End:
         """An extreme view, moved to the end of an interval if it lies outside; *other* is the other one."""
         place = end.places[side]
         try:
             at_low, at_high = place.compare(span.low), place.compare(span.high)
         except Undecided:
             for bound, point in ((span.low, span.start), (span.high, span.end)):
-                if self.is_again(glance, end, side, point, bound):
+                if self.is_again(family, end, side, point, bound):
                     return _shared(end, side, point, bound)
             raise
         if at_low == 0:
@@ -296,21 +296,21 @@ class Ranges:
         place, point = (span.low, span.start) if at_low < 0 else (span.high, span.end)
         if place.compare(other.places[side]) == 0:
             return other
-        if glance.strand is None:
+        if family.free_views is None:
             points = (point, end.points[1]) if side == 0 else (end.points[0], point)
             return _placed(End(end.t, points, end.places), side, place)
-        return _placed(self.view_from(glance, side, point), side, place)
+        return _placed(self.view_from(family, side, point), side, place)
 
-    def is_again(self, glance: Glance, end: End, side: int, point: Point, u: Real) -> bool:
+    def is_again(self, family: ViewFamily, end: End, side: int, point: Point, u: Real) -> bool:
         """Whether an extreme view certainly ends at another point of its side, whose parameter is *u*.
 
-        Where that point is the simpler one, it is easier to prove that its line of the glance has the same
+        Where that point is the simpler one, it is easier to prove that its line of the family has the same
         other end than that the two points are one: asked where the latter was Undecided.
         """
-        place, strand = end.places[side], glance.strand
-        if strand is None or place is u or not place.overlaps(u):
+        place, free_views = end.places[side], family.free_views
+        if free_views is None or place is u or not place.overlaps(u):
             return False
-        sector, sides = strand.sector, strand.sides
+        sector, sides = free_views.sector, free_views.sides
         if sides[side].role is not Role.CONTACT:
             lines = sector.through(point)
         elif isinstance(sector, Rolling):
@@ -328,35 +328,37 @@ class Ranges:
             pass
         return False
 
-    def view_from(self, glance: Glance, side: int, point: Point) -> End:
-        """The view of a glance from a point of one of its sides, strictly between its extreme views."""
-        strand = glance.strand
-        assert strand is not None
-        role = strand.sides[side].role
-        sector = strand.sector
+    def view_from(self, family: ViewFamily, side: int, point: Point) -> End:
+        """The view of a family from a point of one of its sides, strictly between its extreme views."""
+        free_views = family.free_views
+        assert free_views is not None
+        role = free_views.sides[side].role
+        sector = free_views.sector
         if role == 0 and isinstance(sector, Rolling):
             lines = [sector.touching(point)]
         else:
             lines = sector.through(point)
         for t in lines:
-            if t.compare(glance.first.t) < 0 or t.compare(glance.last.t) > 0:
+            if t.compare(family.first.t) < 0 or t.compare(family.last.t) > 0:
                 continue
-            contact, direction = strand.sector.touch(t)
+            contact, direction = free_views.sector.touch(t)
             # 0: the two sides meet there, as where a way touches a circle.
             if role == 0 or (point - contact).dot(direction).sign() in (0, role):
-                near, far = (self.curve(strand.sides[k].edge) for k in (side, 1 - side))
-                other = _along_normal(sector, strand.sides[1 - side].role, near, far, point, direction)
+                near, far = (self.curve(free_views.sides[k].edge) for k in (side, 1 - side))
+                other = _along_normal(sector, free_views.sides[1 - side].role, near, far, point, direction)
                 if other is None:
-                    other = self._point(sector, strand.sides[1 - side], contact, direction)
+                    other = self._point(sector, free_views.sides[1 - side], contact, direction)
                 points = (point, other) if side == 0 else (other, point)
-                places = [self.rails[s.edge].parameter(p) for s, p in zip(strand.sides, points, strict=True)]
+                places = [
+                    self.rails[s.edge].parameter(p) for s, p in zip(free_views.sides, points, strict=True)
+                ]
                 return End(t, points, (places[0], places[1]))
         # Each point of the plane, but for one that all lines may share, lies on one line of a family on that
         # side of the contact: on one half tangent of a circle, one ray from a corner, one normal. So where
         # the lines meet a side moves along it without turning back, through all places between the extreme
         # ones. Where they all meet it in the shared point, the centre of an arc to which they are normal,
         # there is no place between: `rotational_sweep` parts such normals from the others.
-        raise AssertionError("a line of the glance passes each point between its extreme views")
+        raise AssertionError("a line of the family passes each point between its extreme views")
 
     def _point(self, sector: Sector, side: Side, contact: Point, direction: Point) -> Point:
         curve = self.curve(side.edge)
@@ -377,17 +379,19 @@ class Ranges:
             # through its centre. A tangent meets another one half way, by angle, between the two contacts.
             return Point(*sector.center) if isinstance(sector, Spokes) else contact
 
-    def _is_inside(self, strand: Strand, t: fmpq) -> bool:
-        contact, direction = strand.sector.touch(Real(t))
-        a, b = (self._point(strand.sector, side, contact, direction) for side in strand.sides)
+    def _is_inside(self, free_views: FreeViews, t: fmpq) -> bool:
+        contact, direction = free_views.sector.touch(Real(t))
+        a, b = (self._point(free_views.sector, side, contact, direction) for side in free_views.sides)
         return distance_sq(a, b).compare(self.square) <= 0
 
-    def _certain(self, strand: Strand, low: End, high: End) -> bool | None:
+    def _certain(self, free_views: FreeViews, low: End, high: End) -> bool | None:
         """Whether floats prove that all views are within range, or that none is; None if they cannot tell.
 
         Sides are hulls of their extreme points, widened by the sagitta of arcs.
         """
-        hulls = [(low.points[k].xy, high.points[k].xy, self._sagitta(strand, k, low, high)) for k in (0, 1)]
+        hulls = [
+            (low.points[k].xy, high.points[k].xy, self._sagitta(free_views, k, low, high)) for k in (0, 1)
+        ]
         (a, b, wide), (c, d, far) = hulls
         slack = wide + far + 64 * self.roundoff
         longest = max(hypot(p[0] - q[0], p[1] - q[1]) for p in (a, b) for q in (c, d))
@@ -397,30 +401,30 @@ class Ranges:
         gap_y = max(min(a[1], b[1]) - max(c[1], d[1]), min(c[1], d[1]) - max(a[1], b[1]), 0.0)
         return False if hypot(gap_x, gap_y) - slack > self.limit * (1 + SURE) else None
 
-    def _sagitta(self, strand: Strand, k: int, low: End, high: End) -> float:
+    def _sagitta(self, free_views: FreeViews, k: int, low: End, high: End) -> float:
         """How far a side bends away from its chord at most (no side of Turning lines passes a half turn)."""
-        side = strand.sides[k]
+        side = free_views.sides[k]
         curve = self.curve(side.edge)
         if side.fixed or isinstance(curve, Segment):
             return 0.0
         radius = float(curve.radius)
-        if isinstance(strand.sector, Rolling | Sliding):
+        if isinstance(free_views.sector, Rolling | Sliding):
             return 2 * radius
         (ax, ay), (bx, by) = low.points[k].xy, high.points[k].xy
         return min(((ax - bx) ** 2 + (ay - by) ** 2) / (4 * radius) * (1 + SURE) * 2, radius)
 
     # -- where a family meets the range --------------------------------------------------------------
 
-    def _at_range(self, strand: Strand, low: End, high: End) -> list[End]:
+    def _at_range(self, free_views: FreeViews, low: End, high: End) -> list[End]:
         """The views strictly between the extreme ones that may be as long as the range, in order."""
         found = [
             t
-            for t in self._candidates(strand, low, high)
-            if t.compare(strand.low) > 0 and t.compare(strand.high) < 0
+            for t in self._candidates(free_views, low, high)
+            if t.compare(free_views.low) > 0 and t.compare(free_views.high) < 0
         ]
         found.sort(key=cmp_to_key(Real.compare))
         distinct = [t for k, t in enumerate(found) if k == 0 or t.compare(found[k - 1]) != 0]
-        ends = (self.end(strand, t) for t in distinct)
+        ends = (self.end(free_views, t) for t in distinct)
         return [end for end in ends if self._may_be_at_range(end)]
 
     def _longer_at(self, low: End, high: End, t: Real) -> int:
@@ -431,8 +435,8 @@ class Ranges:
     def _may_be_at_range(self, end: End) -> bool:
         return not abs((distance_sq(*end.points) - self.square).ball(128)) > 0
 
-    def _candidates(self, strand: Strand, low: End, high: End) -> Iterator[Real]:
-        sector, (one, other) = strand.sector, strand.sides
+    def _candidates(self, free_views: FreeViews, low: End, high: End) -> Iterator[Real]:
+        sector, (one, other) = free_views.sector, free_views.sides
         roles = {side.role: side.edge for side in (one, other)}
         curves = {role: self.curve(edge) for role, edge in roles.items()}
         if Role.CONTACT not in roles:
@@ -442,7 +446,7 @@ class Ranges:
             else:
                 circle = (*sector.center, dot(sector.base, sector.base)) if sector.round else None
                 way = self.rails[-1].curve if circle in self._touched else None
-                span = strand.low, strand.high
+                span = free_views.low, free_views.high
                 longer_at = partial(self._longer_at, low, high)
                 yield from of_length_on(sector, behind, ahead, self.square, *span, way, longer_at)
             return

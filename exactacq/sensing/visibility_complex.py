@@ -16,19 +16,19 @@ import numpy as np
 from flint import fmpq
 
 from exactacq.scene.edge_table import EdgeTable, Floats, Ints
-from exactacq.sensing.complex_edges import Bundle, Family, Sweeper
+from exactacq.sensing.complex_edges import Bundle, FamilySweeper, FeatureFamilies
 
 KEPT = 8192
 """Families that are remembered, the last used of each kind: enough for a wide neighbourhood, and a bound of
 the memory."""
 
 
-class Sightlines:
+class VisibilityComplex:
     """The families of views of one scene within one radius."""
 
     def __init__(self, table: EdgeTable, radius: fmpq) -> None:
         self.table, self.radius = table, radius
-        sweeper = Sweeper(table, radius)
+        sweeper = FamilySweeper(table, radius)
         self.reach, self.ranges, self.features = sweeper.reach, sweeper.ranges, sweeper.features
         self._normals_of = lru_cache(KEPT)(sweeper.normals)
         self._tangents_of = lru_cache(KEPT)(sweeper.tangents)
@@ -56,12 +56,12 @@ class Sightlines:
 
         Not those that start at a corner of it: what a corner sees is a view.
         """
-        for family in self.near(self.table.boxes[edge], wanted, edge):
-            for bundle, side in family.on(edge):
+        for feature in self.near(self.table.boxes[edge], wanted, edge):
+            for bundle, side in feature.on(edge):
                 if bundle.sides[1 - side].edge in wanted:
                     yield bundle, side
 
-    def near(self, box: Floats, wanted: frozenset[int], own: int | None = None) -> Iterator[Family]:
+    def near(self, box: Floats, wanted: frozenset[int], own: int | None = None) -> Iterator[FeatureFamilies]:
         """The families that may show wanted edges to places in a box, which lies on edge *own* if given.
 
         A tangent's contact lies between the two ends of a view, so both are within reach of it together.

@@ -89,10 +89,10 @@ def vertex_scan(scene: Scene, start: Point | Sequence[object] | None = None) -> 
     place = scene.start if start is None else Point.of(start)
     if place is None or place.rational is None:
         raise InvalidScene(["a start point with rational coordinates must be given"])
-    return _Search(scene, place).run()
+    return _DepthFirst(scene, place).run()
 
 
-class _Search:
+class _DepthFirst:
     """A depth-first search; every vertex keeps what is left of its scan, so no sight is tested twice."""
 
     def __init__(self, scene: Scene, start: Point) -> None:

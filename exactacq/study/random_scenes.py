@@ -141,7 +141,7 @@ def _sightseer_scene(dice: Dice, name: str) -> Scene:
     width, height = dice.choice(((8, 8), (12, 6), (5, 9)))
     shapes = _shapes(dice, Box(0, 0, width, height), Box(-1, -1, width, height), dice.between(1, MOST))
     room = Box(-dice.between(1, 3), -1, width + 1, height + dice.between(1, 3))
-    wall = _Place(room, 0, fmpq(0)).shape(POLYGONS[0]) if dice.chance(12) else None
+    wall = _Spot(room, 0, fmpq(0)).shape(POLYGONS[0]) if dice.chance(12) else None
     return _with_start(dice, shapes, room, wall, radius, name)
 
 
@@ -223,7 +223,7 @@ def _round_room(dice: Dice, center: Corner, size: fmpq, percent: int) -> Shape:
     kind = dice.below(5)
     if kind == 0:
         low = Box(*(int(c - 3 * size) for c in center), *(int(c + 3 * size) for c in center))
-        return subdivided(dice, _Place(low, 0, fmpq(0)).shape(rounded_triangle(fmpq(1, 10))), percent)
+        return subdivided(dice, _Spot(low, 0, fmpq(0)).shape(rounded_triangle(fmpq(1, 10))), percent)
     if kind == 1:
         return Circle(center, size)
     off = center[0] + dice.choice((0, 0, 1)), center[1]
@@ -259,7 +259,7 @@ def _swept_arcs(dice: Dice, name: str) -> Scene:
 
 def _with_arcs(dice: Dice, box: Box) -> list[Shape]:
     """One shape that fills a box: a smooth one or one with a cusp if the box is square, or a polygon."""
-    place = _Place(box, dice.below(8), fmpq(0))
+    place = _Spot(box, dice.below(8), fmpq(0))
     if box.right - box.left != box.top - box.bottom:
         return [place.shape(dice.choice((*OUTLINES, POLYGONS[0], POLYGONS[5])))]
     kind = dice.below(4)
@@ -323,7 +323,7 @@ def _box(dice: Dice, within: Box, sides: tuple[int, int]) -> Box:
 
 def _filled(dice: Dice, box: Box, round_share: int, shift: fmpq) -> list[Shape]:
     """One shape that fills the box, and perhaps what sits in its pocket."""
-    place = _Place(box, dice.below(8), shift)
+    place = _Spot(box, dice.below(8), shift)
     is_square = box.right - box.left == box.top - box.bottom
     if not dice.chance(round_share):
         drawn = dice.choice(POLYGONS)
@@ -336,7 +336,7 @@ def _filled(dice: Dice, box: Box, round_share: int, shift: fmpq) -> list[Shape]:
     return [place.shape(dice.choice((*OUTLINES, *ROUNDED) if is_square else OUTLINES))]
 
 
-class _Place:
+class _Spot:
     """Where a shape of the unit square goes: one of its eight symmetries, a box, and a shift to the east."""
 
     def __init__(self, box: Box, symmetry: int, shift: fmpq) -> None:

@@ -76,14 +76,14 @@ def _contacts(start: Point, end: Point, direction: Point, curve: Curve) -> list[
 
 
 @dataclass(frozen=True, slots=True)
-class Walk:
+class LineWalk:
     """The contacts (signed parameter, edge) of a line within reach, nearest first; the last may block it."""
 
     hits: list[tuple[Real, int]]
     blocked: bool
 
 
-def walk_line(table: EdgeTable, sector: Sector, t: Real, reach: float) -> tuple[Walk, Walk]:
+def walk_line(table: EdgeTable, sector: Sector, t: Real, reach: float) -> tuple[LineWalk, LineWalk]:
     """What a tangent line touches behind and ahead of its contact, up to what first blocks it."""
     contact, direction = sector.touch(t)
     x, y = contact.xy
@@ -124,13 +124,13 @@ def _by_parameter(a: tuple[Real, int], b: tuple[Real, int]) -> int:
 
 def _until_blocked(
     table: EdgeTable, contact: Point, direction: Point, hits: list[tuple[Real, int]], end: Real
-) -> Walk:
+) -> LineWalk:
     previous = Real(0)
     owners = {int(table.owner[e]) for _, e in hits}
     for k, tau in enumerate([*(tau for tau, _ in hits), end]):
         if (tau - previous).sign() == end.sign():
             middle = contact + direction * ((previous + tau) * HALF)
             if any(table.obstacles[i].locate(middle) is Location.INSIDE for i in owners):
-                return Walk(hits[:k], blocked=True)
+                return LineWalk(hits[:k], blocked=True)
             previous = tau
-    return Walk(hits, blocked=False)
+    return LineWalk(hits, blocked=False)

@@ -12,7 +12,7 @@ from flint import fmpq
 
 from exactacq.geometry.box_index import box
 from exactacq.geometry.curves import Arc, Curve, Segment
-from exactacq.geometry.intersections import Family, FamilyKind
+from exactacq.geometry.intersections import NearestFamily, NearestFamilyKind
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
@@ -23,7 +23,7 @@ Place: TypeAlias = "Real | Point"
 """Position in a family: a fraction of the first segment, or a direction from the common centre."""
 
 
-def free_pieces(table: EdgeTable, family: Family) -> Iterator[Family | Chord]:
+def free_pieces(table: EdgeTable, family: NearestFamily) -> Iterator[NearestFamily | Chord]:
     """The maximal free sub-families and the free isolated segments of a family.
 
     What is free changes only beside vertices and arcs' extreme points: one segment between two neighbouring
@@ -32,7 +32,7 @@ def free_pieces(table: EdgeTable, family: Family) -> Iterator[Family | Chord]:
     if _is_clear(table, family):
         yield family
         return
-    places = _Fractions(family) if family.kind is FamilyKind.PARALLEL else _Directions(family)
+    places = _Fractions(family) if family.kind is NearestFamilyKind.PARALLEL else _Directions(family)
     cuts = places.ordered(_critical(table, family, places))
     if len(cuts) == 1:
         if _is_open(table, places.chord(cuts[0])):
@@ -57,11 +57,11 @@ def _is_open(table: EdgeTable, segment: Segment) -> bool:
     return is_free(table, segment.start, segment.end)
 
 
-def _curves(family: Family) -> list[Curve]:
+def _curves(family: NearestFamily) -> list[Curve]:
     return [c for c in (family.first, family.second) if not isinstance(c, Point)]
 
 
-def _near(table: EdgeTable, family: Family) -> list[int]:
+def _near(table: EdgeTable, family: NearestFamily) -> list[int]:
     corners = [box(c) for c in _curves(family)]
     corners += [(*p.xy, *p.xy) for p in (family.first, family.second) if isinstance(p, Point)]
     low = np.min([c[:2] for c in corners], axis=0)
@@ -69,9 +69,9 @@ def _near(table: EdgeTable, family: Family) -> list[int]:
     return [int(e) for e in table.near((low[0], low[1]), (high[0], high[1]), 0.0)]
 
 
-def _is_clear(table: EdgeTable, family: Family) -> bool:
+def _is_clear(table: EdgeTable, family: NearestFamily) -> bool:
     """Whether no edge can reach the open strip between two parallel segments: floats with a margin."""
-    if family.kind is not FamilyKind.PARALLEL:
+    if family.kind is not NearestFamilyKind.PARALLEL:
         return False
     assert isinstance(family.first, Segment)
     assert isinstance(family.second, Segment)
@@ -96,7 +96,7 @@ def _is_clear(table: EdgeTable, family: Family) -> bool:
     return not len(edges)
 
 
-def _critical(table: EdgeTable, family: Family, places: _Places) -> Iterator[Place]:
+def _critical(table: EdgeTable, family: NearestFamily, places: _Places) -> Iterator[Place]:
     for e in _near(table, family):
         curve = table.curves[e]
         yield from places.through(curve.start)
@@ -107,7 +107,7 @@ def _critical(table: EdgeTable, family: Family, places: _Places) -> Iterator[Pla
 class _Fractions:
     """Places of a parallel family: fractions of its first segment."""
 
-    def __init__(self, family: Family) -> None:
+    def __init__(self, family: NearestFamily) -> None:
         assert isinstance(family.first, Segment)
         assert isinstance(family.second, Segment)
         self.first, self.offset = family.first, family.second.start - family.first.start
@@ -136,15 +136,15 @@ class _Fractions:
         start = self.first.start + self.along * place
         return Segment(start, start + self.offset)
 
-    def part(self, low: Place, high: Place) -> Family:
+    def part(self, low: Place, high: Place) -> NearestFamily:
         a, b = self.chord(low), self.chord(high)
-        return Family(FamilyKind.PARALLEL, Segment(a.start, b.start), Segment(a.end, b.end))
+        return NearestFamily(NearestFamilyKind.PARALLEL, Segment(a.start, b.start), Segment(a.end, b.end))
 
 
 class _Directions:
     """Places of a concentric family: directions from the common centre, counterclockwise from one end."""
 
-    def __init__(self, family: Family) -> None:
+    def __init__(self, family: NearestFamily) -> None:
         arc = family.first if isinstance(family.first, Arc) else family.second
         assert isinstance(arc, Arc)
         self.family, self.arc = family, arc if arc.ccw else arc.reversed()
@@ -213,7 +213,7 @@ class _Directions:
         )
         return Segment(start, end)
 
-    def part(self, low: Place, high: Place) -> Family:
+    def part(self, low: Place, high: Place) -> NearestFamily:
         a, b = self.chord(low), self.chord(high)
         first, second = (
             (c if c.ccw else c.reversed()).part(p, q) if isinstance(c, Arc) else p
@@ -222,7 +222,7 @@ class _Directions:
                 (self.family.second, a.end, b.end),
             )
         )
-        return Family(FamilyKind.CONCENTRIC, first, second)
+        return NearestFamily(NearestFamilyKind.CONCENTRIC, first, second)
 
 
 _Places: TypeAlias = "_Fractions | _Directions"

@@ -1,12 +1,12 @@
-"""Front faces: the parts of the boundary that turn their free side to a point (facets in the code).
+"""Front faces: the parts of the boundary that turn their free side to a point (faces in the code).
 
-A ray from the point enters an obstacle only through a facet, and meets each facet once. Seen from the
-point a facet runs clockwise in the boundary's direction, since the obstacle lies on its left. A straight
-edge is one facet or none. An arc is divided where tangents from the point touch its circle: the near part
-of a convex arc is a facet, the far part of a concave one, and all of a concave one if the point is inside
+A ray from the point enters an obstacle only through a face, and meets each face once. Seen from the
+point a face runs clockwise in the boundary's direction, since the obstacle lies on its left. A straight
+edge is one face or none. An arc is divided where tangents from the point touch its circle: the near part
+of a convex arc is a face, the far part of a concave one, and all of a concave one if the point is inside
 the circle.
 
-The ends of facets are *events*, numbered: below the number of edges they are vertices, from there on *marks*,
+The ends of faces are *events*, numbered: below the number of edges they are vertices, from there on *marks*,
 points that are no vertices (tangent points, the point itself). Floats decide what their margins prove.
 """
 
@@ -39,7 +39,7 @@ NOWHERE = -1
 """The event where a full circle about the point begins and ends: there is none."""
 
 
-class Mark:
+class SweepEnd:
     """An event that is no vertex: its point and the exact direction to it, made by *make* when asked for,
     and that direction as floats with a margin.
 
@@ -79,10 +79,10 @@ class Cone:
     high: int
 
 
-class Facets:
-    """The facets within reach of one free point, as parallel arrays, with their events.
+class FrontFaces:
+    """The faces within reach of one free point, as parallel arrays, with their events.
 
-    ``edge``, ``low`` and ``high``: edge number and events of each facet; it covers the directions
+    ``edge``, ``low`` and ``high``: edge number and events of each face; it covers the directions
     counterclockwise from low to high, and runs from high to low. ``own`` are the edges through the point, at
     a vertex the incoming one first; ``on_ray`` the other straight edges that the point sees edge-on.
     """
@@ -93,7 +93,7 @@ class Facets:
         self.xy = point.xy
         self.reach = reach
         self.slack = SLACK * table.roundoff_at(self.xy)
-        self.marks: list[Mark] = []
+        self.marks: list[SweepEnd] = []
         self.on_ray: list[int] = []
         self.special: list[int] = []
         self._offsets: dict[int, Vector] = {}
@@ -137,7 +137,7 @@ class Facets:
         count = len(self.table.vertices)
         return self.table.curves[event].start if event < count else self.marks[event - count].exact[0]
 
-    def _mark(self, mark: Mark) -> int:
+    def _mark(self, mark: SweepEnd) -> int:
         self.marks.append(mark)
         return len(self.table.vertices) + len(self.marks) - 1
 
@@ -170,7 +170,7 @@ class Facets:
     # -- arcs --------------------------------------------------------------------------------------
 
     def _arc(self, e: int) -> list[tuple[int, int, int]]:
-        """The facets (edge, low, high) of an arc that does not pass through the point, in its direction."""
+        """The faces (edge, low, high) of an arc that does not pass through the point, in its direction."""
         table, slack, arc = self.table, self.slack, self.table.curves[e]
         assert isinstance(arc, Arc)
         wx, wy = float(table.center[e, 0] - self.xy[0]), float(table.center[e, 1] - self.xy[1])
@@ -206,7 +206,7 @@ class Facets:
         z = minus(raw(end), raw(arc.center))
         beyond = sign(dot(z, w) + arc.radius_sq) * (-1 if arc.ccw else 1)
         if beyond == 0:
-            # The end is a tangent point: facets go from the left one to the right one.
+            # The end is a tangent point: faces go from the left one to the right one.
             left = sign(cross(w, z)) > 0
             return left if end is arc.start else not left
         return beyond > 0
@@ -225,12 +225,12 @@ class Facets:
             wx, wy = float(w[0]), float(w[1])
             radius, reach = float(arc.radius), sqrt(float(dot(w, w) - arc.radius_sq))
         xy = wx * reach - wy * radius * side, wy * reach + wx * radius * side
-        return self._mark(Mark(partial(_touch, self.origin, arc, w, side), xy, margin, e, -side))
+        return self._mark(SweepEnd(partial(_touch, self.origin, arc, w, side), xy, margin, e, -side))
 
     # -- the point's own edges ---------------------------------------------------------------------
 
     def _cone(self, arcs: list[tuple[int, int, int]]) -> Cone | None:
-        """The blocked directions of a boundary point; adds the facets of its own concave arcs to *arcs*."""
+        """The blocked directions of a boundary point; adds the faces of its own concave arcs to *arcs*."""
         table = self.table
         incoming, outgoing = self.own[0], self.own[-1]
         before, after = table.curves[incoming], table.curves[outgoing]
@@ -257,7 +257,7 @@ class Facets:
         x, y = raw(curve.tangent(self.point))
         vector = x * sense, y * sense
         xy, here = (float(vector[0]), float(vector[1])), self.point
-        return self._mark(Mark(lambda: (here, vector), xy, EXACT, e, sense if curve.ccw else -sense))
+        return self._mark(SweepEnd(lambda: (here, vector), xy, EXACT, e, sense if curve.ccw else -sense))
 
 
 def _touch(origin: Vector, arc: Arc, w: Vector, side: int) -> tuple[Point, Vector]:

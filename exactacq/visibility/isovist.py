@@ -29,7 +29,7 @@ from exactacq.scene.validation import sensor_flaws
 from exactacq.visibility.free_segment import is_free
 from exactacq.visibility.outline import ViewKind, ViewPiece, outline
 from exactacq.visibility.range_clip import Span
-from exactacq.visibility.visible_boundary import View
+from exactacq.visibility.visible_boundary import BoundaryView
 
 __all__ = ["Isovist", "ViewKind", "ViewPiece", "isovist"]
 
@@ -49,7 +49,7 @@ class Isovist:
 
     def __init__(self, scene: Scene, point: Point, radius: fmpq, own: tuple[int, ...] | None = None) -> None:
         self.scene, self.point, self.radius = scene, point, radius
-        self._view = View(_Tables.of(scene).edges, point, radius, own)
+        self._view = BoundaryView(_Tables.of(scene).edges, point, radius, own)
 
     @cached_property
     def pieces(self) -> tuple[ViewPiece, ...]:

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from exactacq.errors import InvalidScene
 from exactacq.geometry.curves import Arc, Curve
-from exactacq.geometry.intersections import Family, FamilyKind, Nearest, nearest_points
+from exactacq.geometry.intersections import Nearest, NearestFamily, NearestFamilyKind, nearest_points
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.numbers.rationals import rational
@@ -44,7 +44,7 @@ from exactacq.visibility.rotational_sweep import Cell, Pencil, pencil
 
 START = "S"
 Node: TypeAlias = "int | str"
-Shortest: TypeAlias = "Chord | Family"
+Shortest: TypeAlias = "Chord | NearestFamily"
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,7 +156,7 @@ class Links:
         a, b = np.array(left, dtype=np.intp), np.array(right, dtype=np.intp)
         bounds = pair_bounds(self.table, a, b)
         order = count()
-        heap: list[tuple[float, int, tuple[int, int] | Nearest | Family]] = [
+        heap: list[tuple[float, int, tuple[int, int] | Nearest | NearestFamily]] = [
             (float(bounds[r, c]), next(order), (int(a[r]), int(b[c])))
             for r, c in zip(*np.nonzero((bounds <= self.reach) & _facing(self.table, a, b)), strict=True)
         ]
@@ -184,10 +184,10 @@ class Links:
                 best.offer(length, piece)
         return least is not None and best.found and best.length == least
 
-    def _minima(self, a: int, b: int) -> Iterator[Nearest | Family]:
+    def _minima(self, a: int, b: int) -> Iterator[Nearest | NearestFamily]:
         """Local minima of the distance near two edges: of the boundaries, not only of the edges."""
         for found in nearest_points(self.table.curves[a], self.table.curves[b]):
-            if isinstance(found, Family) or (
+            if isinstance(found, NearestFamily) or (
                 self._is_foot(a, found.start, found.end) and self._is_foot(b, found.end, found.start)
             ):
                 yield found
@@ -209,8 +209,8 @@ class Links:
         nearer: Real = (other.x - foot.x) * x + (other.y - foot.y) * y
         return nearer.sign() <= 0
 
-    def free_part(self, item: Nearest | Family, length: Real) -> Iterator[Shortest]:
-        if isinstance(item, Family):
+    def free_part(self, item: Nearest | NearestFamily, length: Real) -> Iterator[Shortest]:
+        if isinstance(item, NearestFamily):
             yield from free_pieces(self.table, item)
         elif is_free(self.table, item.start, item.end):
             yield Chord(item.start, item.end, length)
@@ -353,7 +353,7 @@ class Links:
             low = chord_at(sweep.sector, cell.low, None, ahead)
             high = chord_at(sweep.sector, cell.high, None, ahead)
             part = (ahead if ahead.ccw else ahead.reversed()).part(low.end, high.end)
-            best.offer(low.length, Family(FamilyKind.CONCENTRIC, low.start, part))
+            best.offer(low.length, NearestFamily(NearestFamilyKind.CONCENTRIC, low.start, part))
             return
         for chord in self._cell_chords(sweep, replace(cell, behind=None)):
             best.offer(chord.length, chord)
@@ -480,7 +480,7 @@ def box_gaps(points: Floats, box: Floats, sizes: Floats) -> Floats:
 
 
 def _flipped(item: Shortest) -> Shortest:
-    return item.reversed() if isinstance(item, Chord) else Family(item.kind, item.second, item.first)
+    return item.reversed() if isinstance(item, Chord) else NearestFamily(item.kind, item.second, item.first)
 
 
 def _same(a: Shortest, b: Shortest) -> bool:
@@ -525,7 +525,7 @@ def _ends(side: Curve | Point) -> tuple[Point, Point]:
     return (side, side) if isinstance(side, Point) else (side.start, side.end)
 
 
-def _partner(family: Family, position: Point) -> Point:
+def _partner(family: NearestFamily, position: Point) -> Point:
     """The point of the second curve that corresponds to a point of the first."""
     first, second = family.first, family.second
     if isinstance(first, Arc) and isinstance(second, Arc):

@@ -18,8 +18,8 @@ from typing import TypeAlias
 from exactacq.geometry.coordinates import dot, minus, raw, sign
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
-from exactacq.visibility.radial_sweep import BLOCKED, NOTHING, Sight
-from exactacq.visibility.visible_boundary import View
+from exactacq.visibility.radial_sweep import BLOCKED, NOTHING, FirstFace
+from exactacq.visibility.visible_boundary import BoundaryView
 
 
 class ViewKind(Enum):
@@ -67,30 +67,30 @@ class ViewPiece:
         return f"<{self.kind.value}{seen}: {self.curve!r}>"
 
 
-class _Hit:
-    """Where a ray in the direction of a rank hits a facet that is certainly within range."""
+class _RayHit:
+    """Where a ray in the direction of a rank hits a face that is certainly within range."""
 
-    __slots__ = ("_point", "facet", "rank", "view")
+    __slots__ = ("_point", "face", "rank", "view")
 
-    def __init__(self, view: View, facet: int, rank: int) -> None:
-        self.view, self.facet, self.rank = view, facet, rank
+    def __init__(self, view: BoundaryView, face: int, rank: int) -> None:
+        self.view, self.face, self.rank = view, face, rank
         self._point: Point | None = None
 
     @property
     def point(self) -> Point:
         """The exact point; made at the first access."""
         if self._point is None:
-            panorama = self.view.panorama
-            self._point = panorama.hit(self.facet, panorama.direction(self.rank))
+            sweep = self.view.sweep
+            self._point = sweep.hit(self.face, sweep.direction(self.rank))
         return self._point
 
 
-End: TypeAlias = "Point | _Hit | int"
+End: TypeAlias = "Point | _RayHit | int"
 """An end of a piece: a rank stands for the point of the range circle in its direction."""
 
 
 @dataclass(slots=True)
-class _Part:
+class _PieceEnds:
     """A piece in the making: an edge's number or None for a range arc, and its ends.
 
     ``is_point`` tells that the part is no piece but the point itself, which the outline passes through.
@@ -102,23 +102,23 @@ class _Part:
     is_point: bool = False
 
 
-def outline(view: View) -> tuple[ViewPiece, ...]:
+def outline(view: BoundaryView) -> tuple[ViewPiece, ...]:
     """The closed outline of a view, from the east on; empty if the point sees nothing but along a ray."""
-    sights = view.panorama.sights
+    sights = view.sweep.sights
     sights = [sights[-1], *sights[:-1]]
     if len(sights) == 1:
         return tuple(_all_around(view, sights[0]))
-    return tuple(_Outline(view, sights).pieces())
+    return tuple(_Assembly(view, sights).pieces())
 
 
-def _all_around(view: View, sight: Sight) -> Iterator[ViewPiece]:
+def _all_around(view: BoundaryView, sight: FirstFace) -> Iterator[ViewPiece]:
     """The outline where nothing or one full circle is seen in all directions."""
-    if sight.facet == BLOCKED:
+    if sight.face == BLOCKED:
         return
     circle = range_circle(view)
-    spans = view.spans(sight) if sight.facet != NOTHING else []
-    if sight.facet != NOTHING:
-        e = view.panorama.edges[sight.facet]
+    spans = view.spans(sight) if sight.face != NOTHING else []
+    if sight.face != NOTHING:
+        e = view.sweep.edges[sight.face]
         curve = view.table.curves[e]
         if len(spans) == 2:
             yield _edge_piece(view, e, curve.reversed)
@@ -131,15 +131,15 @@ def _all_around(view: View, sight: Sight) -> Iterator[ViewPiece]:
     yield ViewPiece(ViewKind.RANGE, lambda: circle)
 
 
-class _Outline:
-    def __init__(self, view: View, sights: list[Sight]) -> None:
+class _Assembly:
+    def __init__(self, view: BoundaryView, sights: list[FirstFace]) -> None:
         self.view, self.sights = view, sights
-        self.panorama = view.panorama
+        self.sweep = view.sweep
 
     def pieces(self) -> Iterator[ViewPiece]:
         """Parts joined where they continue each other, with windows where they do not meet."""
         parts = [(part, sight) for sight in self.sights for part in self._parts(sight)]
-        merged: list[tuple[_Part, list[ViewPiece]]] = []
+        merged: list[tuple[_PieceEnds, list[ViewPiece]]] = []
         pending: list[ViewPiece] = []
         for (before, sight), (part, after) in pairwise([parts[-1], *parts]):
             windows = [] if sight is after else self._window(before.end, part.start, sight, after)
@@ -163,39 +163,39 @@ class _Outline:
             yield from windows
             yield self._piece(part)
 
-    def _parts(self, sight: Sight) -> Iterator[_Part]:
+    def _parts(self, sight: FirstFace) -> Iterator[_PieceEnds]:
         """What a sight contributes, counterclockwise; the point itself where its obstacle begins."""
-        facet = sight.facet
-        if facet == BLOCKED:
-            yield _Part(None, self.view.point, self.view.point, is_point=True)
+        face = sight.face
+        if face == BLOCKED:
+            yield _PieceEnds(None, self.view.point, self.view.point, is_point=True)
             return
-        if facet == NOTHING:
-            yield _Part(None, sight.low, sight.high)
+        if face == NOTHING:
+            yield _PieceEnds(None, sight.low, sight.high)
             return
-        e = self.panorama.edges[facet]
-        if self.view.near[facet]:
-            yield _Part(e, self._end(sight, True), self._end(sight, False))
+        e = self.sweep.edges[face]
+        if self.view.near[face]:
+            yield _PieceEnds(e, self._end(sight, True), self._end(sight, False))
             return
         high, low = self.view.ends(sight)
         reached: End = sight.low
         at_low = low
-        for start, end in reversed(self.view.clipped(facet, (high, low))):
+        for start, end in reversed(self.view.clipped(face, (high, low))):
             if start is end:
                 continue
             if end is not at_low:
-                yield _Part(None, reached, end)
-            yield _Part(e, end, start)
+                yield _PieceEnds(None, reached, end)
+            yield _PieceEnds(e, end, start)
             reached = at_low = start
         if at_low is not high:
-            yield _Part(None, reached, sight.high)
+            yield _PieceEnds(None, reached, sight.high)
 
-    def _end(self, sight: Sight, is_low: bool) -> Point | _Hit:
-        """An end of what a sight sees of its facet, all of it within range."""
-        panorama, facet = self.panorama, sight.facet
-        rank, own = (sight.low, panorama.low) if is_low else (sight.high, panorama.high)
-        return panorama.end(facet, is_low) if own[facet] == rank else _Hit(self.view, facet, rank)
+    def _end(self, sight: FirstFace, is_low: bool) -> Point | _RayHit:
+        """An end of what a sight sees of its face, all of it within range."""
+        sweep, face = self.sweep, sight.face
+        rank, own = (sight.low, sweep.low) if is_low else (sight.high, sweep.high)
+        return sweep.end(face, is_low) if own[face] == rank else _RayHit(self.view, face, rank)
 
-    def _window(self, end: End, start: End, before: Sight, after: Sight) -> list[ViewPiece]:
+    def _window(self, end: End, start: End, before: FirstFace, after: FirstFace) -> list[ViewPiece]:
         """What joins the end of one sight to the start of the next: nothing, a window, or an own edge."""
         if end is start or (isinstance(end, int) and isinstance(start, int)):
             return []
@@ -213,10 +213,10 @@ class _Outline:
         make = partial(self._segment, end, start)
         return [ViewPiece(ViewKind.WINDOW, make, near=self._resolved(near))]
 
-    def _near(self, end: Point | _Hit, start: Point | _Hit, before: Sight, after: Sight) -> End:
-        """Of two points on one ray the nearer one; only a facet that ends on the ray can be nearer."""
-        ends = self.panorama.high[before.facet] == after.low
-        starts = self.panorama.low[after.facet] == after.low
+    def _near(self, end: Point | _RayHit, start: Point | _RayHit, before: FirstFace, after: FirstFace) -> End:
+        """Of two points on one ray the nearer one; only a face that ends on the ray can be nearer."""
+        ends = self.sweep.high[before.face] == after.low
+        starts = self.sweep.low[after.face] == after.low
         if ends != starts:
             return end if ends else start
         a, b = (minus(raw(self._resolved(p)), self.view.origin) for p in (end, start))
@@ -227,12 +227,12 @@ class _Outline:
 
         The pieces come from the point on, and run that way if *outward*.
         """
-        view, point, ranks = self.view, self.view.point, self.panorama.rank
+        view, point, ranks = self.view, self.view.point, self.sweep.rank
         for e in view.own:
             for vertex in (e, int(view.table.next[e])):
                 if not (view.runs_out(e, vertex) and ranks.get(vertex) == rank):
                     continue
-                place = self.panorama.facets.place(vertex)
+                place = self.sweep.faces.place(vertex)
                 excess = self._excess(place)
                 stop = far if excess > 0 else place
                 yield _edge_piece(view, e, partial(self._segment, point, stop, outward))
@@ -256,17 +256,17 @@ class _Outline:
             return end
         return self.view.at_range(end) if isinstance(end, int) else end.point
 
-    def _piece(self, part: _Part) -> ViewPiece:
+    def _piece(self, part: _PieceEnds) -> ViewPiece:
         view, e = self.view, part.edge
         if e is None:
             return ViewPiece(ViewKind.RANGE, partial(self._range, part))
         return _edge_piece(view, e, partial(self._edge, part, view.table.curves[e]))
 
-    def _range(self, part: _Part) -> Curve:
+    def _range(self, part: _PieceEnds) -> Curve:
         start, end = self._resolved(part.start), self._resolved(part.end)
         return Arc(start, end, self.view.point, self.view.radius_sq, ccw=True, full=start is end)
 
-    def _edge(self, part: _Part, curve: Curve) -> Curve:
+    def _edge(self, part: _PieceEnds, curve: Curve) -> Curve:
         return _backwards(curve, self._resolved(part.end), self._resolved(part.start))
 
 
@@ -277,11 +277,11 @@ def _backwards(curve: Curve, start: Point, end: Point) -> Curve:
     return curve.part(start, end).reversed()
 
 
-def _edge_piece(view: View, e: int, make: Callable[[], Curve]) -> ViewPiece:
+def _edge_piece(view: BoundaryView, e: int, make: Callable[[], Curve]) -> ViewPiece:
     return ViewPiece(ViewKind.EDGE, make, view.table.owners[e], view.table.numbers[e])
 
 
-def range_circle(view: View) -> Arc:
+def range_circle(view: BoundaryView) -> Arc:
     """The circle of the range about the point."""
     east = Point(view.point.x + view.radius, view.point.y)
     return Arc(east, east, view.point, view.radius_sq, ccw=True, full=True)

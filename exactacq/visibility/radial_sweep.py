@@ -1,11 +1,11 @@
-"""The panorama of a point: what is met first in every direction, by a radial sweep.
+"""The sweep of a point: what is met first in every direction, by a radial sweep.
 
-Rays from the point meet front faces of obstacles (facets, see `exactacq.visibility.front_faces`). The
-ends of the facets within reach, sorted by direction, divide the full turn into cells; in a cell the order
-of the facets along all rays is the same, since boundaries do not cross. So for each cell the nearest of
-the facets that cover it is found on one ray. Floats propose the order of the events and the nearest
-facets; where their proven margins overlap, the exact values decide.
-Cost for n edges within reach: O(n log n + k), k the number of pairs of a cell and a facet covering it.
+Rays from the point meet front faces of obstacles (faces, see `exactacq.visibility.front_faces`). The
+ends of the faces within reach, sorted by direction, divide the full turn into cells; in a cell the order
+of the faces along all rays is the same, since boundaries do not cross. So for each cell the nearest of
+the faces that cover it is found on one ray. Floats propose the order of the events and the nearest
+faces; where their proven margins overlap, the exact values decide.
+Cost for n edges within reach: O(n log n + k), k the number of pairs of a cell and a face covering it.
 """
 
 from __future__ import annotations
@@ -25,39 +25,39 @@ from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import STRAIGHT, EdgeTable, Floats, Ints, quotient
 from exactacq.visibility.chords import meet
 from exactacq.visibility.features import enters, leaving
-from exactacq.visibility.front_faces import NOWHERE, VAGUE, Facets
+from exactacq.visibility.front_faces import NOWHERE, VAGUE, FrontFaces
 
 NOTHING, BLOCKED = -1, -2
-"""First facets of cells without one: nothing within reach, and inside the point's own obstacle."""
+"""First faces of cells without one: nothing within reach, and inside the point's own obstacle."""
 SEAM = 2 * pi
 
 
 @dataclass(frozen=True, slots=True)
-class Sight:
-    """Directions, counterclockwise from rank ``low`` to rank ``high``, in which one facet comes first.
+class FirstFace:
+    """Directions, counterclockwise from rank ``low`` to rank ``high``, in which one face comes first.
 
-    ``facet`` may be NOTHING or BLOCKED. All around if ``low == high``; without events both are NOWHERE.
+    ``face`` may be NOTHING or BLOCKED. All around if ``low == high``; without events both are NOWHERE.
     """
 
-    facet: int
+    face: int
     low: int
     high: int
 
 
-class Panorama:
+class RadialSweep:
     """The sights of a free point, counterclockwise, and the exact points where they begin and end.
 
-    *own* are the edges through the point (see `Facets`). Facets beyond *reach* are left out, and what lies
+    *own* are the edges through the point (see `FrontFaces`). Faces beyond *reach* are left out, and what lies
     beyond it may be reported wrongly or as NOTHING.
     """
 
     def __init__(self, table: EdgeTable, point: Point, reach: float, own: tuple[int, ...]) -> None:
         self.table = table
-        self.facets = Facets(table, point, reach, own)
-        self.edges: list[int] = self.facets.edge.tolist()
-        """The edge of every facet, and the events that end it, as plain numbers."""
-        self.ends_low: list[int] = self.facets.low.tolist()
-        self.ends_high: list[int] = self.facets.high.tolist()
+        self.faces = FrontFaces(table, point, reach, own)
+        self.edges: list[int] = self.faces.edge.tolist()
+        """The edge of every face, and the events that end it, as plain numbers."""
+        self.ends_low: list[int] = self.faces.low.tolist()
+        self.ends_high: list[int] = self.faces.high.tolist()
         self.groups: list[list[int]] = []
         self._order_events()
         self.count = len(self.groups)
@@ -69,17 +69,17 @@ class Panorama:
 
     def _order_events(self) -> None:
         """Group the events by direction, counterclockwise from the east: exact where floats leave doubt."""
-        facets = self.facets
+        faces = self.faces
         ids, inverse = np.unique(
-            np.concatenate((facets.low, facets.high, np.array(facets.special, dtype=np.intp))),
+            np.concatenate((faces.low, faces.high, np.array(faces.special, dtype=np.intp))),
             return_inverse=True,
         )
-        count = len(facets.edge)
+        count = len(faces.edge)
         angle, margin = self._angles(ids)
         vague = np.flatnonzero((angle < margin) | (angle > SEAM - margin))
         for k in vague.tolist():
             if ids[k] != NOWHERE:
-                x, y = facets.offset(int(ids[k]))
+                x, y = faces.offset(int(ids[k]))
                 upper = (sign(y) or (0 if sign(x) > 0 else -1)) >= 0
                 if upper != (angle[k] < pi) and margin[k] < VAGUE:
                     angle[k] = 0.0 if upper else SEAM
@@ -111,28 +111,28 @@ class Panorama:
         self._low, self._high = ranks[:count], ranks[count : 2 * count]
         self.low: list[int] = self._low.tolist()
         self.high: list[int] = self._high.tolist()
-        self.rank = dict(zip(ids.tolist(), rank.tolist(), strict=True)) if facets.special else {}
+        self.rank = dict(zip(ids.tolist(), rank.tolist(), strict=True)) if faces.special else {}
         self.special = sorted(
-            {self.rank[e] for e in facets.special} | {r for r, g in enumerate(self.groups) if len(g) > 1}
-            if len(self.groups) < len(order) or facets.special
+            {self.rank[e] for e in faces.special} | {r for r, g in enumerate(self.groups) if len(g) > 1}
+            if len(self.groups) < len(order) or faces.special
             else ()
         )
 
     def _angles(self, ids: Ints) -> tuple[Floats, Floats]:
         """Directions of events as angles in [0, 2 pi], with their margins."""
-        facets, count = self.facets, len(self.table.vertices)
+        faces, count = self.faces, len(self.table.vertices)
         xy = np.zeros((len(ids), 2))
         vertices = (ids >= 0) & (ids < count)
-        xy[vertices] = self.table.start[ids[vertices]] - facets.xy
-        size, slack = np.hypot(xy[:, 0], xy[:, 1]), facets.slack
+        xy[vertices] = self.table.start[ids[vertices]] - faces.xy
+        size, slack = np.hypot(xy[:, 0], xy[:, 1]), faces.slack
         margin = np.where(size > 16 * slack, quotient(2 * slack, size) + 2e-15, VAGUE)
         for k in np.flatnonzero(~vertices).tolist():
             if ids[k] >= 0:
-                mark = facets.marks[int(ids[k]) - count]
+                mark = faces.marks[int(ids[k]) - count]
                 xy[k], margin[k] = mark.xy, mark.margin
-        for e in facets.special:
+        for e in faces.special:
             k = int(np.searchsorted(ids, e))
-            x, y = facets.offset(e)
+            x, y = faces.offset(e)
             if vertices[k]:
                 xy[k], margin[k] = (float(x), float(y)), 2e-15
         angle = np.arctan2(xy[:, 1], xy[:, 0])
@@ -142,11 +142,11 @@ class Panorama:
         """Events grouped by exact direction, counterclockwise."""
         groups: list[list[int]] = []
         for event in events:
-            vector = self.facets.offset(event)
+            vector = self.faces.offset(event)
             low, high = 0, len(groups)
             while low < high:
                 middle = (low + high) // 2
-                order = _turn(self.facets.offset(groups[middle][0]), vector)
+                order = _turn(self.faces.offset(groups[middle][0]), vector)
                 if order == 0:
                     groups[middle].append(event)
                     break
@@ -159,14 +159,14 @@ class Panorama:
         """The exact direction of a rank, rational where one of its events shows it."""
         group = self.groups[rank]
         if len(group) == 1:
-            return self.facets.offset(group[0])
-        vectors = [self.facets.offset(event) for event in group]
+            return self.faces.offset(group[0])
+        vectors = [self.faces.offset(event) for event in group]
         return next((v for v in vectors if isinstance(v[0], fmpq) and isinstance(v[1], fmpq)), vectors[0])
 
     # -- cells -------------------------------------------------------------------------------------
 
     def _covers(self) -> None:
-        """All pairs of a facet and a cell that it covers; cell k lies counterclockwise of rank k."""
+        """All pairs of a face and a cell that it covers; cell k lies counterclockwise of rank k."""
         cells = max(self.count, 1)
         spans = (self._high - self._low) % cells
         spans[self._low == NOWHERE] = cells
@@ -175,7 +175,7 @@ class Panorama:
         self._cell = (np.arange(len(self._facet)) - before[self._facet] + self._low[self._facet]) % cells
 
     def _first(self) -> list[int]:
-        """The first facet of every cell."""
+        """The first face of every cell."""
         cells = max(self.count, 1)
         first = np.full(cells, NOTHING)
         if len(self._facet):
@@ -191,7 +191,7 @@ class Panorama:
             for k in np.flatnonzero(rivals).tolist():
                 some = self._facet[close & (self._cell == k)].tolist()
                 first[k] = self.nearest(self._inner_direction(k), some)
-        cone = self.facets.cone
+        cone = self.faces.cone
         if cone is not None:
             low, high = self.rank[cone.low], self.rank[cone.high]
             span = (high - low) % cells or cells
@@ -200,31 +200,31 @@ class Panorama:
         return found
 
     def _distances(self) -> tuple[Floats, Floats]:
-        """Float distances of the pairs' facets along the middle rays of their cells, with error bounds."""
-        facets, table, slack = self.facets, self.table, self.facets.slack
+        """Float distances of the pairs' faces along the middle rays of their cells, with error bounds."""
+        faces, table, slack = self.faces, self.table, self.faces.slack
         if self.count:
             angle = np.append(self.angle, self.angle[0] + SEAM)
             middle = (angle[1:] + angle[:-1]) / 2
             rough = np.maximum(self.margin, np.append(self.margin[1:], self.margin[0])) + 2e-15
         else:
             middle, rough = np.zeros(1), np.full(1, 2e-15)
-        facet, cell = self._facet, self._cell
+        face, cell = self._facet, self._cell
         ux, uy, rough = np.cos(middle)[cell], np.sin(middle)[cell], rough[cell]
-        s, a = table.start[facets.edge] - facets.xy, table.end[facets.edge] - table.start[facets.edge]
+        s, a = table.start[faces.edge] - faces.xy, table.end[faces.edge] - table.start[faces.edge]
         sx, sy, ax, ay = s[:, 0], s[:, 1], a[:, 0], a[:, 1]
         size = np.abs(ax) + np.abs(ay)
         above, spread = sx * ay - sy * ax, 4 * slack * (np.abs(sx) + np.abs(sy) + size + slack)
-        below = ux * ay[facet] - uy * ax[facet]
-        doubt = 4 * slack + size[facet] * rough
+        below = ux * ay[face] - uy * ax[face]
+        doubt = 4 * slack + size[face] * rough
         clear = np.abs(below)
         sure = clear > 8 * doubt
-        tau = above[facet] / np.where(sure, below, 1.0)
-        error = np.where(sure, quotient(2 * (spread[facet] + np.abs(tau) * doubt), clear), inf)
-        if facets.curved:
-            edge = facets.edge[facet]
+        tau = above[face] / np.where(sure, below, 1.0)
+        error = np.where(sure, quotient(2 * (spread[face] + np.abs(tau) * doubt), clear), inf)
+        if faces.curved:
+            edge = faces.edge[face]
             curved = np.flatnonzero(table.kind[edge] != STRAIGHT)
             e, ux, uy, rough = edge[curved], ux[curved], uy[curved], rough[curved]
-            w, radius = table.center[e] - facets.xy, table.radius[e]
+            w, radius = table.center[e] - faces.xy, table.radius[e]
             along, across = w[:, 0] * ux + w[:, 1] * uy, w[:, 1] * ux - w[:, 0] * uy
             off = 4 * slack + (np.abs(w).sum(axis=1) + radius) * rough
             half = np.sqrt(np.maximum((radius - np.abs(across)) * (radius + np.abs(across)), 0.0))
@@ -232,25 +232,25 @@ class Panorama:
             error[curved] = np.where(half > 8 * off, off * (2 + quotient(4 * radius, half)), inf)
         return tau, error
 
-    def nearest(self, direction: Vector, facets: Iterable[int]) -> int:
-        """The nearest of facets that all cover a direction; exact."""
+    def nearest(self, direction: Vector, faces: Iterable[int]) -> int:
+        """The nearest of faces that all cover a direction; exact."""
         best, least = NOTHING, None
         ray = Point(*direction)
-        for f in facets:
+        for f in faces:
             tau = self.parameter(ray, f)
             if least is None or tau.compare(least) < 0:
                 best, least = f, tau
         return best
 
-    def parameter(self, ray: Point, facet: int) -> Real:
-        """How many times a ray's vector leads from the point to a facet that covers it."""
-        e = self.edges[facet]
+    def parameter(self, ray: Point, face: int) -> Real:
+        """How many times a ray's vector leads from the point to a face that covers it."""
+        e = self.edges[face]
         curve = self.table.curves[e]
-        if isinstance(curve, Arc) and e in self.facets.own:
+        if isinstance(curve, Arc) and e in self.faces.own:
             # The ray meets the circle at the point itself, and again at twice the foot of the centre.
-            tau: Real = 2 * (curve.center - self.facets.point).dot(ray) / ray.norm_sq()
+            tau: Real = 2 * (curve.center - self.faces.point).dot(ray) / ray.norm_sq()
             return tau
-        return meet(self.facets.point, ray, curve, 1)
+        return meet(self.faces.point, ray, curve, 1)
 
     def _inner_direction(self, cell: int) -> Vector:
         """Some rational direction strictly within a cell."""
@@ -270,49 +270,49 @@ class Panorama:
                     return ray
             bits *= 2
 
-    def _sights(self) -> list[Sight]:
-        """Cells with the same first facet joined, the first sight starting at a change."""
+    def _sights(self) -> list[FirstFace]:
+        """Cells with the same first face joined, the first sight starting at a change."""
         first = self.first
-        changes = [k for k, facet in enumerate(first) if facet != first[k - 1]]
+        changes = [k for k, face in enumerate(first) if face != first[k - 1]]
         if not changes:
-            facet = first[0]
+            face = first[0]
             rank = NOWHERE if not self.count else 0
-            if facet >= 0 and self.low[facet] != NOWHERE:
-                rank = self.low[facet]
-            return [Sight(facet, rank, rank)]
+            if face >= 0 and self.low[face] != NOWHERE:
+                rank = self.low[face]
+            return [FirstFace(face, rank, rank)]
         ends = [*changes[1:], changes[0]]
-        return [Sight(first[a], a, b) for a, b in zip(changes, ends, strict=True)]
+        return [FirstFace(first[a], a, b) for a, b in zip(changes, ends, strict=True)]
 
     # -- points ------------------------------------------------------------------------------------
 
-    def at(self, facet: int, rank: int, is_low: bool) -> Point:
-        """The point of a facet in the direction of a rank that the facet covers, or that ends it."""
-        if rank == (self.low if is_low else self.high)[facet]:
-            return self.end(facet, is_low)
-        return self.hit(facet, self.direction(rank))
+    def at(self, face: int, rank: int, is_low: bool) -> Point:
+        """The point of a face in the direction of a rank that the face covers, or that ends it."""
+        if rank == (self.low if is_low else self.high)[face]:
+            return self.end(face, is_low)
+        return self.hit(face, self.direction(rank))
 
-    def end(self, facet: int, is_low: bool) -> Point:
-        """The point that ends a facet."""
-        event = (self.ends_low if is_low else self.ends_high)[facet]
-        return self.table.curves[self.edges[facet]].start if event == NOWHERE else self.facets.place(event)
+    def end(self, face: int, is_low: bool) -> Point:
+        """The point that ends a face."""
+        event = (self.ends_low if is_low else self.ends_high)[face]
+        return self.table.curves[self.edges[face]].start if event == NOWHERE else self.faces.place(event)
 
-    def hit(self, facet: int, vector: Vector) -> Point:
-        """The point of a facet in a direction that it covers.
+    def hit(self, face: int, vector: Vector) -> Point:
+        """The point of a face in a direction that it covers.
 
         On a straight edge s + u a with u = v x (p - s) / v x a: linear in one number, however p looks.
         """
-        facets, e = self.facets, self.edges[facet]
+        faces, e = self.faces, self.edges[face]
         curve = self.table.curves[e]
         if isinstance(curve, Segment):
             start = self.table.vertices[e]
             along = raw(curve.direction)
-            share = cross(vector, minus(facets.origin, start)) / cross(vector, along)
+            share = cross(vector, minus(faces.origin, start)) / cross(vector, along)
             return advance(start, along, share)
         ray = Point(*vector)
-        return facets.point + ray * self.parameter(ray, facet)
+        return faces.point + ray * self.parameter(ray, face)
 
     def covering(self, rank: int) -> list[int]:
-        """The facets that cover a rank's direction and do not end there."""
+        """The faces that cover a rank's direction and do not end there."""
         if not len(self._facet):
             return []
         some = self._facet[self._cell == rank]

@@ -66,7 +66,7 @@ class Pencil:
 
 
 @dataclass(slots=True)
-class _Event:
+class _Passage:
     """Line through a vertex, or tangent to a convex arc (``side`` +1: on the left, -1: on the right)."""
 
     guess: float
@@ -91,7 +91,7 @@ def pencil(
     halves are no longer than *reach*.
     """
     edges = table.near(*_box(sector), reach)
-    return _Sweep(table, sector, own, edges, breaks).run()
+    return _SectorSweep(table, sector, own, edges, breaks).run()
 
 
 def _box(sector: Sector) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -99,7 +99,7 @@ def _box(sector: Sector) -> tuple[tuple[float, float], tuple[float, float]]:
     return (x - extent, y - extent), (x + extent, y + extent)
 
 
-class _Sweep:
+class _SectorSweep:
     def __init__(
         self, table: EdgeTable, sector: Sector, own: tuple[int, ...], edges: Ints, breaks: tuple[Vector, ...]
     ) -> None:
@@ -141,7 +141,7 @@ class _Sweep:
     def _events(self) -> list[tuple[Real, Passed]]:
         """Distinct event parameters from low to high, with what the lines pass there."""
         low, high = Real(self.sector.low), Real(self.sector.high)
-        bounds = [_Event(float(low), 1e-15, -1, 0, 0, low), _Event(float(high), 1e-15, -1, 0, 0, high)]
+        bounds = [_Passage(float(low), 1e-15, -1, 0, 0, low), _Passage(float(high), 1e-15, -1, 0, 0, high)]
         events = [*bounds, *self._break_events(), *self._vertex_events(), *self._arc_events()]
         lines = [line for cluster in _clusters(events) for line in self._resolve(cluster)]
         while lines[0][0].compare(low) < 0:
@@ -150,7 +150,7 @@ class _Sweep:
             del lines[-1]
         return lines
 
-    def _resolve(self, cluster: list[_Event]) -> Iterator[tuple[Real, Passed]]:
+    def _resolve(self, cluster: list[_Passage]) -> Iterator[tuple[Real, Passed]]:
         """The distinct exact values of a cluster, ascending, with the true events at each."""
         if len(cluster) == 1:
             (event,) = cluster
@@ -173,15 +173,15 @@ class _Sweep:
         if current is not None:
             yield current, tuple(passed)
 
-    def _break_events(self) -> Iterator[_Event]:
+    def _break_events(self) -> Iterator[_Passage]:
         x, y = self.sector.center
         at_center = directions_at(self.table, Point(x, y), self.through)
         for dx, dy in (*self.breaks, *at_center):
             value = self.sector.exact((x + dx, y + dy), fmpq(0), 0, 0)
             if value is not None and self.sector.low <= value <= self.sector.high:
-                yield _Event(float(value), 1e-15, -1, 0, 0, value)
+                yield _Passage(float(value), 1e-15, -1, 0, 0, value)
 
-    def _vertex_events(self) -> Iterator[_Event]:
+    def _vertex_events(self) -> Iterator[_Passage]:
         table, sector = self.table, self.sector
         edges = self.edges[~table.full[self.edges]]
         ids = np.unique(np.concatenate((edges, table.next[edges])))
@@ -191,7 +191,7 @@ class _Sweep:
         for side, sign, guess, margin in sector.past_points(offsets, self.slack):
             yield from self._collect(ids, side, sign, guess, margin)
 
-    def _arc_events(self) -> Iterator[_Event]:
+    def _arc_events(self) -> Iterator[_Passage]:
         table, sector = self.table, self.sector
         ids = self.edges[table.kind[self.edges] == CONVEX]
         for e in self.own:
@@ -202,21 +202,21 @@ class _Sweep:
         for side, sign, guess, margin in sector.past_circles(offsets, radii, self.slack):
             yield from self._collect(ids, side, sign, guess, margin)
 
-    def _collect(self, ids: Ints, side: int, sign: int, guess: Floats, margin: Floats) -> Iterator[_Event]:
+    def _collect(self, ids: Ints, side: int, sign: int, guess: Floats, margin: Floats) -> Iterator[_Passage]:
         low, high = float(self.sector.low), float(self.sector.high)
         vague = margin > 0.05
         guess, margin = np.where(vague, 0.0, guess), np.where(vague, 3.0, margin)
         inside = (guess >= low - margin) & (guess <= high + margin)
         for k in np.flatnonzero(inside):
-            yield _Event(float(guess[k]), float(margin[k]), int(ids[k]), side, sign)
+            yield _Passage(float(guess[k]), float(margin[k]), int(ids[k]), side, sign)
 
-    def _exact(self, event: _Event) -> Real | None:
+    def _exact(self, event: _Passage) -> Real | None:
         """The exact parameter, or None if the tangent that floats proposed does not exist."""
         if event.value is None:
             event.value = self.sector.exact(*self._target(event), event.side, event.sign)
         return event.value
 
-    def _target(self, event: _Event) -> tuple[Vector, fmpq]:
+    def _target(self, event: _Passage) -> tuple[Vector, fmpq]:
         if event.side == 0:
             return self.table.vertices[event.edge], fmpq(0)
         arc = self.table.curves[event.edge]
@@ -297,9 +297,9 @@ class _Sweep:
         return outward == (-1 if edge.ccw else 1)
 
 
-def _clusters(events: list[_Event]) -> Iterator[list[_Event]]:
+def _clusters(events: list[_Passage]) -> Iterator[list[_Passage]]:
     """Runs of events whose order the float guesses leave open."""
-    cluster: list[_Event] = []
+    cluster: list[_Passage] = []
     reached = -np.inf
     for event in sorted(events, key=lambda e: e.guess - e.margin):
         if cluster and event.guess - event.margin > reached:
@@ -311,5 +311,5 @@ def _clusters(events: list[_Event]) -> Iterator[list[_Event]]:
         yield cluster
 
 
-def _by_value(a: tuple[Real, _Event], b: tuple[Real, _Event]) -> int:
+def _by_value(a: tuple[Real, _Passage], b: tuple[Real, _Passage]) -> int:
     return a[0].compare(b[0])

@@ -22,7 +22,7 @@ from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.points import Point
 from exactacq.scene.edge_table import EdgeTable, Floats
 from exactacq.visibility.features import enters
-from exactacq.visibility.radial_sweep import BLOCKED, NOTHING, Panorama, Sight
+from exactacq.visibility.radial_sweep import BLOCKED, NOTHING, FirstFace, RadialSweep
 from exactacq.visibility.range_clip import Span, of_circle, within
 
 LAST = 1 << 60
@@ -43,15 +43,15 @@ def seen_from(
     as its two halves. *own* are the edges through the point, at a vertex the incoming one first (found if not
     given). The point may be algebraic.
     """
-    return View(table, point, radius, own).seen()
+    return BoundaryView(table, point, radius, own).seen()
 
 
 @dataclass(frozen=True, slots=True)
-class Ray:
+class SingleRay:
     """What is seen exactly along one direction, where neighbouring rays may not go.
 
     ``end`` is where the free run or the range ends, ``events`` lie on the way, ``along`` are straight edges
-    seen along their length, ``beyond`` tells that no neighbouring ray is free as far, ``struck`` is the facet
+    seen along their length, ``beyond`` tells that no neighbouring ray is free as far, ``struck`` is the face
     that only this ray reaches, if any.
     """
 
@@ -63,8 +63,8 @@ class Ray:
     struck: int | None
 
 
-class View:
-    """The panorama of a point, cut off at a rational radius."""
+class BoundaryView:
+    """The sweep of a point, cut off at a rational radius."""
 
     def __init__(
         self, table: EdgeTable, point: Point, radius: fmpq, own: tuple[int, ...] | None = None
@@ -72,8 +72,8 @@ class View:
         self.table, self.point, self.radius = table, point, radius
         self.radius_sq = radius * radius
         self.own = table.edges_at(point) if own is None else own
-        self.panorama = Panorama(table, point, float(radius) * (1 + 1e-12), self.own)
-        self.origin = self.panorama.facets.origin
+        self.sweep = RadialSweep(table, point, float(radius) * (1 + 1e-12), self.own)
+        self.origin = self.sweep.faces.origin
         self._at_range: dict[int, Point] = {}
         self.tight: set[Hold] = set()
         """What holds the ends of sights that are known, by who asks, to be as far away as the range."""
@@ -81,26 +81,26 @@ class View:
 
     @cached_property
     def near(self) -> list[bool]:
-        """For each facet whether floats prove that all of it is within range."""
-        facets, table = self.panorama.facets, self.table
-        edge = facets.edge
-        size = np.maximum(_size(table.start[edge] - facets.xy), _size(table.end[edge] - facets.xy))
+        """For each face whether floats prove that all of it is within range."""
+        faces, table = self.sweep.faces, self.table
+        edge = faces.edge
+        size = np.maximum(_size(table.start[edge] - faces.xy), _size(table.end[edge] - faces.xy))
         curved = table.kind[edge] != 0
         if curved.any():
-            size = np.where(curved, _size(table.center[edge] - facets.xy) + table.radius[edge], size)
-        found: list[bool] = (size < float(self.radius) * (1 - 1e-12) - 8 * facets.slack).tolist()
+            size = np.where(curved, _size(table.center[edge] - faces.xy) + table.radius[edge], size)
+        found: list[bool] = (size < float(self.radius) * (1 - 1e-12) - 8 * faces.slack).tolist()
         return found
 
     def seen(self) -> dict[int, list[Span]]:
         """See `seen_from`."""
         found: dict[int, list[tuple[tuple[int, int], Span]]] = {}
-        panorama = self.panorama
-        for sight in panorama.sights:
-            if sight.facet < 0:
+        sweep = self.sweep
+        for sight in sweep.sights:
+            if sight.face < 0:
                 continue
             for span in self.spans(sight):
-                key = sight.facet, self._order(sight.facet, sight.high)
-                found.setdefault(panorama.edges[sight.facet], []).append((key, span))
+                key = sight.face, self._order(sight.face, sight.high)
+                found.setdefault(sweep.edges[sight.face], []).append((key, span))
         for ray in self.rays:
             self._add_ray(ray, found)
         self._add_own(found)
@@ -126,25 +126,25 @@ class View:
                     pieces[e].pop(0)
         return {e: spans for e, spans in pieces.items() if spans}
 
-    def spans(self, sight: Sight) -> list[Span]:
-        """The parts within range of what is seen of a facet, in the boundary's direction."""
-        facet = sight.facet
+    def spans(self, sight: FirstFace) -> list[Span]:
+        """The parts within range of what is seen of a face, in the boundary's direction."""
+        face = sight.face
         if sight.low == sight.high:
-            curve = self.table.curves[self.panorama.edges[facet]]
+            curve = self.table.curves[self.sweep.edges[face]]
             # All around is seen only a full circle: from inside a circle a ray meets it once, so that a part
-            # of it covers less; from outside, and so of straight edges, a facet covers less than half a turn.
+            # of it covers less; from outside, and so of straight edges, a face covers less than half a turn.
             assert isinstance(curve, Arc)
             some = of_circle(curve, self.origin, self.radius_sq)
             if some is None:
                 opposite = curve.center + (curve.center - curve.start)
                 return [(curve.start, opposite), (opposite, curve.start)]
             return some
-        return self.clipped(facet, self.ends(sight))
+        return self.clipped(face, self.ends(sight))
 
-    def ends(self, sight: Sight) -> Span:
-        """What a sight sees of a facet, in the boundary's direction and whatever the range."""
-        panorama = self.panorama
-        ends = panorama.at(sight.facet, sight.high, False), panorama.at(sight.facet, sight.low, True)
+    def ends(self, sight: FirstFace) -> Span:
+        """What a sight sees of a face, in the boundary's direction and whatever the range."""
+        sweep = self.sweep
+        ends = sweep.at(sight.face, sight.high, False), sweep.at(sight.face, sight.low, True)
         for point, rank in zip(ends, (sight.high, sight.low), strict=True):
             self._held[id(point)] = point, rank
         return ends
@@ -166,38 +166,38 @@ class View:
         rank = self._held.get(id(point), (point, LAST))[1]
         if rank in (AT_RANGE, LAST):
             return []
-        count, marks = len(self.table.vertices), self.panorama.facets.marks
+        count, marks = len(self.table.vertices), self.sweep.faces.marks
         return [
             (event, 0) if event < count else (marks[event - count].edge, marks[event - count].side)
-            for event in self.panorama.groups[rank]
+            for event in self.sweep.groups[rank]
         ]
 
-    def clipped(self, facet: int, ends: Span) -> list[Span]:
-        """The parts of a piece of a facet within range; ends within range stay the same objects."""
+    def clipped(self, face: int, ends: Span) -> list[Span]:
+        """The parts of a piece of a face within range; ends within range stay the same objects."""
         start, end = ends
-        if self.near[facet] and start is not end:
+        if self.near[face] and start is not end:
             return [ends]
-        curve = self.table.curves[self.panorama.edges[facet]]
+        curve = self.table.curves[self.sweep.edges[face]]
         if start is not end:
             try:
                 spans = within(curve, start, end, self.origin, self.radius_sq)
             except Undecided:
-                e = self.panorama.edges[facet]
+                e = self.sweep.edges[face]
                 known = [id(p) for p in ends if any(hold in self.tight for hold in self.holds(e, p))]
                 spans = within(curve, start, end, self.origin, self.radius_sq, known)
             for point in (p for span in spans for p in span if p is not start and p is not end):
                 self._held[id(point)] = point, AT_RANGE
             return spans
-        # All of a full circle that passes through the point itself: the ends of other facets are distinct.
+        # All of a full circle that passes through the point itself: the ends of other faces are distinct.
         assert isinstance(curve, Arc)
         opposite = curve.center + (curve.center - start)
         first = within(curve, start, opposite, self.origin, self.radius_sq)
         return first + within(curve, opposite, end, self.origin, self.radius_sq)
 
-    def _order(self, facet: int, rank: int) -> int:
-        """Position of a rank on a facet, in the boundary's direction."""
-        panorama = self.panorama
-        return (panorama.high[facet] - rank) % max(panorama.count, 1)
+    def _order(self, face: int, rank: int) -> int:
+        """Position of a rank on a face, in the boundary's direction."""
+        sweep = self.sweep
+        return (sweep.high[face] - rank) % max(sweep.count, 1)
 
     def _in_range(self, point: Point) -> bool:
         offset = minus(raw(point), self.origin)
@@ -206,65 +206,65 @@ class View:
     # -- single rays -------------------------------------------------------------------------------
 
     @cached_property
-    def rays(self) -> list[Ray]:
+    def rays(self) -> list[SingleRay]:
         """The directions in which several events lie, an edge is seen edge-on, or an own edge leaves."""
-        return [ray for rank in self.panorama.special if (ray := self._ray(rank)) is not None]
+        return [ray for rank in self.sweep.special if (ray := self._ray(rank)) is not None]
 
-    def _ray(self, rank: int) -> Ray | None:
-        panorama = self.panorama
-        facets = panorama.facets
-        before, after = panorama.first[rank - 1], panorama.first[rank]
-        if before == after >= 0 and panorama.low[before] != rank:
+    def _ray(self, rank: int) -> SingleRay | None:
+        sweep = self.sweep
+        faces = sweep.faces
+        before, after = sweep.first[rank - 1], sweep.first[rank]
+        if before == after >= 0 and sweep.low[before] != rank:
             return None
-        direction = panorama.direction(rank)
+        direction = sweep.direction(rank)
         if self._is_buried(direction, rank):
             return None
         square = dot(direction, direction)
-        struck = panorama.nearest(direction, covering) if (covering := panorama.covering(rank)) else None
-        limit = None if struck is None else panorama.parameter(Point(*direction), struck) * square
+        struck = sweep.nearest(direction, covering) if (covering := sweep.covering(rank)) else None
+        limit = None if struck is None else sweep.parameter(Point(*direction), struck) * square
         met: list[int] = []
         blocker = None
         for way, event in self._on_ray(rank, direction):
-            place = facets.place(event)
+            place = faces.place(event)
             if (limit is not None and sign(limit - way) < 0) or not self._in_range(place):
                 break
             met.append(event)
-            if panorama.blocks(event, direction):
+            if sweep.blocks(event, direction):
                 blocker = event
                 break
         end = None
         if blocker is not None:
-            end = facets.place(blocker)
+            end = faces.place(blocker)
         elif struck is not None:
-            place = panorama.hit(struck, direction)
+            place = sweep.hit(struck, direction)
             end = place if self._in_range(place) else None
         limited = end is not None
         if end is None:
             end = self.at_range(rank)
-        along = tuple(e for e in (*facets.on_ray, *self.own) if self._runs_along(e, rank, met, blocker))
+        along = tuple(e for e in (*faces.on_ray, *self.own) if self._runs_along(e, rank, met, blocker))
         reached = False
-        for facet, high in ((before, True), (after, False)):
-            if facet == NOTHING:
+        for face, high in ((before, True), (after, False)):
+            if face == NOTHING:
                 reached = True
-            elif facet != BLOCKED and limited:
-                ends_here = (panorama.high if high else panorama.low)[facet] == rank
-                event = (panorama.ends_high if high else panorama.ends_low)[facet]
-                reached |= (ends_here and event == blocker) or (facet == struck and blocker is None)
-            elif facet != BLOCKED:
-                place = panorama.at(facet, rank, not high)
+            elif face != BLOCKED and limited:
+                ends_here = (sweep.high if high else sweep.low)[face] == rank
+                event = (sweep.ends_high if high else sweep.ends_low)[face]
+                reached |= (ends_here and event == blocker) or (face == struck and blocker is None)
+            elif face != BLOCKED:
+                place = sweep.at(face, rank, not high)
                 offset = minus(raw(place), self.origin)
                 reached |= sign(dot(offset, offset) - self.radius_sq) >= 0
         alone = struck if limited and blocker is None and struck not in (before, after) else None
-        return Ray(rank, end, tuple(met), along, not reached, alone)
+        return SingleRay(rank, end, tuple(met), along, not reached, alone)
 
     def _is_buried(self, direction: Vector, rank: int) -> bool:
         """Whether a ray leads from the point straight into its own obstacle."""
         if not self.own:
             return False
-        cone = self.panorama.facets.cone
-        if cone is None or self.panorama.rank[cone.low] == rank or self.panorama.rank[cone.high] == rank:
+        cone = self.sweep.faces.cone
+        if cone is None or self.sweep.rank[cone.low] == rank or self.sweep.rank[cone.high] == rank:
             return self.buries(direction)
-        return self.panorama.first[rank - 1] == self.panorama.first[rank] == BLOCKED
+        return self.sweep.first[rank - 1] == self.sweep.first[rank] == BLOCKED
 
     def buries(self, direction: Vector) -> bool:
         """Whether a direction leads from the point, on a boundary, straight into its obstacle."""
@@ -276,17 +276,17 @@ class View:
 
     def _on_ray(self, rank: int, direction: Vector) -> list[tuple[Any, int]]:
         """The events on a ray with their products with its vector, nearest first; not the point itself."""
-        panorama = self.panorama
+        sweep = self.sweep
         found: list[tuple[Any, int]] = []
-        for event in panorama.groups[rank]:
-            place = panorama.facets.place(event)
+        for event in sweep.groups[rank]:
+            place = sweep.faces.place(event)
             if place is not self.point:
                 found.append((dot(minus(raw(place), self.origin), direction), event))
         return sorted(found, key=cmp_to_key(_by_way))
 
     def _runs_along(self, e: int, rank: int, met: list[int], blocker: int | None) -> bool:
         """Whether a straight edge on the ray is seen along its length."""
-        ranks = self.panorama.rank
+        ranks = self.sweep.rank
         ends = e, int(self.table.next[e])
         if e in self.own:
             return any(ranks.get(end) == rank and self.runs_out(e, end) for end in ends)
@@ -303,20 +303,20 @@ class View:
         """The point of the range circle in the direction of a rank, always the same object."""
         point = self._at_range.get(rank)
         if point is None:
-            direction = self.panorama.direction(rank)
+            direction = self.sweep.direction(rank)
             share = square_root(self.radius_sq / dot(direction, direction))
             point = self._at_range[rank] = advance(self.origin, direction, share)
         return point
 
     # -- points beside the sights ------------------------------------------------------------------
 
-    def _add_ray(self, ray: Ray, found: dict[int, list[tuple[tuple[int, int], Span]]]) -> None:
-        panorama, table = self.panorama, self.table
-        facets = panorama.facets
+    def _add_ray(self, ray: SingleRay, found: dict[int, list[tuple[tuple[int, int], Span]]]) -> None:
+        sweep, table = self.sweep, self.table
+        faces = sweep.faces
         covered = {e for edge in ray.along for e in (edge, int(table.next[edge]))}
-        for facet, high in ((panorama.first[ray.rank - 1], True), (panorama.first[ray.rank], False)):
-            if facet >= 0 and (panorama.high if high else panorama.low)[facet] == ray.rank:
-                covered.add((panorama.ends_high if high else panorama.ends_low)[facet])
+        for face, high in ((sweep.first[ray.rank - 1], True), (sweep.first[ray.rank], False)):
+            if face >= 0 and (sweep.high if high else sweep.low)[face] == ray.rank:
+                covered.add((sweep.ends_high if high else sweep.ends_low)[face])
         for e in ray.along:
             if e not in self.own:
                 curve = table.curves[e]
@@ -325,17 +325,17 @@ class View:
         for event in ray.events:
             if event in covered:
                 continue
-            place = facets.place(event)
+            place = faces.place(event)
             self._held[id(place)] = place, ray.rank
             if event < len(table.vertices):
                 found.setdefault(event, []).append(((-2, 0), (place, place)))
                 continue
-            for facet in np.flatnonzero((facets.low == event) | (facets.high == event)).tolist():
-                order = LAST if panorama.ends_low[facet] == event else -1
-                found.setdefault(panorama.edges[facet], []).append(((facet, order), (place, place)))
+            for face in np.flatnonzero((faces.low == event) | (faces.high == event)).tolist():
+                order = LAST if sweep.ends_low[face] == event else -1
+                found.setdefault(sweep.edges[face], []).append(((face, order), (place, place)))
         if ray.struck is not None:
             key = ray.struck, self._order(ray.struck, ray.rank)
-            found.setdefault(panorama.edges[ray.struck], []).append((key, (ray.end, ray.end)))
+            found.setdefault(sweep.edges[ray.struck], []).append((key, (ray.end, ray.end)))
 
     def _add_own(self, found: dict[int, list[tuple[tuple[int, int], Span]]]) -> None:
         """The straight edges through the point, or the point alone."""

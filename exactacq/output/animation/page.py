@@ -29,7 +29,7 @@ from exactacq.files.whole_files import readable
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
-from exactacq.output.figures.sweep import Sweep, window
+from exactacq.output.figures.sweep import SweptTerrain, window
 from exactacq.output.strokes import Region, Stroke
 from exactacq.scene.scene import Scene
 from exactacq.sensing.event import Event, EventKind
@@ -170,7 +170,7 @@ def _hash(text: str) -> str:
 
 def _data(run: Run, frames: Iterable[Frame]) -> dict[str, Any]:
     """What the script shows, as JSON data; `page.js` reads it."""
-    sweep, names = Sweep.of(run), list(run.names())
+    sweep, names = SweptTerrain.of(run), list(run.names())
     paper = Paper.of(run.scene, run.start, float(run.radius), sweep is not None)
     numbers = {id(event): number for number, event in enumerate(run.events, 1)}
     known, shown, events = Changes(paper), [], []
@@ -216,7 +216,7 @@ def _data(run: Run, frames: Iterable[Frame]) -> dict[str, Any]:
     }
 
 
-def _regions(run: Run, sweep: Sweep | None) -> list[Region]:
+def _regions(run: Run, sweep: SweptTerrain | None) -> list[Region]:
     """The regions of the run's obstacles."""
     return [Region.of(obstacle) for obstacle in run.scene.obstacles] if sweep is None else sweep.regions
 
@@ -237,7 +237,7 @@ def _obstacle(paper: Paper, run: Run, number: int, region: Region, acquired: int
     }
 
 
-def _sweep(paper: Paper, sweep: Sweep | None) -> dict[str, Any]:
+def _sweep(paper: Paper, sweep: SweptTerrain | None) -> dict[str, Any]:
     """The M-line, the obstacles that are partly out of reach, and the diversions as runs of path pieces."""
     if sweep is None:
         return {"mline": "", "beyond": "", "diversions": []}

@@ -33,8 +33,8 @@ from matplotlib.transforms import Affine2D
 from exactacq.errors import FormatError
 from exactacq.files.whole_files import FIGURES, check_output, readable, write_whole
 from exactacq.numbers.length import Length
-from exactacq.output.figures.sweep import Sweep, window
-from exactacq.output.snapshot import Moment
+from exactacq.output.figures.sweep import SweptTerrain, window
+from exactacq.output.snapshot import Snapshot
 from exactacq.output.strokes import Region, Room, Steps, Stroke, clearance, closed
 from exactacq.scene.edge_table import Floats
 from exactacq.scene.scene import Scene
@@ -89,12 +89,12 @@ def figure(subject: Run | Scene, at: Event | Length | object = None) -> Figure:
     >>> [text.get_text() for text in figure(xa.sightseer(xa.load("circles"))).axes[0].texts]
     ['1', '2', 'S', 'T']
     """
-    return _page([_Drawing(subject, at)])
+    return _page([_Canvas(subject, at)])
 
 
 def pair(first: Run, second: Run) -> Figure:
     """The figures of two runs side by side."""
-    return _page([_Drawing(first), _Drawing(second)])
+    return _page([_Canvas(first), _Canvas(second)])
 
 
 def svg(subject: Run | Scene) -> str:
@@ -136,7 +136,7 @@ def _counted(count: int) -> str:
     return f"{count} obstacle" + "s" * (count != 1)
 
 
-def _page(drawings: Sequence[_Drawing]) -> Figure:
+def _page(drawings: Sequence[_Canvas]) -> Figure:
     """Drawings side by side, their axes on one level."""
     page = Figure()
     FigureCanvasAgg(page)
@@ -152,7 +152,7 @@ def _page(drawings: Sequence[_Drawing]) -> Figure:
     return page
 
 
-class _Drawing:
+class _Canvas:
     """One figure in the making; lengths in points and inches follow from the scene's size."""
 
     def __init__(self, subject: Run | Scene, at: Event | Length | object = None) -> None:
@@ -160,11 +160,11 @@ class _Drawing:
         self.scene = scene = subject.scene if isinstance(subject, Run) else subject
         start = self.run.start if self.run is not None else scene.start
         radius = self.run.radius if self.run is not None else scene.radius
-        self.sweep = None if self.run is None else Sweep.of(self.run)
+        self.sweep = None if self.run is None else SweptTerrain.of(self.run)
         self.regions = [Region.of(o) for o in scene.obstacles]
         self.bodies = self.regions if self.sweep is None else self.sweep.regions
         self.count = len(scene.obstacles if self.run is None else self.run.obstacles)
-        self.moment = None if self.run is None or at is None else Moment.of(self.run, at)
+        self.moment = None if self.run is None or at is None else Snapshot.of(self.run, at)
         walked = self.moment.walked if self.moment is not None else self.run.path if self.run else ()
         self.walked = len(walked) if self.moment is None else self.moment.count
         self.strokes = [Stroke.of(p.curve) for p in walked]

@@ -36,7 +36,7 @@ class Detour:
     pieces: range
 
 
-class Sweep:
+class SweptTerrain:
     """What the Seed Spreader's terrain looks like to a run."""
 
     def __init__(self, run: SeedSpreaderRun) -> None:
@@ -56,7 +56,7 @@ class Sweep:
         self.regions = [component_region(component, ground.terrain) for component in ground.components]
 
     @classmethod
-    def of(cls, run: Run) -> Sweep | None:
+    def of(cls, run: Run) -> SweptTerrain | None:
         """The sweep of a run of the Seed Spreader, else None."""
         return cls(run) if isinstance(run, SeedSpreaderRun) else None
 
@@ -93,7 +93,7 @@ def _around(component: Component, terrain: Terrain) -> Iterator[Stroke]:
     if component.closed:
         yield from (Stroke.of(curve) for shore in shores for curve in shore)
         return
-    border = _Border(float(terrain.width), float(terrain.height))
+    border = _BorderLength(float(terrain.width), float(terrain.height))
     left, shore = shores[1:], shores[0]
     while True:
         yield from (Stroke.of(curve) for curve in shore)
@@ -106,7 +106,7 @@ def _around(component: Component, terrain: Terrain) -> Iterator[Stroke]:
         left, shore = [other for other in left if other is not following], following
 
 
-class _Border:
+class _BorderLength:
     """The border counterclockwise from the SW corner, by its length."""
 
     def __init__(self, width: float, height: float) -> None:

@@ -22,7 +22,7 @@ from exactacq.scene.scene import Obstacle
 from exactacq.scene.terrain_components import Component, Ground, sides
 
 
-class Stop(NamedTuple):
+class WayPoint(NamedTuple):
     """A place on a way and its parameter there, 0 at the start and 1 at the end."""
 
     u: Real
@@ -37,8 +37,8 @@ class Gap(NamedTuple):
 
     obstacle: Obstacle
     component: Component | None
-    begin: Stop
-    end: Stop
+    begin: WayPoint
+    end: WayPoint
 
 
 class Blocking:
@@ -58,13 +58,13 @@ class Blocking:
 
     def _of(self, way: Segment, obstacle: Obstacle) -> list[Gap]:
         rail = Rail(way)
-        stops = [Stop(Real(0), way.start), Stop(Real(1), way.end)]
+        stops = [WayPoint(Real(0), way.start), WayPoint(Real(1), way.end)]
         for edge in obstacle.edges:
             for contact in contacts(way, edge):
-                stops += [Stop(rail.parameter(p), p) for p in (contact.start, contact.end)]
+                stops += [WayPoint(rail.parameter(p), p) for p in (contact.start, contact.end)]
         stops.sort(key=lambda stop: stop.u)
         stops = [s for k, s in enumerate(stops) if k == 0 or stops[k - 1].u.compare(s.u) < 0]
-        found: list[tuple[Stop, Stop]] = []
+        found: list[tuple[WayPoint, WayPoint]] = []
         for one, other in pairwise(stops):
             if self._is_blocked(way, obstacle, rail.point(rational_between(one.u, other.u))):
                 if found and found[-1][1].u is one.u and not self.is_free(obstacle, one.point):
@@ -89,7 +89,7 @@ class Blocking:
         """Whether a point of an obstacle's boundary is one of a component's, so has free points beside it."""
         return any(c.is_bounded_by(point) for c in self.ground.of(obstacle.index))
 
-    def _owner(self, obstacle: Obstacle, begin: Stop, end: Stop) -> Component | None:
+    def _owner(self, obstacle: Obstacle, begin: WayPoint, end: WayPoint) -> Component | None:
         for stop in (begin, end):
             for component in self.ground.of(obstacle.index):
                 if component.is_bounded_by(stop.point):

@@ -34,7 +34,7 @@ class Loss(NamedTuple):
     reason: Reason
 
 
-class _Gap(NamedTuple):
+class _OutOfSight(NamedTuple):
     """A stretch over which an obstacle is not in sight: from a place, at a parameter, to an ordinate.
 
     ``fresh`` if it was seen at the place; ``end`` is None if it is not seen again on the way.
@@ -86,7 +86,7 @@ class Line:
     def _order(self, a: Real, b: Real) -> int:
         return a.compare(b) * self.sense
 
-    def _gaps(self, ahead: Ahead) -> Iterator[_Gap]:
+    def _gaps(self, ahead: Ahead) -> Iterator[_OutOfSight]:
         """When the obstacles of the map, or that come on it, are out of sight, until they are acquired."""
         robot, leg = self.robot, ahead.leg
         notices: dict[int, list[tuple[EventKind, Real, Point]]] = {}
@@ -100,15 +100,15 @@ class Line:
                 elif begin is not None:
                     # Where it is lost and seen again at one place, nothing lies between.
                     if self._order(begin[1].y, place.y) < 0:
-                        yield _Gap(k, *begin, place.y)
+                        yield _OutOfSight(k, *begin, place.y)
                     begin = None
                 if kind is EventKind.ACQUIRE:
                     begin = None
                     break
             if begin is not None:
-                yield _Gap(k, *begin, None)
+                yield _OutOfSight(k, *begin, None)
 
-    def _loss(self, gap: _Gap, ahead: Ahead) -> tuple[Real, Reason] | None:
+    def _loss(self, gap: _OutOfSight, ahead: Ahead) -> tuple[Real, Reason] | None:
         """Where, before the end of a gap and of the way, its obstacle is about to be lost, and why."""
         robot, y, k = self.robot, gap.place.y, gap.obstacle
         chart = robot.map_ahead(ahead, gap.u, gap.place, {k})

@@ -21,7 +21,7 @@ from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
 from exactacq.scene.shapes import Terrain
 from exactacq.scene.terrain_components import Component
-from exactacq.strategies.seed_spreader.blocked import Blocking, Stop
+from exactacq.strategies.seed_spreader.blocked import Blocking, WayPoint
 from exactacq.strategies.seed_spreader.range_thresholds import leftmost
 
 MOST_STRIPS = 100_000
@@ -36,7 +36,7 @@ class Crossing(NamedTuple):
 
     component: Component
     piece: int
-    stop: Stop
+    stop: WayPoint
     ends: bool
 
 

@@ -18,7 +18,7 @@ BAD = (Result.AUDIT, Result.CRASHED, Result.ERROR)
 """What no scene may come to. Timeouts and undecided scenes are no fault, and no praise either."""
 
 
-class Tally(NamedTuple):
+class StatementCount(NamedTuple):
     """What all scenes said of one statement; ``tried`` is the sum of the other numbers.
 
     ``unanswered`` are checks that were undecided or in error; ``worst`` is the largest ratio, ``at`` the
@@ -35,7 +35,7 @@ class Tally(NamedTuple):
     at: Task | None
 
 
-def tallies(store: Store) -> list[Tally]:
+def tallies(store: Store) -> list[StatementCount]:
     """One a statement, in the order of the claims."""
     counts: dict[tuple[str, str], dict[str, int]] = {}
     for claim, part, outcome, count in store.rows(
@@ -54,10 +54,10 @@ def tallies(store: Store) -> list[Tally]:
     ]
 
 
-def _tally(called: Called, counts: dict[str, int], worst: float | None, at: Task | None) -> Tally:
+def _tally(called: Called, counts: dict[str, int], worst: float | None, at: Task | None) -> StatementCount:
     tried = sum(counts.values())
     held, failed, silent = (counts.get(outcome, 0) for outcome in (HOLDS, FAILS, SILENT))
-    return Tally(called, tried, held, failed, silent, tried - held - failed - silent, worst, at)
+    return StatementCount(called, tried, held, failed, silent, tried - held - failed - silent, worst, at)
 
 
 def faults(store: Store) -> list[tuple[Task, str, str]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from exactacq.auditing.ground import Field, Mark
+from exactacq.auditing.ground import CrossingPoint, Field
 from exactacq.auditing.measure import same
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.points import Point
@@ -80,7 +80,7 @@ def hops(case: Case) -> Iterator[Hop]:
             hit = after
 
 
-def _mark(marks: Sequence[Mark], after: int, event: Event) -> int:
+def _mark(marks: Sequence[CrossingPoint], after: int, event: Event) -> int:
     for k in range(after + 1, len(marks)):
         if marks[k].ends == (event.kind is EventKind.LEAVE) and same(marks[k].point, event.point):
             return k

@@ -54,7 +54,7 @@ def sweep_flaw(case: Case) -> str | None:
     return bounds_flaw(case, case.spreader)
 
 
-class _Meeting(NamedTuple):
+class _DiversionHits(NamedTuple):
     """A diversion to ``aim`` from ``leave`` (D) and the obstacles that it hits before it is there, and back.
 
     ``acquired`` are those that were wholly known when they were hit on the way.
@@ -127,8 +127,8 @@ class Tally:
         return True
 
     @cached_property
-    def _meetings(self) -> list[_Meeting]:
-        found: list[_Meeting] = []
+    def _meetings(self) -> list[_DiversionHits]:
+        found: list[_DiversionHits] = []
         acquired: set[int] = set()
         for event in self.run.events:
             k = event.obstacle
@@ -137,7 +137,7 @@ class Tally:
             if event.kind is EventKind.ACQUIRE:
                 acquired.add(k)
             elif event.kind is EventKind.DIVERT:
-                found.append(_Meeting(k, event.point, [], [], set()))
+                found.append(_DiversionHits(k, event.point, [], [], set()))
             elif event.kind is EventKind.HIT and event.occasion is Occasion.WAY_OUT:
                 found[-1].on_the_way.append(k)
                 found[-1].acquired.update({k} & acquired)

@@ -28,11 +28,11 @@ from exactacq.geometry.intersections import contacts, line_contacts
 from exactacq.geometry.points import Point, distance_sq
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real, rational
-from exactacq.strategies.seed_spreader.prediction.features import Cell, Feature, Lines, features_of
+from exactacq.strategies.seed_spreader.prediction.features import KnownFeature, LineCell, Lines, features_of
 from exactacq.strategies.seed_spreader.prediction.growth import growth_sign
 from exactacq.strategies.seed_spreader.prediction.pieces import ANGLE, Pieces, cross
 from exactacq.strategies.seed_spreader.prediction.proposals import Proposals
-from exactacq.strategies.seed_spreader.prediction.sight import Sights, Walk, hull, overlap, unique
+from exactacq.strategies.seed_spreader.prediction.sight import Sights, VerticalWay, hull, overlap, unique
 from exactacq.strategies.seed_spreader.range_thresholds import last_in_reach, nearest_point, thresholds
 
 UP = Point(0, 1)
@@ -63,7 +63,7 @@ def sees_later(
     """
     if not including and Real(stop).compare(start) == 0:
         return False
-    walk = Walk(x, start, stop, radius, including)
+    walk = VerticalWay(x, start, stop, radius, including)
     pieces = [*targets, *(Segment(point, point) for point in points)]
     last = last_in_reach(x, walk.sense > 0, pieces, radius)
     if last is None or last.compare(start) == -walk.sense or (not including and last.compare(start) == 0):
@@ -76,17 +76,22 @@ def sees_later(
     hulls = [hull(curve) for curve in goals] + [(*point.xy, *point.xy) for point in dots]
     field = walk.field(hulls)
     known = list(unique([*goals, *(c for c in blockers if overlap(hull(c), field))]))
-    return _Search(walk, known, len(list(unique(goals))), dots, field).run()
+    return _Candidates(walk, known, len(list(unique(goals))), dots, field).run()
 
 
 # -- the search ------------------------------------------------------------------------------------
 
 
-class _Search:
+class _Candidates:
     """All candidates; the first *count* of the known pieces are targets."""
 
     def __init__(
-        self, walk: Walk, known: Sequence[Curve], count: int, dots: Sequence[Point], field: Sequence[float]
+        self,
+        walk: VerticalWay,
+        known: Sequence[Curve],
+        count: int,
+        dots: Sequence[Point],
+        field: Sequence[float],
     ) -> None:
         self.walk, self.known, self.dots = walk, known, dots
         self.targets = known[:count]
@@ -104,7 +109,7 @@ class _Search:
         if any(self._is_seen(p, q) for p, q in self._at_range(stands)):
             return True
         features = [*features_of(self.pieces, set(range(len(self.targets))))]
-        features += [Feature(point, goal=True) for point in self.dots]
+        features += [KnownFeature(point, goal=True) for point in self.dots]
         features += stands
         fixed = [
             self.walk.start,
@@ -120,7 +125,7 @@ class _Search:
             self.walk.reach,
             [float(y) for y in fixed],
         )
-        return _Lines(self, proposals, fixed).see()
+        return _LineBatch(self, proposals, fixed).see()
 
     def _is_seen(self, p: Point, q: Point) -> bool:
         """Whether a point of the obstacle can be seen from a place, and this belongs to the walk."""
@@ -136,10 +141,10 @@ class _Search:
         a, b, error = np.array([[x, y]]), np.array([[u, v]]), np.array([slack])
         return not self.pieces.block(a, b, error)[0]
 
-    def _stands(self) -> list[Feature] | None:
+    def _stands(self) -> list[KnownFeature] | None:
         """The end of the walk and its contacts with known pieces; None if one is a target's point."""
         walk, pieces = self.walk, self.pieces
-        found = [Feature(Point(walk.x, walk.stop), stand=True)]
+        found = [KnownFeature(Point(walk.x, walk.stop), stand=True)]
         if any(dot.x.compare(walk.x) == 0 and walk.passes(dot.y) for dot in self.dots):
             return None
         origin = Point(walk.x, 0)
@@ -163,7 +168,7 @@ class _Search:
         along = straight and len(ys) == 2
         return along and min(ys).compare(walk.stop) <= 0 and max(ys).compare(walk.stop) >= 0
 
-    def _stand(self, k: int, place: Point) -> Feature:
+    def _stand(self, k: int, place: Point) -> KnownFeature:
         pieces, curve = self.pieces, self.known[k]
         i = j = k
         on: tuple[int, ...] = (k,)
@@ -174,10 +179,10 @@ class _Search:
             j = int(pieces.after[k])
             on = (k, j)
         elif place == curve.start or place == curve.end:
-            return Feature(place, stand=True, on=on)
+            return KnownFeature(place, stand=True, on=on)
         at = np.array([place.xy])
         (leave,), (back,) = pieces.tangents(np.array([j]), at), -pieces.tangents(np.array([i]), at)
-        return Feature(place, tuple(leave.tolist()), tuple(back.tolist()), stand=True, on=on)
+        return KnownFeature(place, tuple(leave.tolist()), tuple(back.tolist()), stand=True, on=on)
 
     # -- proposals -------------------------------------------------------------------------------------
 
@@ -206,7 +211,7 @@ class _Search:
 
     # -- lines of sight as long as the range -----------------------------------------------------------
 
-    def _at_range(self, stands: Sequence[Feature]) -> Iterator[tuple[Point, Point]]:
+    def _at_range(self, stands: Sequence[KnownFeature]) -> Iterator[tuple[Point, Point]]:
         """Candidates of the full length that have a closed form."""
         walk = self.walk
         for curve in self.targets:
@@ -261,10 +266,10 @@ def _way(a: Point, turn: Real, b: Point, other: Real) -> Point | None:
     return -normal.left()
 
 
-class _Lines:
+class _LineBatch:
     """Decides what the floats leave over of the lines that touch features."""
 
-    def __init__(self, search: _Search, proposals: Proposals, fixed: Sequence[Real]) -> None:
+    def __init__(self, search: _Candidates, proposals: Proposals, fixed: Sequence[Real]) -> None:
         self.search, self.proposals, self.fixed = search, proposals, fixed
         self.walk = search.walk
 
@@ -354,7 +359,7 @@ class _Lines:
         center, turn = self._shape(g)
         return turn.rational == 0 and center.x.compare(self.walk.x) == 0
 
-    def _sees_on_line(self, cell: Cell) -> bool:
+    def _sees_on_line(self, cell: LineCell) -> bool:
         """Whether the walk's own line, the only one past such a feature, is free where it is a range long."""
         x, reach = self.walk.x, self.walk.radius
         return any(
@@ -363,7 +368,7 @@ class _Lines:
             for offset in (reach, -reach)
         )
 
-    def _sees_in(self, cell: Cell, lines: Lines) -> bool | None:
+    def _sees_in(self, cell: LineCell, lines: Lines) -> bool | None:
         """Whether a line of sight of a cell is free; None if that is not decided."""
         if not cell.above:
             return self._sees_in_run(cell, lines)
@@ -376,7 +381,7 @@ class _Lines:
         answers = [self._is_in_range(cell, part, lines) for part in cell.tight]
         return True if True in answers else None if None in answers else False
 
-    def _about(self, cell: Cell, y: Real) -> tuple[Point, Point] | None:
+    def _about(self, cell: LineCell, y: Real) -> tuple[Point, Point] | None:
         """The line of sight of a cell from an ordinate."""
         p = Point(self.walk.x, y)
         way = _way(p, Real(0), *self._shape(cell.touch))
@@ -388,7 +393,7 @@ class _Lines:
         t = found[-1] if cell.branch or len(found) == 1 else found[0]
         return p, p + way * t
 
-    def _sees_in_run(self, cell: Cell, lines: Lines) -> bool | None:
+    def _sees_in_run(self, cell: LineCell, lines: Lines) -> bool | None:
         """Like `_sees_in`, for a run of cells whose ordinates floats cannot separate."""
         answer: bool | None = False
         for low, high in pairwise(sorted(self._ordinates(cell.below, lines))):
@@ -403,7 +408,7 @@ class _Lines:
             answer = None
         return answer
 
-    def _is_short(self, cell: Cell, y: Real) -> bool:
+    def _is_short(self, cell: LineCell, y: Real) -> bool:
         """Whether a line of a cell is shorter than the range."""
         sight = self._about(cell, y)
         return sight is not None and distance_sq(*sight).compare(self.walk.radius**2) < 0
@@ -418,7 +423,7 @@ class _Lines:
         line = self._line(int(lines.i[mark]), int(lines.j[mark]), int(lines.piece[mark]))
         return None if line is None else line[0].y
 
-    def _is_in_range(self, cell: Cell, part: tuple[float, float], lines: Lines) -> bool | None:
+    def _is_in_range(self, cell: LineCell, part: tuple[float, float], lines: Lines) -> bool | None:
         """Whether free lines of a cell, near one of its bounds, are as short as the range; None: undecided.
 
         If at the bound itself the line is shorter, so are some in the cell. If it is as long or longer there,

@@ -16,7 +16,7 @@ from exactacq.strategies.seed_spreader.prediction.pieces import ANGLE, Flags, Fl
 
 
 @dataclass(frozen=True)
-class Feature:
+class KnownFeature:
     """A point or a convex arc that a line of sight can touch.
 
     At a point ``leave`` and ``back`` are the unit directions along the boundary from there, the blocked side
@@ -37,7 +37,7 @@ class Feature:
     """The pieces it lies on."""
 
 
-def features_of(pieces: Pieces, goals: set[int]) -> list[Feature]:
+def features_of(pieces: Pieces, goals: set[int]) -> list[KnownFeature]:
     """Corners, lone ends and convex arcs; *goals* are the pieces looked for."""
     found = []
     everything = np.arange(len(pieces.curves))
@@ -47,17 +47,17 @@ def features_of(pieces: Pieces, goals: set[int]) -> list[Feature]:
         i, j = int(pieces.before[k]), int(pieces.after[k])
         x, y = first[k]
         if i < 0:
-            found.append(Feature(curve.start, (x, y), (-x, -y), pivot=True, goal=k in goals, on=(k,)))
+            found.append(KnownFeature(curve.start, (x, y), (-x, -y), pivot=True, goal=k in goals, on=(k,)))
         else:
             u, v = last[i]
             pivot = x * -v + y * u > -ANGLE
             goal = k in goals or i in goals
-            found.append(Feature(curve.start, (x, y), (-u, -v), True, pivot, goal, on=(i, k)))
+            found.append(KnownFeature(curve.start, (x, y), (-u, -v), True, pivot, goal, on=(i, k)))
         if j < 0:
             u, v = last[k]
-            found.append(Feature(curve.end, (u, v), (-u, -v), pivot=True, goal=k in goals, on=(k,)))
+            found.append(KnownFeature(curve.end, (u, v), (-u, -v), pivot=True, goal=k in goals, on=(k,)))
         if isinstance(curve, Arc) and curve.ccw:
-            found.append(Feature(curve, pivot=True, goal=k in goals, on=(k,)))
+            found.append(KnownFeature(curve, pivot=True, goal=k in goals, on=(k,)))
     return found
 
 
@@ -90,7 +90,7 @@ class Lines:
 
 
 @dataclass(frozen=True)
-class Sight:
+class ProposedLine:
     """A proposed line of sight: along a line to a target, or to a feature (target -1), or of any line."""
 
     i: int
@@ -102,7 +102,7 @@ class Sight:
 
 
 @dataclass(frozen=True)
-class Cell:
+class LineCell:
     """Lines that touch one feature, with ordinates from low to high, and meet one target in one branch.
 
     Marks stand for ordinates of other lines: a number of a line, or -1 - k for the k-th fixed ordinate. The
@@ -155,7 +155,7 @@ class Gaps:
         self._offsets = np.concatenate(([0], np.cumsum([len(t) for t in self._touch]))).astype(np.intp)
         return self
 
-    def cell(self, k: int, target: int, branch: int) -> Cell:
+    def cell(self, k: int, target: int, branch: int) -> LineCell:
         """One of them, with a target."""
         group = int(np.searchsorted(self._offsets, k, side="right")) - 1
         marks, first, last = self._marks[group]
@@ -167,6 +167,6 @@ class Gaps:
             run = np.flatnonzero(last > first)[at - n]
             below, above = marks[first[run] : last[run] + 1], marks[:0]
         low, high = float(self.low[k]), float(self.high[k])
-        return Cell(
+        return LineCell(
             int(self.touch[k]), target, branch, low, high, tuple(below.tolist()), tuple(above.tolist())
         )

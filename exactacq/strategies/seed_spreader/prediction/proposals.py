@@ -16,7 +16,14 @@ from typing import Any
 import numpy as np
 
 from exactacq.geometry.curves import Arc
-from exactacq.strategies.seed_spreader.prediction.features import Cell, Feature, Gaps, Lines, Sight, enters
+from exactacq.strategies.seed_spreader.prediction.features import (
+    Gaps,
+    KnownFeature,
+    LineCell,
+    Lines,
+    ProposedLine,
+    enters,
+)
 from exactacq.strategies.seed_spreader.prediction.pieces import (
     ANGLE,
     MARGIN,
@@ -42,7 +49,7 @@ class Proposals:
     def __init__(
         self,
         pieces: Pieces,
-        features: Sequence[Feature],
+        features: Sequence[KnownFeature],
         targets: Sequence[int],
         x: float,
         walk: tuple[float, float],
@@ -170,7 +177,7 @@ class Proposals:
 
     # -- lines of sight along them ---------------------------------------------------------------------
 
-    def sights(self, lines: Lines) -> list[Sight]:
+    def sights(self, lines: Lines) -> list[ProposedLine]:
         """What is left of the lines of sight that touch two features."""
         p = self._places(lines.y)
         other = np.where(lines.j < 0, lines.i, lines.j)
@@ -187,7 +194,7 @@ class Proposals:
             found += self._sights(lines[use], p[use], lines.way[use] * sign[use, None], far[use])
         return found
 
-    def _sights(self, lines: Lines, p: Floats, way: Floats, far: Floats) -> list[Sight]:
+    def _sights(self, lines: Lines, p: Floats, way: Floats, far: Floats) -> list[ProposedLine]:
         other = np.where(lines.j < 0, lines.i, lines.j)
         base = self.slack / 1000 + lines.error
         rows, columns, ts, errors = [], [], [], []
@@ -228,7 +235,7 @@ class Proposals:
             ok &= ~(behind & enters(self.leave[k], self.back[k], -way[row], margin))
         ok[ok] = ~self.pieces.block(p[row[ok]], q[ok], error[ok])
         return [
-            Sight(
+            ProposedLine(
                 int(lines.i[r]),
                 int(lines.j[r]),
                 int(lines.piece[r]),
@@ -298,7 +305,7 @@ class Proposals:
 
     # -- lines that touch one feature ------------------------------------------------------------------
 
-    def cells(self, lines: Lines) -> list[Cell]:
+    def cells(self, lines: Lines) -> list[LineCell]:
         """What is left of the lines of sight that touch one feature, where the range may hold them.
 
         Between two neighbouring lines through two features all lines about a feature are blocked or none is.
@@ -401,7 +408,7 @@ class Proposals:
         after = beyond * beyond - square
         return np.asarray(np.sqrt(np.maximum(before, 0.0)) + np.sqrt(np.maximum(after, 0.0)))
 
-    def _by_range(self, cells: list[Cell]) -> list[Cell]:
+    def _by_range(self, cells: list[LineCell]) -> list[LineCell]:
         """Halve the cells until each part is out of range or some line within range is found."""
         if not cells:
             return []

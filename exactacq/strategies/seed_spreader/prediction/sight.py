@@ -15,7 +15,7 @@ from exactacq.numbers.real import Real
 from exactacq.strategies.seed_spreader.prediction.pieces import Pieces
 
 
-class Walk:
+class VerticalWay:
     """The part of the vertical line, and the range."""
 
     def __init__(self, x: fmpq, start: Real, stop: Real | fmpq, radius: fmpq, including: bool) -> None:
