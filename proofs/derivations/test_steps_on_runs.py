@@ -12,7 +12,7 @@ from scenes import overlapping_links, relay, trapped_end
 from exactacq import Circle, Length, Run, Scene, Terrain, seed_spreader, sightseer
 from exactacq.files import gallery
 from exactacq.geometry.points import Point, distance
-from exactacq.sensing.event import Ending, Event, Occasion
+from exactacq.sensing.event import Ending, Event, Occasion, Reason
 
 SWEPT = ["case1", "case2", "case3", "e3", "figure3", "figure4", "m14", "m15", "m18", "m20-6", "m25"]
 HALF = fmpq(1, 2)
@@ -61,13 +61,13 @@ def test_ways_a_diversion_walks_no_more_than_twice_d_q_straight(sweep: Run) -> N
 def test_ways_that_sight_or_reach_begins_are_within_the_radius(sweep: Run) -> None:
     for d in sweep.diversions:
         near = Length(distance(d.leave, d.hit)) <= Length(sweep.radius)
-        assert near or d.reason not in ("out of sight", "out of reach")
+        assert near or d.reason not in (Reason.OUT_OF_SIGHT, Reason.OUT_OF_REACH)
 
 
 def test_ways_at_the_end_of_a_line_too() -> None:
     """What was seen from a diversion that began where the line ends can be farther than the radius."""
     run = seed_spreader(relay(2, foot=5))
-    assert [d.reason for d in run.diversions] == ["the line ends"] * 3
+    assert [d.reason for d in run.diversions] == [Reason.LINE_ENDS] * 3
     lengths = [float(distance(d.leave, d.hit)) for d in run.diversions]
     assert lengths == pytest.approx([7.787, 24.738, 43.416], abs=1e-3)
 
