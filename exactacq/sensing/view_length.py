@@ -37,7 +37,7 @@ SPREAD = 240
 
 
 @dataclass(frozen=True, eq=False)
-class _Bound(ABC):
+class _LengthSide(ABC):
     """One side of a view: the carrier of its curve, by the numbers that define it."""
 
     numbers: tuple[Real, ...]
@@ -52,7 +52,7 @@ class _Bound(ABC):
         """The s of the module's docstring, in the arithmetic of t, which *numbers* have been brought to."""
 
 
-class _Straight(_Bound):
+class _Straight(_LengthSide):
     """The line through a point, given with its direction."""
 
     def place(self, numbers: tuple[Any, ...], t: Any, contact: Vector, direction: Vector) -> Any:
@@ -60,7 +60,7 @@ class _Straight(_Bound):
         return cross(minus(start, contact), along) / cross(direction, along)
 
 
-class _Tangent(_Bound):
+class _Tangent(_LengthSide):
     """A line that touches the circle on which the contact rolls, given by p and q: it does so at t = p / q.
 
     Two tangents meet at the tangent of half the angle between their contacts; `_Straight` has 0 / 0 there.
@@ -72,7 +72,7 @@ class _Tangent(_Bound):
 
 
 @dataclass(frozen=True, eq=False)
-class _Round(_Bound):
+class _Round(_LengthSide):
     """A circle, given by its centre and squared radius; ``far`` is the sign of the root."""
 
     far: int
@@ -88,7 +88,7 @@ class _Round(_Bound):
         return (dot(to_center, direction) + self.far * _root(size * radius_sq - across * across)) / size
 
 
-class _Through(_Bound):
+class _Through(_LengthSide):
     """A circle through the corner that the lines turn about, given by its centre: the other crossing."""
 
     def place(self, numbers: tuple[Any, ...], t: Any, contact: Vector, direction: Vector) -> Any:
@@ -101,7 +101,7 @@ class ViewLength:
 
     round: bool
     numbers: tuple[Real, ...]
-    sides: tuple[_Bound, _Bound]
+    sides: tuple[_LengthSide, _LengthSide]
 
     @cached_property
     def key(self) -> Hashable:
@@ -182,7 +182,7 @@ def _touches(sector: Sector, curve: Curve, ends: tuple[Real, Real]) -> bool:
     return (offset * offset).compare(along.norm_sq() * dot(sector.base, sector.base)) == 0
 
 
-def _side(sector: Sector, curve: Curve, side: int, touches: bool) -> _Bound:
+def _side(sector: Sector, curve: Curve, side: int, touches: bool) -> _LengthSide:
     if isinstance(curve, Segment):
         return _tangent(sector, curve) if touches else _Straight((*curve.start, *curve.direction))
     center = curve.center
