@@ -18,7 +18,7 @@ from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real, fmpq, roots
 from exactacq.strategies.seed_spreader.prediction.decide import sees_later
-from exactacq.strategies.seed_spreader.prediction.growth import growth_sign
+from exactacq.strategies.seed_spreader.prediction.sight import growth_sign
 
 EPS = fmpq(1, 10**40)
 FAR = fmpq(100)

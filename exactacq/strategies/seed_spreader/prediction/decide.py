@@ -28,11 +28,24 @@ from exactacq.geometry.intersections import contacts, line_contacts
 from exactacq.geometry.points import Point, distance_sq
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real, rational
-from exactacq.strategies.seed_spreader.prediction.features import KnownFeature, LineCell, Lines, features_of
-from exactacq.strategies.seed_spreader.prediction.growth import growth_sign
-from exactacq.strategies.seed_spreader.prediction.pieces import ANGLE, Pieces, cross
+from exactacq.strategies.seed_spreader.prediction.pieces import (
+    ANGLE,
+    KnownFeature,
+    LineCell,
+    Lines,
+    Pieces,
+    cross,
+    features_of,
+)
 from exactacq.strategies.seed_spreader.prediction.proposals import Proposals
-from exactacq.strategies.seed_spreader.prediction.sight import Sights, VerticalWay, hull, overlap, unique
+from exactacq.strategies.seed_spreader.prediction.sight import (
+    Sights,
+    VerticalWay,
+    growth_sign,
+    hull,
+    overlap,
+    unique,
+)
 from exactacq.strategies.seed_spreader.range_thresholds import last_in_reach, nearest_point, thresholds
 
 UP = Point(0, 1)

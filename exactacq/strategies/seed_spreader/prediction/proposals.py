@@ -16,24 +16,22 @@ from typing import Any
 import numpy as np
 
 from exactacq.geometry.curves import Arc
-from exactacq.strategies.seed_spreader.prediction.features import (
-    Gaps,
-    KnownFeature,
-    LineCell,
-    Lines,
-    ProposedLine,
-    enters,
-)
 from exactacq.strategies.seed_spreader.prediction.pieces import (
     ANGLE,
     MARGIN,
     TINY,
     Flags,
     Floats,
+    Gaps,
     Ints,
+    KnownFeature,
+    LineCell,
+    Lines,
     Pieces,
+    ProposedLine,
     cross,
     dot,
+    enters,
     left,
     norm,
     unit,
