@@ -7,7 +7,7 @@ from functools import cached_property
 
 from flint import fmpq
 
-from exactacq.errors import FormatError
+from exactacq.errors import FormatError, InvalidScene
 from exactacq.geometry.box_index import DIRECTIONS
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import locate, signed_area, spans
@@ -17,7 +17,7 @@ from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import Real
 from exactacq.scene.ports import SVG, made
 from exactacq.scene.shapes import Circle, Loop, Shape, Terrain
-from exactacq.scene.validation import validate
+from exactacq.scene.validation import sensor_flaws, validate
 
 
 class Obstacle:
@@ -135,6 +135,32 @@ class Scene:
     def __repr__(self) -> str:
         name = f" {self.name!r}" if self.name else ""
         return f"<Scene{name}: {len(self.obstacles)} obstacles>"
+
+
+def radius_of(scene: Scene, radius: object, place: Point | None) -> fmpq:
+    """The radius of vision from a place: the one given, or else the scene's own.
+
+    Raises `InvalidScene` if there is none, if it is not positive, or if it or the place is too far out.
+    """
+    reach = scene.radius if radius is None else rational(radius)
+    if reach is None:
+        raise InvalidScene(["a radius of vision must be given"])
+    if flaws := list(sensor_flaws(place, reach)):
+        raise InvalidScene(flaws)
+    return reach
+
+
+def start_of(scene: Scene, start: Point | Sequence[object] | None = None) -> Point:
+    """The start that is given, or else the scene's own.
+
+    Raises `InvalidScene` if there is none, if it has irrational coordinates, or if it is too far out.
+    """
+    place = scene.start if start is None else Point.of(start)
+    if place is None or place.rational is None:
+        raise InvalidScene(["a start point with rational coordinates must be given"])
+    if flaws := list(sensor_flaws(place, None)):
+        raise InvalidScene(flaws)
+    return place
 
 
 def _shapes(values: Iterable[Shape]) -> tuple[Shape, ...]:

@@ -18,15 +18,12 @@ from typing import Any, TypeAlias
 
 from flint import fmpq
 
-from exactacq.errors import InvalidScene
 from exactacq.geometry.coordinates import dot
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Point
-from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.scene.scene import Scene
-from exactacq.scene.validation import sensor_flaws
+from exactacq.scene.scene import Scene, radius_of
 from exactacq.sensing.leg_views import Share, Shares
 from exactacq.sensing.legs import legs_of
 from exactacq.sensing.map import Map
@@ -174,11 +171,7 @@ def sweep(scene: Scene, curve: Curve, radius: object = None, *, obstacle: int | 
     >>> [(event.change.value, event.edge, str(event.place)) for event in swept.events[::2]]
     [('occlusion', 0, '(2, 2)'), ('reappearance', 1, '(3, 2)')]
     """
-    reach = scene.radius if radius is None else rational(radius)
-    if reach is None:
-        raise InvalidScene(["a radius of vision must be given"])
-    if flaws := list(sensor_flaws(curve.start, reach)):
-        raise InvalidScene(flaws)
+    reach = radius_of(scene, radius, curve.start)
     if obstacle is None and not isinstance(curve, Segment):
         raise ValueError("free space is crossed on straight lines: an arc needs its obstacle's number")
     kind = "straight" if obstacle is None else "boundary"

@@ -21,7 +21,7 @@ from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import fmpq
-from exactacq.scene.scene import Scene
+from exactacq.scene.scene import Scene, start_of
 from exactacq.scene.shapes import Circle, Polygon, Shape
 from exactacq.sensing.path import Path, Piece
 from exactacq.strategies.sightseer.strategy import sightseer
@@ -86,10 +86,7 @@ def vertex_scan(scene: Scene, start: Point | Sequence[object] | None = None) -> 
         raise InvalidScene(
             [f"obstacle {o.index} has arcs: vertices are scanned on polygons only" for o in arcs]
         )
-    place = scene.start if start is None else Point.of(start)
-    if place is None or place.rational is None:
-        raise InvalidScene(["a start point with rational coordinates must be given"])
-    return _DepthFirst(scene, place).run()
+    return _DepthFirst(scene, start_of(scene, start)).run()
 
 
 class _DepthFirst:

@@ -20,12 +20,10 @@ from exactacq.geometry.curves import Segment
 from exactacq.geometry.intersections import signed_area
 from exactacq.geometry.points import Location, Point, distance_sq
 from exactacq.numbers.length import Length
-from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import fmpq
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.ports import SVG, made
-from exactacq.scene.scene import Obstacle, Scene
-from exactacq.scene.validation import sensor_flaws
+from exactacq.scene.scene import Obstacle, Scene, radius_of
 from exactacq.visibility.free_segment import is_free
 from exactacq.visibility.outline import ViewKind, ViewPiece, outline
 from exactacq.visibility.range_clip import Span
@@ -141,11 +139,7 @@ def isovist(scene: Scene, point: object, radius: object = None) -> Isovist:
     2*asin(31/200) + 4*asin(569/800) + 7*pi
     """
     place = Point.of(point)  # type: ignore[arg-type]
-    reach = scene.radius if radius is None else rational(radius)
-    if reach is None:
-        raise InvalidScene(["a radius of vision must be given"])
-    if flaws := list(sensor_flaws(place, reach)):
-        raise InvalidScene(flaws)
+    reach = radius_of(scene, radius, place)
     around = _Tables.of(scene).around(place)
     if flaws := [f"the point {place} lies inside {o!r}" for where, o in around if where is Location.INSIDE]:
         raise InvalidScene(flaws)

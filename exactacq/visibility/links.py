@@ -22,16 +22,13 @@ import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
 
-from exactacq.errors import InvalidScene
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.intersections import Nearest, NearestFamily, NearestFamilyKind, nearest_points
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
-from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import STRAIGHT, EdgeTable, Floats, Ints, quotient
-from exactacq.scene.scene import Scene
-from exactacq.scene.validation import sensor_flaws
+from exactacq.scene.scene import Scene, radius_of
 from exactacq.visibility.chords import Chord, chord_at, critical
 from exactacq.visibility.fans import fan
 from exactacq.visibility.features import Feature, leaving
@@ -79,17 +76,13 @@ class Link:
 class Links:
     """The links of one scene and radius, computed on demand and kept.
 
-    *radius* is rational and positive: `InvalidScene` otherwise. ``between(i, j)`` costs less than a
-    millisecond where the closest points see each other; otherwise the pencils of the features between i
-    and j are swept once and kept.
+    *radius*, None for the scene's own, is rational and positive: `InvalidScene` otherwise. ``between(i, j)``
+    costs less than a millisecond where the closest points see each other; otherwise the pencils of the
+    features between i and j are swept once and kept.
     """
 
     def __init__(self, scene: Scene, radius: object) -> None:
-        if radius is None:
-            raise InvalidScene(["a radius of vision must be given"])
-        self.scene, self.radius = scene, rational(radius)
-        if flaws := list(sensor_flaws(scene.start, self.radius)):
-            raise InvalidScene(flaws)
+        self.scene, self.radius = scene, radius_of(scene, radius, scene.start)
         self.limit = Real(self.radius)
         self.reach = float(self.radius) * (1 + 1e-12)
         self.table = EdgeTable(scene.obstacles)
@@ -404,7 +397,7 @@ def visibility_graph(scene: Scene, radius: object = None) -> nx.Graph:
     >>> [(i, j, str(v)) for i, j, v in graph.edges(data="weight")]
     [(0, 1, '2'), (0, 'S', '3')]
     """
-    links = Links(scene, scene.radius if radius is None else radius)
+    links = Links(scene, radius)
     graph = nx.Graph()
     graph.add_nodes_from(range(len(scene.obstacles)))
     for i in range(len(scene.obstacles)):

@@ -5,14 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cmp_to_key
 
-from flint import fmpq
-
 from exactacq.errors import InvalidScene
 from exactacq.geometry.points import Point, distance_sq
-from exactacq.numbers.rationals import rational
-from exactacq.scene.scene import Scene
+from exactacq.scene.scene import Scene, radius_of
 from exactacq.scene.terrain_components import Ground, ground_of
-from exactacq.scene.validation import sensor_flaws
 from exactacq.sensing.event import Ending, EventKind, Occasion
 from exactacq.strategies.bounds import with_bounds
 from exactacq.strategies.choices import TargetChoice
@@ -65,20 +61,11 @@ def seed_spreader(
     6*pi + 36 (0, 1)
     """
     choice = TargetChoice(target)
-    reach = scene.radius if radius is None else rational(radius)
-    ground, reach = _checked(scene, reach)
-    return _Spreader(Surveyor(scene, ground, reach), lookahead, choice, progress).run(scene, ground)
-
-
-def _checked(scene: Scene, radius: fmpq | None) -> tuple[Ground, fmpq]:
-    if radius is None:
-        raise InvalidScene(["a radius of vision must be given"])
-    flaws = list(sensor_flaws(Point(0, 0), radius))
+    reach = radius_of(scene, radius, Point(0, 0))
     if scene.start is not None and scene.start != Point(0, 0):
-        flaws.append(f"the start {scene.start} is not the terrain's SW corner (0, 0)")
-    if flaws:
-        raise InvalidScene(flaws)
-    return ground_of(scene), radius
+        raise InvalidScene([f"the start {scene.start} is not the terrain's SW corner (0, 0)"])
+    ground = ground_of(scene)
+    return _Spreader(Surveyor(scene, ground, reach), lookahead, choice, progress).run(scene, ground)
 
 
 class _Spreader:

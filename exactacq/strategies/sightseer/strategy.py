@@ -10,8 +10,7 @@ from functools import cmp_to_key
 from exactacq.errors import InvalidScene
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
-from exactacq.scene.scene import Scene
-from exactacq.scene.validation import sensor_flaws
+from exactacq.scene.scene import Scene, start_of
 from exactacq.sensing.event import Ending, EventKind, Occasion
 from exactacq.strategies.bounds import with_bounds
 from exactacq.strategies.gc_pause import uncollected
@@ -47,17 +46,13 @@ def sightseer(
     >>> print(run.length, run.visits)
     5 + 12*pi (0, 1)
     """
-    place = scene.start if start is None else Point.of(start)
-    if place is None or place.rational is None:
-        raise InvalidScene(["a start point with rational coordinates must be given"])
-    if flaws := list(sensor_flaws(place, None)):
-        raise InvalidScene(flaws)
+    place = start_of(scene, start)
     border = scene.meets_border()
     if border:
         rule = "meets the terrain's border: the Sightseer needs its obstacles inside"
         raise InvalidScene([f"obstacle {k} {rule}" for k in border])
     try:
-        robot = Scout(scene, scene.radius if radius is None else radius, place)
+        robot = Scout(scene, radius, place)
     except ValueError as error:
         raise InvalidScene([str(error)]) from None
     return explored_by(robot, scene, progress)

@@ -6,8 +6,7 @@ rule must then keep Theorem 1's bound too. Everything else is the Sightseer's ow
 
 from __future__ import annotations
 
-from exactacq.errors import InvalidScene
-from exactacq.scene.scene import Scene
+from exactacq.scene.scene import Scene, start_of
 from exactacq.strategies.run import SightseerRun
 from exactacq.strategies.sightseer.robot import Scout
 from exactacq.strategies.sightseer.strategy import explored_by
@@ -36,7 +35,4 @@ def farthest_first(scene: Scene, radius: object = None) -> SightseerRun:
     *radius* defaults to the scene's own. Raises `InvalidScene` if the scene has no rational start. Cost: all
     links within the radius.
     """
-    if scene.start is None or scene.start.rational is None:
-        raise InvalidScene(["a start point with rational coordinates must be given"])
-    robot = _FarSighted(scene, scene.radius if radius is None else radius, scene.start)
-    return explored_by(robot, scene)
+    return explored_by(_FarSighted(scene, radius, start_of(scene)), scene)
