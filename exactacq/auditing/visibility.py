@@ -132,7 +132,7 @@ class Direction:
         self.aim = aim
 
 
-class Range(NamedTuple):
+class HitDistances(NamedTuple):
     """Float bounds of the distances at which rays meet curves; arrays of shape (rays, columns).
 
     ``low`` is infinite where there is certainly no contact ahead; ``sure`` says that the curve is certainly
@@ -145,7 +145,7 @@ class Range(NamedTuple):
 
 
 class Hits(NamedTuple):
-    """A `Range` for curves of mixed kinds, with each column's ``curve``; ``far``: an arc's far root."""
+    """`HitDistances` for curves of mixed kinds, with each column's ``curve``; ``far``: an arc's far root."""
 
     low: Floats
     high: Floats
@@ -484,7 +484,7 @@ def _cross(a: Floats, b: Floats) -> Floats:
     return found
 
 
-def _segment_hits(units: Floats, starts: Floats, ends: Floats) -> Range:
+def _segment_hits(units: Floats, starts: Floats, ends: Floats) -> HitDistances:
     """Where rays meet segments from s to e: t = s x e / (u x e - u x s), if u x s and u x e differ in sign.
 
     If one of the two signs is uncertain, the contact is near that end; if both are, anywhere between.
@@ -513,12 +513,14 @@ def _segment_hits(units: Floats, starts: Floats, ends: Floats) -> Range:
     low = np.where(np.isnan(low), -np.inf, low)
     high = np.where(np.isnan(high), np.inf, high)
     gone = missed | behind
-    return Range(np.where(gone, np.inf, low), np.where(gone, np.inf, high), crossed & ~gone & (low > 0))
+    return HitDistances(
+        np.where(gone, np.inf, low), np.where(gone, np.inf, high), crossed & ~gone & (low > 0)
+    )
 
 
 def _arc_hits(
     units: Floats, centers: Floats, shape: Floats, chords: tuple[Floats, Floats], own: Bools, far: bool
-) -> Range:
+) -> HitDistances:
     """Where rays meet arcs for the near or the far root t = u.c -+ sqrt(r^2 - (u x c)^2).
 
     A contact is on the arc if it lies on the arc's side of the chord. On an own circle the roots are 0,
@@ -546,7 +548,7 @@ def _arc_hits(
     if own.any():
         gone = np.where(own, (high < 0) | (~full & (side > margin)) | (not far), gone)
     sure = (real | own) & (full | (side < -margin)) & (low > 0) & ~gone
-    return Range(np.where(gone, np.inf, low), np.where(gone, np.inf, high), sure)
+    return HitDistances(np.where(gone, np.inf, low), np.where(gone, np.inf, high), sure)
 
 
 # -- targets ---------------------------------------------------------------------------------------

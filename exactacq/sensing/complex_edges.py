@@ -22,13 +22,14 @@ from exactacq.geometry.points import Point, distance_sq
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.side_filter import Sides
-from exactacq.sensing.view_families import FreeViews, Ranges, Role, Side, ViewFamily
+from exactacq.sensing.view_families import FamilyClipper, FreeViews, Role, Side, ViewFamily
 from exactacq.visibility.chords import meet
 from exactacq.visibility.features import Feature, features, leaving
 from exactacq.visibility.free_segment import walk_line
 from exactacq.visibility.line_families import Sector, Sliding, Spokes, corner_sectors, quarters
 from exactacq.visibility.line_names import Anchor, Namer, Names
 from exactacq.visibility.rotational_sweep import Cell, Passed, Pencil, pencil
+from exactacq.visibility.sensor_range import Range
 
 
 @dataclass(slots=True)
@@ -105,10 +106,10 @@ class Bundle:
         self.sides = sides
         self._source = source
 
-    def families(self, ranges: Ranges) -> list[ViewFamily]:
+    def families(self, clipper: FamilyClipper) -> list[ViewFamily]:
         """The families within range."""
         if isinstance(self._source, FreeViews):
-            self._source = ranges.families(self._source)
+            self._source = clipper.families(self._source)
         return self._source
 
 
@@ -160,10 +161,10 @@ class FeatureFamilies:
 class FamilySweeper:
     """Sweeps the families of one scene within one radius. It keeps none of them."""
 
-    def __init__(self, table: EdgeTable, radius: fmpq) -> None:
-        self.table, self.radius = table, radius
-        self.reach = float(radius) * (1 + 1e-12)
-        self.ranges = Ranges([Rail(curve) for curve in table.curves], radius, table.roundoff, table.circles)
+    def __init__(self, table: EdgeTable, range_: Range) -> None:
+        self.table, self.range = table, range_
+        rails = [Rail(curve) for curve in table.curves]
+        self.clipper = FamilyClipper(rails, range_, table.roundoff, table.circles)
         self._namer = Namer(table)
 
     @cached_property
@@ -191,7 +192,7 @@ class FamilySweeper:
         bundles: list[Bundle] = []
         for line in single_lines:
             if line.edge is not None:
-                ends = self.ranges.along(line.place, self.ranges.rails[line.edge], line.run, line.shown)
+                ends = self.clipper.along(line.place, self.clipper.rails[line.edge], line.run, line.shown)
                 sides = Side(line.edge, Role.CONTACT), Side(line.shown, Role.AHEAD)
                 bundles.append(Bundle(sides, [ViewFamily((line.edge, line.shown), *end) for end in ends]))
         return FeatureFamilies(line_families, single_lines, bundles)
@@ -201,7 +202,7 @@ class FamilySweeper:
     def _tangents(self, feature: Feature) -> tuple[list[LineFamily], list[SingleLine]]:
         """The tangent lines of a feature, and the single lines that join them."""
         contact = Side(feature.edges[-1], Role.CONTACT, fixed=not feature.round)
-        sweeps = [pencil(self.table, s, feature.edges, self.reach) for s in feature.sectors]
+        sweeps = [pencil(self.table, s, feature.edges, self.range.above) for s in feature.sectors]
         line_families = [
             self._line_family(feature, s.sector, cell, contact) for s in sweeps for cell in s.cells
         ]
@@ -225,7 +226,7 @@ class FamilySweeper:
     def _normals(self, e: int) -> Iterator[LineFamily]:
         """The views along the normals of an edge."""
         for sector in normals(self.table.curves[e]):
-            sweep = pencil(self.table, sector, (e,), self.reach)
+            sweep = pencil(self.table, sector, (e,), self.range.above)
             yield from (_outward(sector, cell, Side(e, Role.CONTACT)) for cell in sweep.cells)
 
     def _corner_normals(self, feature: Feature) -> Iterator[LineFamily]:
@@ -235,7 +236,7 @@ class FamilySweeper:
         bx, by = leaving(self.table.curves[outgoing], at_end=False)
         corner = Side(outgoing, Role.CONTACT, fixed=True)
         for sector in corner_sectors(feature.center, (ay, -ax), (by, -bx)):
-            sweep = pencil(self.table, sector, feature.edges, self.reach)
+            sweep = pencil(self.table, sector, feature.edges, self.range.above)
             anchor = self._namer.anchor(feature)
             yield from (_outward(sector, cell, corner, anchor) for cell in sweep.cells)
 
@@ -258,10 +259,10 @@ class FamilySweeper:
             far = None if met is None else meet(contact, direction, self.table.curves[met], 1)
             if any(side or number not in (e, self.table.next[e]) for number, side, _ in passed):
                 # The line grazes what may block its neighbours: it goes on by itself.
-                walk = walk_line(self.table, sweep.sector, t, self.reach)[ahead]
+                walk = walk_line(self.table, sweep.sector, t, self.range.above)[ahead]
                 far, met = (abs(walk.hits[-1][0]), walk.hits[-1][1]) if walk.blocked else (None, None)
             if far is None:
-                far = self.radius / direction.norm_sq().sqrt()
+                far = self.range.radius / direction.norm_sq().sqrt()
             place = contact + direction * far
             yield SingleLine(place, met, (edge.end, edge.start) if ahead else (edge.start, edge.end), e)
 
@@ -282,7 +283,7 @@ class FamilySweeper:
 
     def _pinched(self, sector: Sector, t: Real, own: tuple[int, ...]) -> Iterator[SingleLine]:
         """What the touched points and edges of a line that grazes several features show of each other."""
-        behind, ahead = walk_line(self.table, sector, t, self.reach)
+        behind, ahead = walk_line(self.table, sector, t, self.range.above)
         contact, direction = sector.touch(t)
         met = [*reversed(behind.hits), (Real(0), own[-1]), *ahead.hits]
         runs: list[tuple[int, Point, Point]] = []
@@ -300,7 +301,7 @@ class FamilySweeper:
                     near, far = (low, high) if _nearer(place, low, high) else (high, low)
                     if place != near:
                         yield SingleLine(place, e, (near, far), f)
-        step = direction * (self.radius / direction.norm_sq().sqrt())
+        step = direction * (self.range.radius / direction.norm_sq().sqrt())
         for walk, place in ((behind, contact - step), (ahead, contact + step)):
             if not walk.blocked:
                 for f, low, high in runs:

@@ -10,33 +10,32 @@ from __future__ import annotations
 from functools import cached_property
 from itertools import pairwise
 
-from flint import fmpq
-
 from exactacq.geometry.coordinates import raw
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.intersections import contacts
 from exactacq.geometry.interval_union import Interval
-from exactacq.geometry.points import Point, distance_sq
+from exactacq.geometry.points import Point
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.legs import Leg
 from exactacq.visibility.free_segment import is_free
 from exactacq.visibility.outline import outline
+from exactacq.visibility.sensor_range import Range
 from exactacq.visibility.visible_boundary import BoundaryView
 
 
 class CutEnd:
     """A point of edge ``edge``, at parameter ``u`` of its rail, that looks around within a radius."""
 
-    def __init__(self, table: EdgeTable, radius: fmpq, edge: int, u: Real, point: Point) -> None:
-        self.table, self.radius, self.edge = table, radius, edge
+    def __init__(self, table: EdgeTable, range_: Range, edge: int, u: Real, point: Point) -> None:
+        self.table, self.range, self.edge = table, range_, edge
         self.pin = Interval(u, point, u, point)
         self.point = point
 
     def sees(self, place: Point) -> bool:
         """Whether a free place is seen."""
-        if distance_sq(self.point, place).compare(self.radius * self.radius) > 0:
+        if self.range.order(self.point, place) > 0:
             return False
         if place == self.point:
             return True
@@ -45,7 +44,7 @@ class CutEnd:
     def along(self, leg: Leg) -> list[Interval]:
         """The parts of a leg that are seen, as closed intervals; single places count."""
         left, bottom, right, top = leg.box
-        x, y, r = *self.point.xy, float(self.radius) * (1 + 1e-9) + 8 * self.table.roundoff_at(self.point.xy)
+        x, y, r = *self.point.xy, self.range.above + 8 * self.table.roundoff_at(self.point.xy)
         if left > x + r or right < x - r or bottom > y + r or top < y - r:
             return []
         cuts = [(leg.span.low, leg.span.start), (leg.span.high, leg.span.end)]
@@ -67,7 +66,7 @@ class CutEnd:
 
     @cached_property
     def _view(self) -> BoundaryView:
-        return BoundaryView(self.table, self.point, self.radius, None)
+        return BoundaryView(self.table, self.point, self.range, None)
 
     @cached_property
     def _outline(self) -> list[Curve]:

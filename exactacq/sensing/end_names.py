@@ -10,14 +10,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import cached_property
 
-from flint import fmpq
-
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.points import Point
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.view_families import End, FreeViews, Pin, ViewFamily
+from exactacq.visibility.sensor_range import Range
 from exactacq.visibility.visible_boundary import BoundaryView, Hold
 
 RANGE = "range"
@@ -33,11 +32,11 @@ class Seen:
         table: EdgeTable,
         rails: list[Rail],
         place: Point,
-        radius: fmpq,
+        range_: Range,
         own: tuple[int, ...] | None,
     ) -> None:
         self.table, self.place = table, place
-        self._view = BoundaryView(table, place, radius, own)
+        self._view = BoundaryView(table, place, range_, own)
         self._rails = rails
 
     @cached_property

@@ -21,7 +21,7 @@ from exactacq.geometry.coordinates import dot, minus, raw
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.interval_union import Cover
-from exactacq.geometry.points import Point, distance_sq
+from exactacq.geometry.points import Point
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
@@ -62,9 +62,9 @@ class WayViews:
         self.piece = Segment(leg.span.start, leg.span.end)
         self.line = rail.curve
         self.places = [rough(p) for p in (leg.span.start, leg.span.end)]
-        self.ranges = complex_.ranges.with_way(rail, leg.touches)
-        self.way = len(self.ranges.rails) - 1
-        self.slack = 256 * self.ranges.roundoff
+        self.clipper = complex_.clipper.with_way(rail, leg.touches)
+        self.way = len(self.clipper.rails) - 1
+        self.slack = 256 * self.clipper.roundoff
         self._through: dict[int, tuple[Sector, list[tuple[Pin, list[Real]]]]] = {}
 
     def families(self) -> Iterator[ViewFamily]:
@@ -122,7 +122,7 @@ class WayViews:
                     passed,
                     line_family.anchor if line_family.goes_back else None,
                 )
-                yield from self.ranges.families(free_views)
+                yield from self.clipper.families(free_views)
 
     def _shown(self, line_family: LineFamily, role: Role) -> list[Side]:
         """The wanted sides that a line family shows from behind or ahead of its contact."""
@@ -244,7 +244,7 @@ class WayViews:
         if wall is None:
             # Nothing was met within reach; normals do not go back from their edge.
             return role if side > 0 or line_family.goes_back else None
-        limit = meet(contact, direction, self.ranges.curve(wall.edge), side)
+        limit = meet(contact, direction, self.clipper.curve(wall.edge), side)
         return role if (limit - met[0]).sign() * side >= 0 else None
 
     def _along(self, single: SingleLine) -> Iterator[ViewFamily]:
@@ -257,8 +257,8 @@ class WayViews:
             if place.sign() < 0 or place.compare(1) > 0:
                 continue
             point = single.place + direction * place
-            for first, last in self.ranges.along(
-                point, self.ranges.rails[self.way], single.run, single.shown
+            for first, last in self.clipper.along(
+                point, self.clipper.rails[self.way], single.run, single.shown
             ):
                 yield ViewFamily((self.way, single.shown), first, last)
 
@@ -275,7 +275,7 @@ class WayViews:
                 shown.append((e, point))
         for e, point in shown:
             if e in self.wanted:
-                place = self.ranges.rails[e].parameter(point)
+                place = self.clipper.rails[e].parameter(point)
                 near = self._within(point)
                 ends = [End(Real(0), (p, point), (u, place)) for p, u in near]
                 if ends:
@@ -327,7 +327,7 @@ class WayViews:
             for share in line_contacts(end, onward, curve):
                 if share.sign() > 0:
                     point = end + onward * share
-                    rail = self.ranges.rails[e]
+                    rail = self.clipper.rails[e]
                     u = rail.parameter(point)
                     # A full circle's start is at 0 and at the top.
                     full = isinstance(curve, Arc) and curve.full
@@ -337,13 +337,13 @@ class WayViews:
 
     def _within(self, point: Point) -> list[Pin]:
         """The ends of the part of the way within range of a point of its line."""
-        span, square = self.span, self.ranges.square
+        span = self.span
         ends = [(span.start, span.low), (span.end, span.high)]
-        far = [distance_sq(p, point).compare(square) > 0 for p, _ in ends]
+        far = [self.clipper.range.order(p, point) > 0 for p, _ in ends]
         if not any(far):
             return ends
         along = self.line.end - self.line.start
-        step = along * (self.ranges.radius / along.norm_sq().sqrt())
+        step = along * (self.clipper.range.radius / along.norm_sq().sqrt())
         for k, place in enumerate((point - step, point + step)):
             if far[k]:
                 u = self.rail.parameter(place)
@@ -359,12 +359,12 @@ class WayViews:
         here = Side(self.way, Role.CONTACT)
         for leftward in (True, False):
             sector = Sliding(start, minus(end, start), low, high, leftward=leftward)
-            sweep = pencil(self.complex.table, sector, (), self.complex.reach)
+            sweep = pencil(self.complex.table, sector, (), self.complex.range.above)
             for cell in sweep.cells:
                 if cell.ahead is not None and cell.ahead in self.wanted:
                     sides = here, Side(cell.ahead, Role.AHEAD)
                     free_views = FreeViews(sector, cell.low, cell.high, sides, passed=cell.bounds)
-                    yield from self.ranges.families(free_views)
+                    yield from self.clipper.families(free_views)
 
 
 def _edges_near(table: EdgeTable, point: Point) -> list[int]:

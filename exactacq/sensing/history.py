@@ -24,6 +24,7 @@ from exactacq.sensing.map import Body, Map
 from exactacq.sensing.path import Piece
 from exactacq.sensing.sensor import Ahead, Senses
 from exactacq.sensing.targets import Targets
+from exactacq.visibility.sensor_range import Range
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,8 +55,9 @@ class Memory:
         self.scene, self.radius, self.ground = scene, radius, ground
         self._table = EdgeTable(scene.obstacles) if table is None else table
         self.bodies: Sequence[Body] = scene.obstacles if ground is None else ground.components
-        targets = None if ground is None else Targets.of_components(ground.components, self._table, radius)
-        self._senses = Senses(self._table, radius, targets)
+        range_ = Range(radius)
+        targets = None if ground is None else Targets.of_components(ground.components, self._table, range_)
+        self._senses = Senses(self._table, range_, targets)
         self.reports: list[Report] = []
         # The parameters of the reports' places, and on which leg of the piece they are: numbers that families
         # share, so that ties with them are free.

@@ -15,7 +15,7 @@ from typing import TypeAlias
 
 from exactacq.errors import Undecided
 from exactacq.geometry.interval_union import EMPTY, Cover, Interval
-from exactacq.geometry.points import Point, distance_sq
+from exactacq.geometry.points import Point
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
 from exactacq.sensing.cut_ends import CutEnd
@@ -23,7 +23,7 @@ from exactacq.sensing.end_names import Seen
 from exactacq.sensing.free_way import WayViews
 from exactacq.sensing.legs import Leg
 from exactacq.sensing.targets import Targets
-from exactacq.sensing.view_families import End, Pin, Ranges, ViewFamily
+from exactacq.sensing.view_families import End, FamilyClipper, Pin, ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
 
 Covers: TypeAlias = "Mapping[int, Cover]"
@@ -87,7 +87,7 @@ class Shares:
         for family, side in self._families():
             for k, target in self.targets.on(family.edges[1 - side]):
                 if k in self.obstacles:
-                    part = self._ranges.clipped(family, 1 - side, target.span)
+                    part = self._clipper.clipped(family, 1 - side, target.span)
                     if part is not None:
                         parts.append((k, part, side, None))
         return self._shares(parts, self.leg, self.obstacles)
@@ -101,7 +101,7 @@ class Shares:
         """What of some families, or of their shares, is seen from a leg; views from its ends share points."""
         cuts: list[tuple[int, ViewFamily, int, Share | None]] = []
         for k, family, side, whole in parts:
-            cut = self._ranges.clipped(family, side, leg.span)
+            cut = self._clipper.clipped(family, side, leg.span)
             if cut is not None:
                 cuts.append((k, cut, side, whole))
                 for end in (cut.first, cut.last):
@@ -137,20 +137,20 @@ class Shares:
     def _families(self) -> Iterator[tuple[ViewFamily, int]]:
         complex_, leg, obstacles = self.complex, self.leg, self.obstacles
         x, y, right, top = leg.box
-        near = complex_.table.near((x, y), (right, top), complex_.reach).tolist()
+        near = complex_.table.near((x, y), (right, top), complex_.range.above).tolist()
         wanted = frozenset(near).intersection(chain.from_iterable(self.targets.edges[k] for k in obstacles))
         if leg.edge is None:
             crossing = WayViews(complex_, leg, wanted, self.view)
             yield from ((family, 0) for family in crossing.families())
             return
         for bundle, side in complex_.on(leg.edge, wanted):
-            for family in bundle.families(complex_.ranges):
+            for family in bundle.families(complex_.clipper):
                 yield family, side
 
     @cached_property
-    def _ranges(self) -> Ranges:
-        ranges = self.complex.ranges
-        return ranges if self.leg.edge is not None else ranges.with_way(self.leg.rail)
+    def _clipper(self) -> FamilyClipper:
+        clipper = self.complex.clipper
+        return clipper if self.leg.edge is not None else clipper.with_way(self.leg.rail)
 
     def cut(self, leg: Leg, obstacles: Collection[int] | None = None) -> Shares:
         """What a part of the leg shows, of some of the obstacles if these are given."""
@@ -169,7 +169,7 @@ class Shares:
 
     def at(self, share: Share, u: Real, place: Point) -> Share | None:
         """The one view of a share from a place of the leg, if it has one."""
-        cut = self._ranges.clipped(share.family, share.side, Interval(u, place, u, place))
+        cut = self._clipper.clipped(share.family, share.side, Interval(u, place, u, place))
         return None if cut is None else share.cut(cut)
 
     def taught(self, covers: Covers) -> dict[int, Cover]:
@@ -216,7 +216,7 @@ class Shares:
             u = end.places[side]
             for old in cover.intervals:
                 for pin in ((old.start, old.low), (old.end, old.high)):
-                    if self._ranges.is_again(family, end, side, *pin):
+                    if self._clipper.is_again(family, end, side, *pin):
                         yield id(u), pin
 
     def _is_along(self, k: int) -> bool:
@@ -251,28 +251,28 @@ class Shares:
         ]
         # Most often the very number was copied: no proof is needed that it is equal.
         ends.sort(key=lambda end: end[0] is not u)
-        square = self.complex.ranges.square
         if self._is_near(k, u, edge) or self._is_end_near(k, u):
             return True
-        return any(end.is_short(square) for place, end in ends if place is u or place.compare(u) == 0)
+        return any(
+            end.is_short(self.complex.range) for place, end in ends if place is u or place.compare(u) == 0
+        )
 
     def _is_end_near(self, k: int, u: Real) -> bool:
         """Whether a cut end is seen last or first from *u*, nearer than the range."""
-        square = self.complex.ranges.square
         return any(
-            (v is u or v.compare(u) == 0) and distance_sq(place, end.point).compare(square) < 0
+            (v is u or v.compare(u) == 0) and self.complex.range.order(place, end.point) < 0
             for end, part in self.ends.get(k, ())
             for v, place in ((part.low, part.start), (part.high, part.end))
         )
 
     def _is_near(self, k: int, u: Real, edge: int | None) -> bool:
         """Whether *u* is an end of the leg from which something nearer than the range is seen."""
-        leg, square = self.leg, self.complex.ranges.square
+        leg = self.leg
         if u is not leg.first and u is not leg.last:
             return False
         place = leg.start if u is leg.first else leg.end
         return any(
-            edge in (None, e) and distance_sq(place, point).compare(square) < 0
+            edge in (None, e) and self.complex.range.order(place, point) < 0
             for e, interval in self.targets.within(k, self.view(place, leg.own(u)).spans)
             for point in self._samples(e, interval)
         )
@@ -281,14 +281,14 @@ class Shares:
         """The ends of an interval and, lest both are at the range, a place between."""
         yield from (interval.start, interval.end)
         if interval.low.compare(interval.high) < 0:
-            yield self._ranges.rails[e].point(rational_between(interval.low, interval.high))
+            yield self._clipper.rails[e].point(rational_between(interval.low, interval.high))
 
     def reaching(self, k: int, e: int, u: Real, point: Point) -> Iterator[tuple[Real, Point]]:
         """Where families show a point of edge *e* of an obstacle, whose parameter is *u*."""
         single = Interval(u, point, u, point)
         for share in self.of[k]:
             if share.edge == e:
-                family = self._ranges.clipped(share.family, 1 - share.side, single)
+                family = self._clipper.clipped(share.family, 1 - share.side, single)
                 if family is not None:
                     yield family.first.places[share.side], family.first.points[share.side]
 

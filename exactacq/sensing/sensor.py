@@ -12,8 +12,6 @@ from collections.abc import Iterator, Set
 from dataclasses import dataclass
 from functools import cmp_to_key
 
-from flint import fmpq
-
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.intersections import contacts
 from exactacq.geometry.interval_union import EMPTY, Cover, Interval
@@ -27,6 +25,7 @@ from exactacq.sensing.leg_views import Covers, Shares, add
 from exactacq.sensing.legs import Leg
 from exactacq.sensing.targets import Targets
 from exactacq.sensing.visibility_complex import VisibilityComplex
+from exactacq.visibility.sensor_range import Range
 
 VIEWS_KEPT = 64
 """Views from ends of legs that are remembered: enough for a walk along one boundary and back."""
@@ -68,13 +67,13 @@ class Ahead:
 class Senses:
     """The sensor of a robot in one scene: what is known so far, and what is in sight.
 
-    *radius* is positive and rational. Obstacles are *targets*: by default all, with their whole boundaries.
+    Obstacles are *targets*: by default all, with their whole boundaries.
     """
 
-    def __init__(self, table: EdgeTable, radius: fmpq, targets: Targets | None = None) -> None:
-        self.table, self.radius, self.square = table, radius, radius * radius
-        self.complex = VisibilityComplex(table, radius)
-        self.rails = self.complex.ranges.rails
+    def __init__(self, table: EdgeTable, range_: Range, targets: Targets | None = None) -> None:
+        self.table, self.range = table, range_
+        self.complex = VisibilityComplex(table, range_)
+        self.rails = self.complex.clipper.rails
         self.targets = Targets.whole(table, self.rails) if targets is None else targets
         self.covers: dict[int, Cover] = {}
         self.seen: set[int] = set()
@@ -174,7 +173,7 @@ class Senses:
     def _near(self, leg: Leg) -> set[int]:
         """The obstacles with an edge whose box is within reach of the leg's."""
         x, y, right, top = leg.box
-        edges = self.table.near((x, y), (right, top), self.complex.reach)
+        edges = self.table.near((x, y), (right, top), self.range.above)
         return self.targets.near(edges.tolist())
 
     def _view(self, place: Point, own: tuple[int, ...] | None = None) -> Seen:
@@ -183,7 +182,7 @@ class Senses:
         if kept is None:
             if len(self._views) >= VIEWS_KEPT:
                 self._views.clear()
-            kept = self._views[id(place)] = Seen(self.table, self.rails, place, self.radius, own)
+            kept = self._views[id(place)] = Seen(self.table, self.rails, place, self.range, own)
         return kept
 
     def _with_view(self, view: Seen, obstacles: list[int]) -> dict[int, Cover]:
@@ -281,6 +280,6 @@ class Senses:
 
     def _in_range(self, leg: Leg, point: Point) -> Iterator[tuple[Real, Point]]:
         """The places of a leg that are as far from a point as the range."""
-        east = Point(point.x + self.radius, point.y)
-        for contact in contacts(leg.curve, Arc(east, east, point, self.square, ccw=True, full=True)):
+        east = Point(point.x + self.range.radius, point.y)
+        for contact in contacts(leg.curve, Arc(east, east, point, self.range.square, ccw=True, full=True)):
             yield leg.rail.parameter(contact.start), contact.start

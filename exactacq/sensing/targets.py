@@ -9,13 +9,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from flint import fmpq
-
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.interval_union import EMPTY, Cover, Interval
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.terrain_components import Component
 from exactacq.sensing.cut_ends import CutEnd
+from exactacq.visibility.sensor_range import Range
 
 
 class Target(NamedTuple):
@@ -65,7 +64,7 @@ class Targets:
         )
 
     @classmethod
-    def of_components(cls, components: Iterable[Component], table: EdgeTable, radius: fmpq) -> Targets:
+    def of_components(cls, components: Iterable[Component], table: EdgeTable, range_: Range) -> Targets:
         """The shores of what a terrain leaves of obstacles, with lookouts where a border cuts them."""
         of, lookouts = [], {}
         for component in components:
@@ -74,8 +73,8 @@ class Targets:
             if not component.closed:
                 begin, end = targets[0], targets[-1]
                 lookouts[component.index] = (
-                    CutEnd(table, radius, begin.edge, begin.span.low, begin.span.start),
-                    CutEnd(table, radius, end.edge, end.span.high, end.span.end),
+                    CutEnd(table, range_, begin.edge, begin.span.low, begin.span.start),
+                    CutEnd(table, range_, end.edge, end.span.high, end.span.end),
                 )
             of.append(targets)
         return cls(of, lookouts)

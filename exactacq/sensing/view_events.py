@@ -31,6 +31,7 @@ from exactacq.sensing.path import Piece
 from exactacq.sensing.sensor import Senses
 from exactacq.sensing.view_families import Role, Side
 from exactacq.visibility.line_families import Sector
+from exactacq.visibility.sensor_range import Range
 
 Place: TypeAlias = "tuple[Real, Point]"
 """A place of a leg: its parameter on the rail, and the point."""
@@ -95,7 +96,7 @@ class SweepCell:
     def map(self) -> Map:
         """The map of a robot that has walked this cell only: all that is seen from some place of it."""
         part = self.shares.leg.between(self.begin, self.end)
-        rails = self.shares.complex.ranges.rails
+        rails = self.shares.complex.clipper.rails
         return Map(self.scene.obstacles, self.shares.targets, rails, self.shares.cut(part).taught({}))
 
     def windows(self, u: fmpq) -> list[tuple[Point, Point | None]]:
@@ -124,7 +125,7 @@ class Sweep:
 
     def __init__(self, scene: Scene, piece: Piece, senses: Senses) -> None:
         self.scene = scene
-        self._made_of = piece, senses.radius
+        self._made_of = piece, senses.range.radius
         legs = legs_of(senses.table, senses.rails, piece.obstacle, piece.curve, piece.touches)
         self._shares = [senses.shares(leg) for leg in legs]
 
@@ -180,7 +181,7 @@ def sweep(scene: Scene, curve: Curve, radius: object = None, *, obstacle: int | 
 
 def _again(scene: Scene, piece: Piece, radius: fmpq) -> Sweep:
     """The sweep of a piece, with a sensor of its own."""
-    return Sweep(scene, piece, Senses(EdgeTable(scene.obstacles), radius))
+    return Sweep(scene, piece, Senses(EdgeTable(scene.obstacles), Range(radius)))
 
 
 def _events(number: int, shares: Shares) -> list[SweepEvent]:

@@ -5,8 +5,8 @@ by moving its end along e. So it touches a corner or a convex arc that keeps it 
 normal to e, or it starts at an end of e. Hence the tangent lines of corners and arcs, the normals of
 edges and the rays from vertices, families with one parameter each, contain every shortest view: together
 they give all that e sees of f, and, with the roles exchanged, the part of e from which anything of f is
-in sight. A `FreeViews` is such a family before the range is considered; `Ranges.families` restricts it to the
-range, and the results are `ViewFamily` objects.
+in sight. A `FreeViews` is such a family before the range is considered; `FamilyClipper.families` restricts it
+to the range, and the results are `ViewFamily` objects.
 """
 
 from __future__ import annotations
@@ -36,6 +36,7 @@ from exactacq.visibility.chords import meet, of_length
 from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes
 from exactacq.visibility.line_names import Anchor, Names
 from exactacq.visibility.rotational_sweep import Passed
+from exactacq.visibility.sensor_range import Range
 
 SURE = 1e-9
 """Relative margin beyond which floats decide on the range; round-off is far below."""
@@ -79,9 +80,9 @@ class End:
     places: tuple[Real, Real]
     tight: bool = False
 
-    def is_short(self, square: fmpq) -> bool:
-        """Whether the view is shorter than the range, whose square is given."""
-        return not self.tight and distance_sq(*self.points).compare(square) < 0
+    def is_short(self, range_: Range) -> bool:
+        """Whether the view is shorter than the range."""
+        return not self.tight and range_.order(*self.points) < 0
 
 
 @dataclass(slots=True)
@@ -116,23 +117,24 @@ class ViewFamily:
     free_views: FreeViews | None = None
 
 
-class Ranges:
+class FamilyClipper:
     """Cuts free views to a range and finds their views; holds the rails of the scene's edges by number."""
 
-    def __init__(self, rails: list[Rail], radius: fmpq, roundoff: float, circles: Mapping[int, int]) -> None:
-        self.rails, self.radius, self.roundoff, self.circles = rails, radius, roundoff, circles
-        self.square, self.limit = radius * radius, float(radius)
+    def __init__(self, rails: list[Rail], range_: Range, roundoff: float, circles: Mapping[int, int]) -> None:
+        self.rails, self.range, self.roundoff, self.circles = rails, range_, roundoff, circles
         self._pins: MutableMapping[tuple[Hashable, int, int], Pin] = {}
         self._touched: set[Hashable] = set()
 
-    def with_way(self, way: Rail, touches: Collection[Any] = ()) -> Ranges:
+    def with_way(self, way: Rail, touches: Collection[Any] = ()) -> FamilyClipper:
         """These and one more curve, a way through free space that touches what is named (`line_names`)."""
         extent = max(abs(v) for p in (way.curve.start, way.curve.end) for v in p.xy)
-        ranges = Ranges([*self.rails, way], self.radius, max(self.roundoff, 2.0**-50 * extent), self.circles)
-        ranges._pins = ChainMap({}, self._pins)
+        clipper = FamilyClipper(
+            [*self.rails, way], self.range, max(self.roundoff, 2.0**-50 * extent), self.circles
+        )
+        clipper._pins = ChainMap({}, self._pins)
         arcs = [self.curve(name[1]) for name in touches if name[0] == "circle"]
-        ranges._touched = {(*raw(arc.center), arc.radius_sq) for arc in arcs if isinstance(arc, Arc)}
-        return ranges
+        clipper._touched = {(*raw(arc.center), arc.radius_sq) for arc in arcs if isinstance(arc, Arc)}
+        return clipper
 
     def curve(self, e: int) -> Curve:
         """The curve of a number."""
@@ -186,7 +188,7 @@ class Ranges:
                 assert begin is not None
                 yield ViewFamily(edges, begin, _tight(end) if k < len(inside) else end, free_views)
                 begin = None
-            elif not before and not after and distance_sq(*end.points).compare(self.square) <= 0:
+            elif not before and not after and self.range.order(*end.points) <= 0:
                 yield ViewFamily(edges, end, end, free_views)
 
     def along(
@@ -194,11 +196,11 @@ class Ranges:
     ) -> Iterator[tuple[End, End]]:
         """The views along one line from a place to a run on an edge, as far as it is within range."""
         first, last = run
-        if distance_sq(place, first).compare(self.square) > 0:
+        if self.range.order(place, first) > 0:
             return
-        if distance_sq(place, last).compare(self.square) > 0:
+        if self.range.order(place, last) > 0:
             along = last - place
-            last = place + along * (self.radius / along.norm_sq().sqrt())
+            last = place + along * (self.range.radius / along.norm_sq().sqrt())
         here, far = near.parameter(place), self.rails[shown]
         one, other = (End(Real(0), (place, p), (here, far.parameter(p))) for p in (first, last))
         yield one, other
@@ -382,7 +384,7 @@ class Ranges:
     def _is_inside(self, free_views: FreeViews, t: fmpq) -> bool:
         contact, direction = free_views.sector.touch(Real(t))
         a, b = (self._point(free_views.sector, side, contact, direction) for side in free_views.sides)
-        return distance_sq(a, b).compare(self.square) <= 0
+        return self.range.order(a, b) <= 0
 
     def _certain(self, free_views: FreeViews, low: End, high: End) -> bool | None:
         """Whether floats prove that all views are within range, or that none is; None if they cannot tell.
@@ -395,11 +397,11 @@ class Ranges:
         (a, b, wide), (c, d, far) = hulls
         slack = wide + far + 64 * self.roundoff
         longest = max(hypot(p[0] - q[0], p[1] - q[1]) for p in (a, b) for q in (c, d))
-        if (longest + slack) * (1 + SURE) < self.limit:
+        if (longest + slack) * (1 + SURE) < self.range.below:
             return True
         gap_x = max(min(a[0], b[0]) - max(c[0], d[0]), min(c[0], d[0]) - max(a[0], b[0]), 0.0)
         gap_y = max(min(a[1], b[1]) - max(c[1], d[1]), min(c[1], d[1]) - max(a[1], b[1]), 0.0)
-        return False if hypot(gap_x, gap_y) - slack > self.limit * (1 + SURE) else None
+        return False if hypot(gap_x, gap_y) - slack > self.range.above * (1 + SURE) else None
 
     def _sagitta(self, free_views: FreeViews, k: int, low: End, high: End) -> float:
         """How far a side bends away from its chord at most (no side of Turning lines passes a half turn)."""
@@ -430,10 +432,10 @@ class Ranges:
     def _longer_at(self, low: End, high: End, t: Real) -> int:
         """-1, 0 or 1 as the view at one of two ends is shorter than the range, as long or longer."""
         end = low if t is low.t else high
-        return distance_sq(*end.points).compare(self.square)
+        return self.range.order(*end.points)
 
     def _may_be_at_range(self, end: End) -> bool:
-        return not abs((distance_sq(*end.points) - self.square).ball(128)) > 0
+        return not abs((distance_sq(*end.points) - self.range.square).ball(128)) > 0
 
     def _candidates(self, free_views: FreeViews, low: End, high: End) -> Iterator[Real]:
         sector, (one, other) = free_views.sector, free_views.sides
@@ -442,13 +444,13 @@ class Ranges:
         if Role.CONTACT not in roles:
             behind, ahead = curves[Role.BEHIND], curves[Role.AHEAD]
             if _is_rational(behind) and _is_rational(ahead):
-                yield from of_length(sector, behind, ahead, self.square)
+                yield from of_length(sector, behind, ahead, self.range.square)
             else:
                 circle = (*sector.center, dot(sector.base, sector.base)) if sector.round else None
                 way = self.rails[-1].curve if circle in self._touched else None
                 span = free_views.low, free_views.high
                 longer_at = partial(self._longer_at, low, high)
-                yield from of_length_on(sector, behind, ahead, self.square, *span, way, longer_at)
+                yield from of_length_on(sector, behind, ahead, self.range.square, *span, way, longer_at)
             return
         far = next(curve for role, curve in curves.items() if role is not Role.CONTACT)
         if isinstance(sector, Sliding):
@@ -461,18 +463,18 @@ class Ranges:
     def _beside(self, sector: Sliding, far: Curve) -> list[Real]:
         """Where the parallel of a segment at the range meets an edge."""
         start, normal = sector.touch(Real(0))
-        offset = normal * (self.radius / normal.norm_sq().sqrt())
+        offset = normal * (self.range.radius / normal.norm_sq().sqrt())
         return line_contacts(start + offset, Point(*sector.base), far)
 
     def _square_from_center(self, sector: Sector) -> Real:
         """Squared distance from a sector's centre to the far end of a view that is as long as the range."""
         if sector.round:
-            return Real(self.square + sector.base[0] ** 2 + sector.base[1] ** 2)
+            return Real(self.range.square + sector.base[0] ** 2 + sector.base[1] ** 2)
         if isinstance(sector, Spokes):
             radius = Real(sector.radius_sq).sqrt()
-            away: Real = radius + self.radius if sector.outward else radius - self.radius
+            away: Real = radius + self.range.radius if sector.outward else radius - self.range.radius
             return away * away
-        return Real(self.square)
+        return Real(self.range.square)
 
 
 def _along_normal(

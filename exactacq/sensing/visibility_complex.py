@@ -13,10 +13,10 @@ from collections.abc import Iterator
 from functools import cached_property, lru_cache
 
 import numpy as np
-from flint import fmpq
 
 from exactacq.scene.edge_table import EdgeTable, Floats, Ints
 from exactacq.sensing.complex_edges import Bundle, FamilySweeper, FeatureFamilies
+from exactacq.visibility.sensor_range import Range
 
 KEPT = 8192
 """Families that are remembered, the last used of each kind: enough for a wide neighbourhood, and a bound of
@@ -26,10 +26,10 @@ the memory."""
 class VisibilityComplex:
     """The families of views of one scene within one radius."""
 
-    def __init__(self, table: EdgeTable, radius: fmpq) -> None:
-        self.table, self.radius = table, radius
-        sweeper = FamilySweeper(table, radius)
-        self.reach, self.ranges, self.features = sweeper.reach, sweeper.ranges, sweeper.features
+    def __init__(self, table: EdgeTable, range_: Range) -> None:
+        self.table, self.range = table, range_
+        sweeper = FamilySweeper(table, range_)
+        self.clipper, self.features = sweeper.clipper, sweeper.features
         self._normals_of = lru_cache(KEPT)(sweeper.normals)
         self._tangents_of = lru_cache(KEPT)(sweeper.tangents)
         self._corner_normals_of = lru_cache(KEPT)(sweeper.corner_normals)
@@ -67,7 +67,7 @@ class VisibilityComplex:
         A tangent's contact lies between the two ends of a view, so both are within reach of it together.
         """
         edges = np.array(sorted(wanted), dtype=np.intp)
-        reach = self.reach + 8 * self.table.roundoff
+        reach = self.range.above + 8 * self.table.roundoff
         edges = edges[_gaps(self.table.boxes[edges], box) <= reach]
         for e in edges.tolist():
             if e != own:
@@ -75,7 +75,7 @@ class VisibilityComplex:
         if own is not None:
             yield self._normals_of(own)
         left, bottom, right, top = box.tolist()
-        close = self._features_at[self.table.near((left, bottom), (right, top), self.reach)].ravel()
+        close = self._features_at[self.table.near((left, bottom), (right, top), self.range.above)].ravel()
         close = close[close >= 0]
         here = _gaps(self._spots[close], box)
         close, here = close[here <= reach], here[here <= reach]

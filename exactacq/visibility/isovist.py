@@ -18,7 +18,7 @@ from exactacq.errors import InvalidScene
 from exactacq.geometry.coordinates import raw
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.intersections import signed_area
-from exactacq.geometry.points import Location, Point, distance_sq
+from exactacq.geometry.points import Location, Point
 from exactacq.numbers.length import Length
 from exactacq.numbers.real import fmpq
 from exactacq.scene.edge_table import EdgeTable
@@ -27,6 +27,7 @@ from exactacq.scene.scene import Obstacle, Scene, radius_of
 from exactacq.visibility.free_segment import is_free
 from exactacq.visibility.outline import ViewKind, ViewPiece, outline
 from exactacq.visibility.range_clip import Span
+from exactacq.visibility.sensor_range import Range
 from exactacq.visibility.visible_boundary import BoundaryView
 
 __all__ = ["Isovist", "ViewKind", "ViewPiece", "isovist"]
@@ -47,7 +48,7 @@ class Isovist:
 
     def __init__(self, scene: Scene, point: Point, radius: fmpq, own: tuple[int, ...] | None = None) -> None:
         self.scene, self.point, self.radius = scene, point, radius
-        self._view = BoundaryView(_Tables.of(scene).edges, point, radius, own)
+        self._view = BoundaryView(_Tables.of(scene).edges, point, Range(radius), own)
 
     @cached_property
     def pieces(self) -> tuple[ViewPiece, ...]:
@@ -107,7 +108,7 @@ class Isovist:
         >>> view.contains(xa.Point(4, 0)), view.contains(xa.Point(4, 2))
         (False, True)
         """
-        if distance_sq(self.point, point).compare(self.radius * self.radius) > 0:
+        if self._view.range.order(self.point, point) > 0:
             return False
         if any(place is Location.INSIDE for place, _ in _Tables.of(self.scene).around(point)):
             return False

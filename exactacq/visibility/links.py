@@ -38,6 +38,7 @@ from exactacq.visibility.free_translates import free_pieces
 from exactacq.visibility.line_names import Namer
 from exactacq.visibility.mirrors import Mirrors
 from exactacq.visibility.rotational_sweep import Cell, Pencil, pencil
+from exactacq.visibility.sensor_range import Range
 
 START = "S"
 Node: TypeAlias = "int | str"
@@ -83,8 +84,7 @@ class Links:
 
     def __init__(self, scene: Scene, radius: object) -> None:
         self.scene, self.radius = scene, radius_of(scene, radius, scene.start)
-        self.limit = Real(self.radius)
-        self.reach = float(self.radius) * (1 + 1e-12)
+        self.reach, self.limit = Range(self.radius).above, Real(self.radius)
         self.table = EdgeTable(scene.obstacles)
         self._between: dict[tuple[int, int], Link | None] = {}
         self._pencils: dict[int, dict[tuple[int, int], list[tuple[Pencil, Cell]]]] = {}

@@ -249,7 +249,7 @@ class _Assembly:
     def _excess(self, point: Point) -> int:
         """-1, 0 or 1 as a point is within range, at its limit, or beyond."""
         offset = minus(raw(point), self.view.origin)
-        return sign(dot(offset, offset) - self.view.radius_sq)
+        return sign(dot(offset, offset) - self.view.range.square)
 
     def _resolved(self, end: End) -> Point:
         if isinstance(end, Point):
@@ -264,7 +264,7 @@ class _Assembly:
 
     def _range(self, part: _PieceEnds) -> Curve:
         start, end = self._resolved(part.start), self._resolved(part.end)
-        return Arc(start, end, self.view.point, self.view.radius_sq, ccw=True, full=start is end)
+        return Arc(start, end, self.view.point, self.view.range.square, ccw=True, full=start is end)
 
     def _edge(self, part: _PieceEnds, curve: Curve) -> Curve:
         return _backwards(curve, self._resolved(part.end), self._resolved(part.start))
@@ -283,5 +283,5 @@ def _edge_piece(view: BoundaryView, e: int, make: Callable[[], Curve]) -> ViewPi
 
 def range_circle(view: BoundaryView) -> Arc:
     """The circle of the range about the point."""
-    east = Point(view.point.x + view.radius, view.point.y)
-    return Arc(east, east, view.point, view.radius_sq, ccw=True, full=True)
+    east = Point(view.point.x + view.range.radius, view.point.y)
+    return Arc(east, east, view.point, view.range.square, ccw=True, full=True)

@@ -14,7 +14,6 @@ from functools import cached_property, cmp_to_key
 from typing import Any, TypeAlias
 
 import numpy as np
-from flint import fmpq
 
 from exactacq.errors import Undecided
 from exactacq.geometry.coordinates import Vector, advance, dot, minus, raw, sign, square_root
@@ -24,6 +23,7 @@ from exactacq.scene.edge_table import EdgeTable, Floats
 from exactacq.visibility.features import enters
 from exactacq.visibility.radial_sweep import BLOCKED, NOTHING, FirstFace, RadialSweep
 from exactacq.visibility.range_clip import Span, of_circle, within
+from exactacq.visibility.sensor_range import Range
 
 LAST = 1 << 60
 AT_RANGE = -1
@@ -33,7 +33,7 @@ Hold: TypeAlias = "tuple[int, Hashable, int]"
 
 
 def seen_from(
-    table: EdgeTable, point: Point, radius: fmpq, own: tuple[int, ...] | None = None
+    table: EdgeTable, point: Point, range_: Range, own: tuple[int, ...] | None = None
 ) -> dict[int, list[Span]]:
     """All boundary points that a free point sees within a radius: by edge, closed pieces in its direction.
 
@@ -43,7 +43,7 @@ def seen_from(
     as its two halves. *own* are the edges through the point, at a vertex the incoming one first (found if not
     given). The point may be algebraic.
     """
-    return BoundaryView(table, point, radius, own).seen()
+    return BoundaryView(table, point, range_, own).seen()
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,12 +67,11 @@ class BoundaryView:
     """The sweep of a point, cut off at a rational radius."""
 
     def __init__(
-        self, table: EdgeTable, point: Point, radius: fmpq, own: tuple[int, ...] | None = None
+        self, table: EdgeTable, point: Point, range_: Range, own: tuple[int, ...] | None = None
     ) -> None:
-        self.table, self.point, self.radius = table, point, radius
-        self.radius_sq = radius * radius
+        self.table, self.point, self.range = table, point, range_
         self.own = table.edges_at(point) if own is None else own
-        self.sweep = RadialSweep(table, point, float(radius) * (1 + 1e-12), self.own)
+        self.sweep = RadialSweep(table, point, range_.above, self.own)
         self.origin = self.sweep.faces.origin
         self._at_range: dict[int, Point] = {}
         self.tight: set[Hold] = set()
@@ -88,7 +87,7 @@ class BoundaryView:
         curved = table.kind[edge] != 0
         if curved.any():
             size = np.where(curved, _size(table.center[edge] - faces.xy) + table.radius[edge], size)
-        found: list[bool] = (size < float(self.radius) * (1 - 1e-12) - 8 * faces.slack).tolist()
+        found: list[bool] = (size < self.range.below - 8 * faces.slack).tolist()
         return found
 
     def seen(self) -> dict[int, list[Span]]:
@@ -134,7 +133,7 @@ class BoundaryView:
             # All around is seen only a full circle: from inside a circle a ray meets it once, so that a part
             # of it covers less; from outside, and so of straight edges, a face covers less than half a turn.
             assert isinstance(curve, Arc)
-            some = of_circle(curve, self.origin, self.radius_sq)
+            some = of_circle(curve, self.origin, self.range.square)
             if some is None:
                 opposite = curve.center + (curve.center - curve.start)
                 return [(curve.start, opposite), (opposite, curve.start)]
@@ -180,19 +179,19 @@ class BoundaryView:
         curve = self.table.curves[self.sweep.edges[face]]
         if start is not end:
             try:
-                spans = within(curve, start, end, self.origin, self.radius_sq)
+                spans = within(curve, start, end, self.origin, self.range.square)
             except Undecided:
                 e = self.sweep.edges[face]
                 known = [id(p) for p in ends if any(hold in self.tight for hold in self.holds(e, p))]
-                spans = within(curve, start, end, self.origin, self.radius_sq, known)
+                spans = within(curve, start, end, self.origin, self.range.square, known)
             for point in (p for span in spans for p in span if p is not start and p is not end):
                 self._held[id(point)] = point, AT_RANGE
             return spans
         # All of a full circle that passes through the point itself: the ends of other faces are distinct.
         assert isinstance(curve, Arc)
         opposite = curve.center + (curve.center - start)
-        first = within(curve, start, opposite, self.origin, self.radius_sq)
-        return first + within(curve, opposite, end, self.origin, self.radius_sq)
+        first = within(curve, start, opposite, self.origin, self.range.square)
+        return first + within(curve, opposite, end, self.origin, self.range.square)
 
     def _order(self, face: int, rank: int) -> int:
         """Position of a rank on a face, in the boundary's direction."""
@@ -201,7 +200,7 @@ class BoundaryView:
 
     def _in_range(self, point: Point) -> bool:
         offset = minus(raw(point), self.origin)
-        return sign(dot(offset, offset) - self.radius_sq) <= 0
+        return sign(dot(offset, offset) - self.range.square) <= 0
 
     # -- single rays -------------------------------------------------------------------------------
 
@@ -253,7 +252,7 @@ class BoundaryView:
             elif face != BLOCKED:
                 place = sweep.at(face, rank, not high)
                 offset = minus(raw(place), self.origin)
-                reached |= sign(dot(offset, offset) - self.radius_sq) >= 0
+                reached |= sign(dot(offset, offset) - self.range.square) >= 0
         alone = struck if limited and blocker is None and struck not in (before, after) else None
         return SingleRay(rank, end, tuple(met), along, not reached, alone)
 
@@ -304,7 +303,7 @@ class BoundaryView:
         point = self._at_range.get(rank)
         if point is None:
             direction = self.sweep.direction(rank)
-            share = square_root(self.radius_sq / dot(direction, direction))
+            share = square_root(self.range.square / dot(direction, direction))
             point = self._at_range[rank] = advance(self.origin, direction, share)
         return point
 
@@ -320,7 +319,7 @@ class BoundaryView:
         for e in ray.along:
             if e not in self.own:
                 curve = table.curves[e]
-                for span in within(curve, curve.start, curve.end, self.origin, self.radius_sq):
+                for span in within(curve, curve.start, curve.end, self.origin, self.range.square):
                     found.setdefault(e, []).append(((-1, 0), span))
         for event in ray.events:
             if event in covered:
@@ -344,7 +343,7 @@ class BoundaryView:
             curve = self.table.curves[e]
             if isinstance(curve, Segment):
                 alone = False
-                spans = within(curve, curve.start, curve.end, self.origin, self.radius_sq)
+                spans = within(curve, curve.start, curve.end, self.origin, self.range.square)
                 found[e] = [((0, 0), span) for span in spans]
             elif not curve.ccw:
                 alone &= e not in found

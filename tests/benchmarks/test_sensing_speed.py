@@ -25,6 +25,7 @@ from exactacq.geometry.points import Location
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.sensor import Senses
 from exactacq.sensing.view_events import Sweep
+from exactacq.visibility.sensor_range import Range
 
 SEED = 1
 POINTS = 40
@@ -194,7 +195,7 @@ def test_sweep(benchmark: object, ask: str) -> None:
         return
 
     def swept() -> int:
-        senses = Senses(EdgeTable(run.scene.obstacles), run.radius)
+        senses = Senses(EdgeTable(run.scene.obstacles), Range(run.radius))
         return sum(len(Sweep(run.scene, piece, senses).events) for piece in run.path)
 
     events = benchmark.pedantic(swept, rounds=1)

@@ -1,0 +1,24 @@
+"""The range of the sensor: the radius of vision, squared, and as floats on either side of it."""
+
+from __future__ import annotations
+
+from flint import fmpq
+
+from exactacq.geometry.points import Point, distance_sq
+
+
+class Range:
+    """How far the sensor sees: up to a *radius*, positive and rational, and at that distance too.
+
+    ``square`` is its square; ``above`` and ``below`` are floats that bound it, to prune with.
+    """
+
+    __slots__ = ("above", "below", "radius", "square")
+
+    def __init__(self, radius: fmpq) -> None:
+        self.radius, self.square = radius, radius * radius
+        self.above, self.below = float(radius) * (1 + 1e-12), float(radius) * (1 - 1e-12)
+
+    def order(self, a: Point, b: Point) -> int:
+        """-1, 0 or 1 as two points are closer than the radius, at its distance, or farther."""
+        return distance_sq(a, b).compare(self.square)
