@@ -26,7 +26,7 @@ from exactacq.geometry.points import Point
 from exactacq.numbers.real import fmpq
 from exactacq.output.figures.draw import AWAY, figure, pair, save, save_pair, svg
 from exactacq.output.figures.sweep import SweptTerrain, component_region
-from exactacq.output.strokes import Region, Stroke
+from exactacq.output.strokes import Region, part
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle, Polygon, Terrain
 from exactacq.scene.terrain_components import ground_of
@@ -90,7 +90,7 @@ def test_arcs_are_drawn_within_a_millionth_of_their_radius(bulge: str) -> None:
     from exactacq.numbers.rationals import rational
 
     arc = Arc.from_bulge(Point(1, 2), Point(4, -3), rational(bulge))
-    path = Stroke.of(arc).part(0, 1)
+    path = part(arc.stroke(), 0, 1)
     assert set(path.codes[1:]) == {Outline.CURVE4}
     assert tuple(path.vertices[0]) == (1, 2)
     assert tuple(path.vertices[-1]) == (4, -3)
@@ -98,22 +98,22 @@ def test_arcs_are_drawn_within_a_millionth_of_their_radius(bulge: str) -> None:
     radius = float(arc.radius)
     assert np.abs(np.hypot(*offset.T) - radius).max() < 1e-6 * radius
     exact = np.array([arc.point(fmpq(k, 5)).xy for k in range(6)])
-    assert Stroke.of(arc).covers(exact, np.zeros(6), 1e-12 * max(radius, 1.0)).all()
+    assert arc.stroke().covers(exact, np.zeros(6), 1e-12 * max(radius, 1.0)).all()
     outside = np.array([arc.center.xy]) * 2 - exact[2]
-    assert Stroke.of(arc).covers(outside, np.zeros(1), 1e-12).any() == (abs(Stroke.of(arc).sweep) > math.pi)
+    assert arc.stroke().covers(outside, np.zeros(1), 1e-12).any() == (abs(arc.stroke().sweep) > math.pi)
 
 
 def test_nearly_straight_arcs_keep_their_digits() -> None:
     arc = Arc.from_bulge(Point(0, 0), Point(1, 0), fmpq(1, 10**9))
-    for vertex in Stroke.of(arc).part(0, 1).vertices:
+    for vertex in part(arc.stroke(), 0, 1).vertices:
         assert abs(vertex[1]) < 1e-8
         assert -1e-12 <= vertex[0] <= 1 + 1e-12
 
 
 def test_parts_of_a_stroke_join() -> None:
     arc = Arc.from_bulge(Point(0, 0), Point(3, 1), fmpq(-7, 3))
-    stroke = Stroke.of(arc)
-    parts = [stroke.part(k / 7, (k + 1) / 7) for k in range(7)]
+    stroke = arc.stroke()
+    parts = [part(stroke, k / 7, (k + 1) / 7) for k in range(7)]
     for before, after in pairwise(parts):
         assert np.allclose(before.vertices[-1], after.vertices[0], rtol=0, atol=1e-12)
 
@@ -128,9 +128,9 @@ def test_heart_lies_inside_a_concave_obstacle() -> None:
 
 def test_a_stroke_covers_what_runs_along_it() -> None:
     along, across = Segment(Point(1, 1), Point(3, 3)), Segment(Point(1, 3), Point(3, 1))
-    stroke = Stroke.of(Segment(Point(4, 4), Point(0, 0)))
+    stroke = Segment(Point(4, 4), Point(0, 0)).stroke()
     for segment, expected in ((along, True), (across, False)):
-        other = Stroke.of(segment)
+        other = segment.stroke()
         covered = stroke.covers(np.array([other.at(0.5)]), np.array([other.heading(0.5)]), 1e-9)
         assert covered.tolist() == [expected]
 

@@ -7,11 +7,13 @@ is inside the circle) and a clockwise arc is concave.
 from __future__ import annotations
 
 from functools import cached_property
+from math import atan2
 from typing import TypeAlias
 
 from flint import fmpq
 
 from exactacq.geometry.points import Orientation, Point, distance, orientation
+from exactacq.geometry.strokes import Stroke
 from exactacq.numbers.length import Length
 from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import Real
@@ -101,6 +103,10 @@ class Segment:
         Segment(Point(4, 0), Point(0, 0))
         """
         return Segment(self.end, self.start)
+
+    def stroke(self) -> Stroke:
+        """The segment in floats."""
+        return Stroke(self.start.xy, self.end.xy, float(self.length))
 
     def __repr__(self) -> str:
         return f"Segment({self.start!r}, {self.end!r})"
@@ -273,6 +279,13 @@ class Arc:
         Arc(Point(-1, 0), Point(1, 0), center=Point(0, 0), cw)
         """
         return Arc(self.end, self.start, self.center, self.radius_sq, not self.ccw, self.full)
+
+    def stroke(self) -> Stroke:
+        """The arc in floats."""
+        radial, radius, length = self.start - self.center, float(self.radius), float(self.length)
+        angle, turned = atan2(float(radial.y), float(radial.x)), length / radius if radius else 0.0
+        sweep = turned if self.ccw else -turned
+        return Stroke(self.start.xy, self.end.xy, length, self.center.xy, radius, angle, sweep)
 
     def __repr__(self) -> str:
         sense = "ccw" if self.ccw else "cw"

@@ -1,4 +1,4 @@
-"""Boundary and path pieces as floats and Bezier curves: for drawing only, nothing is decided here."""
+"""Strokes as Bezier curves and regions, and room for labels: for drawing only, nothing is decided here."""
 
 from __future__ import annotations
 
@@ -11,8 +11,7 @@ from typing import Any
 import numpy as np
 from matplotlib.path import Path as Outline
 
-from exactacq.geometry.curves import Arc, Curve
-from exactacq.scene.edge_table import Floats
+from exactacq.geometry.strokes import Floats, Stroke
 from exactacq.scene.scene import Obstacle
 
 MOVE, LINE, BEZIER, CLOSE = (
@@ -20,103 +19,6 @@ MOVE, LINE, BEZIER, CLOSE = (
 )
 BEND = math.pi / 8
 """Largest angle of an arc that one cubic Bezier curve stands for: it strays by less than 1e-7 radii."""
-SAMPLE = math.pi / 24
-"""Angle between the points of an arc that label placement keeps clear of."""
-
-
-@dataclass(frozen=True, slots=True)
-class Stroke:
-    """A curve in floats. An arc starts at ``angle`` (from its centre) and turns by ``sweep``, signed.
-
-    Points of an arc are reckoned from its start, not its centre: nearly straight arcs lose no digits.
-    """
-
-    start: tuple[float, float]
-    end: tuple[float, float]
-    length: float
-    center: tuple[float, float] | None = None
-    radius: float = 0.0
-    angle: float = 0.0
-    sweep: float = 0.0
-
-    @classmethod
-    def of(cls, curve: Curve) -> Stroke:
-        """The stroke of an exact curve."""
-        start, end, length = curve.start.xy, curve.end.xy, float(curve.length)
-        if not isinstance(curve, Arc):
-            return cls(start, end, length)
-        center, radius = curve.center.xy, float(curve.radius)
-        radial = curve.start - curve.center
-        angle = math.atan2(float(radial.y), float(radial.x))
-        sweep = length / radius if curve.ccw else -length / radius
-        return cls(start, end, length, center, radius, angle, sweep)
-
-    def at(self, u: float) -> tuple[float, float]:
-        """The point at the fraction *u* of the length; the ends are the curve's own."""
-        if u in (0, 1):
-            return self.end if u else self.start
-        if self.center is None:
-            return tuple(s + u * (e - s) for s, e in zip(self.start, self.end, strict=True))  # type: ignore[return-value]
-        half = self.sweep * u / 2
-        chord = 2 * self.radius * math.sin(half)
-        return (
-            self.start[0] - chord * math.sin(self.angle + half),
-            self.start[1] + chord * math.cos(self.angle + half),
-        )
-
-    def heading(self, u: float) -> float:
-        """Direction of travel, as an angle."""
-        if self.center is None:
-            return math.atan2(self.end[1] - self.start[1], self.end[0] - self.start[0])
-        return self.angle + self.sweep * u + math.copysign(math.pi / 2, self.sweep)
-
-    def steps(self, bend: float = BEND) -> int:
-        """Into how many parts of at most *bend* the stroke falls; a straight one into one."""
-        return max(1, math.ceil(abs(self.sweep) / bend - 1e-9))
-
-    def points(self, count: int | None = None) -> Floats:
-        """*count* + 1 points, ends included; by default enough to show where an arc runs."""
-        count = count or self.steps(SAMPLE)
-        return np.array([self.at(k / count) for k in range(count + 1)])
-
-    def nodes(self, first: float = 0.0, last: float = 1.0) -> tuple[list[tuple[float, float]], list[int]]:
-        """Vertices and codes of the part between two fractions, without its first point."""
-        if self.center is None:
-            return [self.at(last)], [LINE]
-        count = max(1, math.ceil(abs(self.sweep) * (last - first) / BEND - 1e-9))
-        handle = 4 / 3 * math.tan(abs(self.sweep) * (last - first) / count / 4) * self.radius
-        vertices = []
-        for k in range(count):
-            u, v = (first + (last - first) * step / count for step in (k, k + 1))
-            (ax, ay), (bx, by), a, b = self.at(u), self.at(v), self.heading(u), self.heading(v)
-            vertices += [
-                (ax + handle * math.cos(a), ay + handle * math.sin(a)),
-                (bx - handle * math.cos(b), by - handle * math.sin(b)),
-                (bx, by),
-            ]
-        return vertices, [BEZIER] * len(vertices)
-
-    def part(self, first: float, last: float) -> Outline:
-        """The piece between two fractions as a drawable path."""
-        vertices, codes = self.nodes(first, last)
-        return Outline([self.at(first), *vertices], [MOVE, *codes])
-
-    def covers(self, points: Floats, headings: Floats, tolerance: float) -> Any:
-        """Which of the points lie on this stroke and run along it, in either sense."""
-        if self.center is None:
-            start, along = np.array(self.start), np.subtract(self.end, self.start)
-            size = max(float(np.hypot(*along)), tolerance)
-            offset = points - start
-            forward = offset @ along / size
-            aside = (offset[:, 0] * along[1] - offset[:, 1] * along[0]) / size
-            parallel = np.abs(np.sin(headings - self.heading(0))) < 1e-6
-            within = (forward > -tolerance) & (forward < size + tolerance)
-            return (np.abs(aside) < tolerance) & within & parallel
-        offset = points - np.array(self.center)
-        turned = (np.arctan2(offset[:, 1], offset[:, 0]) - self.angle) * math.copysign(1, self.sweep)
-        slack = tolerance / self.radius
-        within = np.mod(turned + slack, 2 * math.pi) < abs(self.sweep) + 2 * slack
-        return (np.abs(np.hypot(offset[:, 0], offset[:, 1]) - self.radius) < tolerance) & within
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,7 +34,7 @@ class Region:
     @classmethod
     def of(cls, obstacle: Obstacle) -> Region:
         """The region that an obstacle's boundary runs around."""
-        return cls.around([Stroke.of(edge) for edge in obstacle.edges])
+        return cls.around([edge.stroke() for edge in obstacle.edges])
 
     @classmethod
     def around(cls, strokes: Sequence[Stroke]) -> Region:
@@ -179,7 +81,7 @@ class Steps:
         for number, stroke in enumerate(strokes):
             parts = max(1, round(stroke.length / total * count)) if stroke.length else 0
             for k in range(parts):
-                pieces.append(stroke.part(k / parts, (k + 1) / parts))
+                pieces.append(part(stroke, k / parts, (k + 1) / parts))
                 middle = (k + 0.5) / parts
                 times.append(done + middle * stroke.length)
                 mids.append(stroke.at(middle))
@@ -253,6 +155,33 @@ class Room:
         return blocked
 
 
+def nodes(
+    stroke: Stroke, first: float = 0.0, last: float = 1.0
+) -> tuple[list[tuple[float, float]], list[int]]:
+    """Vertices and codes of the part of a stroke between two fractions, without its first point."""
+    if stroke.center is None:
+        return [stroke.at(last)], [LINE]
+    turned = abs(stroke.sweep) * (last - first)
+    count = max(1, math.ceil(turned / BEND - 1e-9))
+    handle = 4 / 3 * math.tan(turned / count / 4) * stroke.radius
+    vertices = []
+    for k in range(count):
+        u, v = (first + (last - first) * step / count for step in (k, k + 1))
+        (ax, ay), (bx, by), a, b = stroke.at(u), stroke.at(v), stroke.heading(u), stroke.heading(v)
+        vertices += [
+            (ax + handle * math.cos(a), ay + handle * math.sin(a)),
+            (bx - handle * math.cos(b), by - handle * math.sin(b)),
+            (bx, by),
+        ]
+    return vertices, [BEZIER] * len(vertices)
+
+
+def part(stroke: Stroke, first: float, last: float) -> Outline:
+    """The piece of a stroke between two fractions as a drawable path."""
+    vertices, codes = nodes(stroke, first, last)
+    return Outline([stroke.at(first), *vertices], [MOVE, *codes])
+
+
 def closed(strokes: Iterable[Stroke]) -> Outline:
     """The closed outline of a loop of strokes."""
     vertices: list[tuple[float, float]] = []
@@ -260,7 +189,7 @@ def closed(strokes: Iterable[Stroke]) -> Outline:
     for stroke in strokes:
         if not vertices:
             vertices, codes = [stroke.start], [MOVE]
-        more, kinds = stroke.nodes()
+        more, kinds = nodes(stroke)
         vertices, codes = vertices + more, codes + kinds
     return Outline([*vertices, vertices[0]], [*codes, CLOSE])
 

@@ -28,9 +28,10 @@ from exactacq.errors import FormatError
 from exactacq.files.whole_files import readable
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Point
+from exactacq.geometry.strokes import Stroke
 from exactacq.numbers.length import Length
 from exactacq.output.figures.sweep import SweptTerrain, window
-from exactacq.output.strokes import Region, Stroke
+from exactacq.output.strokes import Region
 from exactacq.scene.scene import Scene
 from exactacq.sensing.event import Event, EventKind
 from exactacq.strategies.run import Run, SightseerRun
@@ -253,7 +254,7 @@ def _path(paper: Paper, run: Run) -> Iterator[list[float]]:
     """Each piece as the path length and the place at its end, and radius, angle and turn of an arc."""
     ends = Length.running_decimals((piece.length for piece in run.path), 17)[1:]
     for piece, end in zip(run.path, ends, strict=True):
-        stroke = Stroke.of(piece.curve)
+        stroke = piece.curve.stroke()
         entry = [paper.length(float(end)), *paper.point(stroke.end)]
         radius = paper.length(stroke.radius)
         if stroke.center is not None and radius < FLAT:
@@ -305,7 +306,7 @@ class Paper:
 
     def line(self, curves: Iterable[Curve]) -> str:
         """SVG path data of curves; those that meet are drawn in one go."""
-        return self._chain(map(Stroke.of, curves))
+        return self._chain(curve.stroke() for curve in curves)
 
     def _chain(self, strokes: Iterable[Stroke]) -> str:
         data, last = "", ""
@@ -318,7 +319,7 @@ class Paper:
 
     def outline(self, curves: Iterable[Curve]) -> str:
         """SVG path data of a closed loop; empty if there are no curves."""
-        return self.loop(map(Stroke.of, curves))
+        return self.loop(curve.stroke() for curve in curves)
 
     def loop(self, strokes: Iterable[Stroke]) -> str:
         """SVG path data of a closed loop of strokes; empty if there are none."""

@@ -35,7 +35,7 @@ from exactacq.files.whole_files import FIGURES, check_output, readable, write_wh
 from exactacq.numbers.length import Length
 from exactacq.output.figures.sweep import SweptTerrain, window
 from exactacq.output.snapshot import Snapshot
-from exactacq.output.strokes import Region, Room, Steps, Stroke, clearance, closed
+from exactacq.output.strokes import Region, Room, Steps, clearance, closed, part
 from exactacq.scene.edge_table import Floats
 from exactacq.scene.scene import Scene
 from exactacq.sensing.event import Event, EventKind
@@ -167,7 +167,7 @@ class _Canvas:
         self.moment = None if self.run is None or at is None else Snapshot.of(self.run, at)
         walked = self.moment.walked if self.moment is not None else self.run.path if self.run else ()
         self.walked = len(walked) if self.moment is None else self.moment.count
-        self.strokes = [Stroke.of(p.curve) for p in walked]
+        self.strokes = [p.curve.stroke() for p in walked]
         self.pieces = walked
         self.start = None if start is None else start.xy
         self.radius = None if radius is None else float(radius)
@@ -364,7 +364,7 @@ class _Canvas:
     def _view_then(self) -> None:
         """What the robot sees at the moment, shaded."""
         if self.moment is not None:
-            outline = closed(Stroke.of(piece.curve) for piece in self.moment.view.pieces)
+            outline = closed(piece.curve.stroke() for piece in self.moment.view.pieces)
             look: dict[str, Any] = {"facecolor": VIEW, "alpha": 0.16, "edgecolor": "none"}
             self.axes.add_patch(PathPatch(outline, zorder=0.8, **look))
             self.legend.setdefault("what the robot sees", Patch(**look))
@@ -377,7 +377,7 @@ class _Canvas:
         if self.moment is None and len(known.acquired) == self.count:
             return
         curves = [p.curve for i in known.seen for p in known.known(i) if p.curve is not None]
-        paths = [Stroke.of(curve).part(0.0, 1.0) for curve in curves]
+        paths = [part(curve.stroke(), 0.0, 1.0) for curve in curves]
         if paths:
             self.axes.add_collection(
                 PathCollection(

@@ -21,7 +21,7 @@ from matplotlib.ticker import NullFormatter, NullLocator
 from exactacq.files.gallery import scene as gallery_scene
 from exactacq.numbers.length import Length
 from exactacq.output.figures.draw import HIT, INK, SOFT, STYLES, VIEW
-from exactacq.output.strokes import Region, Steps, Stroke
+from exactacq.output.strokes import Region, Steps
 from exactacq.scene.scene import Scene
 from exactacq.sensing.path import Piece
 from exactacq.strategies.sightseer.strategy import sightseer
@@ -68,7 +68,7 @@ def _paths(axes: Any, scene: Scene, path: Sequence[Piece], title: str) -> None:
     """A scene and a path in it, coloured by its length so far; walked again: narrower, on top."""
     for obstacle in scene.obstacles:
         axes.add_patch(PathPatch(Region.of(obstacle).outline, zorder=1, **STYLES["obstacle"]))
-    strokes = [Stroke.of(piece.curve) for piece in path]
+    strokes = [piece.curve.stroke() for piece in path]
     steps = Steps.of(strokes, COLOURS)
     size = max(abs(coordinate) for stroke in strokes for coordinate in (*stroke.start, *stroke.end))
     ranks = steps.ranks(strokes, [piece.obstacle for piece in path], 1e-7 * size)

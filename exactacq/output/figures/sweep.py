@@ -12,7 +12,8 @@ from itertools import pairwise
 import numpy as np
 
 from exactacq.geometry.curves import Segment
-from exactacq.output.strokes import Region, Stroke
+from exactacq.geometry.strokes import Stroke
+from exactacq.output.strokes import Region
 from exactacq.scene.edge_table import EdgeTable, Floats
 from exactacq.scene.shapes import Terrain
 from exactacq.scene.terrain_components import Component
@@ -91,12 +92,12 @@ def component_region(component: Component, terrain: Terrain) -> Region:
 def _around(component: Component, terrain: Terrain) -> Iterator[Stroke]:
     shores = [[part.curve for part in shore] for shore in (component.shore, *component.hidden) if shore]
     if component.closed:
-        yield from (Stroke.of(curve) for shore in shores for curve in shore)
+        yield from (curve.stroke() for shore in shores for curve in shore)
         return
     border = _BorderLength(float(terrain.width), float(terrain.height))
     left, shore = shores[1:], shores[0]
     while True:
-        yield from (Stroke.of(curve) for curve in shore)
+        yield from (curve.stroke() for curve in shore)
         here = shore[-1].end.xy
         # From the end of a boundary the border is blocked counterclockwise, as far as the next start of one.
         following = min([shores[0], *left], key=lambda other: border.ahead(here, other[0].start.xy))
