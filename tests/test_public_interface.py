@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import copy
 import doctest
+import json
 import pickle
 import re
 import subprocess
@@ -56,6 +57,26 @@ class TestCopies:
             assert of(pickle.loads(pickle.dumps(value))) == of(value)
         again = pickle.loads(pickle.dumps(swept))
         assert [e.place for e in again.events] == [e.place for e in swept.events]
+
+
+class TestGraphNodes:
+    def test_sort_with_the_start_first(self) -> None:
+        graph = xa.visibility_graph(SCENE)
+        assert sorted(graph.nodes) == ["S", 0, 1]
+        assert sorted(graph.nodes, reverse=True) == [1, 0, "S"]
+        assert "S" in graph and graph["S"] == graph.adj["S"]
+        assert sorted(sorted(edge) for edge in graph.edges) == [["S", 0], [0, 1]]
+
+    def test_the_start_is_the_text_s(self) -> None:
+        (start,) = (node for node in xa.visibility_graph(SCENE) if isinstance(node, str))
+        assert start == "S" and hash(start) == hash("S") and repr(start) == "'S'"
+        assert start < 0 and start <= -1 and not start > 0 and not start >= 0
+        assert start < 0 and start <= -1 and not start > 0 and not start >= 0
+        assert start < "T" and start <= "S" and start > "R" and start >= "S"
+        assert pickle.loads(pickle.dumps(start)) is copy.deepcopy(start) is copy.copy(start) is start
+        assert json.dumps(start) == '"S"'
+        copied = pickle.loads(pickle.dumps(xa.visibility_graph(SCENE)))
+        assert sorted(copied.nodes) == ["S", 0, 1]
 
 
 class TestNumbers:

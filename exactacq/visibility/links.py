@@ -40,7 +40,30 @@ from exactacq.visibility.mirrors import Mirrors
 from exactacq.visibility.rotational_sweep import Cell, Pencil, pencil
 from exactacq.visibility.sensor_range import Range
 
-START = "S"
+
+class _Start(str):
+    """The node of the start: equal to "S", with its hash, and less than every number of an obstacle."""
+
+    __slots__ = ()
+
+    def __lt__(self, other: int | str) -> bool:
+        return isinstance(other, int) or str(self) < other
+
+    def __gt__(self, other: int | str) -> bool:
+        return not isinstance(other, int) and str(self) > other
+
+    def __le__(self, other: int | str) -> bool:
+        return isinstance(other, int) or str(self) <= other
+
+    def __ge__(self, other: int | str) -> bool:
+        return not isinstance(other, int) and str(self) >= other
+
+    def __reduce__(self) -> str:
+        """A copy is the constant itself."""
+        return "START"
+
+
+START = _Start("S")
 Node: TypeAlias = "int | str"
 Shortest: TypeAlias = "Chord | NearestFamily"
 
@@ -386,6 +409,8 @@ class _Best:
 def visibility_graph(scene: Scene, radius: object = None) -> nx.Graph:
     """The obstacle visibility graph: nodes are obstacle indices, and "S" if the scene has a start.
 
+    The nodes sort, "S" first.
+
     An edge joins two nodes that see each other within *radius* (the scene's own if None). Its ``weight`` is
     v, the length of a shortest free segment between them (paper, section 3), as a `Length`; ``link`` is the
     `Link` with all shortest segments; ``leave``, on the link's source, and ``hit`` are the ends of the
@@ -396,6 +421,8 @@ def visibility_graph(scene: Scene, radius: object = None) -> nx.Graph:
     >>> graph = visibility_graph(xa.load("circles"))
     >>> [(i, j, str(v)) for i, j, v in graph.edges(data="weight")]
     [(0, 1, '2'), (0, 'S', '3')]
+    >>> sorted(graph.nodes)
+    ['S', 0, 1]
     """
     links = Links(scene, radius)
     graph = nx.Graph()
