@@ -49,6 +49,7 @@ class TestCopies:
         middle = run.length / 2 if run.length.rational else xa.Length(Q(int(float(run.length) * 8), 16))
         assert other.map_at(middle).known_length() == run.map_at(middle).known_length()
         assert other.map.frontier == run.map.frontier
+        assert other == run and other.path == run.path and other.scene == run.scene
 
     def test_of_what_is_seen(self) -> None:
         run = xa.sightseer(SCENE)
@@ -57,6 +58,47 @@ class TestCopies:
             assert of(pickle.loads(pickle.dumps(value))) == of(value)
         again = pickle.loads(pickle.dumps(swept))
         assert [e.place for e in again.events] == [e.place for e in swept.events]
+
+
+class TestEquality:
+    def test_of_runs_is_that_of_what_they_hold(self, run: xa.Run, tmp_path: Path) -> None:
+        (tmp_path / "run.json").write_text(json.dumps(run.to_json()))
+        assert xa.load_run(tmp_path / "run.json") == run
+        assert run != xa.sightseer(SCENE, 21)
+        assert xa.sightseer(SCENE) == xa.sightseer(SCENE)
+
+    def test_of_a_run_whose_bounds_are_0(self) -> None:
+        """Their ratio, NaN, is not equal to itself."""
+        run = xa.sightseer(xa.Scene([], start=(0, 0), radius=1))
+        assert pickle.loads(pickle.dumps(run)) == run
+
+    def test_of_scenes_is_that_of_what_was_given(self) -> None:
+        parts = {"start": (0, 0), "radius": 20, "name": "two"}
+        same = xa.Scene(SCENE.shapes, **parts)
+        assert same == SCENE and hash(same) == hash(SCENE) and same is not SCENE
+        others: list[dict[str, object]] = [
+            {"start": (0, 1)}, {"radius": 21}, {"name": None}, {"notes": ["n"]},
+            {"terrain": xa.Terrain(1, 1)}, {"enclosure": xa.Circle((0, 0), 99)},
+        ]  # fmt: skip
+        assert all(xa.Scene(SCENE.shapes, **{**parts, **other}) != SCENE for other in others)
+        assert xa.Scene(SCENE.shapes[::-1], **parts) != SCENE and SCENE != 3
+        assert xa.isovist(same, (0, 0)).area == xa.isovist(SCENE, (0, 0)).area
+
+    def test_of_curves_is_that_of_their_places(self) -> None:
+        one, other = (
+            xa.Segment(xa.Point(0, 0), xa.Point(1, "1/3")),
+            xa.Segment(xa.Point(0, 0), xa.Point(1, Q(1, 3))),
+        )
+        assert one == other and hash(one) == hash(other) and one != one.reversed()
+        arc, again = (xa.Arc.from_bulge(xa.Point(0, 0), xa.Point(1, 0), fmpq(1, 2)) for _ in range(2))
+        assert arc == again and hash(arc) == hash(again)
+        assert arc != arc.reversed() and arc != one and one != arc
+        assert arc != xa.Arc.from_bulge(xa.Point(0, 0), xa.Point(1, 0), fmpq(2))
+        root = xa.Real(2).sqrt()
+        slanted = xa.Segment(xa.Point(0, 0), xa.Point(root, 1 / root))
+        assert slanted == xa.Segment(xa.Point(0, 0), xa.Point(2 / root, root / 2))
+        with pytest.raises(TypeError, match="different forms"):
+            hash(slanted)
 
 
 class TestGraphNodes:

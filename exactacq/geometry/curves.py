@@ -30,6 +30,14 @@ class Segment:
     def __init__(self, start: Point, end: Point) -> None:
         self.start, self.end = start, end
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Segment):
+            return NotImplemented
+        return self is other or (self.start == other.start and self.end == other.end)
+
+    def __hash__(self) -> int:
+        return hash((self.start, self.end))
+
     @cached_property
     def direction(self) -> Point:
         """The vector from start to end."""
@@ -105,7 +113,11 @@ class Segment:
         return Segment(self.end, self.start)
 
     def stroke(self) -> Stroke:
-        """The segment in floats."""
+        """The segment in floats: to draw with.
+
+        >>> Segment(Point(0, 0), Point(3, 4)).stroke().at(0.5)
+        (1.5, 2.0)
+        """
         return Stroke(self.start.xy, self.end.xy, float(self.length))
 
     def __repr__(self) -> str:
@@ -128,6 +140,17 @@ class Arc:
     ) -> None:
         self.start, self.end, self.center = start, end, center
         self.radius_sq, self.ccw, self.full = radius_sq, ccw, full
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Arc):
+            return NotImplemented
+        if (self.ccw, self.full, self.radius_sq) != (other.ccw, other.full, other.radius_sq):
+            return False
+        mine, its = (self.center, self.start, self.end), (other.center, other.start, other.end)
+        return self is other or mine == its
+
+    def __hash__(self) -> int:
+        return hash((self.start, self.end, self.center))
 
     @classmethod
     def from_bulge(cls, start: Point, end: Point, bulge: fmpq) -> Arc:
@@ -281,7 +304,11 @@ class Arc:
         return Arc(self.end, self.start, self.center, self.radius_sq, not self.ccw, self.full)
 
     def stroke(self) -> Stroke:
-        """The arc in floats."""
+        """The arc in floats: to draw with.
+
+        >>> Arc.from_bulge(Point(1, 0), Point(-1, 0), fmpq(1)).stroke().radius
+        1.0
+        """
         radial, radius, length = self.start - self.center, float(self.radius), float(self.length)
         angle, turned = atan2(float(radial.y), float(radial.x)), length / radius if radius else 0.0
         sweep = turned if self.ccw else -turned

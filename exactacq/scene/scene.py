@@ -87,7 +87,7 @@ class Scene:
     ``obstacles`` are the `Obstacle` objects in the given order, the enclosure last; ``shapes`` and
     ``enclosure`` are the shapes as given. A scene is not changed once made. Raises `InvalidScene` with all
     violations found of the rules in `exactacq.scene.validation`, and `FormatError` for a value of the wrong
-    kind. Cost: near linear in the number of edges.
+    kind. Cost: near linear in the number of edges. Scenes are equal if all that they were made of is.
 
     >>> Scene([Circle((5, 0), 2), Circle((12, 0), 3)], start=(0, 0), radius=20, name="two discs")
     <Scene 'two discs': 2 obstacles>
@@ -128,6 +128,19 @@ class Scene:
             return []
         inner = (o for o in self.obstacles if not o.is_enclosure)
         return [o.index for o in inner if not all(_strictly_inside(edge, terrain) for edge in o.edges)]
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Scene):
+            return NotImplemented
+        return self is other or self._made_of == other._made_of
+
+    def __hash__(self) -> int:
+        """Cheap: views look up by the scene what they share. An irrational start would have no hash."""
+        return hash((len(self.shapes), self.terrain, self.radius))
+
+    @property
+    def _made_of(self) -> tuple[object, ...]:
+        return self.shapes, self.start, self.terrain, self.enclosure, self.radius, self.name, self.notes
 
     def _repr_svg_(self) -> str:
         return str(made(SVG, self))

@@ -29,7 +29,7 @@ class Bound:
     """A bound on the path's length, or on the number of visits, by the paper's formula (``source``).
 
     ``value`` is exact, and so is the comparison ``holds``; ``ratio``, a float, is what is bounded over the
-    value (NaN where the value is 0).
+    value (NaN where the value is 0), and is not compared.
 
     >>> import exactacq as xa
     >>> bound = xa.sightseer(xa.load("circles")).bounds[0]
@@ -41,7 +41,7 @@ class Bound:
     source: str
     value: Length
     holds: bool
-    ratio: float
+    ratio: float = field(compare=False)
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
@@ -53,6 +53,9 @@ class Run:
     never came on the map. ``unvisited`` ones did without being reached, or, for the Seed Spreader, without
     becoming wholly known. ``record`` is the sensing; a run that was read from a file has none and repeats the
     sensing on first use.
+
+    Runs are equal if all their entries but the record are: so is a run that was copied, pickled or read back.
+    A run has a hash only if all its lengths and points are rational.
 
     >>> import exactacq as xa
     >>> run = xa.sightseer(xa.load("circles"))
