@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+from reprlib import repr as short
+
 
 class ExactacqError(Exception):
     """Base class of the errors that exactacq defines.
@@ -30,7 +34,7 @@ class InvalidScene(ExactacqError, ValueError):
 
 
 class FormatError(ExactacqError, ValueError):
-    """A file cannot be read as a scene, or a value cannot be read as a number.
+    """A file cannot be read as a scene, or a value as the number, point or shape that is needed.
 
     >>> import exactacq as xa
     >>> xa.Length("1/2/3")
@@ -59,3 +63,17 @@ class AuditError(ExactacqError, AssertionError):
     Traceback (most recent call last):
     exactacq.errors.AuditError: visits are [], but the hits were [0, 1]
     """
+
+
+@contextmanager
+def about(part: str) -> Iterator[None]:
+    """Put the name of a part before what a `FormatError` says of it."""
+    try:
+        yield
+    except FormatError as error:
+        raise FormatError(f"{part}: {error}") from None
+
+
+def shown(value: object) -> str:
+    """A value in a message: short, and on one line."""
+    return " ".join(short(value).split())

@@ -29,8 +29,7 @@ from exactacq.geometry.intersections import (
 )
 from exactacq.geometry.points import Location, Point
 from exactacq.numbers.real import Real, rational
-from exactacq.scene.scene import shape_edges
-from exactacq.scene.shapes import Circle, Outline, Polygon
+from exactacq.scene.shapes import Circle, Outline, Polygon, shape_edges
 
 HAIR = Fraction(1, 10**60)
 BULGES = tuple(map(Fraction, ("1/2", "-1/2", "1", "-1", "2", "-2", "1/3", "-3")))

@@ -85,18 +85,15 @@ class TestEquality:
         assert xa.isovist(same, (0, 0)).area == xa.isovist(SCENE, (0, 0)).area
 
     def test_of_curves_is_that_of_their_places(self) -> None:
-        one, other = (
-            xa.Segment(xa.Point(0, 0), xa.Point(1, "1/3")),
-            xa.Segment(xa.Point(0, 0), xa.Point(1, Q(1, 3))),
-        )
+        one, other = xa.Segment((0, 0), (1, "1/3")), xa.Segment(xa.Point(0, 0), xa.Point(1, Q(1, 3)))
         assert one == other and hash(one) == hash(other) and one != one.reversed()
         arc, again = (xa.Arc.from_bulge(xa.Point(0, 0), xa.Point(1, 0), fmpq(1, 2)) for _ in range(2))
         assert arc == again and hash(arc) == hash(again)
         assert arc != arc.reversed() and arc != one and one != arc
         assert arc != xa.Arc.from_bulge(xa.Point(0, 0), xa.Point(1, 0), fmpq(2))
         root = xa.Real(2).sqrt()
-        slanted = xa.Segment(xa.Point(0, 0), xa.Point(root, 1 / root))
-        assert slanted == xa.Segment(xa.Point(0, 0), xa.Point(2 / root, root / 2))
+        slanted = xa.Segment((0, 0), (root, 1 / root))
+        assert slanted == xa.Segment((0, 0), (2 / root, root / 2))
         with pytest.raises(TypeError, match="different forms"):
             hash(slanted)
 
@@ -238,13 +235,37 @@ class TestErrorsWhereTheMistakeIs:
     @pytest.mark.parametrize(
         ("make", "message"),
         [
-            (lambda: xa.Scene([], start=(1, 2, 3)), "two numbers, not"),
-            (lambda: xa.Scene([], start=7), "two numbers, not 7"),
-            (lambda: xa.Scene([[(0, 0), (1, 0), (0, 1)]]), "a Polygon, an Outline or a Circle, not a list"),
+            (lambda: xa.Scene([], start=(1, 2, 3)), "start: a point needs two numbers, not"),
+            (lambda: xa.Scene([], start=7), "start: a point needs two numbers, not 7"),
+            (lambda: xa.sightseer(SCENE, 3, start=(1, 2, 3)), "start: a point needs two numbers"),
+            (lambda: xa.isovist(SCENE, (1, 2, 3)), "point: a point needs two numbers"),
+            (lambda: xa.Segment((0, 0), "01"), "a point needs two numbers, not '01'"),
+            (lambda: xa.Scene(5), "the obstacles are a list of shapes, not 5"),
             (lambda: xa.Scene(xa.Circle((0, 0), 1)), "not a single one"),
-            (lambda: xa.Scene([], enclosure=[(0, 0), (1, 0), (0, 1)]), "not a list"),
-            (lambda: xa.sightseer(SCENE, 3, start=(1, 2, 3)), "two numbers"),
-            (lambda: xa.isovist(SCENE, (1, 2, 3)), "two numbers"),
+            (lambda: xa.Scene([(0, 0), (1, 0), (0, 1)]), "obstacle 0: vertex 0: a vertex is "),
+            (lambda: xa.Scene([SCENE.shapes[0], None]), "obstacle 1: a boundary is a list of vertices, not"),
+            (lambda: xa.Scene([], enclosure=[(0, 0), (1, "x")]), "enclosure: vertex 1: not a number: 'x'"),
+            (lambda: xa.Scene([], terrain=(3, 4)), "terrain: give a Terrain"),
+            (lambda: xa.Scene([], radius="x"), "radius: not a number: 'x'"),
+            (lambda: xa.Scene([], radius=True), "radius: not a number: True"),
+            (lambda: xa.Scene([], name=3), "name: a name is a text, not 3"),
+            (lambda: xa.sightseer(SCENE, "x"), "radius: not a number: 'x'"),
+            (lambda: xa.seed_spreader(SWEPT, "x"), "radius: not a number: 'x'"),
+            (lambda: xa.isovist(SCENE, (0, 0), "x"), "radius: not a number: 'x'"),
+            (lambda: xa.sweep(SCENE, xa.Segment((0, 0), (1, 0)), "x"), "radius: not a number: 'x'"),
+            (lambda: xa.visibility_graph(SCENE, "x"), "radius: not a number: 'x'"),
+            (lambda: xa.seed_spreader(SWEPT, target="far"), '"known" or "visible", not \'far\''),
+            (lambda: xa.Polygon([(0, 0), (1, float("inf"))]), "vertex 1: not a finite number: inf"),
+            (lambda: xa.Polygon([(0, 0), (1, np.True_)]), "vertex 1: not a number: "),
+            (lambda: xa.Polygon(np.zeros(4)), "vertex 0: a vertex is"),
+            (lambda: xa.Polygon(np.zeros((30, 4))), "vertex 0: a vertex is"),
+            (lambda: xa.Polygon(np.float64(1)), "a boundary is a list of vertices"),
+            (lambda: xa.Polygon([(0, 0, 1), (1, 0), (0, 1)]), "no bulges: use Outline"),
+            (lambda: xa.Polygon([(0, 0), (1, 0), (0, 1)], name=3), "a name is a text"),
+            (lambda: xa.Outline([(0, 0), 3]), "vertex 1: a vertex is .* or .*, not 3"),
+            (lambda: xa.Circle(5, 1), "center: a point needs two numbers, not 5"),
+            (lambda: xa.Circle((0, 0), "x"), "radius: not a number: 'x'"),
+            (lambda: xa.Terrain(1, "b"), "height: not a number: 'b'"),
         ],
     )
     def test_one_sentence(self, make: object, message: str) -> None:

@@ -6,12 +6,14 @@ is inside the circle) and a clockwise arc is concave.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property
 from math import atan2
 from typing import TypeAlias
 
 from flint import fmpq
 
+from exactacq.geometry.geo import Geo, line_string
 from exactacq.geometry.points import Orientation, Point, distance, orientation
 from exactacq.geometry.strokes import Stroke
 from exactacq.numbers.length import Length
@@ -21,14 +23,20 @@ from exactacq.numbers.transcendental import transcendental, turned
 
 
 class Segment:
-    """The straight piece from ``start`` to ``end``, which must be distinct points.
+    """The straight piece from ``start`` to ``end``, which are points or pairs of numbers.
 
-    >>> print(Segment(Point(0, 0), Point(1, 1)).length)
+    A robot's path may hold a piece of length 0; else the ends are distinct. Segments are equal if their ends
+    are, in this order; irrational ends have no hash. Raises `FormatError` for an end that is no point.
+
+    >>> print(Segment((0, 0), (1, 1)).length)
     sqrt(2)
+    >>> Segment((0, 0), (1, "1/2")).__geo_interface__
+    {'type': 'LineString', 'coordinates': ((0.0, 0.0), (1.0, 0.5))}
     """
 
-    def __init__(self, start: Point, end: Point) -> None:
-        self.start, self.end = start, end
+    def __init__(self, start: Point | Sequence[object], end: Point | Sequence[object]) -> None:
+        self.start: Point = start if type(start) is Point else Point.of(start)
+        self.end: Point = end if type(end) is Point else Point.of(end)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Segment):
@@ -120,6 +128,11 @@ class Segment:
         """
         return Stroke(self.start.xy, self.end.xy, float(self.length))
 
+    @property
+    def __geo_interface__(self) -> Geo:
+        """A GeoJSON LineString, or a Point if the ends are one to floats."""
+        return line_string([self.stroke()])
+
     def __repr__(self) -> str:
         return f"Segment({self.start!r}, {self.end!r})"
 
@@ -129,10 +142,14 @@ class Arc:
 
     The supporting circle has a rational ``center`` and a rational squared radius ``radius_sq``. The angle is
     in (0, 2 pi]; a full circle has equal ends and ``full``. That the ends lie on the circle is not checked.
+    Arcs are equal if all this is; irrational ends have no hash.
 
     >>> east, north = Point(2, 0), Point(0, 2)
-    >>> print(Arc(east, north, Point(0, 0), fmpq(4), ccw=True).length)
-    pi
+    >>> quarter = Arc(east, north, Point(0, 0), fmpq(4), ccw=True)
+    >>> print(quarter.length, quarter == quarter.reversed().reversed())
+    pi True
+    >>> len(quarter.__geo_interface__["coordinates"])
+    57
     """
 
     def __init__(
@@ -313,6 +330,11 @@ class Arc:
         angle, turned = atan2(float(radial.y), float(radial.x)), length / radius if radius else 0.0
         sweep = turned if self.ccw else -turned
         return Stroke(self.start.xy, self.end.xy, length, self.center.xy, radius, angle, sweep)
+
+    @property
+    def __geo_interface__(self) -> Geo:
+        """A GeoJSON LineString of chords: see `exactacq.geometry.geo.FLATNESS`."""
+        return line_string([self.stroke()])
 
     def __repr__(self) -> str:
         sense = "ccw" if self.ccw else "cw"

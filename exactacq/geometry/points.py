@@ -10,7 +10,9 @@ import numpy as np
 from flint import fmpq
 from numpy.typing import NDArray
 
-from exactacq.errors import FormatError
+from exactacq.errors import FormatError, shown
+from exactacq.geometry.geo import Geo
+from exactacq.geometry.geo import point as geo_point
 from exactacq.numbers.real import Real, real
 
 
@@ -56,9 +58,9 @@ class Point:
         if isinstance(value, Point):
             return value
         try:
-            x, y = value
+            x, y = () if isinstance(value, str) else value
         except (TypeError, ValueError):
-            raise FormatError(f"a point needs two numbers, not {value!r}") from None
+            raise FormatError(f"a point needs two numbers, not {shown(value)}") from None
         return cls(x, y)
 
     @property
@@ -71,6 +73,11 @@ class Point:
     def xy(self) -> tuple[float, float]:
         """The nearest floats: for drawing and pruning only."""
         return float(self.x), float(self.y)
+
+    @property
+    def __geo_interface__(self) -> Geo:
+        """A GeoJSON Point, in floats."""
+        return geo_point(self.xy)
 
     @property
     def key(self) -> tuple[object, object]:

@@ -7,16 +7,17 @@ from functools import cached_property
 
 from flint import fmpq
 
-from exactacq.errors import FormatError, InvalidScene
+from exactacq.errors import FormatError, InvalidScene, about, shown
 from exactacq.geometry.box_index import DIRECTIONS
-from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.curves import Arc, Curve
+from exactacq.geometry.geo import Geo, collection, feature
 from exactacq.geometry.intersections import locate, signed_area, spans
 from exactacq.geometry.points import Location, Point
 from exactacq.numbers.length import Length
 from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import Real
 from exactacq.scene.ports import SVG, made
-from exactacq.scene.shapes import Circle, Loop, Shape, Terrain
+from exactacq.scene.shapes import Circle, Corners, Loop, Polygon, Shape, Terrain, as_name, shape_edges
 from exactacq.scene.validation import sensor_flaws, validate
 
 
@@ -66,6 +67,12 @@ class Obstacle:
         area = signed_area(self.edges)
         return -area if self.is_enclosure else area
 
+    @property
+    def __geo_interface__(self) -> Geo:
+        """A GeoJSON Feature: the shape as a Polygon, with ``kind``, ``index`` and ``name`` (the label)."""
+        kind = "enclosure" if self.is_enclosure else "obstacle"
+        return feature(self.shape.__geo_interface__, kind=kind, index=self.index, name=self.label)
+
     def locate(self, point: Point) -> Location:
         """INSIDE if the point is strictly on the blocked side."""
         return locate(self.edges, point, ccw=not self.is_enclosure)
@@ -79,39 +86,51 @@ class Obstacle:
 class Scene:
     """A valid scene: disjoint obstacles, and where given a start, a terrain, an enclosure and a radius.
 
-    *obstacles* are `Polygon`, `Outline` and `Circle` shapes. *start* is a pair of numbers or a `Point` in
+    *obstacles* are `Polygon`, `Outline` and `Circle` shapes, or whatever `Polygon` takes: lists of pairs,
+    arrays, polygons of shapely; the same holds for *enclosure*. *start* is a pair of numbers or a `Point` in
     free space. *terrain* is the rectangle that the Seed Spreader sweeps; obstacles may cross its border.
     *enclosure* is a shape that contains everything: the wall of a room. *radius* is the robot's radius of
     vision, in the unit of the coordinates. *notes* are an importer's remarks to the user.
 
     ``obstacles`` are the `Obstacle` objects in the given order, the enclosure last; ``shapes`` and
-    ``enclosure`` are the shapes as given. A scene is not changed once made. Raises `InvalidScene` with all
-    violations found of the rules in `exactacq.scene.validation`, and `FormatError` for a value of the wrong
-    kind. Cost: near linear in the number of edges. Scenes are equal if all that they were made of is.
+    ``enclosure`` are the shapes. A scene is not changed once made. Raises `InvalidScene` with all violations
+    found of the rules in `exactacq.scene.validation`, and `FormatError`, which names the part, for a value of
+    the wrong kind. Cost: near linear in the number of edges. Scenes are equal if all that they were made of
+    is.
 
     >>> Scene([Circle((5, 0), 2), Circle((12, 0), 3)], start=(0, 0), radius=20, name="two discs")
     <Scene 'two discs': 2 obstacles>
+    >>> scene = Scene([[(1, 0), (2, 0), (2, 1)]], start=(0, 0))
+    >>> for part in scene.__geo_interface__["features"]:
+    ...     print(part["geometry"]["type"], part["properties"])
+    Polygon {'kind': 'obstacle', 'index': 0, 'name': 'O1'}
+    Point {'kind': 'start'}
     """
 
     def __init__(
         self,
-        obstacles: Iterable[Shape] = (),
+        obstacles: Iterable[Shape | Corners] = (),
         start: Point | Sequence[object] | None = None,
         *,
         terrain: Terrain | None = None,
-        enclosure: Shape | None = None,
+        enclosure: Shape | Corners | None = None,
         radius: object = None,
         name: str | None = None,
         notes: Iterable[str] = (),
     ) -> None:
         self.shapes = _shapes(obstacles)
-        self.start = None if start is None else Point.of(start)
-        self.terrain, self.enclosure = terrain, None if enclosure is None else _shape(enclosure)
-        self.radius: fmpq | None = None if radius is None else rational(radius)
-        self.name, self.notes = name, tuple(notes)
+        with about("start"):
+            self.start = None if start is None else Point.of(start)
+        if terrain is not None and not isinstance(terrain, Terrain):
+            raise FormatError(f"terrain: give a Terrain(width, height), not {shown(terrain)}")
+        self.terrain = terrain
+        self.enclosure = None if enclosure is None else _shape("enclosure", enclosure)
+        with about("radius"):
+            self.radius: fmpq | None = None if radius is None else rational(radius)
+        self.name, self.notes = as_name(name), tuple(notes)
         loops = [Obstacle.of(index, shape) for index, shape in enumerate(self.shapes)]
-        if enclosure is not None:
-            loops.append(Obstacle.of(len(loops), enclosure, is_enclosure=True))
+        if self.enclosure is not None:
+            loops.append(Obstacle.of(len(loops), self.enclosure, is_enclosure=True))
         validate(loops, self.start, self.radius, self.terrain)
         self.obstacles = tuple(loop.oriented() for loop in loops)
 
@@ -142,6 +161,20 @@ class Scene:
     def _made_of(self) -> tuple[object, ...]:
         return self.shapes, self.start, self.terrain, self.enclosure, self.radius, self.name, self.notes
 
+    @property
+    def __geo_interface__(self) -> Geo:
+        """A GeoJSON FeatureCollection: obstacles, then enclosure, terrain and start if there are such.
+
+        The property ``kind`` says which. An obstacle has its ``index`` and ``name`` too, and the enclosure's
+        Polygon is the room. Arcs are chords: see `exactacq.geometry.geo.FLATNESS`.
+        """
+        parts = [obstacle.__geo_interface__ for obstacle in self.obstacles]
+        if self.terrain is not None:
+            parts.append(feature(self.terrain.__geo_interface__, kind="terrain"))
+        if self.start is not None:
+            parts.append(feature(self.start.__geo_interface__, kind="start"))
+        return collection(parts)
+
     def _repr_svg_(self) -> str:
         return str(made(SVG, self))
 
@@ -153,9 +186,11 @@ class Scene:
 def radius_of(scene: Scene, radius: object, place: Point | None) -> fmpq:
     """The radius of vision from a place: the one given, or else the scene's own.
 
-    Raises `InvalidScene` if there is none, if it is not positive, or if it or the place is too far out.
+    Raises `InvalidScene` if there is none, if it is not positive, or if it or the place is too far out, and
+    `FormatError` if it is no number.
     """
-    reach = scene.radius if radius is None else rational(radius)
+    with about("radius"):
+        reach = scene.radius if radius is None else rational(radius)
     if reach is None:
         raise InvalidScene(["a radius of vision must be given"])
     if flaws := list(sensor_flaws(place, reach)):
@@ -166,9 +201,11 @@ def radius_of(scene: Scene, radius: object, place: Point | None) -> fmpq:
 def start_of(scene: Scene, start: Point | Sequence[object] | None = None) -> Point:
     """The start that is given, or else the scene's own.
 
-    Raises `InvalidScene` if there is none, if it has irrational coordinates, or if it is too far out.
+    Raises `InvalidScene` if there is none, if it has irrational coordinates, or if it is too far out, and
+    `FormatError` if it is no point.
     """
-    place = scene.start if start is None else Point.of(start)
+    with about("start"):
+        place = scene.start if start is None else Point.of(start)
     if place is None or place.rational is None:
         raise InvalidScene(["a start point with rational coordinates must be given"])
     if flaws := list(sensor_flaws(place, None)):
@@ -176,33 +213,22 @@ def start_of(scene: Scene, start: Point | Sequence[object] | None = None) -> Poi
     return place
 
 
-def _shapes(values: Iterable[Shape]) -> tuple[Shape, ...]:
-    if isinstance(values, Loop | Circle):
+def _shapes(values: Iterable[Shape | Corners]) -> tuple[Shape, ...]:
+    if isinstance(values, Loop | Circle) or hasattr(values, "__geo_interface__"):
         raise FormatError("the obstacles are a list of shapes, not a single one: write [shape]")
-    return tuple(_shape(value) for value in values)
+    try:
+        shapes = list(values)
+    except TypeError:
+        raise FormatError(f"the obstacles are a list of shapes, not {shown(values)}") from None
+    return tuple(_shape(f"obstacle {index}", value) for index, value in enumerate(shapes))
 
 
-def _shape(value: Shape) -> Shape:
-    if not isinstance(value, Loop | Circle):
-        raise FormatError(f"a shape is a Polygon, an Outline or a Circle, not a {type(value).__name__}")
-    return value
-
-
-def shape_edges(shape: Shape) -> tuple[Curve, ...]:
-    """The boundary as curves in the shape's own sense; edge i starts at vertex i, and vertices are shared.
-
-    Nothing is checked: a degenerate shape gives degenerate curves.
-    """
-    if isinstance(shape, Circle):
-        center = Point(*shape.center)
-        east = Point(shape.center[0] + shape.radius, shape.center[1])
-        return (Arc(east, east, center, shape.radius * shape.radius, ccw=True, full=True),)
-    points = [Point(x, y) for x, y, _ in shape.vertices]
-    ends = [*points[1:], *points[:1]]
-    return tuple(
-        Arc.from_bulge(start, end, bulge) if bulge else Segment(start, end)
-        for start, end, (_, _, bulge) in zip(points, ends, shape.vertices, strict=True)
-    )
+def _shape(part: str, value: Shape | Corners) -> Shape:
+    """A shape as it is; what gives the corners of one as a Polygon."""
+    if isinstance(value, Loop | Circle):
+        return value
+    with about(part):
+        return Polygon(value)
 
 
 def _strictly_inside(edge: Curve, terrain: Terrain) -> bool:

@@ -6,17 +6,33 @@ are no numbers raise `FormatError`.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Any, Protocol, TypeAlias
 
 from flint import fmpq
 
-from exactacq.errors import FormatError
+from exactacq.errors import FormatError, about, shown
+from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.geo import Geo, polygon
+from exactacq.geometry.intersections import signed_area
+from exactacq.geometry.points import Point
 from exactacq.numbers.rationals import rational
 
 Vertex: TypeAlias = "tuple[fmpq, fmpq, fmpq]"
 """(x, y, bulge): the bulge is a quarter-angle tangent and belongs to the edge that follows."""
+
+
+class HasGeoInterface(Protocol):
+    """An object of another library that says where it is, such as a polygon of shapely."""
+
+    @property
+    def __geo_interface__(self) -> Mapping[str, Any]: ...
+
+
+Corners: TypeAlias = "Iterable[Iterable[object]] | HasGeoInterface"
+"""What gives a ring of straight edges: pairs (x, y), an array of two columns, or a polygon without holes of
+another library. Floats are taken for the binary fractions that they are."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,60 +42,94 @@ class Loop:
     vertices: tuple[Vertex, ...]
     name: str | None = None
 
+    @property
+    def __geo_interface__(self) -> Geo:
+        """A GeoJSON Polygon, arcs as chords (see `exactacq.geometry.geo.FLATNESS`).
+
+        Its ring runs counterclockwise, whichever way the vertices do. Nothing is validated: a loop that no
+        scene takes gives a ring that is none.
+        """
+        return _geo_polygon(self)
+
 
 class Outline(Loop):
     """A closed boundary of straight edges and arcs, from vertices ``(x, y)`` or ``(x, y, bulge)``.
 
     The bulge, as in DXF, is the tangent of a quarter of the angle of the edge that follows: positive for
-    counterclockwise arcs, 0 for a straight edge, 1 for a half circle. At least 3 vertices, or 2 with an arc.
+    counterclockwise arcs, 0 for a straight edge, 1 for a half circle. At least 3 vertices, or 2 with an arc;
+    a last one that repeats the first, without a bulge, is left out. Raises `FormatError` for what are no
+    vertices; whether the boundary is a legal one is asked by `Scene`.
 
     >>> half = Outline([(-1, 0), (1, 0, 1)])
     >>> import exactacq as xa
     >>> print(xa.Scene([half]).obstacles[0].perimeter)
     2 + pi
+    >>> len(half.__geo_interface__["coordinates"][0])
+    114
     """
 
     __slots__ = ()
 
-    def __init__(self, vertices: Iterable[Sequence[object]], name: str | None = None) -> None:
-        super().__init__(tuple(_vertex(v) for v in vertices), name)
+    def __init__(self, vertices: Iterable[Iterable[object]], name: str | None = None) -> None:
+        super().__init__(_ring(vertices), as_name(name))
 
 
 class Polygon(Loop):
     """A closed boundary of straight edges, from at least 3 vertices ``(x, y)``.
 
+    These are pairs of numbers, an array of two columns, or a polygon of another library, such as shapely's:
+    anything whose ``__geo_interface__`` is a Polygon without holes, or a Feature with one. A last vertex that
+    repeats the first is left out. Raises `FormatError` for anything else; whether the boundary is a legal
+    one is asked by `Scene`.
+
     >>> square = Polygon([(0, 0), (1, 0), (1, 1), (0, 1)], name="square")
     >>> import exactacq as xa
     >>> xa.Scene([square]).obstacles[0].perimeter
     Length('4')
+    >>> ring = {"type": "Polygon", "coordinates": [[(0, 0), (0, 1), (1, 0.5), (0, 0)]]}
+    >>> Polygon(ring) == Polygon([(0, 0), (0, 1), (1, "1/2")])
+    True
+    >>> Polygon(ring).__geo_interface__["coordinates"]
+    (((0.0, 0.0), (1.0, 0.5), (0.0, 1.0), (0.0, 0.0)),)
     """
 
     __slots__ = ()
 
-    def __init__(self, vertices: Iterable[Sequence[object]], name: str | None = None) -> None:
-        loop = tuple(_vertex(v) for v in vertices)
+    def __init__(self, vertices: Corners, name: str | None = None) -> None:
+        loop = vertices.vertices if isinstance(vertices, Loop) else _ring(_corners(vertices))
         if any(bulge for _, _, bulge in loop):
             raise FormatError("a Polygon has no bulges: use Outline")
-        super().__init__(loop, name)
+        super().__init__(loop, as_name(name))
 
 
 @dataclass(frozen=True, slots=True, init=False)
 class Circle:
     """A disc, or as an enclosure a round room, with rational centre and positive rational radius.
 
+    Raises `FormatError` for what are no such numbers; the sign of the radius is asked by `Scene`.
+
     >>> import exactacq as xa
     >>> print(xa.Scene([Circle((0, 0), "1/2")]).obstacles[0].area)
     pi/4
+    >>> len(Circle((0, 0), 2).__geo_interface__["coordinates"][0])
+    224
     """
 
     center: tuple[fmpq, fmpq]
     radius: fmpq
     name: str | None = None
 
-    def __init__(self, center: Sequence[object], radius: object, name: str | None = None) -> None:
-        object.__setattr__(self, "center", rational_pair(center))
-        object.__setattr__(self, "radius", rational(radius))
-        object.__setattr__(self, "name", name)
+    def __init__(self, center: Iterable[object], radius: object, name: str | None = None) -> None:
+        with about("center"):
+            object.__setattr__(self, "center", rational_pair(center))
+        with about("radius"):
+            object.__setattr__(self, "radius", rational(radius))
+        object.__setattr__(self, "name", as_name(name))
+
+    @property
+    def __geo_interface__(self) -> Geo:
+        """A GeoJSON Polygon of chords (see `exactacq.geometry.geo.FLATNESS`), counterclockwise."""
+        return _geo_polygon(self)
 
 
 Shape: TypeAlias = "Loop | Circle"
@@ -89,27 +139,112 @@ Shape: TypeAlias = "Loop | Circle"
 class Terrain:
     """The rectangle [0, width] x [0, height] that the Seed Spreader sweeps; both sides are positive.
 
+    Raises `FormatError` for what are no numbers; their signs are asked by `Scene`.
+
     >>> Terrain(8, "13/2")
     Terrain(width=8, height=13/2)
+    >>> Terrain(2, 1).__geo_interface__["coordinates"]
+    (((0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0), (0.0, 0.0)),)
     """
 
     width: fmpq
     height: fmpq
 
     def __init__(self, width: object, height: object) -> None:
-        object.__setattr__(self, "width", rational(width))
-        object.__setattr__(self, "height", rational(height))
+        with about("width"):
+            object.__setattr__(self, "width", rational(width))
+        with about("height"):
+            object.__setattr__(self, "height", rational(height))
+
+    @property
+    def __geo_interface__(self) -> Geo:
+        """A GeoJSON Polygon, counterclockwise from the SW corner."""
+        width, height = self.width, self.height
+        return Polygon([(0, 0), (width, 0), (width, height), (0, height)]).__geo_interface__
 
 
-def rational_pair(pair: Sequence[object]) -> tuple[fmpq, fmpq]:
+def rational_pair(pair: Iterable[object]) -> tuple[fmpq, fmpq]:
     """Two rationals from any pair of numbers; `FormatError` otherwise."""
-    if isinstance(pair, str) or len(pair) != 2:
-        raise FormatError(f"a point needs two numbers, not {pair!r}")
-    return rational(pair[0]), rational(pair[1])
+    values = _values(pair)
+    if len(values) != 2:
+        raise FormatError(f"a point needs two numbers, not {shown(pair)}")
+    return rational(values[0]), rational(values[1])
 
 
-def _vertex(vertex: Sequence[object]) -> Vertex:
-    if isinstance(vertex, str) or len(vertex) not in (2, 3):
-        raise FormatError(f"a vertex is (x, y) or (x, y, bulge), not {vertex!r}")
-    x, y, bulge = (*vertex, 0)[:3]
-    return rational(x), rational(y), rational(bulge)
+def shape_edges(shape: Shape) -> tuple[Curve, ...]:
+    """The boundary as curves in the shape's own sense; edge i starts at vertex i, and vertices are shared.
+
+    Nothing is checked: a degenerate shape gives degenerate curves.
+    """
+    if isinstance(shape, Circle):
+        center = Point(*shape.center)
+        east = Point(shape.center[0] + shape.radius, shape.center[1])
+        return (Arc(east, east, center, shape.radius * shape.radius, ccw=True, full=True),)
+    points = [Point(x, y) for x, y, _ in shape.vertices]
+    ends = [*points[1:], *points[:1]]
+    return tuple(
+        Arc.from_bulge(start, end, bulge) if bulge else Segment(start, end)
+        for start, end, (_, _, bulge) in zip(points, ends, shape.vertices, strict=True)
+    )
+
+
+def _geo_polygon(shape: Shape) -> Geo:
+    edges = shape_edges(shape)
+    return polygon((edge.stroke() for edge in edges), clockwise=signed_area(edges).sign() < 0)
+
+
+def _corners(value: Corners) -> Iterable[Iterable[object]]:
+    """The rows of what is no shape of ours: its own, or those of the Polygon that it says it is."""
+    geo = value if isinstance(value, Mapping) else getattr(value, "__geo_interface__", None)
+    if geo is None:
+        return value  # type: ignore[return-value]
+    if isinstance(value, Circle):
+        raise FormatError("a Circle is no Polygon: give it as it is")
+    if geo.get("type") == "Feature":
+        geo = geo.get("geometry") or {}
+    if geo.get("type") != "Polygon":
+        raise FormatError(f"a boundary is one Polygon, not a {geo.get('type', 'mapping without a type')}")
+    rings = _values(geo.get("coordinates"))
+    if len(rings) > 1:
+        raise FormatError("a boundary is one ring: give a Polygon with holes by its outer ring alone")
+    rows = [_values(row) for ring in rings for row in _values(ring)]
+    if any(len(row) != 2 for row in rows):
+        raise FormatError("a boundary lies in the plane: give a Polygon of pairs (x, y)")
+    return rows
+
+
+def _ring(vertices: Iterable[Iterable[object]]) -> tuple[Vertex, ...]:
+    """The vertices, without a last one that only closes the ring."""
+    try:
+        rows = tuple(vertices)
+    except TypeError:
+        raise FormatError(f"a boundary is a list of vertices, not {shown(vertices)}") from None
+    ring = tuple(_vertex(k, row) for k, row in enumerate(rows))
+    closed = len(ring) > 1 and ring[-1][:2] == ring[0][:2] and not ring[-1][2]
+    return ring[:-1] if closed else ring
+
+
+def _vertex(number: int, vertex: Iterable[object]) -> Vertex:
+    values = _values(vertex)
+    if len(values) not in (2, 3):
+        raise FormatError(f"vertex {number}: a vertex is (x, y) or (x, y, bulge), not {shown(vertex)}")
+    try:
+        x, y, bulge = map(rational, (*values, 0)[:3])
+    except FormatError as error:
+        raise FormatError(f"vertex {number}: {error}") from None
+    return x, y, bulge
+
+
+def _values(row: Any) -> tuple[Any, ...]:
+    """The entries of a row; none of what has no entries, or is a text."""
+    try:
+        return () if isinstance(row, str) else tuple(row)
+    except TypeError:
+        return ()
+
+
+def as_name(name: str | None) -> str | None:
+    """A name as it is; `FormatError` for what is no text."""
+    if name is not None and not isinstance(name, str):
+        raise FormatError(f"name: a name is a text, not {shown(name)}")
+    return name

@@ -13,6 +13,7 @@ from typing import Protocol
 
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve
+from exactacq.geometry.geo import Geo, collection, feature
 from exactacq.geometry.interval_union import EMPTY, Cover, Interval
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
@@ -76,6 +77,26 @@ class Map:
 
     def __repr__(self) -> str:
         return f"<Map: {len(self.seen)} of {len(self.obstacles)} obstacles seen>"
+
+    @property
+    def __geo_interface__(self) -> Geo:
+        """A GeoJSON FeatureCollection: a feature for each of the `known` parts, obstacle by obstacle.
+
+        A part is a LineString along the boundary, arcs as chords (`geometry.geo.FLATNESS`), a single known
+        point a Point. Properties: ``obstacle``, ``name`` (the label), ``edge``, and whether the obstacle
+        is ``acquired``.
+        """
+        return collection(
+            feature(
+                part.start.__geo_interface__ if part.curve is None else part.curve.__geo_interface__,
+                obstacle=i,
+                name=self.obstacles[i].label,
+                edge=part.edge,
+                acquired=self._is_acquired(i),
+            )
+            for i in self.seen
+            for part in self.known(i)
+        )
 
     def known(self, i: int) -> tuple[Known, ...]:
         """The known parts of obstacle i, edge by edge, in order along each; parts of an edge are disjoint.

@@ -10,6 +10,7 @@ from itertools import accumulate
 from typing import Any
 
 from exactacq.geometry.curves import Curve
+from exactacq.geometry.geo import Geo, line_string
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 
@@ -69,6 +70,14 @@ class Path(tuple[Piece, ...]):
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Path, (tuple(self),)
+
+    @property
+    def __geo_interface__(self) -> Geo:
+        """A GeoJSON LineString along all pieces, arcs as chords (`geometry.geo.FLATNESS`).
+
+        A Point if the path never leaves its start; without coordinates if it has no pieces.
+        """
+        return line_string(piece.curve.stroke() for piece in self)
 
     def length_after(self, count: int) -> Length:
         """Length of the first *count* pieces. Cost: linear in the pieces since the last place asked for.

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from enum import StrEnum
+from typing import NoReturn
+
+from exactacq.errors import FormatError, shown
 
 
 class Strategy(StrEnum):
@@ -17,3 +20,7 @@ class TargetChoice(StrEnum):
 
     KNOWN = "known"
     VISIBLE = "visible"
+
+    @classmethod
+    def _missing_(cls, value: object) -> NoReturn:
+        raise FormatError(f'target: "known" or "visible", not {shown(value)}')

@@ -12,6 +12,7 @@ from typing import Any, ClassVar
 from flint import fmpq
 
 from exactacq.geometry.curves import Arc, Curve
+from exactacq.geometry.geo import Geo
 from exactacq.geometry.points import Point, distance
 from exactacq.numbers.length import Length
 from exactacq.scene.ports import JSON, SVG, made
@@ -206,6 +207,11 @@ class Run:
         """Without the sensing, which is repeated when it is first asked for: it knows places by identity."""
         state = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "record"}
         return _again, (type(self), state)
+
+    @property
+    def __geo_interface__(self) -> Geo:
+        """The path as GeoJSON: a LineString, arcs as chords; a Point if the robot never leaves the start."""
+        return self.path.__geo_interface__ if self.path else self.start.__geo_interface__
 
     def _repr_html_(self) -> str:
         """A line that says what the run is, and its figure."""

@@ -14,9 +14,10 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from exactacq.errors import InvalidScene
+from exactacq.errors import InvalidScene, about
 from exactacq.geometry.coordinates import raw
 from exactacq.geometry.curves import Segment
+from exactacq.geometry.geo import Geo, polygon
 from exactacq.geometry.intersections import signed_area
 from exactacq.geometry.points import Location, Point
 from exactacq.numbers.length import Length
@@ -44,6 +45,8 @@ class Isovist:
     >>> view = xa.isovist(xa.Scene([xa.Circle((3, 0), 1)]), (3, 2), radius=1)
     >>> print(view.area, view.perimeter)
     pi 2*pi
+    >>> view.__geo_interface__["type"]
+    'Polygon'
     """
 
     def __init__(self, scene: Scene, point: Point, radius: fmpq, own: tuple[int, ...] | None = None) -> None:
@@ -117,6 +120,18 @@ class Isovist:
         view = self._view
         return not view.buries(raw(point - self.point)) and is_free(view.table, self.point, point)
 
+    @property
+    def __geo_interface__(self) -> Geo:
+        """What is seen, as a GeoJSON Polygon, counterclockwise; arcs as chords (`geometry.geo.FLATNESS`).
+
+        `rays` bound no area and are left out. Only where no area is seen they are all there is: a
+        MultiLineString of them, or a Point, that of the isovist, if there are none either.
+        """
+        if self.pieces:
+            return polygon(piece.curve.stroke() for piece in self.pieces)
+        lines = tuple(ray.__geo_interface__["coordinates"] for ray in self.rays)
+        return {"type": "MultiLineString", "coordinates": lines} if lines else self.point.__geo_interface__
+
     def _repr_svg_(self) -> str:
         return str(made(SVG, self))
 
@@ -132,14 +147,16 @@ def isovist(scene: Scene, point: object, radius: object = None) -> Isovist:
     """The region visible from a free point within the radius (the scene's own if None).
 
     The point, a `Point` or a pair of numbers, may be algebraic and may lie on a boundary; the radius is
-    rational. Raises `InvalidScene` if the point is inside an obstacle or the radius missing or not positive.
-    Cost: near linear in the edges within the radius, after one pass over all edges of a scene.
+    rational. Raises `InvalidScene` if the point is inside an obstacle or the radius missing or not positive,
+    and `FormatError` for what is no point or number. Cost: near linear in the edges within the radius, after
+    one pass over all edges of a scene.
 
     >>> import exactacq as xa
     >>> print(isovist(xa.load("circles"), (0, 0), radius=4).perimeter)
     2*asin(31/200) + 4*asin(569/800) + 7*pi
     """
-    place = Point.of(point)  # type: ignore[arg-type]
+    with about("point"):
+        place = Point.of(point)  # type: ignore[arg-type]
     reach = radius_of(scene, radius, place)
     around = _Tables.of(scene).around(place)
     if flaws := [f"the point {place} lies inside {o!r}" for where, o in around if where is Location.INSIDE]:

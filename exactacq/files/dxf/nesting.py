@@ -14,8 +14,7 @@ from exactacq.geometry.box_index import BoxIndex, bounds, box, united
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.intersections import contacts, winding
 from exactacq.geometry.points import Point
-from exactacq.scene.scene import shape_edges
-from exactacq.scene.shapes import Shape
+from exactacq.scene.shapes import Shape, shape_edges
 
 MAX_CANDIDATES = 5_000_000
 """Pairs of edges with overlapping boxes beyond which a drawing is refused: a minute's work, and no clean part

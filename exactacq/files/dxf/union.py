@@ -21,8 +21,8 @@ from exactacq.geometry.box_index import BoxIndex, bounds
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.intersections import contacts, winding
 from exactacq.geometry.points import Point
-from exactacq.scene.scene import Scene, shape_edges
-from exactacq.scene.shapes import Circle, Loop, Polygon, Shape
+from exactacq.scene.scene import Scene
+from exactacq.scene.shapes import Circle, Loop, Polygon, Shape, shape_edges
 
 GRID_BITS = 61
 """Clipper takes integers below 2^62; one bit is left for its differences."""

@@ -50,9 +50,9 @@ def seed_spreader(
 
     Numbers of obstacles in the run mean components that the terrain cuts out of obstacles (`Run.obstacles`).
     Raises `InvalidScene` if there is no terrain, no radius or an enclosure, if the start is another point
-    than the SW corner, if that is not free, or if an obstacle lies outside the terrain; ValueError for
-    another target, `Undecided` for a comparison beyond the library's limits. Cost: a tenth to a fifth of a
-    second an obstacle at constant density and radius.
+    than the SW corner, if that is not free, or if an obstacle lies outside the terrain; `FormatError` for a
+    radius that is no number or another target, `Undecided` for a comparison beyond the library's limits.
+    Cost: a tenth to a fifth of a second an obstacle at constant density and radius.
 
     >>> import exactacq as xa
     >>> discs = [xa.Circle((3, 4), 1), xa.Circle((6, 6), 1)]

@@ -10,7 +10,7 @@ from functools import cmp_to_key
 from exactacq.errors import InvalidScene
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
-from exactacq.scene.scene import Scene, start_of
+from exactacq.scene.scene import Scene, radius_of, start_of
 from exactacq.sensing.event import Ending, EventKind, Occasion
 from exactacq.strategies.bounds import with_bounds
 from exactacq.strategies.gc_pause import uncollected
@@ -37,9 +37,10 @@ def sightseer(
     so far and the number in the scene.
 
     Raises `InvalidScene` if radius or start is missing or illegal, or if an obstacle meets the terrain's
-    border, and `Undecided` if an exact comparison is beyond the library's limits. Obstacles that are never
-    seen or never reached are no error: the run lists them. Cost: near linear in the number of obstacles at
-    constant density and radius, about a tenth of a second an obstacle.
+    border, `FormatError` if they are no number and no point, and `Undecided` if an exact comparison is beyond
+    the library's limits. Obstacles that are never seen or never reached are no error: the run lists them.
+    Cost: near linear in the number of obstacles at constant density and radius, about a tenth of a second an
+    obstacle.
 
     >>> import exactacq as xa
     >>> run = sightseer(xa.load("circles"))
@@ -51,8 +52,9 @@ def sightseer(
     if border:
         rule = "meets the terrain's border: the Sightseer needs its obstacles inside"
         raise InvalidScene([f"obstacle {k} {rule}" for k in border])
+    reach = radius_of(scene, radius, place)
     try:
-        robot = Scout(scene, radius, place)
+        robot = Scout(scene, reach, place)
     except ValueError as error:
         raise InvalidScene([str(error)]) from None
     return explored_by(robot, scene, progress)
