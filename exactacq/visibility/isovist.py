@@ -129,7 +129,7 @@ class Isovist:
         """
         if self.pieces:
             return polygon(piece.curve.stroke() for piece in self.pieces)
-        lines = tuple(ray.__geo_interface__["coordinates"] for ray in self.rays)
+        lines = tuple((ray.start.xy, ray.end.xy) for ray in self.rays)
         return {"type": "MultiLineString", "coordinates": lines} if lines else self.point.__geo_interface__
 
     def _repr_svg_(self) -> str:
