@@ -91,7 +91,8 @@ class TestShapes:
         """Nothing is validated here: a scene would refuse them."""
         assert xa.Polygon([]).__geo_interface__ == {"type": "Polygon", "coordinates": ()}
         assert xa.Polygon([(1, 2)]).__geo_interface__["coordinates"] == (((1.0, 2.0), (1.0, 2.0)),)
-        assert len(xa.Circle((1, 2), 0).__geo_interface__["coordinates"][0]) == 2
+        for empty in (xa.Circle((1, 2), 0), xa.Outline([(1, 2, 1), (1, 2, 2)])):
+            assert empty.__geo_interface__["coordinates"] == ()
         crossed = xa.Polygon([(0, 0), (1, 1), (1, 0), (0, 1)])
         assert not shape(crossed).is_valid
 

@@ -327,8 +327,8 @@ class Arc:
         1.0
         """
         radial, radius, length = self.start - self.center, float(self.radius), float(self.length)
-        angle, turned = atan2(float(radial.y), float(radial.x)), length / radius if radius else 0.0
-        sweep = turned if self.ccw else -turned
+        angle = atan2(float(radial.y), float(radial.x))
+        sweep = length / radius if self.ccw else -length / radius
         return Stroke(self.start.xy, self.end.xy, length, self.center.xy, radius, angle, sweep)
 
     @property

@@ -189,7 +189,8 @@ def shape_edges(shape: Shape) -> tuple[Curve, ...]:
 
 
 def _geo_polygon(shape: Shape) -> Geo:
-    edges = shape_edges(shape)
+    # An arc between equal points has no radius: no scene takes it, and it adds nothing to the ring.
+    edges = [edge for edge in shape_edges(shape) if isinstance(edge, Segment) or edge.radius_sq]
     return polygon((edge.stroke() for edge in edges), clockwise=signed_area(edges).sign() < 0)
 
 
