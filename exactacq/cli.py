@@ -335,11 +335,9 @@ def _explored(
 
     if not sys.stderr.isatty():
         return run(None)
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+    from exactacq.output.report import progress_bar
 
-    columns = (TextColumn("exploring"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+    with progress_bar("exploring") as bar:
         task = bar.add_task("", total=len(scene.obstacles))
         return run(lambda done, total: bar.update(task, completed=done, total=total))
 

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator
 from flint import fmpq
 from rich.console import Console, Group, RenderableType
 from rich.padding import Padding
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 from rich.text import Text
 
@@ -29,6 +30,12 @@ def console() -> Console:
     """Standard output as given: no markup, no guesses; 110 columns where it is not a terminal."""
     out = Console(highlight=False, markup=False, emoji=False)
     return out if out.is_terminal else Console(highlight=False, markup=False, emoji=False, width=110)
+
+
+def progress_bar(what: str) -> Progress:
+    """A bar on standard error that tells how much is done and how long it took, and then goes away."""
+    columns = (TextColumn(what), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    return Progress(*columns, console=Console(stderr=True), transient=True)
 
 
 def run_report(run: Run) -> RenderableType:

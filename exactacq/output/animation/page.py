@@ -24,7 +24,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from exactacq.errors import FormatError
 from exactacq.files.whole_files import readable
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Point
@@ -48,8 +47,6 @@ FLAT = 1e6
 """Page units: browsers lose larger circles, whose arcs in view differ from a line by less than 0.3."""
 WIDEST = 2 * math.pi / 3
 """Angle of one arc: by rounding, the centre of a wider one would move much further than its ends."""
-FINEST = 1e-9
-"""Size over distance from the origin of a scene that is about to be lost in floating point."""
 CLOSED_FORM = 40
 """Closed forms of at most this many characters are shown, the decimal value of others."""
 PASSING = {EventKind.LOSE, EventKind.REGAIN}
@@ -150,7 +147,7 @@ def page(run: Run, frames: Iterable[Frame]) -> str:
     """The page as HTML text; equal runs and frames give the same text.
 
     *frames* (see `frames_of`) run along the path from its start to its end; they are consumed one by one.
-    Raises `ValueError` if there are none, `FormatError` for a scene that is `FINEST` times its distance from
+    Raises `ValueError` if there are none, `FormatError` for a scene that is 10^-9 times its distance from
     the origin or less.
     """
     # In a block of JSON only "<" could end the block or open a comment; the rest is ASCII by `dumps`.
@@ -275,16 +272,8 @@ class Paper:
         """Paper that shows the obstacles, the terrain and the start; little beyond it if *swept*."""
         corners = [corner for obstacle in scene.obstacles for corner in Region.of(obstacle).box]
         corners.append(np.array(start.xy))
-        if scene.terrain is not None and swept:
-            corners = window(scene.terrain, corners)
-        elif scene.terrain is not None:
-            corners += [np.zeros(2), np.array([float(scene.terrain.width), float(scene.terrain.height)])]
-        low, high = np.min(corners, axis=0), np.max(corners, axis=0)
-        if not (high - low).any():
-            low, high = low - radius, high + radius
+        low, high = window(scene, corners, radius, swept)
         size = float(np.max(high - low))
-        if not size > np.max(np.abs((low, high))) * FINEST:
-            raise FormatError("too small to be drawn so far from the origin; move the scene closer")
         lack = np.maximum(size * SLIMMEST - (high - low), 0) / 2 + size * MARGIN
         low, high = low - lack, high + lack
         scale = SIZE / size

@@ -30,7 +30,6 @@ from matplotlib.path import Path as Outline
 from matplotlib.patheffects import withStroke
 from matplotlib.transforms import Affine2D
 
-from exactacq.errors import FormatError
 from exactacq.files.whole_files import FIGURES, check_output, readable, write_whole
 from exactacq.numbers.length import Length
 from exactacq.output.figures.sweep import SweptTerrain, window
@@ -46,8 +45,6 @@ CLOSED_FORM = 40
 
 WIDEST, TALLEST, NARROWEST = 7.2, 6.8, 1.2
 """Inches: the drawing fits a box of WIDEST x TALLEST, and a thin scene is given NARROWEST."""
-FINEST = 1e-9
-"""Size over distance from the origin of a scene that is about to be lost in floating point."""
 COLOURS = 160
 """Steps of the colour scale along the path."""
 CROWDED = 300
@@ -82,7 +79,7 @@ def figure(subject: Run | Scene, at: Event | Length | object = None) -> Figure:
     its crossing points and the diversions from D to Q. With *at*, an event or a length of the path, it
     shows that moment: the path so far, what the robot sees (shaded), known boundary (strong), unknown
     boundary (faint), and the frontier between them. ValueError for a length without an algebraic place
-    (see `Run.near`); `FormatError` for a scene that is `FINEST` times its distance from the origin or
+    (see `Run.near`); `FormatError` for a scene that is 10^-9 times its distance from the origin or
     less.
 
     >>> import exactacq as xa
@@ -130,6 +127,13 @@ def _rendered(draw: Callable[[], Figure], suffix: str) -> bytes:
     with style.context(["default", {"svg.hashsalt": "exactacq", "hatch.linewidth": 0.5}]):
         draw().savefig(out, format=suffix[1:], metadata=metadata[suffix], dpi=DOTS)
     return out.getvalue()
+
+
+def dress(axes: Any) -> None:
+    """Light spines and small ticks."""
+    for side in axes.spines.values():
+        side.set(color="#c9ccd0", linewidth=0.6)
+    axes.tick_params(labelsize=7.5, colors=SOFT, length=2.5, width=0.6)
 
 
 def _counted(count: int) -> str:
@@ -181,17 +185,8 @@ class _Canvas:
         """The drawn rectangle: everything there is, a margin, and no side shorter than NARROWEST inches."""
         corners = [corner for region in self.regions for corner in region.box]
         corners += [np.array(self.start)] if self.start is not None else []
-        if self.sweep is not None:
-            corners = window(self.sweep.terrain, corners)
-        elif (terrain := self.scene.terrain) is not None:
-            corners += [np.zeros(2), np.array([float(terrain.width), float(terrain.height)])]
-        corners = corners or [np.zeros(2)]
-        low, high = np.min(corners, axis=0), np.max(corners, axis=0)
-        if not (high - low).any():
-            low, high = low - (self.radius or 1.0), high + (self.radius or 1.0)
+        low, high = window(self.scene, corners, self.radius or 1.0, self.sweep is not None)
         size = float(np.max(high - low))
-        if not size > np.max(np.abs((low, high))) * FINEST:
-            raise FormatError("too small to be drawn so far from the origin; move the scene closer")
         margin = size * (0.07 if self.scene.enclosure is not None else 0.05)
         low, high = low - margin, high + margin
         least = (size + 2 * margin) * NARROWEST / WIDEST
@@ -262,7 +257,9 @@ class _Canvas:
         left = x + (self.full - wide) / 2 + (0.12 if wide + 1.1 >= self.full else 0)
         bottom = y + self.below
         self.axes.set_position((left / full, bottom / total, wide / full, high / total))
-        self._dress(self.axes)
+        dress(self.axes)
+        self.axes.ticklabel_format(useOffset=False, style="plain")
+        self.axes.locator_params(nbins=6, min_n_ticks=2)
         middle, top = (x + self.full / 2) / full, 1 - (total - (bottom + high + self.above)) / total
         for k, line in enumerate(self.title):
             size, colour = ((12, INK), (9.5, SOFT), (9.5, "#b3502e"))[k]
@@ -288,14 +285,6 @@ class _Canvas:
                 borderpad=0, borderaxespad=0, handlelength=1.8, columnspacing=1.5, labelspacing=0.4,
                 handler_map={tuple: HandlerTuple(ndivide=1)},
             )  # fmt: skip
-
-    @staticmethod
-    def _dress(axes: Any) -> None:
-        for side in axes.spines.values():
-            side.set(color="#c9ccd0", linewidth=0.6)
-        axes.tick_params(labelsize=7.5, colors=SOFT, length=2.5, width=0.6)
-        axes.ticklabel_format(useOffset=False, style="plain")
-        axes.locator_params(nbins=6, min_n_ticks=2)
 
     def _title(self) -> list[str]:
         run, name = self.run, self.scene.name

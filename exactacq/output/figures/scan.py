@@ -20,7 +20,7 @@ from matplotlib.ticker import NullFormatter, NullLocator
 
 from exactacq.files.gallery import scene as gallery_scene
 from exactacq.numbers.length import Length
-from exactacq.output.figures.draw import HIT, INK, SOFT, STYLES, VIEW
+from exactacq.output.figures.draw import HIT, INK, SOFT, STYLES, VIEW, dress
 from exactacq.output.strokes import Region, Steps
 from exactacq.scene.scene import Scene
 from exactacq.sensing.path import Piece
@@ -125,6 +125,4 @@ def _over_sides(axes: Any, ks: Sequence[int], title: str) -> None:
 
 def _dress(axes: Any, title: str) -> None:
     axes.set_title(title, size=9.5, color=INK, pad=5, parse_math=False)
-    for side in axes.spines.values():
-        side.set(color="#c9ccd0", linewidth=0.6)
-    axes.tick_params(labelsize=7.5, colors=SOFT, length=2.5, width=0.6)
+    dress(axes)

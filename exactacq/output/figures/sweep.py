@@ -5,16 +5,18 @@ In floats: for drawing only.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
+from exactacq.errors import FormatError
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.strokes import Stroke
 from exactacq.output.strokes import Region
 from exactacq.scene.edge_table import EdgeTable, Floats
+from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Terrain
 from exactacq.scene.terrain_components import Component
 from exactacq.sensing.event import EventKind
@@ -24,6 +26,9 @@ from exactacq.strategies.seed_spreader.mline import MLine
 
 BEYOND = 0.12
 """Of an obstacle that crosses the border this share of the terrain's longer side is shown beyond it."""
+
+FINEST = 1e-9
+"""Size over distance from the origin of a scene that is about to be lost in floating point."""
 
 Spot = tuple[float, float]
 
@@ -77,11 +82,23 @@ class SweptTerrain:
         return len(parts) == 1 and parts[0].closed and bool(parts[0].shore)
 
 
-def window(terrain: Terrain, corners: Iterable[Floats]) -> list[Floats]:
-    """The terrain's corners, and those of obstacles as far as they are shown."""
-    size = np.array([float(terrain.width), float(terrain.height)])
-    slack = BEYOND * size.max()
-    return [np.zeros(2), size, *(np.clip(corner, -slack, size + slack) for corner in corners)]
+def window(scene: Scene, corners: Sequence[Floats], radius: float, swept: bool) -> tuple[Floats, Floats]:
+    """The rectangle about what is shown of a scene: the terrain, and *corners* of whatever else is drawn.
+
+    What lies beyond the terrain of a sweep is shown in part; a single point gets a window as wide as the
+    radius. Raises `FormatError` for a scene that is `FINEST` times its distance from the origin or less.
+    """
+    if scene.terrain is not None:
+        size = np.array([float(scene.terrain.width), float(scene.terrain.height)])
+        slack = BEYOND * size.max() if swept else np.inf
+        corners = [np.zeros(2), size, *(np.clip(corner, -slack, size + slack) for corner in corners)]
+    corners = corners or [np.zeros(2)]
+    low, high = np.min(corners, axis=0), np.max(corners, axis=0)
+    if not (high - low).any():
+        low, high = low - radius, high + radius
+    if not np.max(high - low) > np.max(np.abs((low, high))) * FINEST:
+        raise FormatError("too small to be drawn so far from the origin; move the scene closer")
+    return low, high
 
 
 def component_region(component: Component, terrain: Terrain) -> Region:

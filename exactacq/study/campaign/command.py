@@ -139,11 +139,9 @@ def _progress(done: int, total: int) -> Iterator[Callable[[Record], None]]:
     if not sys.stderr.isatty():
         yield _lines(done, total)
         return
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+    from exactacq.output.report import progress_bar
 
-    columns = (TextColumn("verifying"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+    with progress_bar("verifying") as bar:
         task = bar.add_task("", total=total, completed=done)
         yield lambda _: bar.update(task, advance=1)
 
