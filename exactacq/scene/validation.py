@@ -23,7 +23,7 @@ import numpy as np
 from flint import fmpq
 
 from exactacq.errors import InvalidScene
-from exactacq.geometry.box_index import Boxes, BoxIndex, Separator, bounds
+from exactacq.geometry.box_index import BoxIndex, Separator, bounds, united
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import Contact, ContactKind, contacts, winding
 from exactacq.geometry.points import Point
@@ -199,7 +199,7 @@ class _Arrangement:
         self.owners = np.array(self.owner, dtype=np.int64)
         self.begin = np.searchsorted(self.owners, range(len(loops) + 1)).tolist()
         self.index = BoxIndex(bounds(self.curves))
-        self.loop_index = BoxIndex(_unions(self.index.boxes, self.begin[:-1]))
+        self.loop_index = BoxIndex(united(self.index.boxes, self.begin[:-1]))
         self.enclosures = [k for k, loop in enumerate(self.loops) if loop.is_enclosure]
         self.met: set[tuple[int, int]] = set()
 
@@ -280,14 +280,6 @@ class _Arrangement:
         for i in ray[np.isin(self.owners[ray], list(edges))].tolist():
             edges[self.owner[i]].append(self.curves[i])
         return {loop: winding(some, point) for loop, some in edges.items()}
-
-
-def _unions(boxes: Boxes, begin: list[int]) -> Boxes:
-    """The box of each run of boxes that starts at one of the given positions."""
-    if not begin:
-        return boxes
-    low, high = np.minimum.reduceat(boxes[:, :2], begin), np.maximum.reduceat(boxes[:, 2:], begin)
-    return np.hstack([low, high])
 
 
 def _label(loop: ValidatedLoop) -> str:

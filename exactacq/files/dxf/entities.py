@@ -181,8 +181,8 @@ class _Reader:
         kind = entity.dxftype()
         read = {
             "LINE": self._line,
-            "ARC": self._arc,
-            "CIRCLE": self._circle,
+            "ARC": self._arc_or_circle,
+            "CIRCLE": self._arc_or_circle,
             "LWPOLYLINE": self._lwpolyline,
             "POLYLINE": self._polyline,
         }.get(kind)
@@ -202,33 +202,22 @@ class _Reader:
         self._add(entity, [Corner(_exact(p.x), _exact(p.y), fmpq(0)) for p in ends])
         return None
 
-    def _arc(self, entity: Any) -> str | None:
+    def _arc_or_circle(self, entity: Any) -> str | None:
         flip = _mirror(entity)
         if flip is None:
-            return "ARC in a tilted plane"
+            return f"{entity.dxftype()} in a tilted plane"
         radius = _exact(entity.dxf.radius)
         if radius <= 0:
-            return "ARC of no radius"
+            return f"{entity.dxftype()} of no radius"
         center = (_exact(entity.dxf.center.x) * flip, _exact(entity.dxf.center.y))
-        start, end = _exact(entity.dxf.start_angle), _exact(entity.dxf.end_angle)
-        if flip < 0:
-            start, end = 180 - end, 180 - start
-        corners = arc_corners(center, radius, start, end)
+        corners = None
+        if entity.dxftype() == "ARC":
+            start, end = _exact(entity.dxf.start_angle), _exact(entity.dxf.end_angle)
+            corners = arc_corners(center, radius, *((start, end) if flip > 0 else (180 - end, 180 - start)))
         if corners is None:
             self.drawing.circles.append((self.order, Circle(center, radius, self._label(entity))))
         else:
             self._add(entity, corners, stated=False)
-        return None
-
-    def _circle(self, entity: Any) -> str | None:
-        flip = _mirror(entity)
-        if flip is None:
-            return "CIRCLE in a tilted plane"
-        radius = _exact(entity.dxf.radius)
-        if radius <= 0:
-            return "CIRCLE of no radius"
-        center = (_exact(entity.dxf.center.x) * flip, _exact(entity.dxf.center.y))
-        self.drawing.circles.append((self.order, Circle(center, radius, self._label(entity))))
         return None
 
     def _lwpolyline(self, entity: Any) -> str | None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
-from exactacq.sensing.event import EventKind
 from exactacq.study.claims.model import Case
 from exactacq.study.claims.tallies import Tally
 from exactacq.visibility.links import START
@@ -22,13 +21,6 @@ def _is_seated(case: Case) -> bool:
     """Whether model (a) holds and the start lies on a boundary, as the paper takes it to."""
     ways = (link for link in case.sightseer.links if link.source == START)
     return case.is_mutually_visible and all(link.length.sign() == 0 for link in ways)
-
-
-def _is_plain(case: Case) -> bool:
-    """Whether the sweep follows the M-line all the way."""
-    return not any(
-        event.kind in (EventKind.HIT, EventKind.CROSS, EventKind.DIVERT) for event in case.spreader.events
-    )
 
 
 _SEATED = Premise("model (a), S on a boundary", _is_seated)
@@ -48,7 +40,7 @@ PREMISES = {
     "(4)": _ANY,
     "(5)": _ANY,
     "(6)": _ANY,
-    "(8)": Premise("no hit, no diversion", _is_plain),
+    "(8)": Premise("no hit, no diversion", lambda case: case.shared(Tally).is_plain),
     "(9)": _DIRECT,
     "(10)": _CLEAR,
     "(11)": _BOTH,

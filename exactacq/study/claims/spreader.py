@@ -139,15 +139,6 @@ def diverts_for_occluders(case: Case) -> Finding:
     return found(2 * len(diversions) <= n, count, 2 * len(diversions) / n)
 
 
-def diverts_too_often(case: Case) -> Finding:
-    """At most n / 2 diversions for convex obstacles."""
-    run = case.spreader
-    count, n = len(run.diversions), len(run.obstacles)
-    if not count or not all_convex(run):
-        return SILENT
-    return found(2 * count <= n, f"{count} diversions, n = {n}", 2 * count / n)
-
-
 def diverts_once_each(case: Case) -> Finding:
     """At most n diversions, each to another obstacle."""
     run = case.spreader

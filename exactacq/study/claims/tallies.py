@@ -146,6 +146,12 @@ class Tally:
         return found
 
     @property
+    def is_plain(self) -> bool:
+        """Whether the sweep follows the M-line all the way."""
+        detours = EventKind.HIT, EventKind.CROSS, EventKind.DIVERT
+        return not any(event.kind in detours for event in self.run.events)
+
+    @property
     def is_clear(self) -> bool:
         """Whether no obstacle meets the border."""
         return all(body.closed for body in self.run.obstacles)

@@ -4,7 +4,6 @@ the run (paper, sections 3.3 and 4.3)."""
 from __future__ import annotations
 
 from exactacq.numbers.length import Length
-from exactacq.sensing.event import EventKind
 from exactacq.study.claims.model import SILENT, Case, Claim, Finding, Statement, Subject, flaw, found
 from exactacq.study.claims.tallies import Tally, bounds_of, sweep_flaw, tour_flaw
 
@@ -76,7 +75,7 @@ def keeps_corrected_theorem_2(case: Case) -> Finding:
 def is_the_m_line(case: Case) -> Finding:
     """If no obstacle is hit and none diverted to, P is A + B + rA."""
     run = case.spreader
-    if any(event.kind in (EventKind.HIT, EventKind.CROSS, EventKind.DIVERT) for event in run.events):
+    if not case.shared(Tally).is_plain:
         return SILENT
     if (wrong := case.shared(sweep_flaw)) is not None:
         return flaw(wrong)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import partial
 
+from exactacq.auditing.bounds import VISITS
 from exactacq.errors import FormatError
 from exactacq.files.whole_files import readable
 from exactacq.numbers.length import Length
@@ -26,8 +27,6 @@ CORRECTED: dict[Subject, dict[str, str | None]] = {
     },
 }
 """The printed bounds, as `exactacq.strategies.bounds` calls them, and what holds instead."""
-VISITS = ("(4)", "L3 corrected")
-"""Bounds on the number of visits, not on a length."""
 
 
 @dataclass(frozen=True)
@@ -121,12 +120,9 @@ def _ratio(bound: Bound) -> float:
 
 def _detail(run: Run, bound: Bound) -> str:
     """Both sides in closed form, and how they compare: exactly."""
-    visits = isinstance(run, SeedSpreaderRun) and bound.name in VISITS
-    what, length = ("visits", Length(_encounters(run))) if visits else ("P", run.length)
+    what, length = "P", run.length
+    if isinstance(run, SeedSpreaderRun) and bound.name in VISITS:
+        what, length = "visits", Length(len(run.encounters))
     relation = ">" if not bound.holds else "=" if length == bound.value else "<"
     left, right = (" ".join(readable(value, 40, 12)) for value in (length, bound.value))
     return f"{what} = {left} {relation} {right}"
-
-
-def _encounters(run: Run) -> int:
-    return len(run.encounters) if isinstance(run, SeedSpreaderRun) else 0

@@ -9,6 +9,7 @@ from random import Random
 
 from flint import fmpq
 
+from exactacq.numbers.rationals import nearest_float
 from exactacq.scene.shapes import Circle, Polygon, Shape
 from exactacq.study.search.drafts import Draft, Seat, corners, is_convex, rebuilt
 
@@ -87,7 +88,7 @@ def _move_vertex(draft: Draft, rng: Random) -> Draft | None:
     i = int(rng.random() * len(shape.vertices))
     x, y, bulge = shape.vertices[i]
     if bulge and rng.random() < 0.3:
-        changed = x, y, rounded(nearest(bulge) * (0.5 + rng.random()), 2)
+        changed = x, y, rounded(nearest_float(bulge) * (0.5 + rng.random()), 2)
     else:
         dx, dy = _shift(draft, rng)
         changed = x + dx, y + dy, bulge
@@ -250,11 +251,6 @@ def _translated(shape: Shape, dx: fmpq, dy: fmpq) -> Shape:
     if isinstance(shape, Circle):
         return Circle((shape.center[0] + dx, shape.center[1] + dy), shape.radius, shape.name)
     return rebuilt(shape, tuple((x + dx, y + dy, bulge) for x, y, bulge in shape.vertices))
-
-
-def nearest(value: fmpq) -> float:
-    """The value as a float."""
-    return int(value.p) / int(value.q)
 
 
 Move = Callable[[Draft, Random], "Draft | None"]
