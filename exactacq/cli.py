@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from exactacq.errors import ExactacqError, FormatError, InvalidScene
-from exactacq.strategies.choices import Strategy, TargetChoice
+from exactacq.strategies.options import Strategy, TargetChoice
 from exactacq.study.campaign.command import verify
 from exactacq.study.search.command import search
 

@@ -26,7 +26,7 @@ from exactacq.geometry.points import Point
 from exactacq.numbers.real import fmpq
 from exactacq.output.figures.draw import AWAY, figure, pair, save, save_pair, svg
 from exactacq.output.figures.sweep import SweptTerrain, component_region
-from exactacq.output.strokes import Region, part
+from exactacq.output.regions import Region, part
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle, Polygon, Terrain
 from exactacq.scene.terrain_components import ground_of

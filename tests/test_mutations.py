@@ -17,8 +17,8 @@ from exactacq.numbers.length import Length
 from exactacq.scene.boundary_walk import Boundary
 from exactacq.sensing.leg_views import Shares
 from exactacq.strategies import bounds
-from exactacq.strategies.seed_spreader.robot import Surveyor
-from exactacq.strategies.sightseer.robot import Scout
+from exactacq.strategies.seed_spreader.robot import SeedSpreaderRobot
+from exactacq.strategies.sightseer.robot import SightseerRobot
 from exactacq.study.claims import CLAIMS, Case, Outcome, Statement
 
 Patch = pytest.MonkeyPatch
@@ -47,13 +47,13 @@ def _change_bounds(patch: Patch, function: str, name: str) -> None:
 
 def skipped_obstacle(patch: Patch) -> None:
     """The Sightseer never goes to the last obstacle."""
-    original = Scout.nearest_unvisited
+    original = SightseerRobot.nearest_unvisited
 
-    def blind(self: Scout, node: Any) -> Any:
+    def blind(self: SightseerRobot, node: Any) -> Any:
         link = original(self, node)
         return None if link is not None and link.target == self._links.count - 1 else link
 
-    patch.setattr(Scout, "nearest_unvisited", blind)
+    patch.setattr(SightseerRobot, "nearest_unvisited", blind)
 
 
 def lost_interval(patch: Patch) -> None:
@@ -102,12 +102,12 @@ def longer_way(patch: Patch) -> None:
 def late_leave(patch: Patch) -> None:
     """The Seed Spreader leaves an obstacle at its last crossing point."""
 
-    def last(self: Surveyor, hit: Any) -> Any:
+    def last(self: SeedSpreaderRobot, hit: Any) -> Any:
         rest = self._crossings[self._next :]
         ends = [c for c in rest if c.component.index == hit.obstacle and c.ends]
         return ends[-1] if ends else None
 
-    patch.setattr(Surveyor, "leave_point", last)
+    patch.setattr(SeedSpreaderRobot, "leave_point", last)
 
 
 MUTATIONS: tuple[tuple[Callable[[Patch], None], str, tuple[str, ...]], ...] = (

@@ -12,7 +12,7 @@ from exactacq import Circle, InvalidScene, Length, Outline, Point, Polygon, Scen
 from exactacq.files import gallery
 from exactacq.files.octagons import random_octagons
 from exactacq.numbers.real import fmpq
-from exactacq.output.figures.scan import limit_figure
+from exactacq.output.figures.vertex_scan_figure import limit_figure
 from exactacq.strategies.vertex_scan import inscribed, polygon_limit, polygonal, vertex_scan
 
 Spot = tuple[fmpq, fmpq]

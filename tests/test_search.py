@@ -21,9 +21,9 @@ from exactacq.files.scene_json import scene_text
 from exactacq.numbers.rationals import rational
 from exactacq.study.claims.model import Case, Finding, Outcome, Statement, Subject
 from exactacq.study.search import Budget, Draft, Goal, Referee, Search, goal, goal_names, shrink
-from exactacq.study.search.blind import hypothesis_search
 from exactacq.study.search.command import search
 from exactacq.study.search.drafts import Seat, is_convex
+from exactacq.study.search.hypothesis_search import hypothesis_search
 from exactacq.study.search.moves import MOVES, Rules, mutate, rounded
 from exactacq.study.search.referee import BROKEN, judged
 

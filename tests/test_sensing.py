@@ -21,8 +21,8 @@ from exactacq.geometry.interval_union import Cover, Interval
 from exactacq.numbers.length import Length
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.event import Event, EventKind
-from exactacq.sensing.history import Memory
 from exactacq.sensing.map import Map
+from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Piece
 from exactacq.sensing.targets import Targets
 from exactacq.strategies.run import Run

@@ -13,7 +13,7 @@ from exactacq import Circle, Point, Polygon, Scene
 from exactacq.errors import InvalidScene
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.numbers.between import rational_between
-from exactacq.sensing.history import Memory
+from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Piece
 from exactacq.sensing.view_events import Change, Sweep, SweepCell, sweep
 from exactacq.visibility.outline import ViewKind

@@ -17,7 +17,7 @@ import tightest
 import exactacq as xa
 from exactacq.files import gallery
 from exactacq.output.figures import draw as figures
-from exactacq.output.figures.scan import limit_figure
+from exactacq.output.figures.vertex_scan_figure import limit_figure
 from exactacq.study import claims
 from exactacq.study.claims.model import Case, Subject
 

@@ -17,10 +17,10 @@ from random import Random
 from typing import Any
 
 from exactacq.auditing.bounds import check_bounds, sightseer_values, spreader_values
+from exactacq.auditing.comparisons import AuditedBody
 from exactacq.auditing.events import check_events, check_sights
 from exactacq.auditing.ground import Field, check_components
 from exactacq.auditing.knowledge import Knowledge
-from exactacq.auditing.measure import AuditedBody
 from exactacq.auditing.path import check_continuity, check_length, check_pieces
 from exactacq.auditing.seed_spreader import MOVES as SWEEP_MOVES
 from exactacq.auditing.seed_spreader import Replay

@@ -8,8 +8,8 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 from flint import arb, ctx
 
+from exactacq.auditing.comparisons import BITS, agrees, ball_sum
 from exactacq.auditing.ground import Field
-from exactacq.auditing.measure import BITS, agrees, ball_sum
 from exactacq.auditing.visibility import World
 from exactacq.errors import AuditError
 from exactacq.geometry.box_index import united

@@ -8,8 +8,7 @@ from random import Random
 
 from flint import ctx
 
-from exactacq.auditing.knowledge import MOMENTS
-from exactacq.auditing.measure import (
+from exactacq.auditing.comparisons import (
     BITS,
     agrees,
     ball_sum,
@@ -19,6 +18,7 @@ from exactacq.auditing.measure import (
     place_text,
     same,
 )
+from exactacq.auditing.knowledge import MOMENTS
 from exactacq.errors import AuditError
 from exactacq.geometry.points import Point
 from exactacq.sensing.event import SENSED, Event, EventKind, Reason

@@ -16,7 +16,16 @@ from typing import Any, NamedTuple
 from flint import arb, ctx, fmpq
 from networkx.utils import UnionFind
 
-from exactacq.auditing.measure import BITS, ball_sum, ball_to, is_close, is_part, place_text, refined, same
+from exactacq.auditing.comparisons import (
+    BITS,
+    ball_sum,
+    ball_to,
+    is_close,
+    is_part,
+    place_text,
+    refined,
+    same,
+)
 from exactacq.auditing.visibility import World, between
 from exactacq.errors import AuditError
 from exactacq.geometry.box_index import bounds

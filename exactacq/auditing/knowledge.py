@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from flint import arb, ctx, fmpq
 
-from exactacq.auditing.measure import (
+from exactacq.auditing.comparisons import (
     BITS,
     AuditedBody,
     Tracks,

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from exactacq.auditing.ground import Field
-from exactacq.auditing.measure import (
+from exactacq.auditing.comparisons import (
     DIGITS,
     AuditedBody,
     Track,
@@ -16,6 +15,7 @@ from exactacq.auditing.measure import (
     place_text,
     same,
 )
+from exactacq.auditing.ground import Field
 from exactacq.auditing.visibility import World
 from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Curve

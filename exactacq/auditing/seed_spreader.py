@@ -15,9 +15,7 @@ from typing import Any
 
 from flint import arb, ctx, fmpq
 
-from exactacq.auditing.ground import CrossingPoint, Field, Stretch
-from exactacq.auditing.knowledge import MOMENTS, is_whole, point_on
-from exactacq.auditing.measure import (
+from exactacq.auditing.comparisons import (
     BITS,
     AuditedBody,
     Tracks,
@@ -28,6 +26,8 @@ from exactacq.auditing.measure import (
     rational_on,
     same,
 )
+from exactacq.auditing.ground import CrossingPoint, Field, Stretch
+from exactacq.auditing.knowledge import MOMENTS, is_whole, point_on
 from exactacq.auditing.visibility import Viewpoints, visible
 from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Curve, Segment

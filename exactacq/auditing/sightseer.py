@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from itertools import pairwise
 
-from exactacq.auditing.measure import Tracks, agrees, ball_sum, event_name, place_text, same
+from exactacq.auditing.comparisons import Tracks, agrees, ball_sum, event_name, place_text, same
 from exactacq.errors import AuditError
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.points import Point

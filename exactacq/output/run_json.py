@@ -1,9 +1,9 @@
 """Run files: runs as JSON, written and read without a rounding.
 
 A run file is one JSON object with ``"format": "exactacq run"`` and ``"version"``, the number of the
-format's version (`VERSION`); files of other versions are refused. It has the scene, the path, visits,
-links, events and bounds, and one table of all algebraic numbers. The map is not written: the sensing is
-repeated on first use.
+format's version (`VERSION`). Files of version 2 are read too (`old_run_files`), others are refused. It has
+the scene, the path, visits, links, events and bounds, and one table of all algebraic numbers. The map is not
+written: the sensing is repeated on first use.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from exactacq.numbers.rationals import rational
 from exactacq.output.old_run_files import upgraded
 from exactacq.scene.terrain_components import ground_of
 from exactacq.sensing.event import SENSED, Ending, Event, EventKind, Occasion, Reason
-from exactacq.sensing.history import Memory
+from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Path, Piece
 from exactacq.strategies.bounds import with_bounds
 from exactacq.strategies.run import Bound, Diversion, Run, SeedSpreaderRun, SightseerRun, TreeLink
@@ -80,8 +80,8 @@ def load_run(source: str | os.PathLike[str] | dict[str, Any]) -> Run:
     """The run in a file that ``explore --trace`` wrote, or in the data of `Run.to_json`.
 
     Lengths are summed and bounds evaluated anew. Raises `FormatError` for anything else, also for a run of
-    another version of the format, and `InvalidScene` if the scene breaks the rules. Whether a strategy would
-    make this run is not checked: see `audit`. Linear in the path.
+    an unknown version of the format, and `InvalidScene` if the scene breaks the rules. Whether a strategy
+    would make this run is not checked: see `audit`. Linear in the path.
 
     >>> import exactacq as xa
     >>> run = xa.sightseer(xa.load("circles"))

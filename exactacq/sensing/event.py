@@ -68,7 +68,10 @@ class Occasion(StrEnum):
 
 
 class Reason(StrEnum):
-    """Why an obstacle goes out of sight, or why the Seed Spreader diverts to it."""
+    """Why an obstacle goes out of sight, or why the Seed Spreader diverts to it.
+
+    The values stand in run files, and are the words that people read.
+    """
 
     OCCLUSION = "occlusion"
     """An obstacle hides it."""

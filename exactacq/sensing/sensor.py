@@ -64,7 +64,7 @@ class Ahead:
         return covers
 
 
-class Senses:
+class Sensor:
     """The sensor of a robot in one scene: what is known so far, and what is in sight.
 
     Obstacles are *targets*: by default all, with their whole boundaries.

@@ -28,7 +28,7 @@ from exactacq.sensing.leg_views import Share, Shares
 from exactacq.sensing.legs import legs_of
 from exactacq.sensing.map import Map
 from exactacq.sensing.path import Piece
-from exactacq.sensing.sensor import Senses
+from exactacq.sensing.sensor import Sensor
 from exactacq.sensing.view_families import Role, Side
 from exactacq.visibility.line_families import Sector
 from exactacq.visibility.sensor_range import Range
@@ -123,11 +123,11 @@ class SweepCell:
 class Sweep:
     """The views along a piece of a path: ``events`` in the robot's order, and the ``cells`` between them."""
 
-    def __init__(self, scene: Scene, piece: Piece, senses: Senses) -> None:
+    def __init__(self, scene: Scene, piece: Piece, sensor: Sensor) -> None:
         self.scene = scene
-        self._made_of = piece, senses.range.radius
-        legs = legs_of(senses.table, senses.rails, piece.obstacle, piece.curve, piece.touches)
-        self._shares = [senses.shares(leg) for leg in legs]
+        self._made_of = piece, sensor.range.radius
+        legs = legs_of(sensor.table, sensor.rails, piece.obstacle, piece.curve, piece.touches)
+        self._shares = [sensor.shares(leg) for leg in legs]
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Without the sensing, which is repeated: it knows places by identity."""
@@ -181,7 +181,7 @@ def sweep(scene: Scene, curve: Curve, radius: object = None, *, obstacle: int | 
 
 def _again(scene: Scene, piece: Piece, radius: fmpq) -> Sweep:
     """The sweep of a piece, with a sensor of its own."""
-    return Sweep(scene, piece, Senses(EdgeTable(scene.obstacles), Range(radius)))
+    return Sweep(scene, piece, Sensor(EdgeTable(scene.obstacles), Range(radius)))
 
 
 def _events(number: int, shares: Shares) -> list[SweepEvent]:

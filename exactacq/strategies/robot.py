@@ -16,7 +16,7 @@ from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.scene.boundary_walk import Boundary
 from exactacq.sensing.event import Event, EventKind
-from exactacq.sensing.history import Memory, Report
+from exactacq.sensing.memory import Memory, Report
 from exactacq.sensing.path import Path, Piece
 from exactacq.visibility.links import START, Node
 

@@ -19,8 +19,8 @@ from exactacq.scene.ports import JSON, SVG, made
 from exactacq.scene.scene import Scene
 from exactacq.scene.terrain_components import Ground, ground_of
 from exactacq.sensing.event import Ending, Event, EventKind, Reason
-from exactacq.sensing.history import Memory
 from exactacq.sensing.map import Body, Map
+from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Path
 from exactacq.visibility.isovist import Isovist, isovist
 

@@ -23,7 +23,7 @@ import exactacq as xa
 from exactacq.files.octagons import random_octagons
 from exactacq.geometry.points import Location
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.sensing.sensor import Senses
+from exactacq.sensing.sensor import Sensor
 from exactacq.sensing.view_events import Sweep
 from exactacq.visibility.sensor_range import Range
 
@@ -195,7 +195,7 @@ def test_sweep(benchmark: object, ask: str) -> None:
         return
 
     def swept() -> int:
-        senses = Senses(EdgeTable(run.scene.obstacles), Range(run.radius))
+        senses = Sensor(EdgeTable(run.scene.obstacles), Range(run.radius))
         return sum(len(Sweep(run.scene, piece, senses).events) for piece in run.path)
 
     events = benchmark.pedantic(swept, rounds=1)

@@ -30,7 +30,7 @@ from exactacq.geometry.points import Point
 from exactacq.geometry.strokes import Stroke
 from exactacq.numbers.length import Length
 from exactacq.output.figures.sweep import SweptTerrain, window
-from exactacq.output.strokes import Region
+from exactacq.output.regions import Region
 from exactacq.scene.scene import Scene
 from exactacq.sensing.event import Event, EventKind
 from exactacq.strategies.run import Run, SightseerRun

@@ -33,8 +33,8 @@ from matplotlib.transforms import Affine2D
 from exactacq.files.whole_files import FIGURES, check_output, readable, write_whole
 from exactacq.numbers.length import Length
 from exactacq.output.figures.sweep import SweptTerrain, window
+from exactacq.output.regions import Region, Room, Steps, clearance, closed, part
 from exactacq.output.snapshot import Snapshot
-from exactacq.output.strokes import Region, Room, Steps, clearance, closed, part
 from exactacq.scene.edge_table import Floats
 from exactacq.scene.scene import Scene
 from exactacq.sensing.event import Event, EventKind

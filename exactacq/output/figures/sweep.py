@@ -14,7 +14,7 @@ import numpy as np
 from exactacq.errors import FormatError
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.strokes import Stroke
-from exactacq.output.strokes import Region
+from exactacq.output.regions import Region
 from exactacq.scene.edge_table import EdgeTable, Floats
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Terrain

@@ -24,7 +24,7 @@ from exactacq.strategies.seed_spreader.range_thresholds import (
     last_in_reach,
     leftmost,
 )
-from exactacq.strategies.seed_spreader.robot import Surveyor
+from exactacq.strategies.seed_spreader.robot import SeedSpreaderRobot
 
 
 class Loss(NamedTuple):
@@ -50,7 +50,7 @@ class _OutOfSight(NamedTuple):
 class Line:
     """A line of the M-line as the robot walks it."""
 
-    def __init__(self, robot: Surveyor, lookahead: bool) -> None:
+    def __init__(self, robot: SeedSpreaderRobot, lookahead: bool) -> None:
         way = robot.mline.pieces[robot.piece]
         end = way.end.rational
         assert end is not None, "the M-line's corners are rational"

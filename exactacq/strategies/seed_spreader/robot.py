@@ -18,8 +18,8 @@ from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.scene import Scene
 from exactacq.scene.terrain_components import Component, Ground
-from exactacq.sensing.history import Memory
 from exactacq.sensing.map import Map
+from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Piece
 from exactacq.sensing.sensor import Ahead
 from exactacq.strategies.robot import Robot
@@ -38,7 +38,7 @@ Watch = Callable[[Ahead], Point | None]
 """Is shown what the next way will tell, and answers where the robot is to stop, if anywhere."""
 
 
-class Surveyor(Robot):
+class SeedSpreaderRobot(Robot):
     """A point robot in the SW corner of a terrain, with a vision sensor of limited *radius* (rational).
 
     The corner must be free.

@@ -11,12 +11,12 @@ from exactacq.scene.scene import Scene, radius_of
 from exactacq.scene.terrain_components import Ground, ground_of
 from exactacq.sensing.event import Ending, EventKind, Occasion
 from exactacq.strategies.bounds import with_bounds
-from exactacq.strategies.choices import TargetChoice
 from exactacq.strategies.gc_pause import uncollected
+from exactacq.strategies.options import TargetChoice
 from exactacq.strategies.run import Diversion, SeedSpreaderRun
 from exactacq.strategies.seed_spreader.losses import Line, Loss, known
 from exactacq.strategies.seed_spreader.range_thresholds import nearest_of, nearest_point
-from exactacq.strategies.seed_spreader.robot import Hit, Surveyor
+from exactacq.strategies.seed_spreader.robot import Hit, SeedSpreaderRobot
 
 Progress = Callable[[int, int], None]
 """Called with the number of the M-line's straight pieces behind the robot, and of all."""
@@ -65,12 +65,12 @@ def seed_spreader(
     if scene.start is not None and scene.start != Point(0, 0):
         raise InvalidScene([f"the start {scene.start} is not the terrain's SW corner (0, 0)"])
     ground = ground_of(scene)
-    return _Spreader(Surveyor(scene, ground, reach), lookahead, choice, progress).run(scene, ground)
+    return _Spreader(SeedSpreaderRobot(scene, ground, reach), lookahead, choice, progress).run(scene, ground)
 
 
 class _Spreader:
     def __init__(
-        self, robot: Surveyor, lookahead: bool, target: TargetChoice, progress: Progress | None
+        self, robot: SeedSpreaderRobot, lookahead: bool, target: TargetChoice, progress: Progress | None
     ) -> None:
         self.robot, self.lookahead, self.target, self.progress = robot, lookahead, target, progress
         self.diversions: list[Diversion] = []

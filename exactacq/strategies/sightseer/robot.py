@@ -1,4 +1,5 @@
-"""The Sightseer's robot: it goes from obstacle to obstacle by the shortest segments that it has seen.
+"""The Sightseer's robot: it finds the nearest unvisited obstacle, and goes from obstacle to obstacle by the
+shortest segments that it has seen. Of equally near obstacles the one with the least index is the nearest.
 
 A strategy can ask for the robot's place, the obstacles on its map, and the links from boundaries that it
 has walked all around (or from the start), and for nothing else.
@@ -11,13 +12,13 @@ from collections.abc import Hashable
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.points import Location, Point
 from exactacq.scene.scene import Scene
-from exactacq.sensing.history import Memory
+from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Piece
 from exactacq.strategies.robot import Robot
 from exactacq.visibility.links import START, Link, Links, Node
 
 
-class Scout(Robot):
+class SightseerRobot(Robot):
     """A point robot at *start* with a vision sensor of limited *radius*.
 
     The start must be free and have rational coordinates: ValueError otherwise.

@@ -15,7 +15,7 @@ from exactacq.sensing.event import Ending, EventKind, Occasion
 from exactacq.strategies.bounds import with_bounds
 from exactacq.strategies.gc_pause import uncollected
 from exactacq.strategies.run import SightseerRun, TreeLink
-from exactacq.strategies.sightseer.robot import Scout
+from exactacq.strategies.sightseer.robot import SightseerRobot
 from exactacq.visibility.links import START, Link, Node, lexicographic
 
 Progress = Callable[[int, int], None]
@@ -54,20 +54,20 @@ def sightseer(
         raise InvalidScene([f"obstacle {k} {rule}" for k in border])
     reach = radius_of(scene, radius, place)
     try:
-        robot = Scout(scene, reach, place)
+        robot = SightseerRobot(scene, reach, place)
     except ValueError as error:
         raise InvalidScene([str(error)]) from None
     return explored_by(robot, scene, progress)
 
 
 @uncollected()
-def explored_by(robot: Scout, scene: Scene, progress: Progress | None = None) -> SightseerRun:
+def explored_by(robot: SightseerRobot, scene: Scene, progress: Progress | None = None) -> SightseerRun:
     """Explore a scene by the strategy with a robot at its start, which may have another rule of choice."""
     return _Sightseer(robot, progress, len(scene.obstacles)).run(scene)
 
 
 class _Sightseer:
-    def __init__(self, robot: Scout, progress: Progress | None, total: int) -> None:
+    def __init__(self, robot: SightseerRobot, progress: Progress | None, total: int) -> None:
         self.robot, self.progress, self.total = robot, progress, total
         self.stack: list[tuple[Node, Point, Point]] = []
         self.tree: dict[int, TreeLink] = {}

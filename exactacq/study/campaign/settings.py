@@ -9,7 +9,7 @@ from importlib.metadata import version
 from typing import TYPE_CHECKING, NamedTuple
 
 from exactacq.errors import ExactacqError
-from exactacq.strategies.choices import Strategy
+from exactacq.strategies.options import Strategy
 
 if TYPE_CHECKING:
     from exactacq.study.claims.model import Claim, Statement

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from exactacq.errors import FormatError
-from exactacq.study.claims import figures, sightseer, spreader, theorems
+from exactacq.study.claims import figure_claims, sightseer, spreader, theorems
 from exactacq.study.claims.model import (
     Case,
     Claim,
@@ -35,7 +35,7 @@ CLAIMS: tuple[Claim, ...] = (
     *(c for c in theorems.CLAIMS if c.name == "T1"),
     *spreader.CLAIMS,
     *(c for c in theorems.CLAIMS if c.name != "T1"),
-    *figures.CLAIMS,
+    *figure_claims.CLAIMS,
 )
 """All claims: on the Sightseer, on the Seed Spreader, on bounds and figures."""
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from functools import cmp_to_key
 
-from exactacq.auditing.measure import is_part
+from exactacq.auditing.comparisons import is_part
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.interval_union import Interval

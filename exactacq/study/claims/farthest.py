@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from exactacq.scene.scene import Scene, start_of
 from exactacq.strategies.run import SightseerRun
-from exactacq.strategies.sightseer.robot import Scout
+from exactacq.strategies.sightseer.robot import SightseerRobot
 from exactacq.strategies.sightseer.strategy import explored_by
 from exactacq.visibility.links import START, Link, Node
 
 
-class _FarSighted(Scout):
+class _FarSighted(SightseerRobot):
     """A scout that names the farthest unvisited obstacle where it is asked for the nearest."""
 
     def nearest_unvisited(self, node: Node) -> Link | None:

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
+from exactacq.auditing.comparisons import same
 from exactacq.auditing.ground import CrossingPoint, Field
-from exactacq.auditing.measure import same
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
 from exactacq.sensing.event import Event, EventKind, Occasion
-from exactacq.sensing.history import Memory
+from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Piece
 from exactacq.strategies.run import Diversion, Run
 from exactacq.study.claims.model import Case

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from exactacq.auditing.measure import same
+from exactacq.auditing.comparisons import same
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.sensing.event import EventKind

@@ -9,9 +9,9 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from exactacq.study.search.annealing import Budget, Search
     from exactacq.study.search.drafts import Draft
     from exactacq.study.search.goals import Goal, goal, goal_names
-    from exactacq.study.search.local import Budget, Search
     from exactacq.study.search.referee import Referee, Ruling
     from exactacq.study.search.shrinking import shrink
 

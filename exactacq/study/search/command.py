@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from exactacq.errors import FormatError
-from exactacq.strategies.choices import Strategy
+from exactacq.strategies.options import Strategy
 
 if TYPE_CHECKING:
+    from exactacq.study.search.annealing import Search
     from exactacq.study.search.goals import Goal
-    from exactacq.study.search.local import Search
     from exactacq.study.search.referee import Referee, Ruling
 
 SECONDS = 60.0
@@ -76,9 +76,9 @@ def search(
     from exactacq.files.load import load
     from exactacq.files.whole_files import FIGURES, TRACES, check_output
     from exactacq.study.claims.model import Subject
+    from exactacq.study.search.annealing import Budget, Search
     from exactacq.study.search.drafts import Draft
     from exactacq.study.search.goals import goal
-    from exactacq.study.search.local import Budget, Search
     from exactacq.study.search.moves import Rules
     from exactacq.study.search.referee import Referee
     from exactacq.study.search.shrinking import shrink
@@ -106,8 +106,8 @@ def search(
 
 def _found(hunt: Search, method: Method, seconds: float | None, steps: int | None) -> Ruling | None:
     """The best of one method, or of both, which then share the budget."""
-    from exactacq.study.search.blind import hypothesis_search
-    from exactacq.study.search.local import Budget
+    from exactacq.study.search.annealing import Budget
+    from exactacq.study.search.hypothesis_search import hypothesis_search
 
     methods = (Method.HYPOTHESIS, Method.LOCAL) if method is Method.BOTH else (method,)
     share = (1 - SHRINKING) / len(methods)

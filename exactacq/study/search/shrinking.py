@@ -8,8 +8,8 @@ from functools import partial
 from flint import fmpq
 
 from exactacq.scene.shapes import Loop
+from exactacq.study.search.annealing import Budget
 from exactacq.study.search.drafts import Draft
-from exactacq.study.search.local import Budget
 from exactacq.study.search.moves import Rules, rounded, without_vertex
 from exactacq.study.search.referee import Referee, Ruling
 

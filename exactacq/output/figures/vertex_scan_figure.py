@@ -21,7 +21,7 @@ from matplotlib.ticker import NullFormatter, NullLocator
 from exactacq.files.gallery import scene as gallery_scene
 from exactacq.numbers.length import Length
 from exactacq.output.figures.draw import HIT, INK, SOFT, STYLES, VIEW, dress
-from exactacq.output.strokes import Region, Steps
+from exactacq.output.regions import Region, Steps
 from exactacq.scene.scene import Scene
 from exactacq.sensing.path import Piece
 from exactacq.strategies.sightseer.strategy import sightseer

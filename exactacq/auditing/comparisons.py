@@ -6,6 +6,7 @@ Places that are not rational are compared at `DIGITS` digits: there a deviation 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from math import ceil, log2
 from typing import NamedTuple, TypeAlias
 
 from flint import arb, ctx, fmpq
@@ -18,9 +19,11 @@ from exactacq.sensing.event import Event
 from exactacq.strategies.run import Run
 
 DIGITS = 500
-"""Decimals to which lengths are re-added."""
-BITS = 2048
-"""First working precision: 500 decimals are 1661 bits, the rest covers cancellation."""
+"""Decimals to which lengths are re-added, and at least to which irrational places are compared."""
+SPARE = 256
+"""Bits that cover cancellation."""
+BITS = ceil(DIGITS * log2(10)) + SPARE
+"""First working precision."""
 
 
 class Track(NamedTuple):
@@ -89,7 +92,7 @@ def ball_sum(curves: Sequence[Curve]) -> arb:
 def agrees(length: Length, ball: arb) -> bool:
     """Whether a length and a ball agree to `DIGITS` decimals."""
     with ctx.workprec(BITS):
-        low, high = length.enclosure(BITS - 256)
+        low, high = length.enclosure(BITS - SPARE)
         return not (arb(high) < ball or arb(low) > ball)
 
 
@@ -104,7 +107,7 @@ def same(a: Point, b: Point) -> bool:
 
 
 def passes(curve: Curve, point: Point) -> bool:
-    """Whether a curve contains a point: exactly if it is rational, else to `DIGITS` digits."""
+    """Whether a curve contains a point: exactly if it is rational, else to `DIGITS` digits at least."""
     if point is curve.start or point is curve.end:
         return True
     return curve.passes(point) if point.rational else curve.may_pass(point, BITS)

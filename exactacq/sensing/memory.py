@@ -22,7 +22,7 @@ from exactacq.sensing.event import EventKind, Reason
 from exactacq.sensing.legs import Leg, legs_of, parts_of
 from exactacq.sensing.map import Body, Map
 from exactacq.sensing.path import Piece
-from exactacq.sensing.sensor import Ahead, Senses
+from exactacq.sensing.sensor import Ahead, Sensor
 from exactacq.sensing.targets import Targets
 from exactacq.visibility.sensor_range import Range
 
@@ -57,7 +57,7 @@ class Memory:
         self.bodies: Sequence[Body] = scene.obstacles if ground is None else ground.components
         range_ = Range(radius)
         targets = None if ground is None else Targets.of_components(ground.components, self._table, range_)
-        self._senses = Senses(self._table, range_, targets)
+        self._sensor = Sensor(self._table, range_, targets)
         self.reports: list[Report] = []
         # The parameters of the reports' places, and on which leg of the piece they are: numbers that families
         # share, so that ties with them are free.
@@ -82,11 +82,11 @@ class Memory:
     @property
     def seen(self) -> set[int]:
         """The obstacles of which some point is known by now."""
-        return self._senses.seen
+        return self._sensor.seen
 
     def begin(self, start: Point) -> list[Report]:
         """Look around at the start."""
-        notices, learned = self._senses.look_around(start)
+        notices, learned = self._sensor.look_around(start)
         self._learned.append(learned)
         return self._reported([Report(n.kind, n.obstacle, n.place, n.reason, 0, False) for n in notices])
 
@@ -97,8 +97,8 @@ class Memory:
         count, reports, retraced = len(self._legs), [], self._is_retraced(piece)
         learned: dict[int, Cover] = {}
         for k, leg in enumerate(legs):
-            took = ahead if ahead is not None and leg is ahead.leg else self._senses.ahead(leg, retraced)
-            notices, more = self._senses.follow(took)
+            took = ahead if ahead is not None and leg is ahead.leg else self._sensor.ahead(leg, retraced)
+            notices, more = self._sensor.follow(took)
             learned.update(more)
             for n in notices:
                 self._parameters[count, id(n.place)] = n.place, n.u, k
@@ -127,7 +127,7 @@ class Memory:
         owner = piece.obstacle
         if owner is not None and self.ground is not None:
             owner = self.ground.components[owner].obstacle.index
-        return legs_of(self._table, self._senses.rails, owner, piece.curve, piece.touches)
+        return legs_of(self._table, self._sensor.rails, owner, piece.curve, piece.touches)
 
     def parts(self, way: Segment) -> list[Segment]:
         """The parts of a straight way of which each is one leg (see `ahead`)."""
@@ -136,7 +136,7 @@ class Memory:
     def ahead(self, piece: Piece) -> Ahead:
         """What a straight piece will tell when it is walked next."""
         (leg,) = self._legs_of(piece)
-        self._looked = piece, self._senses.ahead(leg)
+        self._looked = piece, self._sensor.ahead(leg)
         return self._looked[1]
 
     def map_ahead(self, ahead: Ahead, u: Real, place: Point, obstacles: Set[int]) -> Map:
@@ -146,30 +146,30 @@ class Memory:
     def near(self, box: tuple[float, float, float, float]) -> set[int]:
         """The obstacles with an edge whose box is within the radius of a box."""
         x, y, right, top = box
-        return self._senses.targets.near(self._table.near((x, y), (right, top), float(self.radius)).tolist())
+        return self._sensor.targets.near(self._table.near((x, y), (right, top), float(self.radius)).tolist())
 
     def visible(self, place: Point, obstacle: int) -> list[Curve]:
         """What is in sight of an obstacle from a place; a single point is a piece without length."""
-        rails = self._senses.rails
+        rails = self._sensor.rails
         return [
             Segment(i.start, i.start) if i.low.compare(i.high) == 0 else rails[e].curve.part(i.start, i.end)
-            for e, i in self._senses.visible(place, obstacle)
+            for e, i in self._sensor.visible(place, obstacle)
         ]
 
     @property
     def now(self) -> Map:
         """The map as it is."""
-        return self._map(dict(self._senses.covers))
+        return self._map(dict(self._sensor.covers))
 
     @property
     def in_sight(self) -> Set[int]:
         """The obstacles in sight, acquired ones aside."""
-        return self._senses.in_sight
+        return self._sensor.in_sight
 
     @property
     def acquired(self) -> Set[int]:
         """The obstacles that are wholly known."""
-        return self._senses.acquired
+        return self._sensor.acquired
 
     def after(self, count: int) -> Map:
         """The map after the first *count* pieces."""
@@ -184,14 +184,14 @@ class Memory:
         reported = self._parameters.get((count, id(place)))
         for k, leg in enumerate(self._legs[count]):
             if reported is not None and k < reported[2]:
-                covers.update(self._senses.known_after(leg, covers))
+                covers.update(self._sensor.known_after(leg, covers))
                 continue
             u = leg.rail.parameter(place) if reported is None else reported[1]
             if leg.span.low.compare(u) <= 0 and leg.span.high.compare(u) >= 0:
                 if leg.order(u, leg.first) > 0:
-                    covers.update(self._senses.known_within(leg, leg.upto(u, place), covers))
+                    covers.update(self._sensor.known_within(leg, leg.upto(u, place), covers))
                 break
-            covers.update(self._senses.known_after(leg, covers))
+            covers.update(self._sensor.known_after(leg, covers))
         return self._map(covers)
 
     def _reported(self, reports: list[Report]) -> list[Report]:
@@ -205,4 +205,4 @@ class Memory:
         return covers
 
     def _map(self, covers: dict[int, Cover]) -> Map:
-        return Map(self.bodies, self._senses.targets, self._senses.rails, covers)
+        return Map(self.bodies, self._sensor.targets, self._sensor.rails, covers)

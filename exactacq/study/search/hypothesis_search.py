@@ -12,8 +12,8 @@ from flint import fmpq
 from exactacq.errors import FormatError
 from exactacq.scene.shapes import Circle, Polygon, Shape
 from exactacq.study.claims.model import Subject
+from exactacq.study.search.annealing import Budget, Search
 from exactacq.study.search.drafts import Draft, Seat
-from exactacq.study.search.local import Budget, Search
 from exactacq.study.search.moves import Rules
 
 if TYPE_CHECKING:
