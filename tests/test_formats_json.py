@@ -35,7 +35,7 @@ def described(scene: Scene) -> tuple[object, ...]:
 # -- reading ---------------------------------------------------------------------------------------
 
 
-def test_the_example_of_the_contract(tmp_path: Path) -> None:
+def test_the_example_of_the_documentation(tmp_path: Path) -> None:
     text = """{"start": [0, 0], "radius": "21/2", "terrain": {"width": 20, "height": 10}, "obstacles": [
         {"name": "O1", "boundary": [[2, -1], [4, -1, "1/2"], ["4", "1.25"], [2, 1]]},
         {"name": "O2", "circle": {"center": [8, 0], "radius": 2}}]}"""
