@@ -17,6 +17,7 @@ from exactacq.geometry.points import Location, distance_sq
 from exactacq.numbers.rationals import rational
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility import front_faces as faces
+from exactacq.visibility.sensor_range import Range
 from exactacq.visibility.visible_boundary import seen_from
 
 Q = Fraction
@@ -78,7 +79,7 @@ def holds(curve: Curve, piece: tuple[Point, Point], point: Point) -> bool:
 def check(scene: Scene, eye: Point, radius: object, rng: Random) -> None:
     """`seen_from` against brute force in sample points, vertices and the pieces' own ends."""
     table = EdgeTable(scene.obstacles)
-    seen = seen_from(table, eye, rational(radius))
+    seen = seen_from(table, eye, Range(rational(radius)))
 
     def reported(point: Point, edges: tuple[int, ...]) -> bool:
         return any(
@@ -130,7 +131,7 @@ def test_brute_force_agrees_from_algebraic_points(make: Callable[[Random], objec
     rng = Random(seed)
     scene = make(rng).scene()
     first = next(eyes(scene, rng))
-    pieces = seen_from(EdgeTable(scene.obstacles), first, rational(4)).values()
+    pieces = seen_from(EdgeTable(scene.obstacles), first, Range(rational(4))).values()
     ends = [end for spans in pieces for piece in spans for end in piece if end.rational is None]
     for eye in rng.sample(ends, min(2, len(ends))):
         check(scene, eye, rng.choice(RADII), rng)
@@ -146,10 +147,10 @@ def test_floats_only_prune(
     scene = make(rng).scene()
     table = EdgeTable(scene.obstacles)
     for eye in eyes(scene, rng):
-        fast = seen_from(table, eye, rational(4))
+        fast = seen_from(table, eye, Range(rational(4)))
         with monkeypatch.context() as patch:
             patch.setattr(faces, "SLACK", 2.0**52)
-            slow = seen_from(table, eye, rational(4))
+            slow = seen_from(table, eye, Range(rational(4)))
         assert fast.keys() == slow.keys()
         for e, pieces in fast.items():
             assert len(pieces) == len(slow[e])
@@ -163,7 +164,7 @@ def test_a_larger_range_sees_more(seed: int) -> None:
     scene = random_terrain(rng).scene()
     table = EdgeTable(scene.obstacles)
     for eye in eyes(scene, rng):
-        views = [seen_from(table, eye, rational(radius)) for radius in (2, 3, Q(9, 2))]
+        views = [seen_from(table, eye, Range(rational(radius))) for radius in (2, 3, Q(9, 2))]
         for less, more in pairwise(views):
             for e, pieces in less.items():
                 ends = (end for piece in pieces for end in piece)
