@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 __all__ = ["Budget", "Draft", "Goal", "Referee", "Ruling", "Search", "goal", "goal_names", "shrink"]
 
 _HOMES = {
-    "Budget": "local", "Draft": "drafts", "Goal": "goals", "Referee": "referee", "Ruling": "referee",
-    "Search": "local", "goal": "goals", "goal_names": "goals", "shrink": "shrinking",
+    "Budget": "annealing", "Draft": "drafts", "Goal": "goals", "Referee": "referee", "Ruling": "referee",
+    "Search": "annealing", "goal": "goals", "goal_names": "goals", "shrink": "shrinking",
 }  # fmt: skip
 """The files where the names live."""
 
