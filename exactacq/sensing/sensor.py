@@ -8,9 +8,12 @@ its two ends (see `view_families`). Only obstacles that are not acquired yet are
 from __future__ import annotations
 
 from collections import ChainMap
-from collections.abc import Iterator, Set
+from collections.abc import Iterable, Iterator, Sequence, Set
 from dataclasses import dataclass
 from functools import cmp_to_key
+from typing import TypeAlias
+
+from flint import fmpq
 
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.intersections import contacts
@@ -31,7 +34,13 @@ VIEWS_KEPT = 64
 """Views from ends of legs that are remembered: enough for a walk along one boundary and back."""
 
 
+BITS = 256
+"""Precision of the enclosures that part places."""
+
 ORDER = {kind: k for k, kind in enumerate(SENSED)}
+
+Place: TypeAlias = "tuple[Real, Point]"
+"""A place of a leg: its parameter on the rail, and the point."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -224,42 +233,51 @@ class Sensor:
         before = ChainMap(self._with_view(self._view(leg.start, leg.own(leg.first)), [k]), self.covers)
         if self.targets.is_whole(k, before):
             return Notice(EventKind.ACQUIRE, k, leg.first, leg.start)
-        _, around = self._closing(shares, leg, k, before, before)
+        _, around = self._closing(shares, self._moments(shares, leg, k, before), leg, k, before)
         late = self._until(shares, leg.upto(around.first, around.start), k, before)
-        moment, _ = self._closing(shares, around, k, late, before)
+        cluster, around = self._closing(shares, self._moments(shares, around, k, late), around, k, before)
+        # What balls cannot part is compared here, and only here; with an end of the leg too if it is close.
+        here = [u for u, _ in cluster]
+        for bound, side in ((leg.first, 1), (leg.last, -1)):
+            if any(u is bound for u in here):
+                cluster = [m for m in cluster if leg.order(m[0], bound) in (0, side)]
+        cluster.sort(key=lambda moment: moment[0], reverse=not leg.ahead)
+        distinct = [m for n, m in enumerate(cluster) if n == 0 or leg.order(m[0], cluster[n - 1][0]) > 0]
+        (moment,), _ = self._closing(shares, [[m] for m in distinct], around, k, before)
         return Notice(EventKind.ACQUIRE, k, *moment)
 
     def _closing(
-        self, shares: Shares, around: Leg, k: int, known: Covers, before: ChainMap[int, Cover]
-    ) -> tuple[tuple[Real, Point], Leg]:
-        """The first candidate on a part of a leg after which an obstacle is whole, and the way around it.
+        self, shares: Shares, clusters: list[list[Place]], around: Leg, k: int, before: ChainMap[int, Cover]
+    ) -> tuple[list[Place], Leg]:
+        """The first cluster of places on a part of a leg after which an obstacle is whole; the way around it.
 
-        *known* is what is known at the start of the part, *before* at the start of the leg.
+        The clusters are in the order of the leg. *before* is what is known at its start.
         """
-        leg, moments = shares.leg, self._moments(shares, around, k, known)
-        low, high = 0, len(moments) - 1
+        leg = shares.leg
+        low, high = 0, len(clusters) - 1
         begin, end = (around.first, around.start), (around.last, around.end)
         while low < high:
             middle = (low + high) // 2
-            one, other = moments[middle][0], moments[middle + 1][0]
-            u = rational_between(*((one, other) if leg.ahead else (other, one)))
+            u = _between(clusters[middle], clusters[middle + 1])
             place = leg.rail.point(u)
             if self.targets.is_whole(k, self._until(shares, leg.upto(Real(u), place), k, before)):
                 high, end = middle, (Real(u), place)
             else:
                 low, begin = middle + 1, (Real(u), place)
-        return moments[low], leg.between(begin, end)
+        return clusters[low], leg.between(begin, end)
 
     def _until(self, shares: Shares, leg: Leg, k: int, before: ChainMap[int, Cover]) -> ChainMap[int, Cover]:
         return ChainMap(shares.cut(leg, {k}).taught(before), *before.maps)
 
-    def _moments(self, shares: Shares, leg: Leg, k: int, known: Covers) -> list[tuple[Real, Point]]:
-        """The places of a part of a leg, in its order, at one of which the last gap closes.
+    def _moments(self, shares: Shares, leg: Leg, k: int, known: Covers) -> list[list[Place]]:
+        """The places of a part of a leg, in its order, at one of which the last gap closes; in clusters.
 
         There a family begins or ends, or what it shows reaches the end of a gap, or the end of a gap comes
-        into range, or the leg itself reaches it.
+        into range, or the leg itself reaches it. *known* is what is known at the start of the part. Places
+        that balls cannot part form a cluster: most are one place, found in several ways. The ends of the part
+        are in the first and in the last cluster.
         """
-        found: list[tuple[Real, Point]] = [(leg.first, leg.start), (leg.last, leg.end)]
+        found: list[Place] = [(leg.first, leg.start), (leg.last, leg.end)]
         for share in shares.of[k]:
             for end in (share.family.first, share.family.last):
                 found.append((end.places[share.side], end.points[share.side]))
@@ -272,14 +290,46 @@ class Sensor:
                     found += self._in_range(leg, point)
                     if e == leg.edge:
                         found.append((u, point))
-        inside: list[tuple[Real, Point]] = [
-            m for m in found if leg.order(m[0], leg.first) >= 0 and leg.order(m[0], leg.last) <= 0
-        ]
-        inside.sort(key=lambda moment: moment[0], reverse=not leg.ahead)
-        return [m for k, m in enumerate(inside) if k == 0 or leg.order(m[0], inside[k - 1][0]) > 0]
+        clusters = _clusters(found)
+        first, last = (
+            next(n for n, cluster in enumerate(clusters) if any(u is bound for u, _ in cluster))
+            for bound in (leg.span.low, leg.span.high)
+        )
+        inside = clusters[first : last + 1]
+        return inside if leg.ahead else inside[::-1]
 
     def _in_range(self, leg: Leg, point: Point) -> Iterator[tuple[Real, Point]]:
         """The places of a leg that are as far from a point as the range."""
         east = Point(point.x + self.range.radius, point.y)
         for contact in contacts(leg.curve, Arc(east, east, point, self.range.square, ccw=True, full=True)):
             yield leg.rail.parameter(contact.start), contact.start
+
+
+def _clusters(places: Iterable[Place]) -> list[list[Place]]:
+    """Places of a rail from low to high; those whose parameters balls do not part are together.
+
+    Within a cluster they are in the order in which they are given; a parameter that comes again is left out.
+    """
+    unique = {id(u): (u, place) for u, place in reversed(list(places))}
+    enclosed = [(u.enclosure(BITS), (u, place)) for u, place in reversed(unique.values())]
+    enclosed.sort(key=lambda item: item[0][0])
+    found: list[list[Place]] = []
+    reached: fmpq | None = None
+    for (low, high), place in enclosed:
+        if reached is not None and low <= reached:
+            found[-1].append(place)
+            reached = max(reached, high)
+        else:
+            found.append([place])
+            reached = high
+    return found
+
+
+def _between(one: Sequence[Place], other: Sequence[Place]) -> fmpq:
+    """A rational between two clusters; single places may be closer than balls part."""
+    if len(one) == len(other) == 1:
+        (low, _), (high, _) = sorted((*one, *other), key=lambda place: place[0])
+        return rational_between(low, high)
+    a, b = ([u.enclosure(BITS) for u, _ in cluster] for cluster in (one, other))
+    a, b = (a, b) if a[0] < b[0] else (b, a)
+    return rational_between(Real(max(high for _, high in a)), Real(min(low for low, _ in b)))

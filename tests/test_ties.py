@@ -1,0 +1,33 @@
+"""Explained cases: places of a run that are one, found in several ways, as symmetric drawings have them.
+
+When an obstacle becomes wholly known is decided among places at which some view begins or ends. Some of them
+are one place under two expressions, which no bound on heights can prove in reasonable time: drawings of laser
+parts ended in `Undecided` for ties that had nothing to do with the moment. Only the places near it count.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import exactacq as xa
+
+DATA = Path(__file__).parent / "data" / "undecided"
+WALKED = {5: "656.353119540", 14: "656.353119540", 20: "656.353119540", 30: "656.897193", 100: "656.897193"}
+"""The laser plate's path by the radius, as the runs that never were in doubt (5, 10 and 12) walk it."""
+
+
+@pytest.mark.parametrize("radius", WALKED)
+def test_a_symmetric_plate_of_laser_parts(radius: int) -> None:
+    scene = xa.load(DATA / "example009.dxf", layers=["plate"], start=(-19, 19))
+    run = xa.sightseer(scene, radius)
+    assert run.length.decimal(12).startswith(WALKED[radius]) and run.complete
+    xa.audit(run, samples=16)
+
+
+@pytest.mark.parametrize("name", ["arcs-1371", "arcs-3029", "arcs-3358"])
+def test_bulged_arcs_about_a_start(name: str) -> None:
+    run = xa.sightseer(xa.load(DATA / f"{name}.json"))
+    assert run.complete
+    xa.audit(run, samples=32)
