@@ -286,7 +286,7 @@ class Diversion:
 
     @cached_property
     def length(self) -> Length:
-        """|DQ|, the straight way there."""
+        """The length of the straight way from D to Q."""
         return Length(distance(self.leave, self.hit))
 
 
