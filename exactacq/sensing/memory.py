@@ -171,6 +171,11 @@ class Memory:
         """The obstacles that are wholly known."""
         return self._sensor.acquired
 
+    @property
+    def incomplete(self) -> Set[int]:
+        """The obstacles of which some, but not all, is known."""
+        return self._sensor.incomplete
+
     def after(self, count: int) -> Map:
         """The map after the first *count* pieces."""
         return self._map(self._covers(count))

@@ -56,7 +56,10 @@ class Notice:
 
 @dataclass(frozen=True)
 class Ahead:
-    """What a leg will tell: its reports in order, the covers that will grow, and those ``before`` it."""
+    """What a leg will show: its reports in order, the covers that will grow, and those ``before`` it.
+
+    The latter are the sensor's own: what is asked of them is asked before the leg is followed.
+    """
 
     leg: Leg
     notices: list[Notice]
@@ -87,6 +90,7 @@ class Sensor:
         self.covers: dict[int, Cover] = {}
         self.seen: set[int] = set()
         self.acquired: set[int] = set()
+        self.incomplete: set[int] = set()
         self.in_sight: set[int] = set()
         self._views: dict[int, Seen] = {}
         self._last: Shares | None = None
@@ -120,7 +124,7 @@ class Sensor:
         obstacles = self._near(leg) - self.acquired
         shares = self._shares(leg, obstacles) if obstacles else None
         told = ([], {}) if shares is None else self._told(shares, retraced)
-        return Ahead(leg, *told, shares, dict(self.covers))
+        return Ahead(leg, *told, shares, self.covers)
 
     def _told(self, shares: Shares, retraced: bool) -> tuple[list[Notice], dict[int, Cover]]:
         leg = shares.leg
@@ -171,11 +175,13 @@ class Sensor:
         for notice in notices:
             if notice.kind is EventKind.ACQUIRE:
                 self.acquired.add(notice.obstacle)
+                self.incomplete.discard(notice.obstacle)
                 self.in_sight.discard(notice.obstacle)
             elif notice.kind is EventKind.LOSE:
                 self.in_sight.discard(notice.obstacle)
             else:
                 self.seen.add(notice.obstacle)
+                self.incomplete.add(notice.obstacle)
                 self.in_sight.add(notice.obstacle)
         return notices, learned
 

@@ -31,7 +31,8 @@ class Robot:
         self._marks: list[Callable[..., Event]] = []
         self.start = self.position = start
         self.at: Node = START
-        self.visited: list[int] = []
+        # In the order of the visits: a dict is a set that keeps it.
+        self.visited: dict[int, None] = {}
         self.mark(EventKind.START, None)
         self._write(memory.begin(start))
 
@@ -62,7 +63,7 @@ class Robot:
         curves = self._boundary().loop(self.position)
         self._walk(curves)
         self.position = curves[-1].end
-        self.visited.append(self.at)
+        self.visited[self.at] = None
 
     def _boundary(self) -> Boundary:
         assert isinstance(self.at, int), "the robot is not at a boundary"

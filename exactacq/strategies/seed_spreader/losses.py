@@ -92,7 +92,7 @@ class Line:
         notices: dict[int, list[tuple[EventKind, Real, Point]]] = {}
         for notice in ahead.notices:
             notices.setdefault(notice.obstacle, []).append((notice.kind, notice.u, notice.place))
-        for k in sorted({*robot.map.incomplete, *notices}):
+        for k in sorted({*robot.incomplete, *notices}):
             begin = None if k in robot.in_sight else (leg.first, leg.start, False)
             for kind, u, place in notices.get(k, []):
                 if kind is EventKind.LOSE:
@@ -152,14 +152,14 @@ class Line:
 
     def at_end(self) -> list[Loss]:
         """What is lost where the line ends."""
-        chart = self.robot.map
-        return [Loss(k, Reason.LINE_ENDS) for k in chart.incomplete if self._is_at_stake(k, chart)]
+        chart, incomplete = self.robot.map, sorted(self.robot.incomplete)
+        return [Loss(k, Reason.LINE_ENDS) for k in incomplete if self._is_at_stake(k, chart)]
 
     def before_hop(self, leave: Point | None) -> list[Loss]:
         """What is lost on the hop around an obstacle to a leave point, None if it lies beyond the line."""
         robot, chart = self.robot, self.robot.map
         found = []
-        for k in chart.incomplete:
+        for k in sorted(robot.incomplete):
             if not self._is_at_stake(k, chart):
                 continue
             if leave is None:

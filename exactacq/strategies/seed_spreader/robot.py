@@ -67,6 +67,11 @@ class SeedSpreaderRobot(Robot):
         """The obstacles in sight that are not acquired."""
         return self._memory.in_sight
 
+    @property
+    def incomplete(self) -> Set[int]:
+        """The obstacles of which some, but not all, is known."""
+        return self._memory.incomplete
+
     def is_acquired(self, obstacle: int) -> bool:
         """Whether all of an obstacle is known."""
         return obstacle in self._memory.acquired

@@ -39,13 +39,12 @@ class SightseerRobot(Robot):
         """The shortest link (then the least index) from a visited node to an unvisited obstacle it sees."""
         if node in self._exhausted:
             return None
-        visited = set(self.visited)
         if node == START:
-            found = [link for j, link in self._links.from_point(self.start).items() if j not in visited]
+            found = [link for j, link in self._links.from_point(self.start).items() if j not in self.visited]
         else:
             assert isinstance(node, int)
-            assert node in visited, "a boundary shows its links only once it was walked all around"
-            found = self._best_first(node, visited)
+            assert node in self.visited, "a boundary shows its links only once it was walked all around"
+            found = self._best_first(node)
         best: Link | None = None
         for link in sorted(found, key=lambda link: link.target):
             if best is None or link.length < best.length:
@@ -63,10 +62,12 @@ class SightseerRobot(Robot):
         between = (self._links.between(node, j) for j in sorted(self._links.neighbours(node)))
         return [link for link in between if link is not None]
 
-    def _best_first(self, node: int, visited: set[int]) -> list[Link]:
+    def _best_first(self, node: int) -> list[Link]:
         """The links that can be the least: lower bounds decide which are computed."""
         bounds = self._links.lower_bounds(node)
-        near = sorted((j for j in self._links.neighbours(node) if j not in visited), key=lambda j: bounds[j])
+        near = sorted(
+            (j for j in self._links.neighbours(node) if j not in self.visited), key=lambda j: bounds[j]
+        )
         found: list[Link] = []
         least = float("inf")
         for j in near:
@@ -80,7 +81,7 @@ class SightseerRobot(Robot):
 
     def knows_unvisited(self) -> bool:
         """Whether an obstacle that was not visited is on the map."""
-        return not self._memory.seen <= set(self.visited)
+        return not self._memory.seen <= self.visited.keys()
 
     def unvisited(self) -> tuple[list[int], list[int]]:
         """The obstacles on the map that were not visited, and those that never came on the map."""
