@@ -10,7 +10,8 @@ import networkx as nx
 import numpy as np
 import pytest
 import shapely
-from oracles import GRAZE, Disc, Floats, Room, World, boundary_samples, world
+from oracles import GRAZE, Disc, Floats, Room, World, world
+from sampled_links import boundary_samples
 
 import exactacq as xa
 from exactacq.errors import FormatError

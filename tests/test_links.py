@@ -10,7 +10,8 @@ from random import Random
 import networkx as nx
 import pytest
 from hypothesis import given, settings
-from oracles import Disc, Room, ambiguous, free, free_sample_shorter, shortest_visible, world
+from oracles import Disc, Room, free, shortest_visible, world
+from sampled_links import ambiguous, free_sample_shorter
 from strategies import (
     EPS,
     POLYGONS,

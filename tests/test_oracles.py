@@ -11,18 +11,20 @@ from hypothesis import strategies as st
 from oracles import (
     Disc,
     Room,
-    ambiguous,
     arc_of,
     free,
     free_by_shapely,
-    free_sample_shorter,
     reverse_loop,
-    shortest_by_sampling,
     shortest_visible,
-    sightseer_order,
     signed_area,
-    visibility_weights,
     world,
+)
+from sampled_links import (
+    ambiguous,
+    free_sample_shorter,
+    shortest_by_sampling,
+    sightseer_order,
+    visibility_weights,
 )
 from strategies import (
     SIMILARITIES,

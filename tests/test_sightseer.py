@@ -13,7 +13,8 @@ import mpmath
 import networkx as nx
 import pytest
 from hypothesis import given, settings
-from oracles import Disc, Tour, ambiguous, reverse_loop, shortest_visible, sightseer_order, visibility_weights
+from oracles import Disc, reverse_loop, shortest_visible
+from sampled_links import Tour, ambiguous, sightseer_order, visibility_weights
 from strategies import (
     EPS,
     POLYGONS,
