@@ -90,8 +90,8 @@ class Robot:
 
     def _write(self, reports: list[Report]) -> None:
         for r in reports:
-            where = partial(Event, r.kind, r.place, r.obstacle, r.after, inside=r.inside)
-            self._marks.append(partial(where, reason=r.reason))
+            seen = r.kind, r.place, r.obstacle, r.after
+            self._marks.append(partial(Event, *seen, inside=r.inside, reason=r.reason))
 
     def trace(self) -> tuple[Path, tuple[Event, ...], Memory]:
         """The path, the events and the memory so far."""
