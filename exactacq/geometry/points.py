@@ -155,7 +155,7 @@ class Point:
             return NotImplemented
         if self is other:
             return True
-        if self.x.rational is None or other.x.rational is None:
+        if self.x.is_late or other.x.is_late or self.x.rational is None or other.x.rational is None:
             # Ordinates that clearly differ spare the proof that abscissas are equal.
             a, b = self.y.ball(64), other.y.ball(64)
             if a < b or a > b:

@@ -22,7 +22,7 @@ Beyond `ZERO_TEST_BITS` the zero test gives up with `Undecided`.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Mapping
+from collections.abc import Callable, Hashable, Iterable, Mapping
 from decimal import Decimal
 from fractions import Fraction
 from math import log2, prod
@@ -80,6 +80,10 @@ TRIAL_BITS = 1 << 16
 """Precision that is tried where the zero test would be too long: what is not zero shows long before."""
 TOWER_BITS = 1 << 12
 """Zero tests that would take more bits go by norms first (see `exactacq.numbers.norm_test`)."""
+LATE = 1
+"""The working bits of a number that is only a ball so far; no computed ball has so few."""
+LATE_BITS = 64
+"""Up to this precision a late number answers by the ball it came with."""
 EXPAND_TERMS = 64
 """A product of two radical sums is multiplied out up to this many terms."""
 
@@ -101,12 +105,13 @@ class Real(Exact):
     True
     """
 
-    __slots__ = ("_ball", "_bits", "_sign", "_terms", "rational")
+    __slots__ = ("_ball", "_bits", "_make", "_sign", "_terms", "rational")
 
     rational: fmpq | None
     """The value if the form is rational, else None (a hidden rational stays hidden). Not to be assigned."""
     _ball: arb
     _bits: int
+    _make: Callable[[], Real]
     _sign: int | None
     _terms: Mapping[Atom, fmpq]
 
@@ -127,6 +132,36 @@ class Real(Exact):
         return cls._form({atom: ONE})
 
     @classmethod
+    def late(cls, ball: arb, make: Callable[[], Real]) -> Real:
+        """The number that *make* gives, which lies in *ball*: made when more than the ball is asked for.
+
+        Signs and comparisons that the ball decides cost no arithmetic. *make* is called at most once.
+
+        >>> root = Real.late(arb(1.4, 0.1), lambda: Real(2).sqrt())
+        >>> root < 2, root * root
+        (True, Real('2'))
+        """
+        self = object.__new__(cls)
+        self._ball, self._bits, self._make, self._sign = ball, LATE, make, None
+        return self
+
+    @property
+    def is_late(self) -> bool:
+        """Whether the number is only a ball so far."""
+        return self._bits == LATE
+
+    def _made(self) -> None:
+        """Turn a late number into what it stands for."""
+        value = self._make()
+        rational = value.rational
+        self.rational, self._bits, self._sign = rational, value._bits, value._sign
+        if rational is None:
+            self._terms = value._terms
+        if self._bits:
+            self._ball = value._ball
+        del self._make
+
+    @classmethod
     def sum(cls, values: Iterable[Real]) -> Real:
         """The exact sum; linear in the number of terms.
 
@@ -140,7 +175,10 @@ class Real(Exact):
         return cls._form({a: c for a, c in terms.items() if c})
 
     def __getattr__(self, name: str) -> Any:
-        # Most rationals never need the form: it is made when it is first asked for.
+        # A late number is made when it is first looked into. Most rationals never need the form.
+        if name in ("rational", "_terms") and self._bits == LATE:
+            self._made()
+            return getattr(self, name)
         if name != "_terms":
             raise AttributeError(name)
         self._terms = {1: self.rational} if self.rational else {}
@@ -332,6 +370,8 @@ class Real(Exact):
         >>> (Real(2).sqrt() + Real(3).sqrt() - (5 + 2 * Real(6).sqrt()).sqrt()).sign()
         0
         """
+        if self._bits == LATE and (sign := ball_sign(self._ball)):
+            return sign
         if self.rational is not None:
             return int(self.rational > 0) - int(self.rational < 0)
         if self._sign is None:
@@ -398,6 +438,8 @@ class Real(Exact):
         1
         """
         if type(other) is Real:
+            if self._bits == LATE or other._bits == LATE:
+                return self._order(other)  # type: ignore[no-any-return]
             a, b = self.rational, other.rational
             if a is not None and b is not None:
                 return -1 if a < b else int(a != b)
@@ -407,6 +449,12 @@ class Real(Exact):
         return _coerce(other)
 
     def _against(self, right: Real) -> int:
+        if self._bits == LATE or right._bits == LATE:
+            left_ball, right_ball = self.ball(LATE_BITS), right.ball(LATE_BITS)
+            if left_ball < right_ball:
+                return -1
+            if left_ball > right_ball:
+                return 1
         if self.rational is not None and right.rational is not None:
             return -1 if self.rational < right.rational else int(self.rational != right.rational)
         left_ball, right_ball = self.ball(64), right.ball(64)
@@ -421,10 +469,15 @@ class Real(Exact):
 
     def clear_sign(self, bits: int) -> int:
         """The sign if a ball of *bits* working bits shows it, else 0; rationals show theirs."""
+        if self._bits == LATE and (sign := ball_sign(self._ball)):
+            return sign
         return self.sign() if self.rational is not None else ball_sign(self.ball(bits))
 
     def overlaps(self, other: Real) -> bool:
         """Whether two numbers may be equal: balls leave it open, or rationals are."""
+        late = self._bits == LATE or other._bits == LATE
+        if late and not self.ball(LATE_BITS).overlaps(other.ball(LATE_BITS)):
+            return False
         a, b = self.rational, other.rational
         if a is not None and b is not None:
             return bool(a == b)
@@ -446,13 +499,17 @@ class Real(Exact):
         >>> Real(2).sqrt().ball(64)
         [1.41421356237310 +/- 4.96e-15]
         """
-        if self._bits >= bits:
+        if self._bits >= bits or (self._bits == LATE and bits <= LATE_BITS):
             return self._ball
         with ctx.workprec(bits):
             return self.working_ball(bits)
 
     def working_ball(self, bits: int) -> arb:
         """An enclosing ball; the caller must have set the working precision to *bits*."""
+        if self._bits == LATE:
+            if bits <= LATE_BITS:
+                return self._ball
+            self._made()
         if self._bits < bits:
             if self.rational is not None:
                 ball = arb(self.rational)
@@ -482,6 +539,8 @@ class Real(Exact):
 
     def rough(self) -> float:
         """A float near the value: to draw or to sort, never to decide."""
+        if self._bits == LATE:
+            return float(self._ball.mid())
         return nearest_float(self.rational) if self.rational is not None else float(self.ball(64).mid())
 
     def decimal(self, digits: int) -> str:
