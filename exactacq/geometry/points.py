@@ -70,6 +70,11 @@ class Point:
         return None if x is None or y is None else (x, y)
 
     @property
+    def is_late(self) -> bool:
+        """Whether a coordinate is only a ball so far (see `Real.late`)."""
+        return self.x.is_late or self.y.is_late
+
+    @property
     def xy(self) -> tuple[float, float]:
         """The nearest floats: for drawing and pruning only."""
         return float(self.x), float(self.y)
@@ -155,7 +160,7 @@ class Point:
             return NotImplemented
         if self is other:
             return True
-        if self.x.is_late or other.x.is_late or self.x.rational is None or other.x.rational is None:
+        if self.is_late or other.is_late or self.x.rational is None or other.x.rational is None:
             # Ordinates that clearly differ spare the proof that abscissas are equal.
             a, b = self.y.ball(64), other.y.ball(64)
             if a < b or a > b:

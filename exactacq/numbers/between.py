@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import floor, frexp
 
-from flint import fmpq, fmpz
+from flint import arb, fmpq, fmpz
 
 from exactacq.numbers.rationals import nearest_float
 from exactacq.numbers.real import Real
@@ -12,6 +12,13 @@ from exactacq.numbers.real import Real
 
 def rational_between(low: Real, high: Real) -> fmpq:
     """A short rational strictly between two reals, near their middle; floats propose it where they can."""
+    if low.is_late or high.is_late:
+        left, right = low.ball(64), high.ball(64)
+        a, b = float(left.mid()) + float(left.rad()), float(right.mid()) - float(right.rad())
+        if b - a > 1e-9:
+            between = fmpq(*((a + b) / 2).as_integer_ratio())
+            if left < arb(between) < right:
+                return between
     first, last = low.rational, high.rational
     if first is not None and last is not None:
         a, b = nearest_float(first), nearest_float(last)

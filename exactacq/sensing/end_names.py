@@ -13,9 +13,10 @@ from functools import cached_property
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.interval_union import Interval
+from exactacq.geometry.late_points import Pin
 from exactacq.geometry.points import Point
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.sensing.view_families import End, FreeViews, Pin, ViewFamily
+from exactacq.sensing.view_families import End, FreeViews, ViewFamily
 from exactacq.visibility.sensor_range import Range
 from exactacq.visibility.visible_boundary import BoundaryView, Hold
 

@@ -21,6 +21,7 @@ from exactacq.geometry.coordinates import dot, minus, raw
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.interval_union import Cover
+from exactacq.geometry.late_points import Pin
 from exactacq.geometry.points import Point
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
@@ -29,7 +30,7 @@ from exactacq.sensing.complex_edges import LineFamily, SingleLine
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.legs import Leg
 from exactacq.sensing.side_filter import Sides, rough
-from exactacq.sensing.view_families import End, FreeViews, Pin, Role, Side, ViewFamily
+from exactacq.sensing.view_families import End, FreeViews, Role, Side, ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.visibility.chords import meet
 from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes

@@ -15,6 +15,7 @@ from typing import TypeAlias
 
 from exactacq.errors import Undecided
 from exactacq.geometry.interval_union import EMPTY, Cover, Interval
+from exactacq.geometry.late_points import Pin
 from exactacq.geometry.points import Point
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
@@ -23,7 +24,7 @@ from exactacq.sensing.end_names import Seen
 from exactacq.sensing.free_way import WayViews
 from exactacq.sensing.legs import Leg
 from exactacq.sensing.targets import Targets
-from exactacq.sensing.view_families import End, FamilyClipper, Pin, ViewFamily
+from exactacq.sensing.view_families import End, FamilyClipper, ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
 
 Covers: TypeAlias = "Mapping[int, Cover]"

@@ -18,7 +18,7 @@ from enum import IntEnum
 from functools import cmp_to_key, partial
 from itertools import pairwise
 from math import hypot
-from typing import Any, TypeAlias, TypeGuard
+from typing import Any, TypeGuard
 
 from flint import fmpq
 
@@ -28,11 +28,13 @@ from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import contacts, line_contacts
 from exactacq.geometry.interval_union import Interval
+from exactacq.geometry.late_points import Pin, late_pin
 from exactacq.geometry.points import Point, distance_sq
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
 from exactacq.sensing.view_length import of_length_on
 from exactacq.visibility.chords import meet, of_length
+from exactacq.visibility.line_balls import CurveBalls, line
 from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes
 from exactacq.visibility.line_names import Anchor, Names
 from exactacq.visibility.rotational_sweep import Passed
@@ -42,10 +44,6 @@ SURE = 1e-9
 """Relative margin beyond which floats decide on the range; round-off is far below."""
 BITS = 128
 """Precision of the balls that tell a short way from a long proof."""
-
-
-Pin: TypeAlias = "tuple[Point, Real]"
-"""A point of an edge with its parameter."""
 
 
 class Role(IntEnum):
@@ -123,6 +121,7 @@ class FamilyClipper:
     def __init__(self, rails: list[Rail], range_: Range, roundoff: float, circles: Mapping[int, int]) -> None:
         self.rails, self.range, self.roundoff, self.circles = rails, range_, roundoff, circles
         self._pins: MutableMapping[tuple[Hashable, int, int], Pin] = {}
+        self._balls: dict[int, CurveBalls] = {}
         self._touched: set[Hashable] = set()
 
     def with_way(self, way: Rail, touches: Collection[Any] = ()) -> FamilyClipper:
@@ -132,6 +131,7 @@ class FamilyClipper:
             [*self.rails, way], self.range, max(self.roundoff, 2.0**-50 * extent), self.circles
         )
         clipper._pins = ChainMap({}, self._pins)
+        clipper._balls = self._balls.copy()
         arcs = [self.curve(name[1]) for name in touches if name[0] == "circle"]
         clipper._touched = {(*raw(arc.center), arc.radius_sq) for arc in arcs if isinstance(arc, Arc)}
         return clipper
@@ -228,13 +228,46 @@ class FamilyClipper:
         for key in keys:
             if key in self._pins:
                 return self._pins[key]
+        pin = self._late_pin(sector, t, side, passed)
+        self._pins.update((key, pin) for key in keys)
+        return pin
+
+    def _late_pin(self, sector: Sector, t: Real, side: Side, passed: Passed) -> Pin:
+        """Where a line meets an edge: a corner if it is one, else a place that is made when it is read."""
+        curve = self.curve(side.edge)
+        if side.role is Role.CONTACT and side.fixed:
+            return curve.start, self.rails[side.edge].parameter(curve.start)
+        make = partial(self._exact_pin, sector, t, side, passed)
+        at = line(sector, t.ball(64))
+        if side.role is Role.CONTACT:
+            spot = self.balls(side.edge).place(*at[:2])
+        elif any(self._is_at(number, touching, side.edge) for number, touching, _ in passed):
+            return make()
+        else:
+            met = self.balls(side.edge).met(at, side.role)
+            spot = None if met is None else met[1]
+        return make() if spot is None else late_pin(spot, make)
+
+    def balls(self, e: int) -> CurveBalls:
+        """The curve of a number in balls."""
+        if e not in self._balls:
+            self._balls[e] = CurveBalls(self.curve(e))
+        return self._balls[e]
+
+    def _is_at(self, number: int, touching: int, edge: int) -> bool:
+        """Whether what a line passes may be its place on an edge: an end of the edge, or the edge itself."""
+        curve = self.curve(edge)
+        vertex = self.curve(number).start
+        return number == edge or (
+            not touching and vertex.rational in (curve.start.rational, curve.end.rational)
+        )
+
+    def _exact_pin(self, sector: Sector, t: Real, side: Side, passed: Passed) -> Pin:
         contact, direction = sector.touch(t)
         point = self._passed(side, contact, direction, passed)
         if point is None:
             point = self._point(sector, side, contact, direction)
-        pin = point, self.rails[side.edge].parameter(point)
-        self._pins.update((key, pin) for key in keys)
-        return pin
+        return point, self.rails[side.edge].parameter(point)
 
     def _touches(self, name: Any, edge: int) -> bool:
         """Whether a named line touches an edge's circle: then it meets the edge at the contact."""
@@ -392,10 +425,11 @@ class FamilyClipper:
         Sides are hulls of their extreme points, widened by the sagitta of arcs.
         """
         hulls = [
-            (low.points[k].xy, high.points[k].xy, self._sagitta(free_views, k, low, high)) for k in (0, 1)
+            (_rough(low.points[k]), _rough(high.points[k]), self._sagitta(free_views, k, low, high))
+            for k in (0, 1)
         ]
         (a, b, wide), (c, d, far) = hulls
-        slack = wide + far + 64 * self.roundoff
+        slack = wide + far + 64 * self.roundoff + a[2] + b[2] + c[2] + d[2]
         longest = max(hypot(p[0] - q[0], p[1] - q[1]) for p in (a, b) for q in (c, d))
         if (longest + slack) * (1 + SURE) < self.range.below:
             return True
@@ -412,8 +446,8 @@ class FamilyClipper:
         radius = float(curve.radius)
         if isinstance(free_views.sector, Rolling | Sliding):
             return 2 * radius
-        (ax, ay), (bx, by) = low.points[k].xy, high.points[k].xy
-        return min(((ax - bx) ** 2 + (ay - by) ** 2) / (4 * radius) * (1 + SURE) * 2, radius)
+        (ax, ay, a), (bx, by, b) = _rough(low.points[k]), _rough(high.points[k])
+        return a + b + min(((ax - bx) ** 2 + (ay - by) ** 2) / (4 * radius) * (1 + SURE) * 2, radius)
 
     # -- where a family meets the range --------------------------------------------------------------
 
@@ -475,6 +509,13 @@ class FamilyClipper:
             away: Real = radius + self.range.radius if sector.outward else radius - self.range.radius
             return away * away
         return Real(self.range.square)
+
+
+def _rough(point: Point) -> tuple[float, float, float]:
+    """A point in floats, with a bound of the error of both coordinates together."""
+    x, y = point.x.ball(64), point.y.ball(64)
+    a, b = float(x.mid()), float(y.mid())
+    return a, b, (float(x.rad()) + float(y.rad()) + 2.0**-52 * (abs(a) + abs(b))) * (1 + SURE)
 
 
 def _along_normal(

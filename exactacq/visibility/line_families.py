@@ -22,7 +22,7 @@ from math import hypot
 from typing import Any, TypeAlias
 
 import numpy as np
-from flint import fmpq
+from flint import arb, fmpq
 
 from exactacq.geometry.coordinates import cross, dot, sign
 from exactacq.geometry.points import Point
@@ -61,6 +61,12 @@ class Sector(ABC):
     def unit(self) -> Floats:
         """Direction of the base vector in floats."""
         return np.array((float(self.base[0]), float(self.base[1]))) / self.size
+
+    @cached_property
+    def balls(self) -> tuple[arb, arb, arb, arb]:
+        """Centre and base vector in balls."""
+        x, y, ex, ey = (v.ball(64) if isinstance(v, Real) else arb(v) for v in (*self.center, *self.base))
+        return x, y, ex, ey
 
     @property
     def extent(self) -> float:

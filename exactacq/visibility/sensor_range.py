@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from flint import fmpq
+from flint import arb, fmpq
 
 from exactacq.geometry.points import Point, distance_sq
+
+BITS = 64
+"""Precision of the balls that tell most distances from the radius."""
 
 
 class Range:
@@ -21,4 +24,9 @@ class Range:
 
     def order(self, a: Point, b: Point) -> int:
         """-1, 0 or 1 as two points are closer than the radius, at its distance, or farther."""
+        if a.is_late or b.is_late or a.rational is None or b.rational is None:
+            x, y = a.x.ball(BITS) - b.x.ball(BITS), a.y.ball(BITS) - b.y.ball(BITS)
+            excess = x * x + y * y - arb(self.square)
+            if excess > 0 or excess < 0:
+                return 1 if excess > 0 else -1
         return distance_sq(a, b).compare(self.square)
