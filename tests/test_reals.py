@@ -18,7 +18,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from exactacq.errors import FormatError, Undecided
-from exactacq.numbers import real as reals
+from exactacq.numbers import sign
 from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import Real, roots
 
@@ -368,11 +368,11 @@ def test_roots_satisfy_their_polynomial() -> None:
 
 
 def test_undecided_names_the_number(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(reals, "ZERO_TEST_BITS", 300)
-    monkeypatch.setattr(reals, "TRIAL_BITS", 300)
+    monkeypatch.setattr(sign, "ZERO_TEST_BITS", 300)
+    monkeypatch.setattr(sign, "TRIAL_BITS", 300)
     left = ((sqrt(2) + sqrt(7)) ** 2 * (sqrt(3) + 1)).sqrt()
     right = (sqrt(2) + sqrt(7)) * (sqrt(3) + 1).sqrt()
-    monkeypatch.setattr(reals, "TRIAL_BITS", 300)
+    monkeypatch.setattr(sign, "TRIAL_BITS", 300)
     with pytest.raises(Undecided, match=r"sign of .*more than 300"):
         (left - right).sign()
     monkeypatch.undo()

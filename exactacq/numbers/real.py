@@ -25,12 +25,11 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterable, Mapping
 from decimal import Decimal
 from fractions import Fraction
-from math import log2, prod
+from math import log2
 from typing import TYPE_CHECKING, Any
 
 from flint import arb, ctx, fmpq, fmpq_poly, fmpz, fmpz_poly
 
-from exactacq.errors import Undecided
 from exactacq.numbers.atoms import (
     Atom,
     Generators,
@@ -50,12 +49,10 @@ from exactacq.numbers.linear_forms import (
     field_of,
     irreducible_roots,
     is_surd,
-    merged,
     plus,
     polynomial,
     square_root,
 )
-from exactacq.numbers.norm_test import vanishes
 from exactacq.numbers.rationals import (
     ball_sign,
     decimal_string,
@@ -65,21 +62,13 @@ from exactacq.numbers.rationals import (
     round_to_float,
     sympy_rational,
 )
-from exactacq.numbers.transcendental import generic_in, sign_at
+from exactacq.numbers.sign import FILTER_BITS, ZERO_TEST_BITS, decided_sign
 
 if TYPE_CHECKING:
     import sympy
 
 __all__ = ["FILTER_BITS", "ZERO_TEST_BITS", "Real", "fmpq", "rational", "real", "roots"]
 
-FILTER_BITS = (64, 128, 256)
-"""Precisions of the balls that are tried before the zero test: most signs show at the first."""
-ZERO_TEST_BITS = 1 << 23
-"""Largest precision of the zero test: there an operation takes about a tenth of a second."""
-TRIAL_BITS = 1 << 16
-"""Precision that is tried where the zero test would be too long: what is not zero shows long before."""
-TOWER_BITS = 1 << 12
-"""Zero tests that would take more bits go by norms first (see `exactacq.numbers.norm_test`)."""
 LATE = 1
 """The working bits of a number that is only a ball so far; no computed ball has so few."""
 LATE_BITS = 64
@@ -375,41 +364,8 @@ class Real(Exact):
         if self.rational is not None:
             return int(self.rational > 0) - int(self.rational < 0)
         if self._sign is None:
-            self._sign = self._decide_sign()
+            self._sign = decided_sign(self)
         return self._sign
-
-    def _decide_sign(self) -> int:
-        for bits in FILTER_BITS:
-            if sign := ball_sign(self.ball(bits)):
-                return sign
-        if is_surd(self._terms):
-            fewer = merged(self._terms)
-            if len(fewer) < len(self._terms):
-                return Real._form(fewer).sign()
-        elif (tau := generic_in(self)) is not None:
-            return sign_at(self, tau)
-        elif field_of(self._terms) is None:
-            limit = self._separation_bits()
-            zero = vanishes(self) if limit > TOWER_BITS else None
-            if zero:
-                return 0
-            bits = 2 * FILTER_BITS[-1]
-            while zero is None:
-                ball = self.ball(bits)
-                if sign := ball_sign(ball):
-                    return sign
-                if ball.abs_upper() < arb(2) ** -limit:
-                    return 0
-                if limit > ZERO_TEST_BITS and bits >= TRIAL_BITS:
-                    raise Undecided(
-                        f"sign of {decimal_string(self.ball, 20)}...: excluding 0 would take {limit} bits, "
-                        f"more than {ZERO_TEST_BITS}"
-                    )
-                bits = min(2 * bits, limit + limit // 4 + 4096) if bits < limit else 2 * bits
-        bits = 2 * FILTER_BITS[-1]
-        while not (sign := ball_sign(self.ball(bits))):
-            bits *= 2
-        return sign
 
     def height_bound(self) -> float:
         """Upper bound of the absolute logarithmic height, base 2 (Waldschmidt, section 3.2)."""
@@ -423,11 +379,6 @@ class Real(Exact):
         if self.rational is not None:
             return frozenset()
         return frozenset().union(*(atom_generators(a) for a in self._terms))
-
-    def _separation_bits(self) -> int:
-        """If the value is not 0, its absolute value is at least 2 to the minus this (stage 3)."""
-        degree = prod(d for _, d in self.generators())
-        return int(min(degree, 1 << 60) * (self.height_bound() + 1)) + 8
 
     def compare(self, other: object) -> int:
         """-1, 0 or 1 as self is less than, equal to or greater than *other*, which may be infinite.

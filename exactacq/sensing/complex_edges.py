@@ -11,21 +11,24 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
-from flint import fmpq
+from flint import arb, fmpq
 
 from exactacq.geometry.coordinates import Vector, cross, dot, minus, raw
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Curve, Segment
+from exactacq.geometry.late_points import Pin, late_pin
 from exactacq.geometry.points import Point, distance_sq
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
+from exactacq.sensing.line_images import EVERYTHING, NOTHING, EndNames, Extent, Image, LineImages
 from exactacq.sensing.side_filter import Sides
 from exactacq.sensing.view_families import FamilyClipper, FreeViews, Role, Side, ViewFamily
 from exactacq.visibility.chords import meet
 from exactacq.visibility.features import Feature, features, leaving
 from exactacq.visibility.free_segment import walk_line
+from exactacq.visibility.line_balls import line
 from exactacq.visibility.line_families import Sector, Sliding, Spokes, corner_sectors, quarters
 from exactacq.visibility.line_names import Anchor, Namer, Names
 from exactacq.visibility.rotational_sweep import Cell, Passed, Pencil, pencil
@@ -53,6 +56,8 @@ class LineFamily:
     names: tuple[Names, Names] = ((), ())
     passed: tuple[Passed, Passed] = ((), ())
     _bundles: tuple[Bundle, ...] | None = None
+    _image: Image | None = None
+    _is_imaged: bool = False
 
     @property
     def sides(self) -> list[Side]:
@@ -62,8 +67,26 @@ class LineFamily:
     def bundles(self) -> tuple[Bundle, ...]:
         """The families of its free views; made at the first call, as most line families are never asked."""
         if self._bundles is None:
-            self._bundles = tuple(Bundle(free_views.sides, free_views) for free_views in self.free_views())
+            self._bundles = tuple(
+                Bundle(free_views.sides, free_views, self) for free_views in self.free_views()
+            )
         return self._bundles
+
+    @property
+    def end_names(self) -> EndNames:
+        """What its first and last line are called: by what else they touch, or as this family's."""
+        first, last = (
+            [name for name, _ in names] or [(id(self.sector), id(t))]
+            for names, t in zip(self.names, (self.low, self.high), strict=True)
+        )
+        return first, last
+
+    def image(self, images: LineImages) -> Image | None:
+        """The family in floats; None if these cannot tell where it ends."""
+        if not self._is_imaged:
+            ends = self.low, self.high
+            self._image, self._is_imaged = images.of(self.sector, ends, self.passed, self.sides), True
+        return self._image
 
     def free_views(self) -> Iterator[FreeViews]:
         """The families of views between any two of the three."""
@@ -88,29 +111,60 @@ class LineFamily:
 class SingleLine:
     """A single line: from ``place`` it shows edge ``shown`` from one point of a run to the other.
 
-    The place lies on edge ``edge``, or in free space within reach (None); what lies between sees the run too.
+    The place lies on edge ``edge``, with parameter ``u`` if known, or in free space within reach (None);
+    what lies between sees the run too.
     """
 
     place: Point
     edge: int | None
     run: tuple[Point, Point]
     shown: int
+    u: Real | None = None
+
+    @property
+    def line(self) -> tuple[Point, Point]:
+        """Two points of the line, of the scene's if possible."""
+        return self.run if self.run[0] is not self.run[1] else (self.place, self.run[0])
+
+    def families(self, clipper: FamilyClipper) -> list[ViewFamily]:
+        """The views from the place, within range; it lies on an edge."""
+        assert self.edge is not None, "a place in free space is on no edge"
+        u = clipper.rails[self.edge].parameter(self.place) if self.u is None else self.u
+        ends = clipper.along((self.place, u), self.run, self.shown)
+        return [ViewFamily((self.edge, self.shown), *end) for end in ends]
 
 
 class Bundle:
     """The parts of one family of free views within range, found when they are first asked for."""
 
-    __slots__ = ("_source", "sides")
+    __slots__ = ("_lines", "_source", "sides")
 
-    def __init__(self, sides: tuple[Side, Side], source: FreeViews | list[ViewFamily]) -> None:
+    def __init__(
+        self,
+        sides: tuple[Side, Side],
+        source: FreeViews | SingleLine | list[ViewFamily],
+        line_family: LineFamily | None = None,
+    ) -> None:
         self.sides = sides
-        self._source = source
+        self._source, self._lines = source, line_family
 
     def families(self, clipper: FamilyClipper) -> list[ViewFamily]:
         """The families within range."""
         if isinstance(self._source, FreeViews):
             self._source = clipper.families(self._source)
+        elif isinstance(self._source, SingleLine):
+            self._source = self._source.families(clipper)
         return self._source
+
+    def seen(self, side: int, images: LineImages) -> Extent | None:
+        """What is seen from one side of the other, in floats; None if these cannot tell."""
+        if self._lines is None:
+            return Extent(self.sides[1 - side].edge, EVERYTHING, EVERYTHING, NOTHING)
+        image = self._lines.image(images)
+        if image is None:
+            return None
+        here, there = self.sides[side], self.sides[1 - side]
+        return images.seen(self._lines.sector, image, here, there, self._lines.end_names)
 
 
 class FeatureFamilies:
@@ -155,7 +209,7 @@ class FeatureFamilies:
     @cached_property
     def single_line_sides(self) -> Sides:
         """The lines of the single lines as `Sides`."""
-        return Sides.of_lines([(single.place, single.run[0]) for single in self.single_lines])
+        return Sides.of_lines([single.line for single in self.single_lines])
 
 
 class FamilySweeper:
@@ -190,11 +244,10 @@ class FamilySweeper:
         """Line families and single lines, and what the single lines show to edges."""
         line_families, single_lines = tuple(line_families), tuple(single_lines)
         bundles: list[Bundle] = []
-        for line in single_lines:
-            if line.edge is not None:
-                ends = self.clipper.along(line.place, self.clipper.rails[line.edge], line.run, line.shown)
-                sides = Side(line.edge, Role.CONTACT), Side(line.shown, Role.AHEAD)
-                bundles.append(Bundle(sides, [ViewFamily((line.edge, line.shown), *end) for end in ends]))
+        for single in single_lines:
+            if single.edge is not None:
+                sides = Side(single.edge, Role.CONTACT), Side(single.shown, Role.AHEAD)
+                bundles.append(Bundle(sides, single))
         return FeatureFamilies(line_families, single_lines, bundles)
 
     # -- the families ------------------------------------------------------------------------------
@@ -253,18 +306,36 @@ class FamilySweeper:
             if not isinstance(edge, Segment):
                 continue
             t, passed = (cell.low, cell.bounds[0]) if ahead else (cell.high, cell.bounds[1])
-            contact, direction = sweep.sector.touch(t)
-            if not ahead:
-                direction = -direction
-            far = None if met is None else meet(contact, direction, self.table.curves[met], 1)
             if any(side or number not in (e, self.table.next[e]) for number, side, _ in passed):
                 # The line grazes what may block its neighbours: it goes on by itself.
                 walk = walk_line(self.table, sweep.sector, t, self.range.above)[ahead]
-                far, met = (abs(walk.hits[-1][0]), walk.hits[-1][1]) if walk.blocked else (None, None)
-            if far is None:
-                far = self.range.radius / direction.norm_sq().sqrt()
-            place = contact + direction * far
-            yield SingleLine(place, met, (edge.end, edge.start) if ahead else (edge.start, edge.end), e)
+                met = walk.hits[-1][1] if walk.blocked else None
+            place, u = self._reached(sweep.sector, t, Role.AHEAD if ahead else Role.BEHIND, met)
+            run = (edge.end, edge.start) if ahead else (edge.start, edge.end)
+            yield SingleLine(place, met, run, e, u)
+
+    def _reached(self, sector: Sector, t: Real, role: Role, met: int | None) -> tuple[Point, Real | None]:
+        """Where a line that touches a feature meets an edge, or is as long as the range if it meets none."""
+        x, y, dx, dy = at = line(sector, t.ball(64))
+        make = partial(self._reached_exactly, sector, t, role, met)
+        if met is None:
+            away = role * arb(self.range.radius) / (dx * dx + dy * dy).sqrt()
+            spot = x + dx * away, y + dy * away, arb(0)
+        else:
+            hit = self.clipper.balls(met).met(at, role)
+            if hit is None:
+                return make()
+            _, spot = hit
+        place, u = late_pin(spot, make)
+        return place, None if met is None else u
+
+    def _reached_exactly(self, sector: Sector, t: Real, role: Role, met: int | None) -> Pin:
+        contact, direction = sector.touch(t)
+        direction = direction * int(role)
+        if met is None:
+            return contact + direction * (self.range.radius / direction.norm_sq().sqrt()), Real(0)
+        place = contact + direction * meet(contact, direction, self.table.curves[met], 1)
+        return place, self.clipper.rails[met].parameter(place)
 
     def _beside(self, feature: Feature) -> tuple[int, int]:
         """The edges into and out of a feature; an arc's neighbours only where they go on in its direction.

@@ -8,10 +8,10 @@ of the piece; each part then crosses the piece in all its lines or in none.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import cmp_to_key
-from itertools import pairwise
-from math import hypot
+from itertools import compress, pairwise
+from math import hypot, inf
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -23,23 +23,32 @@ from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.interval_union import Cover
 from exactacq.geometry.late_points import Pin
 from exactacq.geometry.points import Point
+from exactacq.kernel import lines
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.complex_edges import LineFamily, SingleLine
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.legs import Leg
+from exactacq.sensing.line_images import SURE, EdgePlace, Extent, Image, bounds, sight
 from exactacq.sensing.side_filter import Sides, rough
 from exactacq.sensing.view_families import End, FreeViews, Role, Side, ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.visibility.chords import meet
 from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes
 from exactacq.visibility.line_names import Names
-from exactacq.visibility.rotational_sweep import pencil
+from exactacq.visibility.rotational_sweep import Passed, pencil
 
 Cut: TypeAlias = "tuple[Real, Pin | None, Names]"
 """A parameter where a line family is cut, the point of the way there, and the names of the line."""
 
+Crossing: TypeAlias = "tuple[LineFamily, bool, frozenset[int]]"
+"""A line family that may cross the way, True if all its lines do, and the edges that are to be shown."""
+Matter: TypeAlias = "Callable[[Sequence[Extent | None]], list[bool]]"
+"""Tells which families matter (see `FamilyFilter.matter`)."""
+
+STEPS = 24
+"""How often an interval of lines is halved to find one that crosses the way."""
 BITS = 256
 """Precision of the balls that propose ties."""
 
@@ -66,16 +75,22 @@ class WayViews:
         self.clipper = complex_.clipper.with_way(rail, leg.touches)
         self.way = len(self.clipper.rails) - 1
         self.slack = 256 * self.clipper.roundoff
+        start, along = self.line.start, self.line.end - self.line.start
+        self.image = (*rough(start), *rough(along))
+        self.ends = [leg.span.start.rational, leg.span.end.rational]
+        self.low, self.high = (bounds(u, None) for u in (leg.span.low, leg.span.high))
         self._through: dict[int, tuple[Sector, list[tuple[Pin, list[Real]]]]] = {}
 
-    def families(self) -> Iterator[ViewFamily]:
-        """All families at wanted edges whose first side lies on the way."""
+    def families(self, matter: Matter | None = None) -> Iterator[ViewFamily]:
+        """All families at wanted edges whose first side lies on the way, or those that *matter*."""
         (ax, ay), (bx, by) = self.places
         box = np.array((min(ax, bx), min(ay, by), max(ax, bx), max(ay, by)))
         families = list(self.complex.near(box, self.wanted))
         line_families = [line_family for feature in families for line_family in feature.line_families]
-        for k, certain in self._crossing(Sides.joined([feature.sides for feature in families])):
-            yield from self._across(line_families[k], certain)
+        crossing = self._crossing(Sides.joined([feature.sides for feature in families]))
+        found = [(line_families[k], certain, self.wanted) for k, certain in crossing]
+        for line_family, certain, wanted in found if matter is None else self._mattering(found, matter):
+            yield from self._across(line_family, certain, wanted)
         single_lines = [single for feature in families for single in feature.single_lines]
         for k, _ in self._crossing(Sides.joined([feature.single_line_sides for feature in families])):
             if single_lines[k].shown in self.wanted:
@@ -89,9 +104,113 @@ class WayViews:
         for k in np.flatnonzero((one != other) | (one == 0)).tolist():
             yield k, bool(one[k] and other[k])
 
-    def _across(self, line_family: LineFamily, certain: bool) -> Iterator[ViewFamily]:
+    def _mattering(self, found: list[Crossing], matter: Matter) -> Iterator[Crossing]:
+        """The line families that matter, each with the edges for which it does."""
+        asked: list[tuple[int, Side]] = []
+        seen: list[Extent | None] = []
+        for n, (line_family, _, _) in enumerate(found):
+            for side, one in self._seen(line_family):
+                asked.append((n, side))
+                seen.append(one)
+        edges: dict[int, set[int]] = {}
+        for n, side in compress(asked, matter(seen)):
+            edges.setdefault(n, set()).add(side.edge)
+        for n, wanted in edges.items():
+            yield (*found[n][:2], frozenset(wanted))
+
+    def _seen(self, line_family: LineFamily) -> Iterator[tuple[Side, Extent | None]]:
+        """The sides that a line family may show, and what floats tell of them."""
+        if not line_family.sector.round and line_family.sector.center in self.ends:
+            # All lines pass an end of the way and meet its line nowhere else: the view from there tells.
+            return
+        images, wanted = self.complex.images, [s for s in line_family.sides if s.edge in self.wanted]
+        image = line_family.image(images) if wanted else None
+        source = None if image is None else self._source(line_family, image)
+        if image is None or source is None:
+            yield from ((side, None) for side in wanted)
+            return
+        role, spots = source
+        if role is None:
+            return
+        for side in self._shown(line_family, role, self.wanted):
+            shown = image.spots[side.role]
+            slack = images.slack(line_family.sector, side, shown) + 2 * (spots[0].error + spots[1].error)
+            names = line_family.end_names
+            yield side, sight(self.complex.range, side.edge, spots, shown, slack, names)
+
+    def _source(
+        self, line_family: LineFamily, image: Image
+    ) -> tuple[Role | None, tuple[EdgePlace, EdgePlace]] | None:
+        """Where the lines of a family cross the way's line, and on which side of their contact.
+
+        On none (None) if a wall is before it.
+        None if floats cannot tell that the crossing moves one way from the first line to the last. It does if
+        no line between is parallel to the way and the contact stays on one side of it.
+        """
+        (_, _, wx, wy), one, other = self.image, image.first, image.last
+        a, b = (lines.meets_straight(line, self.image) for line in (one, other))
+        if inf in (a[3], b[3]) or (wx * one[3] - wy * one[2] > 0) != (wx * other[3] - wy * other[2] > 0):
+            return None
+        if min(a[0] - a[1], b[0] - b[1]) > 0:
+            role, wall = Role.AHEAD, line_family.ahead
+        elif max(a[0] + a[1], b[0] + b[1]) < 0:
+            role, wall = Role.BEHIND, line_family.behind
+        else:
+            return None
+        kind, cx, cy, ex, ey, radius = image.frame
+        if kind in (lines.ROLLING, lines.OUTWARD, lines.INWARD):
+            radius = hypot(ex, ey) if kind == lines.ROLLING else radius
+            height = abs((cx - self.image[0]) * wy - (cy - self.image[1]) * wx) / hypot(wx, wy)
+            if kind == lines.INWARD or height < radius * (1 + SURE) + self.slack:
+                return None
+        spots = self._spot(a, line_family.passed[0]), self._spot(b, line_family.passed[1])
+        if wall is None:
+            return (role if line_family.goes_back or role is Role.AHEAD else None), spots
+        if max(spot.high for spot in spots) < self.low[0] or min(spot.low for spot in spots) > self.high[1]:
+            return None, spots
+        free = self._is_before(image, (a[2], b[2]), role, wall.edge)
+        return None if free is None else (role if free else None, spots)
+
+    def _is_before(self, image: Image, ends: tuple[float, float], role: Role, wall: int) -> bool | None:
+        """Whether lines of a family that cross the way do so before they meet a wall; None if that is open.
+
+        The way does not cross the wall, so one line tells: it is looked for between the first and the last,
+        which cross the way's line at *ends*.
+        """
+        curve = self.complex.images.curve(wall)
+        low, high = image.parameters
+        a, b = ends
+        if curve is None:
+            return None
+        middle = (self.low[0] + self.high[1]) / 2
+        for _ in range(STEPS):
+            t = (low + high) / 2
+            line = lines.line_at(image.frame, t, 0.0)
+            way = lines.meets_straight(line, self.image)
+            far = lines.meets(line, curve, int(role))
+            u, error = way[2:4]
+            if self.low[1] < u - error and u + error < self.high[0] and far[1] < inf:
+                gap = (far[0] - way[0]) * role
+                return gap > 0 if abs(gap) > far[1] + way[1] else None
+            if (u < middle) == (a < b):
+                low = t
+            else:
+                high = t
+        return None
+
+    def _spot(self, met: lines.Meeting, passed: Passed) -> EdgePlace:
+        """Where a line crosses the way's line: at an infinite parameter if it passes an end of the way."""
+        _, _, u, error, x, y, e = met
+        for number, touching, _ in passed:
+            vertex = self.complex.table.vertices[number]
+            if not touching and vertex in self.ends:
+                end = -inf if vertex == self.ends[0] else inf
+                return EdgePlace(end, end, x, y, e)
+        return EdgePlace(u - error, u + error, x, y, e)
+
+    def _across(self, line_family: LineFamily, certain: bool, wanted: frozenset[int]) -> Iterator[ViewFamily]:
         """Views along the lines of a family; *certain* if each line passes between the ends of the way."""
-        if not any(side.edge in self.wanted for side in line_family.sides):
+        if not any(side.edge in wanted for side in line_family.sides):
             return
         if not line_family.sector.round and line_family.anchor in self.touches:
             # Every line through a corner that the way touches crosses it there and shows nothing else.
@@ -103,11 +222,11 @@ class WayViews:
         if not certain:
             cuts = self._cuts(line_family)
         for (low, first, called), (high, last, named) in pairwise(cuts):
-            role = self._role(line_family, rational_between(low, high))
+            role = self._role(line_family, rational_between(low, high), wanted)
             if role is None:
                 continue
             here = Side(self.way, role)
-            for other in self._shown(line_family, role):
+            for other in self._shown(line_family, role, wanted):
                 names, pins = (called, named), (first, last)
                 passed = (
                     line_family.passed[0] if low is line_family.low else (),
@@ -125,10 +244,10 @@ class WayViews:
                 )
                 yield from self.clipper.families(free_views)
 
-    def _shown(self, line_family: LineFamily, role: Role) -> list[Side]:
+    def _shown(self, line_family: LineFamily, role: Role, wanted: frozenset[int]) -> list[Side]:
         """The wanted sides that a line family shows from behind or ahead of its contact."""
         shown = (line_family.contact, line_family.ahead if role is Role.BEHIND else line_family.behind)
-        return [side for side in shown if side is not None and side.edge in self.wanted]
+        return [side for side in shown if side is not None and side.edge in wanted]
 
     def _cuts(self, line_family: LineFamily) -> list[Cut]:
         """The ends of a family and, between them, the lines through the way's ends: parameters in order."""
@@ -231,7 +350,7 @@ class WayViews:
         place = Point(*line_family.sector.center) if isinstance(line_family.sector, Spokes) else contact
         return place, self.rail.parameter(place)
 
-    def _role(self, line_family: LineFamily, t: fmpq) -> Role | None:
+    def _role(self, line_family: LineFamily, t: fmpq, wanted: frozenset[int]) -> Role | None:
         """On which side of the contact the line crosses the way within its free part, if it does."""
         contact, direction = line_family.sector.touch(Real(t))
         met = line_contacts(contact, direction, self.piece)
@@ -239,7 +358,7 @@ class WayViews:
             return None
         side = met[0].sign()
         role = Role.AHEAD if side > 0 else Role.BEHIND
-        if not self._shown(line_family, role):
+        if not self._shown(line_family, role, wanted):
             return None
         wall = line_family.ahead if side > 0 else line_family.behind
         if wall is None:
@@ -258,9 +377,8 @@ class WayViews:
             if place.sign() < 0 or place.compare(1) > 0:
                 continue
             point = single.place + direction * place
-            for first, last in self.clipper.along(
-                point, self.clipper.rails[self.way], single.run, single.shown
-            ):
+            pin = point, self.rail.parameter(point)
+            for first, last in self.clipper.along(pin, single.run, single.shown):
                 yield ViewFamily((self.way, single.shown), first, last)
 
     def _own_line(self) -> Iterator[ViewFamily]:

@@ -7,10 +7,10 @@ it. The views from the two ends of the leg are added.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import chain
+from itertools import chain, compress
 from typing import TypeAlias
 
 from exactacq.errors import Undecided
@@ -21,8 +21,10 @@ from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
 from exactacq.sensing.cut_ends import CutEnd
 from exactacq.sensing.end_names import Seen
+from exactacq.sensing.family_filter import FamilyFilter
 from exactacq.sensing.free_way import WayViews
 from exactacq.sensing.legs import Leg
+from exactacq.sensing.line_images import Span
 from exactacq.sensing.targets import Targets
 from exactacq.sensing.view_families import End, FamilyClipper, ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
@@ -75,17 +77,19 @@ class Shares:
         leg: Leg,
         obstacles: Collection[int],
         view: Callable[[Point, tuple[int, ...] | None], Seen],
+        known: Mapping[int, Sequence[Span]] | None = None,
         of: dict[int, list[Share]] | None = None,
         ends: dict[int, list[tuple[CutEnd, Interval]]] | None = None,
     ) -> None:
         self.complex, self.targets, self.leg = complex_, targets, leg
         self.obstacles, self.view = obstacles, view
-        self.of = self._found() if of is None else of
+        self.in_sight: Mapping[int, Sequence[Interval]] = {}
+        self.of = self._found(known) if of is None else of
         self.ends = self._seen_ends() if ends is None else ends
 
-    def _found(self) -> dict[int, list[Share]]:
+    def _found(self, known: Mapping[int, Sequence[Span]] | None) -> dict[int, list[Share]]:
         parts: list[tuple[int, ViewFamily, int, None]] = []
-        for family, side in self._families():
+        for family, side in self._families(known):
             for k, target in self.targets.on(family.edges[1 - side]):
                 if k in self.obstacles:
                     part = self._clipper.clipped(family, 1 - side, target.span)
@@ -135,16 +139,26 @@ class Shares:
         place = leg.start if u is leg.first else leg.end if u is leg.last else None
         return None if place is None else self.view(place, leg.own(u))
 
-    def _families(self) -> Iterator[tuple[ViewFamily, int]]:
+    def _families(self, known: Mapping[int, Sequence[Span]] | None) -> Iterator[tuple[ViewFamily, int]]:
+        """The families at the leg; only those that matter if it is told what is *known*."""
         complex_, leg, obstacles = self.complex, self.leg, self.obstacles
         x, y, right, top = leg.box
         near = complex_.table.near((x, y), (right, top), complex_.range.above).tolist()
         wanted = frozenset(near).intersection(chain.from_iterable(self.targets.edges[k] for k in obstacles))
+        matter = None
+        if known is not None:
+            along = [k for k in obstacles if self._is_along(k)]
+            chooser = FamilyFilter(leg, self.targets, obstacles, along, known)
+            matter, self.in_sight = chooser.matter, chooser.in_sight
         if leg.edge is None:
             crossing = WayViews(complex_, leg, wanted, self.view)
-            yield from ((family, 0) for family in crossing.families())
+            yield from ((family, 0) for family in crossing.families(matter))
             return
-        for bundle, side in complex_.on(leg.edge, wanted):
+        bundles = list(complex_.on(leg.edge, wanted))
+        if matter is not None:
+            chosen = matter([bundle.seen(side, complex_.images) for bundle, side in bundles])
+            bundles = list(compress(bundles, chosen))
+        for bundle, side in bundles:
             for family in bundle.families(complex_.clipper):
                 yield family, side
 
@@ -166,7 +180,7 @@ class Shares:
             for k in obstacles
             if k in self.ends
         }
-        return Shares(self.complex, self.targets, leg, obstacles, self.view, of, ends)
+        return Shares(self.complex, self.targets, leg, obstacles, self.view, of=of, ends=ends)
 
     def at(self, share: Share, u: Real, place: Point) -> Share | None:
         """The one view of a share from a place of the leg, if it has one."""
@@ -237,6 +251,7 @@ class Shares:
             if any(edge in (None, e) for e, _ in seen):
                 times = times.added(Interval(u, place, u, place))
         sources = [share.source for share in self.of[k] if edge in (None, share.edge)]
+        sources += self.in_sight.get(k, ())
         sources += [part for end, part in self.ends.get(k, ()) if edge in (None, end.edge)]
         for interval in sorted(sources, key=size, reverse=True):
             times = times.added(interval)

@@ -24,8 +24,10 @@ from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.event import SENSED, EventKind, Reason
+from exactacq.sensing.family_filter import inside
 from exactacq.sensing.leg_views import Covers, Shares, add
 from exactacq.sensing.legs import Leg
+from exactacq.sensing.line_images import Span
 from exactacq.sensing.targets import Targets
 from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.visibility.sensor_range import Range
@@ -88,6 +90,7 @@ class Sensor:
         self.rails = self.complex.clipper.rails
         self.targets = Targets.whole(table, self.rails) if targets is None else targets
         self.covers: dict[int, Cover] = {}
+        self._known: dict[int, list[Span]] = {}
         self.seen: set[int] = set()
         self.acquired: set[int] = set()
         self.incomplete: set[int] = set()
@@ -122,7 +125,10 @@ class Sensor:
     def ahead(self, leg: Leg, retraced: bool = False) -> Ahead:
         """What moving along a leg will tell; nothing is learned where the robot has been (*retraced*)."""
         obstacles = self._near(leg) - self.acquired
-        shares = self._shares(leg, obstacles) if obstacles else None
+        shares = None
+        if obstacles:
+            known = self._known
+            shares = Shares(self.complex, self.targets, leg, obstacles, self._view, known)
         told = ([], {}) if shares is None else self._told(shares, retraced)
         return Ahead(leg, *told, shares, self.covers)
 
@@ -163,15 +169,14 @@ class Sensor:
 
     def shares(self, leg: Leg) -> Shares:
         """All that a leg shows, also of acquired obstacles."""
-        return self._shares(leg, self._near(leg))
-
-    def _shares(self, leg: Leg, obstacles: set[int]) -> Shares:
-        return Shares(self.complex, self.targets, leg, obstacles, self._view)
+        return Shares(self.complex, self.targets, leg, self._near(leg), self._view)
 
     def _settle(
         self, notices: list[Notice], learned: dict[int, Cover]
     ) -> tuple[list[Notice], dict[int, Cover]]:
         self.covers.update(learned)
+        for e, cover in learned.items():
+            self._known[e] = inside(cover, self.rails[e])
         for notice in notices:
             if notice.kind is EventKind.ACQUIRE:
                 self.acquired.add(notice.obstacle)

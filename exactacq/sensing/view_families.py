@@ -191,17 +191,15 @@ class FamilyClipper:
             elif not before and not after and self.range.order(*end.points) <= 0:
                 yield ViewFamily(edges, end, end, free_views)
 
-    def along(
-        self, place: Point, near: Rail, run: tuple[Point, Point], shown: int
-    ) -> Iterator[tuple[End, End]]:
+    def along(self, pin: Pin, run: tuple[Point, Point], shown: int) -> Iterator[tuple[End, End]]:
         """The views along one line from a place to a run on an edge, as far as it is within range."""
-        first, last = run
+        (place, here), (first, last) = pin, run
         if self.range.order(place, first) > 0:
             return
         if self.range.order(place, last) > 0:
             along = last - place
             last = place + along * (self.range.radius / along.norm_sq().sqrt())
-        here, far = near.parameter(place), self.rails[shown]
+        far = self.rails[shown]
         one, other = (End(Real(0), (place, p), (here, far.parameter(p))) for p in (first, last))
         yield one, other
 

@@ -16,6 +16,7 @@ import numpy as np
 
 from exactacq.scene.edge_table import EdgeTable, Floats, Ints
 from exactacq.sensing.complex_edges import Bundle, FamilySweeper, FeatureFamilies
+from exactacq.sensing.line_images import LineImages
 from exactacq.visibility.sensor_range import Range
 
 KEPT = 8192
@@ -30,6 +31,7 @@ class VisibilityComplex:
         self.table, self.range = table, range_
         sweeper = FamilySweeper(table, range_)
         self.clipper, self.features = sweeper.clipper, sweeper.features
+        self.images = LineImages(table, range_)
         self._normals_of = lru_cache(KEPT)(sweeper.normals)
         self._tangents_of = lru_cache(KEPT)(sweeper.tangents)
         self._corner_normals_of = lru_cache(KEPT)(sweeper.corner_normals)

@@ -1,0 +1,1 @@
+"""Geometry in floats with proven error bounds."""

@@ -1,0 +1,65 @@
+"""The sign of an irrational `Real`: by balls; where these contain 0 by a zero test (see `numbers/real`)."""
+
+from __future__ import annotations
+
+from math import prod
+from typing import Any
+
+from flint import arb
+
+from exactacq.errors import Undecided
+from exactacq.numbers.linear_forms import field_of, is_surd, merged
+from exactacq.numbers.norm_test import vanishes
+from exactacq.numbers.rationals import ball_sign, decimal_string
+from exactacq.numbers.transcendental import generic_in, sign_at
+
+FILTER_BITS = (64, 128, 256)
+"""Precisions of the balls that are tried before the zero test: most signs show at the first."""
+ZERO_TEST_BITS = 1 << 23
+"""Largest precision of the zero test: there an operation takes about a tenth of a second."""
+TRIAL_BITS = 1 << 16
+"""Precision that is tried where the zero test would be too long: what is not zero shows long before."""
+TOWER_BITS = 1 << 12
+"""Zero tests that would take more bits go by norms first (see `exactacq.numbers.norm_test`)."""
+
+
+def decided_sign(value: Any) -> int:
+    """-1, 0 or 1 for a `Real`; `Undecided` where excluding 0 would take more than `ZERO_TEST_BITS`."""
+    for bits in FILTER_BITS:
+        if sign := ball_sign(value.ball(bits)):
+            return sign
+    terms = value.terms
+    if is_surd(terms):
+        fewer = merged(terms)
+        if len(fewer) < len(terms):
+            return int(type(value)._form(fewer).sign())
+    elif (tau := generic_in(value)) is not None:
+        return sign_at(value, tau)
+    elif field_of(terms) is None:
+        limit = _separation_bits(value)
+        zero = vanishes(value) if limit > TOWER_BITS else None
+        if zero:
+            return 0
+        bits = 2 * FILTER_BITS[-1]
+        while zero is None:
+            ball = value.ball(bits)
+            if sign := ball_sign(ball):
+                return sign
+            if ball.abs_upper() < arb(2) ** -limit:
+                return 0
+            if limit > ZERO_TEST_BITS and bits >= TRIAL_BITS:
+                raise Undecided(
+                    f"sign of {decimal_string(value.ball, 20)}...: excluding 0 would take {limit} bits, "
+                    f"more than {ZERO_TEST_BITS}"
+                )
+            bits = min(2 * bits, limit + limit // 4 + 4096) if bits < limit else 2 * bits
+    bits = 2 * FILTER_BITS[-1]
+    while not (sign := ball_sign(value.ball(bits))):
+        bits *= 2
+    return sign
+
+
+def _separation_bits(value: Any) -> int:
+    """If the value is not 0, its absolute value is at least 2 to the minus this (stage 3)."""
+    degree = prod(d for _, d in value.generators())
+    return int(min(degree, 1 << 60) * (value.height_bound() + 1)) + 8
