@@ -43,6 +43,10 @@ class EdgePlace(NamedTuple):
     error: float
 
 
+Places: TypeAlias = "tuple[EdgePlace, EdgePlace]"
+"""Where the first and the last line of a family meet an edge."""
+
+
 class Extent(NamedTuple):
     """What a family shows of an edge, at most, and where it is seen from: at most and at least.
 
@@ -64,7 +68,7 @@ class Image:
     parameters: tuple[float, float]
     first: lines.Line
     last: lines.Line
-    spots: dict[Role, tuple[EdgePlace, EdgePlace]]
+    spots: dict[Role, Places]
 
     def span(self, role: Role) -> Span:
         """What the lines meet of an edge, at most."""
@@ -86,7 +90,7 @@ class LineImages:
         frame = self._frame(sector)
         low, high = (float_ball(t) for t in ends)
         first, last = lines.line_at(frame, *low), lines.line_at(frame, *high)
-        spots: dict[Role, tuple[EdgePlace, EdgePlace]] = {}
+        spots: dict[Role, Places] = {}
         for side in sides:
             found = []
             for line, t, events in zip((first, last), ends, passed, strict=True):
@@ -106,7 +110,7 @@ class LineImages:
             names = (), ()
         return sight(self.range, other.edge, a, b, slack, names)
 
-    def slack(self, sector: Sector, side: Side, spots: tuple[EdgePlace, EdgePlace]) -> float:
+    def slack(self, sector: Sector, side: Side, spots: Places) -> float:
         """How far a side may leave the box of its two extreme points."""
         p, q = spots
         error = 2 * (p.error + q.error)
@@ -162,8 +166,8 @@ class LineImages:
 def sight(
     range_: Range,
     edge: int,
-    source: tuple[EdgePlace, EdgePlace],
-    shown: tuple[EdgePlace, EdgePlace],
+    source: Places,
+    shown: Places,
     slack: float,
     names: EndNames,
 ) -> Extent:
@@ -182,9 +186,7 @@ def sight(
     )
 
 
-def within(
-    range_: Range, one: tuple[EdgePlace, EdgePlace], other: tuple[EdgePlace, EdgePlace], slack: float
-) -> bool | None:
+def within(range_: Range, one: Places, other: Places, slack: float) -> bool | None:
     """Whether two sides are within range of each other all over, or nowhere (False); None if that is open."""
     (a, b), (c, d) = one, other
     longest = max(hypot(p.x - q.x, p.y - q.y) for p in one for q in other)
