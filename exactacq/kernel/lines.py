@@ -142,7 +142,7 @@ def parameter_straight(segment: Straight, x: float, y: float, e: float) -> tuple
 
 
 def parameter_round(arc: Round, x: float, y: float, e: float) -> tuple[float, float]:
-    """The parameter of a point of an arc that is no full circle.
+    """The parameter of a point of an arc; for a full circle, if it is not 0 within the error.
 
     Quarter turns follow each other continuously. At their border the slope jumps by a factor of 2: a point
     taken for one of the wrong quarter is off by no more than twice the bound of the right one. A point that

@@ -306,16 +306,26 @@ class FamilySweeper:
             if not isinstance(edge, Segment):
                 continue
             t, passed = (cell.low, cell.bounds[0]) if ahead else (cell.high, cell.bounds[1])
+            far = None
             if any(side or number not in (e, self.table.next[e]) for number, side, _ in passed):
                 # The line grazes what may block its neighbours: it goes on by itself.
                 walk = walk_line(self.table, sweep.sector, t, self.range.above)[ahead]
-                met = walk.hits[-1][1] if walk.blocked else None
-            place, u = self._reached(sweep.sector, t, Role.AHEAD if ahead else Role.BEHIND, met)
+                far, met = (abs(walk.hits[-1][0]), walk.hits[-1][1]) if walk.blocked else (None, None)
+            role = Role.AHEAD if ahead else Role.BEHIND
+            place, u = self._reached(sweep.sector, t, role, met, far)
             run = (edge.end, edge.start) if ahead else (edge.start, edge.end)
             yield SingleLine(place, met, run, e, u)
 
-    def _reached(self, sector: Sector, t: Real, role: Role, met: int | None) -> tuple[Point, Real | None]:
-        """Where a line that touches a feature meets an edge, or is as long as the range if it meets none."""
+    def _reached(
+        self, sector: Sector, t: Real, role: Role, met: int | None, far: Real | None
+    ) -> tuple[Point, Real | None]:
+        """Where a line that touches a feature meets an edge, or is as long as the range if it meets none.
+
+        *far* tells how far away it meets it, if that is known: it may run along the edge.
+        """
+        if far is not None:
+            contact, direction = sector.touch(t)
+            return contact + direction * (far * int(role)), None
         x, y, dx, dy = at = line(sector, t.ball(64))
         make = partial(self._reached_exactly, sector, t, role, met)
         if met is None:

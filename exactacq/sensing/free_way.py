@@ -9,7 +9,7 @@ of the piece; each part then crosses the piece in all its lines or in none.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from functools import cmp_to_key
+from functools import cached_property, cmp_to_key
 from itertools import compress, pairwise
 from math import hypot, inf
 from typing import Any, TypeAlias
@@ -27,7 +27,7 @@ from exactacq.kernel import lines
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.sensing.complex_edges import LineFamily, SingleLine
+from exactacq.sensing.complex_edges import FeatureFamilies, LineFamily, SingleLine
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.legs import Leg
 from exactacq.sensing.line_images import SURE, EdgePlace, Extent, Image, bounds, sight
@@ -83,22 +83,29 @@ class WayViews:
 
     def families(self, matter: Matter | None = None) -> Iterator[ViewFamily]:
         """All families at wanted edges whose first side lies on the way, or those that *matter*."""
-        (ax, ay), (bx, by) = self.places
-        box = np.array((min(ax, bx), min(ay, by), max(ax, bx), max(ay, by)))
-        families = list(self.complex.near(box, self.wanted))
-        line_families = [line_family for feature in families for line_family in feature.line_families]
-        crossing = self._crossing(Sides.joined([feature.sides for feature in families]))
-        found = [(line_families[k], certain, self.wanted) for k, certain in crossing]
+        found = self.crossing()
         for line_family, certain, wanted in found if matter is None else self._mattering(found, matter):
-            yield from self._across(line_family, certain, wanted)
-        single_lines = [single for feature in families for single in feature.single_lines]
-        for k, _ in self._crossing(Sides.joined([feature.single_line_sides for feature in families])):
+            yield from self.across(line_family, certain, wanted)
+        single_lines = [single for feature in self._near for single in feature.single_lines]
+        for k, _ in self._crossed(Sides.joined([feature.single_line_sides for feature in self._near])):
             if single_lines[k].shown in self.wanted:
                 yield from self._along(single_lines[k])
         yield from self._normals()
         yield from self._own_line()
 
-    def _crossing(self, sides: Sides) -> Iterator[tuple[int, bool]]:
+    @cached_property
+    def _near(self) -> list[FeatureFamilies]:
+        (ax, ay), (bx, by) = self.places
+        box = np.array((min(ax, bx), min(ay, by), max(ax, bx), max(ay, by)))
+        return list(self.complex.near(box, self.wanted))
+
+    def crossing(self) -> list[Crossing]:
+        """The line families that may cross the way."""
+        line_families = [line_family for feature in self._near for line_family in feature.line_families]
+        crossed = self._crossed(Sides.joined([feature.sides for feature in self._near]))
+        return [(line_families[k], certain, self.wanted) for k, certain in crossed]
+
+    def _crossed(self, sides: Sides) -> Iterator[tuple[int, bool]]:
         """The line families that do not leave the whole way on one side; True if all their lines cross it."""
         one, other = (sides.of(x, y, self.slack) for x, y in self.places)
         for k in np.flatnonzero((one != other) | (one == 0)).tolist():
@@ -109,7 +116,7 @@ class WayViews:
         asked: list[tuple[int, Side]] = []
         seen: list[Extent | None] = []
         for n, (line_family, _, _) in enumerate(found):
-            for side, one in self._seen(line_family):
+            for side, one in self.extents(line_family):
                 asked.append((n, side))
                 seen.append(one)
         edges: dict[int, set[int]] = {}
@@ -118,7 +125,7 @@ class WayViews:
         for n, wanted in edges.items():
             yield (*found[n][:2], frozenset(wanted))
 
-    def _seen(self, line_family: LineFamily) -> Iterator[tuple[Side, Extent | None]]:
+    def extents(self, line_family: LineFamily) -> Iterator[tuple[Side, Extent | None]]:
         """The sides that a line family may show, and what floats tell of them."""
         if not line_family.sector.round and line_family.sector.center in self.ends:
             # All lines pass an end of the way and meet its line nowhere else: the view from there tells.
@@ -180,8 +187,6 @@ class WayViews:
         curve = self.complex.images.curve(wall)
         low, high = image.parameters
         a, b = ends
-        if curve is None:
-            return None
         middle = (self.low[0] + self.high[1]) / 2
         for _ in range(STEPS):
             t = (low + high) / 2
@@ -208,7 +213,7 @@ class WayViews:
                 return EdgePlace(end, end, x, y, e)
         return EdgePlace(u - error, u + error, x, y, e)
 
-    def _across(self, line_family: LineFamily, certain: bool, wanted: frozenset[int]) -> Iterator[ViewFamily]:
+    def across(self, line_family: LineFamily, certain: bool, wanted: frozenset[int]) -> Iterator[ViewFamily]:
         """Views along the lines of a family; *certain* if each line passes between the ends of the way."""
         if not any(side.edge in wanted for side in line_family.sides):
             return

@@ -80,7 +80,7 @@ class LineImages:
 
     def __init__(self, table: EdgeTable, range_: Range) -> None:
         self.table, self.range = table, range_
-        self._curves: dict[int, lines.Straight | lines.Round | None] = {}
+        self._curves: dict[int, lines.Straight | lines.Round] = {}
         self._frames: dict[int, tuple[Sector, lines.Frame]] = {}
 
     def of(
@@ -98,6 +98,8 @@ class LineImages:
                 if spot is None:
                     return None
                 found.append(spot)
+            if self.table.full[side.edge] and not _is_plain(sector, side, *found):
+                return None
             spots[side.role] = found[0], found[1]
         return Image(frame, (low[0], high[0]), first, last, spots)
 
@@ -118,8 +120,8 @@ class LineImages:
             return error
         return error + _bend(sector, self.table.curves[side.edge], hypot(p.x - q.x, p.y - q.y))
 
-    def curve(self, e: int) -> lines.Straight | lines.Round | None:
-        """An edge in floats; None for a full circle, whose parameters jump."""
+    def curve(self, e: int) -> lines.Straight | lines.Round:
+        """An edge in floats."""
         if e not in self._curves:
             self._curves[e] = curve_image(self.table.curves[e])
         return self._curves[e]
@@ -140,12 +142,9 @@ class LineImages:
                 return EdgePlace(-inf, -inf, x, y, error)
             if isinstance(sector, Sliding):
                 return EdgePlace(*_fraction(t), x, y, error)
-            if curve is None or len(curve) != 6:
-                return None
+            assert len(curve) == 6, "tangents and normals of arcs touch an arc"
             u, ue = lines.parameter_round(curve, x, y, error)
             return EdgePlace(u - ue, u + ue, x, y, error)
-        if curve is None:
-            return None
         end = self._corner(side.edge, passed) if len(curve) == 4 else 0.0
         _, fe, u, ue, x, y, error = lines.meets(line, curve, int(side.role))
         if fe == inf or ue == inf:
@@ -207,14 +206,23 @@ def _bend(sector: Sector, curve: Curve, chord: float) -> float:
     return min(chord**2 / (4 * radius) * (1 + SURE) * 2, radius)
 
 
-def curve_image(curve: Curve) -> lines.Straight | lines.Round | None:
-    """A boundary edge in floats; None for a full circle, whose parameters jump."""
+def _is_plain(sector: Sector, side: Side, a: EdgePlace, b: EdgePlace) -> bool:
+    """Whether a side on a full circle certainly does not pass the circle's start, where parameters jump.
+
+    A contact moves a quarter turn, another side of lines that turn about a point at most a half.
+    """
+    if side.role is not Role.CONTACT and sector.round:
+        return False
+    most = 1.5 if side.role is Role.CONTACT else 2.0
+    return min(a.low, b.low) > 0 and max(a.high, b.high) < 4 and max(a.high - b.low, b.high - a.low) < most
+
+
+def curve_image(curve: Curve) -> lines.Straight | lines.Round:
+    """A boundary edge in floats."""
     if isinstance(curve, Segment):
         x, y = _pair(curve.start.rational)
         dx, dy = _pair(curve.direction.rational)
         return x, y, dx, dy
-    if curve.full:
-        return None
     ax, ay = _pair(curve.center.rational)
     bx, by = _pair((curve.start - curve.center).rational)
     return ax, ay, sqrt(nearest_float(curve.radius_sq)), bx, by, 1 if curve.ccw else -1

@@ -1,0 +1,157 @@
+"""Which families at a leg matter: floats never contradict exact families, nor leave out what counts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import inf
+from random import Random
+
+import pytest
+from strategies import arc_terrain, degenerate_terrain, random_terrain
+
+import exactacq as xa
+from exactacq.files.octagons import random_octagons
+from exactacq.geometry.curve_parameter import Rail
+from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.sensing import family_filter
+from exactacq.sensing.end_names import Seen
+from exactacq.sensing.free_way import WayViews
+from exactacq.sensing.legs import Leg, legs_of
+from exactacq.sensing.line_images import Span
+from exactacq.sensing.view_families import ViewFamily
+from exactacq.sensing.visibility_complex import VisibilityComplex
+from exactacq.visibility.sensor_range import Range
+
+Told = tuple[tuple[Span, Span, Span] | None, list[tuple[Real, Real, Rail, Real, Real, Rail]]]
+"""Source, sure source and what is shown in floats, and the exact families: source and shown, with rails."""
+
+SCENES = ["figure2", "m11", "plate"]
+
+
+def told(complex_: VisibilityComplex, leg: Leg, run: xa.SightseerRun) -> Iterator[Told]:
+    """What floats tell of every family at a leg, beside the exact families."""
+    wanted, images = frozenset(range(len(complex_.table.curves))), complex_.images
+    rails = complex_.clipper.rails
+
+    def pair(family: ViewFamily, side: int, near: Rail) -> tuple[Real, Real, Rail, Real, Real, Rail]:
+        here, there = ([end.places[k] for end in (family.first, family.last)] for k in (side, 1 - side))
+        return min(here), max(here), near, min(there), max(there), rails[family.edges[1 - side]]
+
+    if leg.edge is not None:
+        for bundle, side in complex_.on(leg.edge, wanted):
+            seen = bundle.seen(side, images)
+            exact = [pair(family, side, rails[leg.edge]) for family in bundle.families(complex_.clipper)]
+            yield None if seen is None else (seen.source, seen.surely, seen.shown), exact
+        return
+
+    def view(place: xa.Point, own: tuple[int, ...] | None) -> Seen:
+        return Seen(complex_.table, rails, place, complex_.range, own)
+
+    way = WayViews(complex_, leg, wanted, view)
+    for found in way.crossing():
+        parts = dict.fromkeys(side.edge for side in found[0].sides)
+        for side, seen in way.extents(found[0]):
+            exact = []
+            for family in way.across(found[0], found[1], frozenset({side.edge})):
+                part = way.clipper.clipped(family, 0, leg.span)
+                if part is not None and family.free_views.sides[1] is side:
+                    exact.append(pair(part, 0, leg.rail))
+            parts.pop(side.edge, None)
+            yield None if seen is None else (seen.source, seen.surely, seen.shown), exact
+        for edge in parts:
+            # What is not mentioned is not shown, but from an end of the way.
+            for family in way.across(found[0], found[1], frozenset({edge})):
+                part = way.clipper.clipped(family, 0, leg.span)
+                if part is not None:
+                    low, high = sorted(end.places[0] for end in (part.first, part.last))
+                    assert low == high and (low == leg.span.low or low == leg.span.high)
+
+
+def is_above(bound: float, u: Real, rail: Rail) -> bool:
+    """Whether an extended number is at least a parameter: infinity stands for the end of an edge or a way."""
+    return bound == inf or u <= bound or (bound == -inf and u.sign() == 0)
+
+
+def is_below(bound: float, u: Real, rail: Rail) -> bool:
+    """Whether an extended number is at most a parameter."""
+    return bound == -inf or u >= bound or (bound == inf and u == rail.top)
+
+
+def check(run: xa.SightseerRun) -> int:
+    """Compare floats with exact families along the first legs of a run; how many were compared."""
+    table = EdgeTable(run.scene.obstacles)
+    complex_ = VisibilityComplex(table, Range(run.radius))
+    count = 0
+    for piece in run.path[:8]:
+        for leg in legs_of(table, complex_.clipper.rails, piece.obstacle, piece.curve, piece.touches):
+            for floats, exact in told(complex_, leg, run):
+                if floats is None:
+                    continue
+                source, surely, shown = floats
+                for a, b, near, c, d, far in exact:
+                    count += 1
+                    assert is_below(source[0], a, near) and is_above(source[1], b, near)
+                    assert is_below(shown[0], c, far) and is_above(shown[1], d, far)
+                if surely[0] <= surely[1]:
+                    low, high = leg.span.low, leg.span.high
+                    sure = [Real(v) if abs(v) < inf else (leg.rail.top if v > 0 else Real(0)) for v in surely]
+                    sure = [max(sure[0], low), min(sure[1], high)] if leg.edge is None else sure
+                    if sure[0] <= sure[1]:
+                        assert any(a <= sure[0] and b >= sure[1] for a, b, *_ in exact)
+    return count
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_floats_agree_with_exact_families(name: str) -> None:
+    assert check(xa.sightseer(xa.load(name))) > 20
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_floats_agree_on_random_scenes(seed: int) -> None:
+    make = (random_terrain, degenerate_terrain, arc_terrain)[seed % 3]
+    terrain = make(Random(seed))
+    start = terrain.start or (-3, -3)
+    scene = terrain.scene()
+    try:
+        run = xa.sightseer(xa.Scene(scene.shapes, start=start, radius=terrain.radius))
+    except (xa.InvalidScene, xa.Undecided):
+        pytest.skip("no run")
+    check(run)
+
+
+def record(run: xa.SightseerRun) -> list[object]:
+    """All that a run tells."""
+    events = [(e.kind, e.obstacle, *map(digits, e.point), e.describe()) for e in run.events]
+    known = [digits(run.map.known_length(k)) for k in range(len(run.scene.obstacles))]
+    return [events, digits(run.length), known]
+
+
+def digits(number: Real | xa.Length) -> str:
+    return number.decimal(40)
+
+
+@pytest.mark.parametrize("name", [*SCENES, "figure4"])
+def test_leaving_out_changes_nothing(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With the switch that makes every family matter a run is the same."""
+    scene = xa.load(name)
+    explore = xa.sightseer if name != "figure4" else xa.seed_spreader
+    usual = record(explore(scene))
+    monkeypatch.setattr(family_filter, "EXACT_ONLY", True)
+    assert record(explore(scene)) == usual
+
+
+def test_most_families_are_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Among octagons fewer than a quarter of the families at a leg are made exact."""
+    asked, kept = 0, 0
+    matter = family_filter.FamilyFilter.matter
+
+    def counted(self: family_filter.FamilyFilter, seen: list) -> list[bool]:
+        nonlocal asked, kept
+        chosen = matter(self, seen)
+        asked, kept = asked + len(chosen), kept + sum(chosen)
+        return chosen
+
+    monkeypatch.setattr(family_filter.FamilyFilter, "matter", counted)
+    xa.sightseer(random_octagons(8, 1))
+    assert asked > 500 and kept < asked / 4
