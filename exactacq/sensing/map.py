@@ -153,7 +153,8 @@ class Map:
     @cached_property
     def incomplete(self) -> tuple[int, ...]:
         """Obstacles of whose boundary some but not all is known."""
-        return tuple(i for i in self.seen if i not in set(self.acquired))
+        acquired = set(self.acquired)
+        return tuple(i for i in self.seen if i not in acquired)
 
     @cached_property
     def frontier(self) -> tuple[tuple[int, Point], ...]:

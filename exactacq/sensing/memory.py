@@ -1,12 +1,13 @@
 """Memory: the sensing of a whole path, piece by piece, and the map as it was at any moment of it.
 
-What a piece added is kept as the edges that changed, so a run remembers every moment in memory proportional
-to what was learned.
+What a piece added is kept with the edges that changed, so a run remembers every moment in memory proportional
+to what was learned, and a map of any of them is made at once: it looks edges up when it is asked.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence, Set
+from bisect import bisect_right
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass
 
 from flint import fmpq
@@ -19,6 +20,7 @@ from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.scene import Scene
 from exactacq.scene.terrain_components import Ground
 from exactacq.sensing.event import EventKind, Reason
+from exactacq.sensing.leg_views import Covers
 from exactacq.sensing.legs import Leg, legs_of, parts_of
 from exactacq.sensing.map import Body, Map
 from exactacq.sensing.path import Piece
@@ -37,6 +39,66 @@ class Report:
     reason: Reason | None
     after: int
     inside: bool
+
+
+class History:
+    """The covers of all edges after the look around at the start and after each piece, the latest included.
+
+    An edge has an entry for every time that it changed. To learn costs time proportional to what changed.
+    """
+
+    def __init__(self) -> None:
+        self.moments = 0
+        self._of: dict[int, tuple[list[int], list[Cover]]] = {}
+
+    def learn(self, learned: Mapping[int, Cover]) -> None:
+        """Take in the covers that one more piece made grow."""
+        for e, cover in learned.items():
+            moments, covers = self._of.setdefault(e, ([], []))
+            moments.append(self.moments)
+            covers.append(cover)
+        self.moments += 1
+
+    def cover(self, edge: int, count: int) -> Cover | None:
+        """What was known of an edge after *count* pieces. Cost: a binary search among its changes."""
+        entry = self._of.get(edge)
+        if entry is None:
+            return None
+        moments, covers = entry
+        k = bisect_right(moments, count)
+        return covers[k - 1] if k else None
+
+    def edges(self, count: int) -> Iterator[int]:
+        """The edges of which something was known after *count* pieces."""
+        return (e for e, (moments, _) in self._of.items() if moments[0] <= count)
+
+
+class Moment(Mapping[int, Cover]):
+    """The covers as they were after *count* pieces, but for those in *newer*. Made in constant time.
+
+    What is learned later does not change it.
+    """
+
+    __slots__ = ("_count", "_history", "_newer")
+
+    def __init__(self, history: History, count: int, newer: Mapping[int, Cover]) -> None:
+        self._history, self._count, self._newer = history, count, newer
+
+    def grown(self, learned: Mapping[int, Cover]) -> Moment:
+        """With covers that grew since."""
+        return Moment(self._history, self._count, {**self._newer, **learned})
+
+    def __getitem__(self, edge: int) -> Cover:
+        found = self._newer.get(edge) or self._history.cover(edge, self._count)
+        if found is None:
+            raise KeyError(edge)
+        return found
+
+    def __iter__(self) -> Iterator[int]:
+        return iter(dict.fromkeys((*self._history.edges(self._count), *self._newer)))
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
 
 
 class Memory:
@@ -65,7 +127,7 @@ class Memory:
         self._looked: tuple[Piece | None, Ahead | None] = None, None
         self._walked: dict[tuple[int, int], Piece] = {}
         self._retraced: set[int] = set()
-        self._learned: list[dict[int, Cover]] = []
+        self._history = History()
         self._legs: list[list[Leg]] = []
 
     @classmethod
@@ -87,7 +149,7 @@ class Memory:
     def begin(self, start: Point) -> list[Report]:
         """Look around at the start."""
         notices, learned = self._sensor.look_around(start)
-        self._learned.append(learned)
+        self._history.learn(learned)
         return self._reported([Report(n.kind, n.obstacle, n.place, n.reason, 0, False) for n in notices])
 
     def walk(self, piece: Piece) -> list[Report]:
@@ -107,7 +169,7 @@ class Memory:
                 after = count + 1 if at_end and not at_start else count
                 inside = not (at_start or at_end)
                 reports.append(Report(n.kind, n.obstacle, n.place, n.reason, after, inside))
-        self._learned.append(learned)
+        self._history.learn(learned)
         self._legs.append(legs)
         if retraced:
             self._retraced.add(count)
@@ -140,8 +202,15 @@ class Memory:
         return self._looked[1]
 
     def map_ahead(self, ahead: Ahead, u: Real, place: Point, obstacles: Set[int]) -> Map:
-        """The map of some obstacles as it will be at a place of a piece that was looked along."""
-        return self._map(ahead.covers(u, place, obstacles))
+        """The map of some obstacles as it will be at a place of a piece that was looked along.
+
+        Of others, and until the piece is walked, it is the map as it is.
+        """
+        covers = self._now
+        if ahead.shares is not None and ahead.leg.order(u, ahead.leg.first) > 0:
+            some = {k for k in obstacles if k in ahead.shares.obstacles}
+            covers = covers.grown(ahead.shares.cut(ahead.leg.upto(u, place), some).taught(covers))
+        return self._map(covers)
 
     def near(self, box: tuple[float, float, float, float]) -> set[int]:
         """The obstacles with an edge whose box is within the radius of a box."""
@@ -158,8 +227,12 @@ class Memory:
 
     @property
     def now(self) -> Map:
-        """The map as it is."""
-        return self._map(dict(self._sensor.covers))
+        """The map as it is; what is learned later does not change it."""
+        return self._map(self._now)
+
+    @property
+    def _now(self) -> Moment:
+        return Moment(self._history, self._history.moments - 1, {})
 
     @property
     def in_sight(self) -> Set[int]:
@@ -178,36 +251,30 @@ class Memory:
 
     def after(self, count: int) -> Map:
         """The map after the first *count* pieces."""
-        return self._map(self._covers(count))
+        return self._map(Moment(self._history, count, {}))
 
     def within(self, count: int, place: Point) -> Map:
         """The map when the robot is at a place inside piece number *count*."""
-        covers = self._covers(count)
+        covers = Moment(self._history, count, {})
         if count in self._retraced:
             # What it shows is known, in other forms of the same numbers.
             return self._map(covers)
         reported = self._parameters.get((count, id(place)))
         for k, leg in enumerate(self._legs[count]):
             if reported is not None and k < reported[2]:
-                covers.update(self._sensor.known_after(leg, covers))
+                covers = covers.grown(self._sensor.known_after(leg, covers))
                 continue
             u = leg.rail.parameter(place) if reported is None else reported[1]
             if leg.span.low.compare(u) <= 0 and leg.span.high.compare(u) >= 0:
                 if leg.order(u, leg.first) > 0:
-                    covers.update(self._sensor.known_within(leg, leg.upto(u, place), covers))
+                    covers = covers.grown(self._sensor.known_within(leg, leg.upto(u, place), covers))
                 break
-            covers.update(self._sensor.known_after(leg, covers))
+            covers = covers.grown(self._sensor.known_after(leg, covers))
         return self._map(covers)
 
     def _reported(self, reports: list[Report]) -> list[Report]:
         self.reports += reports
         return reports
 
-    def _covers(self, count: int) -> dict[int, Cover]:
-        covers: dict[int, Cover] = {}
-        for learned in self._learned[: count + 1]:
-            covers.update(learned)
-        return covers
-
-    def _map(self, covers: dict[int, Cover]) -> Map:
+    def _map(self, covers: Covers) -> Map:
         return Map(self.bodies, self._sensor.targets, self._sensor.rails, covers)
