@@ -7,7 +7,9 @@ has walked all around (or from the start), and for nothing else.
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Callable, Container, Hashable, Iterable
+from functools import partial
+from heapq import heappop, heappush
 
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.points import Location, Point
@@ -16,6 +18,53 @@ from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Piece
 from exactacq.strategies.robot import Robot
 from exactacq.visibility.links import START, Link, Links, Node
+
+SLACK = 1 + 1e-12
+"""Floats of lengths that differ by more tell which is less."""
+
+
+class _LinksByLength:
+    """The links from one node, the least (then that to the least index) first; each is compared once.
+
+    *near* are the obstacles that they may lead to, each with a lower bound of the length; lower bounds decide
+    which links are computed.
+    """
+
+    def __init__(self, near: Iterable[tuple[float, int]], link: Callable[[int], Link | None]) -> None:
+        self._link = link
+        self._near = sorted(near, reverse=True)
+        self._found: list[tuple[float, int, Link]] = []
+        # The links that floats cannot tell from the least, in order, the first one last.
+        self._least: list[Link] = []
+
+    def first(self, visited: Container[int]) -> Link | None:
+        """The least link to an obstacle that was not visited."""
+        while True:
+            while self._least and self._least[-1].target in visited:
+                self._least.pop()
+            if self._least:
+                return self._least[-1]
+            self._least = self._next(visited)
+            if not self._least:
+                return None
+
+    def _next(self, visited: Container[int]) -> list[Link]:
+        while self._found and self._found[0][1] in visited:
+            heappop(self._found)
+        while self._near and not (self._found and self._near[-1][0] > self._found[0][0] * SLACK):
+            _, j = self._near.pop()
+            link = None if j in visited else self._link(j)
+            if link is not None:
+                heappush(self._found, (float(link.length), j, link))
+        least = self._found[0][0] * SLACK if self._found else 0.0
+        close = []
+        while self._found and self._found[0][0] <= least:
+            _, j, link = heappop(self._found)
+            if j not in visited:
+                close.append(link)
+        close.sort(key=lambda link: link.target)
+        close.sort(key=lambda link: link.length)
+        return close[::-1]
 
 
 class SightseerRobot(Robot):
@@ -30,28 +79,26 @@ class SightseerRobot(Robot):
             if obstacle.locate(start) is Location.INSIDE:
                 raise ValueError(f"the start {start} lies inside obstacle {obstacle.index}")
         self.radius = self._links.radius
-        self._exhausted: set[Node] = set()
+        self._nearest: dict[Node, _LinksByLength] = {}
         super().__init__(start, Memory(scene, self.radius, self._links.table))
 
     # -- the map -----------------------------------------------------------------------------------
 
     def nearest_unvisited(self, node: Node) -> Link | None:
         """The shortest link (then the least index) from a visited node to an unvisited obstacle it sees."""
-        if node in self._exhausted:
-            return None
+        if node not in self._nearest:
+            self._nearest[node] = self._links_by_length(node)
+        return self._nearest[node].first(self.visited)
+
+    def _links_by_length(self, node: Node) -> _LinksByLength:
         if node == START:
-            found = [link for j, link in self._links.from_point(self.start).items() if j not in self.visited]
-        else:
-            assert isinstance(node, int)
-            assert node in self.visited, "a boundary shows its links only once it was walked all around"
-            found = self._best_first(node)
-        best: Link | None = None
-        for link in sorted(found, key=lambda link: link.target):
-            if best is None or link.length < best.length:
-                best = link
-        if best is None:
-            self._exhausted.add(node)
-        return best
+            links = self._links.from_point(self.start)
+            return _LinksByLength(((0.0, j) for j in links), links.get)
+        assert isinstance(node, int)
+        assert node in self.visited, "a boundary shows its links only once it was walked all around"
+        bounds = self._links.lower_bounds(node)
+        near = ((float(bounds[j]), j) for j in self._links.neighbours(node))
+        return _LinksByLength(near, partial(self._links.between, node))
 
     def links_from(self, node: Node) -> list[Link]:
         """All links from a visited node, in the order of the obstacles that they lead to."""
@@ -62,26 +109,10 @@ class SightseerRobot(Robot):
         between = (self._links.between(node, j) for j in sorted(self._links.neighbours(node)))
         return [link for link in between if link is not None]
 
-    def _best_first(self, node: int) -> list[Link]:
-        """The links that can be the least: lower bounds decide which are computed."""
-        bounds = self._links.lower_bounds(node)
-        near = sorted(
-            (j for j in self._links.neighbours(node) if j not in self.visited), key=lambda j: bounds[j]
-        )
-        found: list[Link] = []
-        least = float("inf")
-        for j in near:
-            if bounds[j] > least:
-                break
-            link = self._links.between(node, j)
-            if link is not None:
-                found.append(link)
-                least = min(least, float(link.length) * (1 + 1e-12))
-        return found
-
     def knows_unvisited(self) -> bool:
         """Whether an obstacle that was not visited is on the map."""
-        return not self._memory.seen <= self.visited.keys()
+        # What was visited was seen: the robot stood on it.
+        return len(self._memory.seen) > len(self.visited)
 
     def unvisited(self) -> tuple[list[int], list[int]]:
         """The obstacles on the map that were not visited, and those that never came on the map."""
