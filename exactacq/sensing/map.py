@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol
+from typing import Protocol, TypeAlias
 
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve
@@ -17,7 +17,11 @@ from exactacq.geometry.geo import Geo, collection, feature
 from exactacq.geometry.interval_union import EMPTY, Cover, Interval
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
+from exactacq.numbers.real import Real
 from exactacq.sensing.targets import Target, Targets
+
+Spots: TypeAlias = "tuple[tuple[int, Real], ...]"
+"""The places of a point on a boundary: numbers of edges in the scene, and parameters there."""
 
 
 @dataclass(frozen=True)
@@ -115,15 +119,24 @@ class Map:
         >>> xa.sightseer(xa.load("circles")).map_at(2).knows(0, xa.Point(7, 0))
         False
         """
-        edges = [k for k, edge in enumerate(self.obstacles[i].edges) if edge.passes(point)]
-        if not edges:
+        spots = self.spots(i, point)
+        if not spots:
             raise ValueError(f"{point} is not on the boundary of obstacle {i}")
-        return any(self._knows_on(self._targets.of[i][k], point) for k in edges)
+        return self.knows_some(spots)
 
-    def _knows_on(self, target: Target, point: Point) -> bool:
-        span, cover = target.span, self._cover(target.edge)
+    def spots(self, i: int, point: Point) -> Spots:
+        """Where on the boundary of obstacle i a point lies; the same for all maps of a run."""
+        targets = (self._targets.of[i][k] for k, e in enumerate(self.obstacles[i].edges) if e.passes(point))
+        return tuple((target.edge, u) for target in targets for u in self._parameters(target, point))
+
+    def _parameters(self, target: Target, point: Point) -> list[Real]:
+        span = target.span
         ends = [u for u, end in ((span.low, span.start), (span.high, span.end)) if point == end]
-        return any(cover.contains(u) for u in ends or [self._rails[target.edge].parameter(point)])
+        return ends or [self._rails[target.edge].parameter(point)]
+
+    def knows_some(self, spots: Spots) -> bool:
+        """Whether a point is known at some of its places on a boundary (see `spots`)."""
+        return any(self._cover(e).contains(u) for e, u in spots)
 
     def known_length(self, i: int | None = None) -> Length:
         """Exact length of what is known of obstacle i, or of all obstacles.

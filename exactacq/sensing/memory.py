@@ -128,6 +128,7 @@ class Memory:
         self._walked: dict[tuple[int, int], Piece] = {}
         self._retraced: set[int] = set()
         self._history = History()
+        self._news: set[int] = set()
         self._legs: list[list[Leg]] = []
 
     @classmethod
@@ -149,7 +150,7 @@ class Memory:
     def begin(self, start: Point) -> list[Report]:
         """Look around at the start."""
         notices, learned = self._sensor.look_around(start)
-        self._history.learn(learned)
+        self._learn(learned)
         return self._reported([Report(n.kind, n.obstacle, n.place, n.reason, 0, False) for n in notices])
 
     def walk(self, piece: Piece) -> list[Report]:
@@ -169,11 +170,20 @@ class Memory:
                 after = count + 1 if at_end and not at_start else count
                 inside = not (at_start or at_end)
                 reports.append(Report(n.kind, n.obstacle, n.place, n.reason, after, inside))
-        self._history.learn(learned)
+        self._learn(learned)
         self._legs.append(legs)
         if retraced:
             self._retraced.add(count)
         return self._reported(reports)
+
+    def _learn(self, learned: Mapping[int, Cover]) -> None:
+        self._history.learn(learned)
+        self._news |= self._sensor.targets.near(learned)
+
+    def news(self) -> set[int]:
+        """The obstacles of which more became known since the last time that this was asked."""
+        news, self._news = self._news, set()
+        return news
 
     def _is_retraced(self, piece: Piece) -> bool:
         """Whether a straight piece was walked before, the other way.

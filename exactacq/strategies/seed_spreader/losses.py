@@ -8,21 +8,25 @@ comes back to the line, and it is out of reach already. Not so if it is known to
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from bisect import bisect_left, insort
+from collections.abc import Container, Iterator
+from math import inf
 from typing import NamedTuple
 
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
 from exactacq.sensing.event import EventKind, Reason
+from exactacq.sensing.legs import Leg
 from exactacq.sensing.map import Map
-from exactacq.sensing.sensor import Ahead
+from exactacq.sensing.sensor import Ahead, Notice
 from exactacq.strategies.seed_spreader.prediction.decide import sees_later
 from exactacq.strategies.seed_spreader.range_thresholds import (
     first_out_of_reach,
     is_in_reach,
     last_in_reach,
     leftmost,
+    thresholds,
 )
 from exactacq.strategies.seed_spreader.robot import SeedSpreaderRobot
 
@@ -48,7 +52,11 @@ class _OutOfSight(NamedTuple):
 
 
 class Line:
-    """A line of the M-line as the robot walks it."""
+    """A line of the M-line as the robot walks it.
+
+    What is out of sight, and of which nothing more became known, is asked about only where it may be about
+    to be lost: obstacles at stake are kept by the ordinate from which on this may be.
+    """
 
     def __init__(self, robot: SeedSpreaderRobot, lookahead: bool) -> None:
         way = robot.mline.pieces[robot.piece]
@@ -59,6 +67,47 @@ class Line:
         self.upward = way.direction.y.sign() > 0
         self.sense = 1 if self.upward else -1
         self.losses: list[Loss] = []
+        robot.news()
+        self._first: Real | None = None
+        self._unsettled = set(robot.incomplete)
+        self._from: dict[int, float] = {}
+        self._by_ordinate: list[tuple[float, int]] = []
+
+    # -- what is at stake --------------------------------------------------------------------------
+
+    def _settle(self) -> None:
+        """Look again at obstacles that are out of sight and of which more became known."""
+        robot = self.robot
+        self._unsettled |= robot.news()
+        out_of_sight = self._unsettled - robot.in_sight
+        self._unsettled -= out_of_sight
+        for k in out_of_sight:
+            if k in self._from:
+                del self._by_ordinate[bisect_left(self._by_ordinate, (self._from.pop(k), k))]
+            if k in robot.incomplete and self._is_at_stake(k, robot.map):
+                self._from[k] = self._earliest(known(robot.map, k))
+                insort(self._by_ordinate, (self._from[k], k))
+
+    def _earliest(self, curves: list[Curve]) -> float:
+        """Pieces do not go out of reach before this ordinate, times the sense: rounded, so in order."""
+        ends = [
+            self.sense * float(y) for curve in curves for y in thresholds(self.x, curve, self.robot.radius)
+        ]
+        return (max if self.lookahead else min)(ends, default=-inf)
+
+    def _due(self, before: Real) -> Iterator[int]:
+        """Obstacles at stake that may go out of reach up to an ordinate, the first one first."""
+        for earliest, k in self._by_ordinate:
+            if earliest > self.sense * float(before):
+                return
+            yield k
+
+    def _all_at_stake(self) -> list[int]:
+        """All obstacles at stake."""
+        self._unsettled |= self.robot.news()
+        chart = self.robot.map
+        some = {*self._from, *self._unsettled} & self.robot.incomplete
+        return [k for k in sorted(some) if self._is_at_stake(k, chart)]
 
     # -- on the way --------------------------------------------------------------------------------
 
@@ -67,46 +116,59 @@ class Line:
 
         What it is, is in ``losses``. That it stops at a place depends on nothing that is learned later.
         """
-        self.losses = []
-        first: Real | None = None
-        for gap in sorted(self._gaps(ahead), key=lambda gap: gap.place.y, reverse=not self.upward):
-            if first is not None and self._order(first, gap.place.y) < 0:
+        self.losses, self._first = [], None
+        leg = ahead.leg
+        notices: dict[int, list[Notice]] = {}
+        for notice in ahead.notices:
+            notices.setdefault(notice.obstacle, []).append(notice)
+        for k in self._dormant(leg.end.y, notices):
+            self._look(_OutOfSight(k, leg.first, leg.start, False, None), ahead)
+        gaps = (gap for k in sorted(notices) for gap in self._gaps(k, notices[k], leg))
+        for gap in sorted(gaps, key=lambda gap: gap.place.y, reverse=not self.upward):
+            if self._first is not None and self._order(self._first, gap.place.y) < 0:
                 break
-            found = self._loss(gap, ahead)
-            if found is None:
-                continue
-            y, reason = found
-            order = 1 if first is None else self._order(first, y)
-            if order > 0:
-                first, self.losses = y, []
-            if order >= 0:
-                self.losses.append(Loss(gap.obstacle, reason))
-        return None if first is None else Point(self.x, first)
+            self._look(gap, ahead)
+        return None if self._first is None else Point(self.x, self._first)
+
+    def _look(self, gap: _OutOfSight, ahead: Ahead) -> None:
+        """Note what is about to be lost in a gap, unless something else is before."""
+        found = self._loss(gap, ahead)
+        if found is None:
+            return
+        y, reason = found
+        order = 1 if self._first is None else self._order(self._first, y)
+        if order > 0:
+            self._first, self.losses = y, []
+        if order >= 0:
+            self.losses.append(Loss(gap.obstacle, reason))
 
     def _order(self, a: Real, b: Real) -> int:
         return a.compare(b) * self.sense
 
-    def _gaps(self, ahead: Ahead) -> Iterator[_OutOfSight]:
-        """When the obstacles of the map, or that come on it, are out of sight, until they are acquired."""
-        robot, leg = self.robot, ahead.leg
-        notices: dict[int, list[tuple[EventKind, Real, Point]]] = {}
-        for notice in ahead.notices:
-            notices.setdefault(notice.obstacle, []).append((notice.kind, notice.u, notice.place))
-        for k in sorted({*robot.incomplete, *notices}):
-            begin = None if k in robot.in_sight else (leg.first, leg.start, False)
-            for kind, u, place in notices.get(k, []):
-                if kind is EventKind.LOSE:
-                    begin = u, place, True
-                elif begin is not None:
-                    # Where it is lost and seen again at one place, nothing lies between.
-                    if self._order(begin[1].y, place.y) < 0:
-                        yield _OutOfSight(k, *begin, place.y)
-                    begin = None
-                if kind is EventKind.ACQUIRE:
-                    begin = None
-                    break
-            if begin is not None:
-                yield _OutOfSight(k, *begin, None)
+    def _dormant(self, end: Real, others: Container[int]) -> Iterator[int]:
+        """Obstacles out of sight that may be lost before a way ends, and before what is lost by then."""
+        self._settle()
+        for k in self._due(end):
+            if self._first is not None and self._from[k] > self.sense * float(self._first):
+                return
+            if k not in self.robot.in_sight and k not in others:
+                yield k
+
+    def _gaps(self, k: int, notices: list[Notice], leg: Leg) -> Iterator[_OutOfSight]:
+        """When an obstacle that is on the map, or comes on it, is out of sight, until it is acquired."""
+        begin = None if k in self.robot.in_sight else (leg.first, leg.start, False)
+        for notice in notices:
+            if notice.kind is EventKind.LOSE:
+                begin = notice.u, notice.place, True
+            elif begin is not None:
+                # Where it is lost and seen again at one place, nothing lies between.
+                if self._order(begin[1].y, notice.place.y) < 0:
+                    yield _OutOfSight(k, *begin, notice.place.y)
+                begin = None
+            if notice.kind is EventKind.ACQUIRE:
+                return
+        if begin is not None:
+            yield _OutOfSight(k, *begin, None)
 
     def _loss(self, gap: _OutOfSight, ahead: Ahead) -> tuple[Real, Reason] | None:
         """Where, before the end of a gap and of the way, its obstacle is about to be lost, and why."""
@@ -152,19 +214,19 @@ class Line:
 
     def at_end(self) -> list[Loss]:
         """What is lost where the line ends."""
-        chart, incomplete = self.robot.map, sorted(self.robot.incomplete)
-        return [Loss(k, Reason.LINE_ENDS) for k in incomplete if self._is_at_stake(k, chart)]
+        return [Loss(k, Reason.LINE_ENDS) for k in self._all_at_stake()]
 
     def before_hop(self, leave: Point | None) -> list[Loss]:
         """What is lost on the hop around an obstacle to a leave point, None if it lies beyond the line."""
+        if leave is None:
+            return self.at_end()
         robot, chart = self.robot, self.robot.map
+        self._settle()
         found = []
-        for k in sorted(robot.incomplete):
+        for k in sorted({*self._due(leave.y), *(robot.in_sight & robot.incomplete)}):
             if not self._is_at_stake(k, chart):
                 continue
-            if leave is None:
-                found.append(Loss(k, Reason.LINE_ENDS))
-            elif self._goes_out_of_reach(k, chart, leave):
+            if self._goes_out_of_reach(k, chart, leave):
                 found.append(Loss(k, Reason.OUT_OF_REACH))
             elif k in robot.in_sight and not self._is_visible_from(k, chart, leave):
                 found.append(Loss(k, Reason.OUT_OF_SIGHT))

@@ -6,7 +6,8 @@ that are on the map. It learns what is in the way by meeting it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence, Set
+from bisect import bisect_left
+from collections.abc import Callable, Iterator, Sequence, Set
 from typing import NamedTuple
 
 from flint import fmpq
@@ -18,7 +19,7 @@ from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.scene import Scene
 from exactacq.scene.terrain_components import Component, Ground
-from exactacq.sensing.map import Map
+from exactacq.sensing.map import Map, Spots
 from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Piece
 from exactacq.sensing.sensor import Ahead
@@ -50,7 +51,12 @@ class SeedSpreaderRobot(Robot):
         self.mline = MLine(ground.terrain, radius)
         self._blocking = Blocking(ground, table)
         self._crossings = self.mline.crossings(self._blocking)
-        self._next = self.piece = 0
+        self._numbers = {id(crossing): n for n, crossing in enumerate(self._crossings)}
+        self._of: dict[int, list[int]] = {}
+        for n, crossing in enumerate(self._crossings):
+            self._of.setdefault(crossing.component.index, []).append(n)
+        self._spots: dict[int, Spots] = {}
+        self._next = self.piece = self._passed_by = 0
         self._gaps: list[Gap] = []
         self._bases, self._passed = (Point(0, 0), Point(0, 0)), 0
         super().__init__(Point(0, 0), Memory(scene, radius, table, ground))
@@ -90,27 +96,33 @@ class SeedSpreaderRobot(Robot):
         """The pieces of an obstacle in sight from here; a single point is a piece without length."""
         return self._memory.visible(self.position, obstacle)
 
+    def news(self) -> set[int]:
+        """The obstacles of which more became known or a crossing point was passed since the last time."""
+        passed = {crossing.component.index for crossing in self._crossings[self._passed_by : self._next]}
+        self._passed_by = self._next
+        return self._memory.news() | passed
+
     def blocks_ahead(self, obstacle: int, chart: Map) -> bool:
         """Whether a crossing point of an obstacle on the rest of the M-line is on a map."""
-        return any(
-            crossing.component.index == obstacle and self._is_known(crossing, chart)
-            for crossing in self._crossings[self._next :]
-        )
+        return any(chart.knows_some(self._ashore(n, chart)) for n in self._ahead(obstacle))
 
-    def _is_known(self, crossing: Crossing, chart: Map) -> bool:
-        component, point = crossing.component, crossing.stop.point
-        return _is_ashore(component, point) and chart.knows(component.index, point)
+    def _ahead(self, obstacle: int) -> Iterator[int]:
+        """The numbers of an obstacle's crossing points on the rest of the M-line."""
+        numbers = self._of.get(obstacle, [])
+        return (numbers[k] for k in range(bisect_left(numbers, self._next), len(numbers)))
+
+    def _ashore(self, number: int, chart: Map) -> Spots:
+        """Where a crossing point lies on the boundary that the robot can reach, if it does."""
+        if number not in self._spots:
+            crossing = self._crossings[number]
+            self._spots[number] = chart.spots(crossing.component.index, crossing.stop.point)
+        return self._spots[number]
 
     def leave_point(self, hit: Hit) -> Crossing | None:
         """Where the M-line goes on after an obstacle that was walked around; None if it traps S or T."""
-        for crossing in self._crossings[self._next :]:
-            component = crossing.component
-            if (
-                component.index == hit.obstacle
-                and crossing.ends
-                and _is_ashore(component, crossing.stop.point)
-            ):
-                return crossing
+        for n in self._ahead(hit.obstacle):
+            if self._crossings[n].ends and self._ashore(n, self.map):
+                return self._crossings[n]
         return None
 
     # -- motion ------------------------------------------------------------------------------------
@@ -133,7 +145,7 @@ class SeedSpreaderRobot(Robot):
 
     def resume(self, crossing: Crossing) -> None:
         """Take up the M-line at a leave point, to which the robot has walked."""
-        self.piece, self._next = crossing.piece, self._crossings.index(crossing) + 1
+        self.piece, self._next = crossing.piece, self._numbers[id(crossing)] + 1
 
     def head_for(self, goal: Point) -> None:
         """Lay a straight way from here to a point."""

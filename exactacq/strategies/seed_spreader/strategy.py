@@ -202,7 +202,11 @@ class _Spreader:
     def _finished(self, scene: Scene, ground: Ground) -> SeedSpreaderRun:
         robot = self.robot
         path, events, record = robot.trace()
-        chart, every = robot.map, range(len(ground.components))
+        every, seen, incomplete = (
+            range(len(ground.components)),
+            set(robot.map.seen),
+            set(robot.map.incomplete),
+        )
         run = SeedSpreaderRun(
             scene=scene,
             radius=robot.radius,
@@ -211,8 +215,8 @@ class _Spreader:
             visits=tuple(robot.visited),
             events=events,
             bounds=(),
-            unseen=tuple(k for k in every if k not in chart.seen),
-            unvisited=tuple(k for k in every if k in chart.incomplete),
+            unseen=tuple(k for k in every if k not in seen),
+            unvisited=tuple(k for k in every if k in incomplete),
             record=record,
             lookahead=self.lookahead,
             target=str(self.target),
