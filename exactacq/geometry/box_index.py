@@ -29,6 +29,8 @@ FEWEST = 32
 CHUNK = 1 << 20
 """Candidate pairs handled at once: bounds the memory (about 50 bytes a pair) on hostile scenes."""
 
+SCANNED = 1 << 13
+"""Up to so many boxes a window is compared with all of them: that takes less than looking up cells."""
 TINY = 1e-290
 """Added to margins: covers what underflow loses."""
 LIMIT = 1e300
@@ -105,12 +107,20 @@ class BoxIndex:
     def __init__(self, array: Boxes) -> None:
         self.boxes: Boxes = np.ascontiguousarray(array, dtype=np.float64).reshape(-1, 4)
         self._levels = [_Level(self.boxes, members, size) for members, size in _sort_by_size(self.boxes)]
+        self._sides = self.boxes.T.copy() if len(self.boxes) <= SCANNED else None
 
     def __len__(self) -> int:
         return len(self.boxes)
 
     def query(self, x0: float, y0: float, x1: float, y1: float) -> Indices:
         """Ascending indices of the boxes that meet a closed window."""
+        if self._sides is not None:
+            left, low, right, high = self._sides
+            meets = left <= x1
+            meets &= right >= x0
+            meets &= low <= y1
+            meets &= high >= y0
+            return np.flatnonzero(meets)
         window = [min(max(side, -LIMIT), LIMIT) for side in (x0, y0, x1, y1)]
         found = [run for level in self._levels for run in level.window(*window)]
         indices = np.concatenate(found) if found else np.empty(0, np.int64)

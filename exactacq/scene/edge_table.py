@@ -53,6 +53,9 @@ class EdgeTable:
         self.full = np.array([isinstance(c, Arc) and c.full for c in self.curves], dtype=bool)
         self.start: Floats = np.array([_floats(v) for v in self.vertices], dtype=float).reshape(-1, 2)
         self.end = self.start[self.next] if len(self.curves) else self.start
+        self.rows: Floats = np.concatenate((self.start, self.end - self.start), axis=1).T.copy()
+        """Four rows: where every edge starts, and the vector from there to its end."""
+        self.curved = bool(self.kind.any())
         round_ = circles(self.curves)
         self.center, self.radius = round_[:, :2], round_[:, 2]
         self.boxes: Floats = bounds(self.curves)

@@ -98,12 +98,15 @@ class FrontFaces:
         self.special: list[int] = []
         self._offsets: dict[int, Vector] = {}
         near = table.near(self.xy, self.xy, reach)
-        kind = table.kind[near]
-        edges, low, high = self._straight(near[kind == STRAIGHT])
         arcs: list[tuple[int, int, int]] = []
-        for e in near[kind != STRAIGHT].tolist():
-            if e not in own:
-                arcs += self._arc(e)
+        if table.curved:
+            straight = table.kind[near] == STRAIGHT
+            edges, low, high = self._straight(near[straight])
+            for e in near[~straight].tolist():
+                if e not in own:
+                    arcs += self._arc(e)
+        else:
+            edges, low, high = self._straight(near)
         self.cone = self._cone(arcs) if own else None
         for e in self.on_ray:
             self.special += (e, int(table.next[e]))
@@ -147,15 +150,21 @@ class FrontFaces:
         table, slack = self.table, self.slack
         for e in self.own:
             edges = edges[edges != e]
-        start, end = table.start[edges] - self.xy, table.end[edges] - self.xy
-        sx, sy, ex, ey = start[:, 0], start[:, 1], end[:, 0], end[:, 1]
-        ax, ay = ex - sx, ey - sy
-        share = np.clip(-(sx * ax + sy * ay) / np.maximum(ax * ax + ay * ay, 1e-300), 0.0, 1.0)
-        gap = np.hypot(sx + share * ax, sy + share * ay)
-        turn = sx * ey - sy * ex
-        margin = 4 * slack * (np.abs(sx) + np.abs(sy) + np.abs(ex) + np.abs(ey))
+        rows = table.rows[:, edges]
+        rows[0] -= self.xy[0]
+        rows[1] -= self.xy[1]
+        sx, sy, ax, ay = rows
+        margin = np.abs(rows).sum(axis=0)
+        margin *= 4 * slack
+        turn = sx * ay
+        turn -= sy * ax
         front = turn < -margin
-        vague = ~(front | (turn > margin))
+        vague = np.abs(turn) <= margin
+        share = sx * ax
+        share += sy * ay
+        share /= -np.maximum(ax * ax + ay * ay, 1e-300)
+        share = np.minimum(np.maximum(share, 0.0), 1.0)
+        gap = np.hypot(sx + share * ax, sy + share * ay)
         near = ~(gap > self.reach + 4 * slack)
         if vague.any():
             for k in np.flatnonzero(vague & near).tolist():

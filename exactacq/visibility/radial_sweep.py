@@ -11,8 +11,9 @@ Cost for n edges within reach: O(n log n + k), k the number of pairs of a cell a
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from itertools import pairwise
 from math import inf, pi
+from typing import NamedTuple
 
 import numpy as np
 from flint import fmpq
@@ -32,8 +33,7 @@ NOTHING, BLOCKED = -1, -2
 SEAM = 2 * pi
 
 
-@dataclass(frozen=True, slots=True)
-class FirstFace:
+class FirstFace(NamedTuple):
     """Directions, counterclockwise from rank ``low`` to rank ``high``, in which one face comes first.
 
     ``face`` may be NOTHING or BLOCKED. All around if ``low == high``; without events both are NOWHERE.
@@ -70,72 +70,80 @@ class RadialSweep:
     def _order_events(self) -> None:
         """Group the events by direction, counterclockwise from the east: exact where floats leave doubt."""
         faces = self.faces
-        ids, inverse = np.unique(
-            np.concatenate((faces.low, faces.high, np.array(faces.special, dtype=np.intp))),
-            return_inverse=True,
-        )
         count = len(faces.edge)
+        parts = (faces.low, faces.high, np.array(faces.special, dtype=np.intp))
+        ids = np.concatenate(parts if faces.special else parts[:2])
         angle, margin = self._angles(ids)
-        vague = np.flatnonzero((angle < margin) | (angle > SEAM - margin))
-        for k in vague.tolist():
-            if ids[k] != NOWHERE:
-                x, y = faces.offset(int(ids[k]))
-                upper = (sign(y) or (0 if sign(x) > 0 else -1)) >= 0
-                if upper != (angle[k] < pi) and margin[k] < VAGUE:
-                    angle[k] = 0.0 if upper else SEAM
-        order = np.argsort(angle - margin, kind="stable")
-        if len(ids) and ids[0] == NOWHERE:
-            order = order[order != 0]
-        low, high = (angle - margin)[order], np.maximum.accumulate((angle + margin)[order])
-        starts = np.flatnonzero(np.concatenate((np.ones(min(len(order), 1), bool), low[1:] > high[:-1])))
-        events = ids[order].tolist()
+        below, above = angle - margin, angle + margin
+        seam = (below < 0) | (above > SEAM)
+        if seam.any():
+            for k in np.flatnonzero(seam).tolist():
+                if ids[k] != NOWHERE:
+                    x, y = faces.offset(int(ids[k]))
+                    upper = (sign(y) or (0 if sign(x) > 0 else -1)) >= 0
+                    if upper != (angle[k] < pi) and margin[k] < VAGUE:
+                        angle[k] = 0.0 if upper else SEAM
+            below, above = angle - margin, angle + margin
+        order = np.argsort(below, kind="stable")
+        if faces.curved and (ids == NOWHERE).any():
+            order = order[ids[order] != NOWHERE]
+        # Most events end two faces, and come twice: with the same angle and margin, so without a gap between.
+        events = ids[order]
+        gap = np.ones(len(order), dtype=bool)
+        gap[1:] = below[order[1:]] > np.maximum.accumulate(above[order[:-1]])
+        starts = np.flatnonzero(gap)
         rank = np.full(len(ids), NOWHERE)
-        if len(starts) == len(order):
-            self.groups = [[event] for event in events]
-            rank[order] = np.arange(len(order))
-            self.angle, self.margin = angle[order], margin[order]
+        if len(starts) == min(len(order), 1) + np.count_nonzero(events[1:] != events[:-1]):
+            self.groups = [[event] for event in events[starts].tolist()]
+            rank[order] = np.cumsum(gap) - 1
+            chosen = order[starts]
+            self.angle, self.margin = angle[chosen], margin[chosen]
         else:
-            ends = [*starts[1:].tolist(), len(order)]
-            where: dict[int, int] = {}
-            for a, b in zip(starts.tolist(), ends, strict=True):
-                for group in self._sorted(events[a:b]):
-                    for event in group:
-                        where[event] = len(self.groups)
-                    self.groups.append(group)
-            for k in order.tolist():
-                rank[k] = where[int(ids[k])]
+            self._separate(events.tolist(), below[order].tolist(), starts.tolist())
+            where = {event: k for k, group in enumerate(self.groups) for event in group}
+            rank[order] = [where[event] for event in events.tolist()]
             self.angle, self.margin = np.zeros(len(self.groups)), np.zeros(len(self.groups))
             self.angle[rank[order]] = angle[order]
             np.maximum.at(self.margin, rank[order], margin[order])
-        ranks = rank[inverse.reshape(-1)]
-        self._low, self._high = ranks[:count], ranks[count : 2 * count]
+        self._low, self._high = rank[:count], rank[count : 2 * count]
         self.low: list[int] = self._low.tolist()
         self.high: list[int] = self._high.tolist()
         self.rank = dict(zip(ids.tolist(), rank.tolist(), strict=True)) if faces.special else {}
         self.special = sorted(
             {self.rank[e] for e in faces.special} | {r for r, g in enumerate(self.groups) if len(g) > 1}
-            if len(self.groups) < len(order) or faces.special
-            else ()
         )
+
+    def _separate(self, events: list[int], below: list[float], starts: list[int]) -> None:
+        """Group sorted events; only within runs, which begin at *starts*, margins leave the order open."""
+        key = dict(zip(events, below, strict=True))
+        for a, b in pairwise((*starts, len(events))):
+            some = set(events[a:b])
+            self.groups += self._sorted(sorted(some, key=lambda event: (key[event], event)))
 
     def _angles(self, ids: Ints) -> tuple[Floats, Floats]:
         """Directions of events as angles in [0, 2 pi], with their margins."""
-        faces, count = self.faces, len(self.table.vertices)
-        xy = np.zeros((len(ids), 2))
-        vertices = (ids >= 0) & (ids < count)
-        xy[vertices] = self.table.start[ids[vertices]] - faces.xy
-        size, slack = np.hypot(xy[:, 0], xy[:, 1]), faces.slack
-        margin = np.where(size > 16 * slack, quotient(2 * slack, size) + 2e-15, VAGUE)
-        for k in np.flatnonzero(~vertices).tolist():
-            if ids[k] >= 0:
-                mark = faces.marks[int(ids[k]) - count]
-                xy[k], margin[k] = mark.xy, mark.margin
+        faces, table = self.faces, self.table
+        count, slack = len(table.vertices), faces.slack
+        plain = not (faces.marks or faces.curved)
+        vertices = ids if plain else np.where((ids >= 0) & (ids < count), ids, 0)
+        x, y = table.rows[:2, vertices] if len(ids) else np.zeros((2, 0))
+        x -= faces.xy[0]
+        y -= faces.xy[1]
+        size = np.hypot(x, y)
+        margin = 2 * slack / np.maximum(size, 16 * slack) + 2e-15
+        margin[size <= 16 * slack] = VAGUE
+        if not plain:
+            for k in np.flatnonzero((ids < 0) | (ids >= count)).tolist():
+                x[k], y[k], margin[k] = 0.0, 0.0, VAGUE
+                if ids[k] >= 0:
+                    mark = faces.marks[int(ids[k]) - count]
+                    (x[k], y[k]), margin[k] = mark.xy, mark.margin
         for e in faces.special:
-            k = int(np.searchsorted(ids, e))
-            x, y = faces.offset(e)
-            if vertices[k]:
-                xy[k], margin[k] = (float(x), float(y)), 2e-15
-        angle = np.arctan2(xy[:, 1], xy[:, 0])
+            if e < count:
+                u, v = faces.offset(e)
+                some = ids == e
+                x[some], y[some], margin[some] = float(u), float(v), 2e-15
+        angle = np.arctan2(y, x)
         return np.where(angle < 0, angle + SEAM, angle), margin
 
     def _sorted(self, events: list[int]) -> list[list[int]]:
@@ -180,17 +188,16 @@ class RadialSweep:
         first = np.full(cells, NOTHING)
         if len(self._facet):
             tau, error = self._distances()
-            order = np.lexsort((tau, self._cell))
-            cell = self._cell[order]
-            heads = np.flatnonzero(np.concatenate(([True], cell[1:] != cell[:-1])))
-            first[cell[heads]] = self._facet[order[heads]]
             limit = np.full(cells, inf)
-            limit[cell[heads]] = (tau + error)[order[heads]]
-            close = ~((tau - error) > limit[self._cell])
-            rivals = np.bincount(self._cell[close], minlength=cells) > 1
-            for k in np.flatnonzero(rivals).tolist():
-                some = self._facet[close & (self._cell == k)].tolist()
-                first[k] = self.nearest(self._inner_direction(k), some)
+            np.minimum.at(limit, self._cell, tau + error)
+            close = np.flatnonzero(~((tau - error) > limit[self._cell]))
+            cell = self._cell[close]
+            first[cell] = self._facet[close]
+            if len(cell) > 1:
+                rivals = np.bincount(cell, minlength=cells) > 1
+                for k in np.flatnonzero(rivals).tolist():
+                    some = self._facet[close[cell == k]].tolist()
+                    first[k] = self.nearest(self._inner_direction(k), some)
         cone = self.faces.cone
         if cone is not None:
             low, high = self.rank[cone.low], self.rank[cone.high]
@@ -209,17 +216,25 @@ class RadialSweep:
         else:
             middle, rough = np.zeros(1), np.full(1, 2e-15)
         face, cell = self._facet, self._cell
-        ux, uy, rough = np.cos(middle)[cell], np.sin(middle)[cell], rough[cell]
-        s, a = table.start[faces.edge] - faces.xy, table.end[faces.edge] - table.start[faces.edge]
-        sx, sy, ax, ay = s[:, 0], s[:, 1], a[:, 0], a[:, 1]
+        ux, uy, rough = np.array((np.cos(middle), np.sin(middle), rough))[:, cell]
+        rows = table.rows[:, faces.edge]
+        rows[0] -= faces.xy[0]
+        rows[1] -= faces.xy[1]
+        sx, sy, ax, ay = rows
         size = np.abs(ax) + np.abs(ay)
         above, spread = sx * ay - sy * ax, 4 * slack * (np.abs(sx) + np.abs(sy) + size + slack)
-        below = ux * ay[face] - uy * ax[face]
-        doubt = 4 * slack + size[face] * rough
+        ax, ay, size, above, spread = np.array((ax, ay, size, above, spread))[:, face]
+        below = ux * ay
+        below -= uy * ax
         clear = np.abs(below)
+        doubt = size * rough
+        doubt += 4 * slack
         sure = clear > 8 * doubt
-        tau = above[face] / np.where(sure, below, 1.0)
-        error = np.where(sure, quotient(2 * (spread[face] + np.abs(tau) * doubt), clear), inf)
+        if not sure.all():
+            # Where the face runs along the ray, nothing is known.
+            below[~sure], clear[~sure], spread[~sure] = 1.0, 1.0, inf
+        tau = above / below
+        error = 2 * (spread + np.abs(tau) * doubt) / clear
         if faces.curved:
             edge = faces.edge[face]
             curved = np.flatnonzero(table.kind[edge] != STRAIGHT)
