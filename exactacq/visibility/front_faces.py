@@ -16,12 +16,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from math import hypot, sqrt
+from typing import Any
 
 import numpy as np
+from flint import arb
 
 from exactacq.geometry.coordinates import Vector, advance, cross, dot, minus, raw, sign, square_root
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import spans
+from exactacq.geometry.late import Balls, ball_of, balls, late_point
 from exactacq.geometry.points import Point
 from exactacq.scene.edge_table import STRAIGHT, EdgeTable, Ints
 from exactacq.visibility.features import is_spike, parallel
@@ -40,32 +43,65 @@ NOWHERE = -1
 
 
 class SweepEnd:
-    """An event that is no vertex: its point and the exact direction to it, made by *make* when asked for,
-    and that direction as floats with a margin.
+    """An event that is no vertex: its point, the direction to it, and that direction as floats with a margin.
 
     It lies on arc ``edge``, to whose circle the direction is tangent; ``side`` is 1 if the circle is to the
-    left, else -1.
+    left, else -1. ``around`` are balls around the direction that `vector` gives exactly.
     """
 
-    __slots__ = ("_exact", "_make", "edge", "margin", "side", "xy")
+    __slots__ = ("around", "edge", "margin", "point", "side", "vector", "xy")
 
     def __init__(
         self,
-        make: Callable[[], tuple[Point, Vector]],
+        point: Point,
+        vector: Callable[[], Vector],
+        around: Balls,
         xy: tuple[float, float],
         margin: float,
         edge: int,
         side: int,
     ) -> None:
-        self._make, self.xy, self.margin, self.edge, self.side = make, xy, margin, edge, side
-        self._exact: tuple[Point, Vector] | None = None
+        self.point, self.vector, self.around = point, vector, around
+        self.xy, self.margin, self.edge, self.side = xy, margin, edge, side
 
-    @property
-    def exact(self) -> tuple[Point, Vector]:
-        """Point and direction."""
-        if self._exact is None:
-            self._exact = self._make()
-        return self._exact
+
+class _Touch:
+    """Where the left (1) or right (-1) tangent from a point touches a circle; w leads to the centre.
+
+    With h^2 the squared length of the tangent and g = h r the direction is h^2 w +- g left(w), which is |w|^2
+    times as long as the way.
+    """
+
+    __slots__ = ("_vector", "arc", "origin", "side", "w")
+
+    def __init__(self, origin: Vector, arc: Arc, w: Vector, side: int) -> None:
+        self.origin, self.arc, self.w, self.side = origin, arc, w, side
+        self._vector: Vector | None = None
+
+    def vector(self) -> Vector:
+        """The exact direction."""
+        if self._vector is None:
+            w, radius_sq = self.w, self.arc.radius_sq
+            excess = dot(w, w) - radius_sq
+            self._vector = _tangent(w, excess, square_root(excess * radius_sq) * self.side)
+        return self._vector
+
+    def point(self) -> Point:
+        """The exact point."""
+        return advance(self.origin, self.vector(), 1 / dot(self.w, self.w))
+
+    def around(self, origin: Balls) -> tuple[Balls, Balls]:
+        """Balls around the direction and the point."""
+        (x, y), center, radius_sq = origin, balls(self.arc.center), arb(self.arc.radius_sq)
+        w = center[0] - x, center[1] - y
+        square = dot(w, w)
+        excess = square - radius_sq
+        u, v = _tangent(w, excess, (excess * radius_sq).sqrt() * self.side)
+        return (u, v), (x + u / square, y + v / square)
+
+
+def _tangent(w: Any, excess: Any, g: Any) -> Any:
+    return w[0] * excess - w[1] * g, w[1] * excess + w[0] * g
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,7 +125,7 @@ class FrontFaces:
 
     def __init__(self, table: EdgeTable, point: Point, reach: float, own: tuple[int, ...]) -> None:
         self.table, self.point, self.own = table, point, own
-        self.origin = raw(point)
+        self.origin, self.around = raw(point), balls(point)
         self.xy = point.xy
         self.reach = reach
         self.slack = SLACK * table.roundoff_at(self.xy)
@@ -131,14 +167,26 @@ class FrontFaces:
             if event < len(vertices):
                 known = minus(vertices[event], self.origin)
             else:
-                known = self.marks[event - len(vertices)].exact[1]
+                known = self.marks[event - len(vertices)].vector()
             self._offsets[event] = known
         return known
+
+    def late_offset(self, event: int) -> tuple[Balls, Callable[[], Vector]]:
+        """Balls around that vector, and what makes it."""
+        vertices = self.table.vertices
+        known = self._offsets.get(event)
+        if known is not None:
+            return (ball_of(known[0]), ball_of(known[1])), lambda: known
+        if event < len(vertices):
+            x, y = balls(self.table.curves[event].start)
+            return (x - self.around[0], y - self.around[1]), partial(minus, vertices[event], self.origin)
+        mark = self.marks[event - len(vertices)]
+        return mark.around, mark.vector
 
     def place(self, event: int) -> Point:
         """The point where an event lies."""
         count = len(self.table.vertices)
-        return self.table.curves[event].start if event < count else self.marks[event - count].exact[0]
+        return self.table.curves[event].start if event < count else self.marks[event - count].point
 
     def _mark(self, mark: SweepEnd) -> int:
         self.marks.append(mark)
@@ -234,7 +282,11 @@ class FrontFaces:
             wx, wy = float(w[0]), float(w[1])
             radius, reach = float(arc.radius), sqrt(float(dot(w, w) - arc.radius_sq))
         xy = wx * reach - wy * radius * side, wy * reach + wx * radius * side
-        return self._mark(SweepEnd(partial(_touch, self.origin, arc, w, side), xy, margin, e, -side))
+        touch = _Touch(self.origin, arc, w, side)
+        vector, point = touch.around(self.around)
+        return self._mark(
+            SweepEnd(late_point(point, touch.point), touch.vector, vector, xy, margin, e, -side)
+        )
 
     # -- the point's own edges ---------------------------------------------------------------------
 
@@ -265,18 +317,6 @@ class FrontFaces:
             return vertex
         x, y = raw(curve.tangent(self.point))
         vector = x * sense, y * sense
-        xy, here = (float(vector[0]), float(vector[1])), self.point
-        return self._mark(SweepEnd(lambda: (here, vector), xy, EXACT, e, sense if curve.ccw else -sense))
-
-
-def _touch(origin: Vector, arc: Arc, w: Vector, side: int) -> tuple[Point, Vector]:
-    """Where a tangent touches, and its direction; w leads to the centre.
-
-    With h^2 the squared length of the tangent and g = h r the direction is h^2 w +- g left(w), which is |w|^2
-    times as long as the way.
-    """
-    square = dot(w, w)
-    excess = square - arc.radius_sq
-    g = square_root(excess * arc.radius_sq) * side
-    vector = w[0] * excess - w[1] * g, w[1] * excess + w[0] * g
-    return advance(origin, vector, 1 / square), vector
+        around, xy = (ball_of(vector[0]), ball_of(vector[1])), (float(vector[0]), float(vector[1]))
+        side = sense if curve.ccw else -sense
+        return self._mark(SweepEnd(self.point, lambda: vector, around, xy, EXACT, e, side))

@@ -248,8 +248,7 @@ class _Assembly:
 
     def _excess(self, point: Point) -> int:
         """-1, 0 or 1 as a point is within range, at its limit, or beyond."""
-        offset = minus(raw(point), self.view.origin)
-        return sign(dot(offset, offset) - self.view.range.square)
+        return self.view.disc.excess(point)
 
     def _resolved(self, end: End) -> Point:
         if isinstance(end, Point):

@@ -10,16 +10,18 @@ Cost for n edges within reach: O(n log n + k), k the number of pairs of a cell a
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from functools import partial
 from itertools import pairwise
 from math import inf, pi
 from typing import NamedTuple
 
 import numpy as np
-from flint import fmpq
+from flint import arb, fmpq
 
 from exactacq.geometry.coordinates import Vector, advance, cross, minus, raw, sign
-from exactacq.geometry.curves import Arc, Segment
+from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.late import Balls, balls, late_point
 from exactacq.geometry.points import Point
 from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import Real
@@ -260,12 +262,7 @@ class RadialSweep:
     def parameter(self, ray: Point, face: int) -> Real:
         """How many times a ray's vector leads from the point to a face that covers it."""
         e = self.edges[face]
-        curve = self.table.curves[e]
-        if isinstance(curve, Arc) and e in self.faces.own:
-            # The ray meets the circle at the point itself, and again at twice the foot of the centre.
-            tau: Real = 2 * (curve.center - self.faces.point).dot(ray) / ray.norm_sq()
-            return tau
-        return meet(self.faces.point, ray, curve, 1)
+        return _parameter(self.table.curves[e], self.faces.point, e in self.faces.own, ray)
 
     def _inner_direction(self, cell: int) -> Vector:
         """Some rational direction strictly within a cell."""
@@ -304,7 +301,7 @@ class RadialSweep:
         """The point of a face in the direction of a rank that the face covers, or that ends it."""
         if rank == (self.low if is_low else self.high)[face]:
             return self.end(face, is_low)
-        return self.hit(face, self.direction(rank))
+        return self.late_hit(face, rank)
 
     def end(self, face: int, is_low: bool) -> Point:
         """The point that ends a face."""
@@ -312,19 +309,20 @@ class RadialSweep:
         return self.table.curves[self.edges[face]].start if event == NOWHERE else self.faces.place(event)
 
     def hit(self, face: int, vector: Vector) -> Point:
-        """The point of a face in a direction that it covers.
+        """The point of a face in a direction that it covers."""
+        e = self.edges[face]
+        return _hit(self.table.curves[e], self.faces.point, e in self.faces.own, vector)
 
-        On a straight edge s + u a with u = v x (p - s) / v x a: linear in one number, however p looks.
-        """
+    def late_hit(self, face: int, rank: int) -> Point:
+        """The point of a face in the direction of a rank that it covers, made when it is looked into."""
         faces, e = self.faces, self.edges[face]
-        curve = self.table.curves[e]
-        if isinstance(curve, Segment):
-            start = self.table.vertices[e]
-            along = raw(curve.direction)
-            share = cross(vector, minus(faces.origin, start)) / cross(vector, along)
-            return advance(start, along, share)
-        ray = Point(*vector)
-        return faces.point + ray * self.parameter(ray, face)
+        curve, own = self.table.curves[e], e in faces.own
+        group = self.groups[rank]
+        if len(group) > 1:
+            return self.hit(face, self.direction(rank))
+        vector, make = faces.late_offset(group[0])
+        around = _ball_hit(curve, faces.around, own, vector)
+        return late_point(around, partial(_made_hit, curve, faces.point, own, make))
 
     def covering(self, rank: int) -> list[int]:
         """The faces that cover a rank's direction and do not end there."""
@@ -345,6 +343,49 @@ class RadialSweep:
         outgoing = table.curves[event]
         before, after = leaving(incoming, at_end=True), leaving(outgoing, at_end=False)
         return enters(incoming, outgoing, before, after, direction)
+
+
+def _hit(curve: Curve, point: Point, own: bool, vector: Vector) -> Point:
+    """Where a ray from a point meets a curve, which may pass through the point if it is an arc (*own*).
+
+    On a straight edge s + u a with u = v x (p - s) / v x a: linear in one number, however p looks.
+    """
+    if isinstance(curve, Segment):
+        start, along = raw(curve.start), raw(curve.direction)
+        share = cross(vector, minus(raw(point), start)) / cross(vector, along)
+        return advance(start, along, share)
+    ray = Point(*vector)
+    return point + ray * _parameter(curve, point, own, ray)
+
+
+def _made_hit(curve: Curve, point: Point, own: bool, make: Callable[[], Vector]) -> Point:
+    return _hit(curve, point, own, make())
+
+
+def _ball_hit(curve: Curve, point: Balls, own: bool, vector: Balls) -> Balls:
+    """Balls around that point, perhaps not finite."""
+    (x, y), (u, v) = point, vector
+    if isinstance(curve, Segment):
+        (sx, sy), (ax, ay) = balls(curve.start), balls(curve.direction)
+        share = (u * (y - sy) - v * (x - sx)) / (u * ay - v * ax)
+        return sx + ax * share, sy + ay * share
+    cx, cy = balls(curve.center)
+    cx, cy = cx - x, cy - y
+    middle, size = cx * u + cy * v, u * u + v * v
+    if own:
+        tau = 2 * middle / size
+    else:
+        root = (middle * middle - size * (cx * cx + cy * cy - arb(curve.radius_sq))).sqrt()
+        tau = (middle - root if curve.ccw else middle + root) / size
+    return x + u * tau, y + v * tau
+
+
+def _parameter(curve: Curve, point: Point, own: bool, ray: Point) -> Real:
+    if own and isinstance(curve, Arc):
+        # The ray meets the circle at the point itself, and again at twice the foot of the centre.
+        tau: Real = 2 * (curve.center - point).dot(ray) / ray.norm_sq()
+        return tau
+    return meet(point, ray, curve, 1)
 
 
 def _turn(a: Vector, b: Vector) -> int:

@@ -2,51 +2,67 @@
 
 Both a segment's line and an arc's circle meet the disc in one piece, whose ends are square roots over the
 data. Ends that are within range are kept as they are, and decided first: no root is compared with another.
+Balls decide what they can, and the roots are late points: made when they are looked into.
 """
 
 from __future__ import annotations
 
 from collections.abc import Collection
+from functools import partial
 from typing import Any, TypeAlias
 
-from flint import fmpq
+from flint import arb, fmpq
 
 from exactacq.geometry.coordinates import Vector, advance, cross, dot, minus, raw, sign, square_root
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import spans
+from exactacq.geometry.late import ball_of, balls, late_point
 from exactacq.geometry.points import Point
+from exactacq.numbers.rationals import ball_sign
 
 Span: TypeAlias = "tuple[Point, Point]"
 """A closed piece of an edge in the boundary's direction; equal ends are a single point."""
 
 
-def within(
-    curve: Curve,
-    start: Point,
-    end: Point,
-    center: Vector,
-    radius_sq: fmpq,
-    at_range: Collection[int] = (),
-) -> list[Span]:
-    """The parts of the piece of a curve from *start* to *end* at most a radius away from a point, in order.
+class Disc:
+    """The closed disc about a point with a rational squared radius, and balls around these numbers."""
+
+    __slots__ = ("around", "center", "square", "square_ball")
+
+    def __init__(self, point: Point, square: fmpq) -> None:
+        self.center, self.square = raw(point), square
+        self.around, self.square_ball = balls(point), arb(square)
+
+    def excess(self, point: Point) -> int:
+        """-1, 0 or 1 as a point is nearer to the centre than the radius, as near, or farther."""
+        (x, y), (cx, cy) = balls(point), self.around
+        x, y = x - cx, y - cy
+        if clear := ball_sign(x * x + y * y - self.square_ball):
+            return clear
+        offset = minus(raw(point), self.center)
+        return sign(dot(offset, offset) - self.square)
+
+
+def within(curve: Curve, start: Point, end: Point, disc: Disc, at_range: Collection[int] = ()) -> list[Span]:
+    """The parts of the piece of a curve from *start* to *end* in a disc, in order.
 
     At most two parts, each perhaps a single point. *start* and *end* may be one point of a segment, but on an
     arc they are distinct. *at_range* are identities of ends that are known to be as far away as the radius.
     """
-    excess = tuple(0 if id(p) in at_range else _excess(p, center, radius_sq) for p in (start, end))
+    excess = tuple(0 if id(p) in at_range else disc.excess(p) for p in (start, end))
     if isinstance(curve, Segment):
-        return _of_segment(curve, (start, end), excess, center, radius_sq)
+        return _of_segment(curve, (start, end), excess, disc)
     ends, flipped = ((start, end), excess), not curve.ccw
     if flipped:
         ends = (end, start), excess[::-1]
-    parts = _of_arc(curve, *ends, center, radius_sq)
+    parts = _of_arc(curve, *ends, disc)
     return [(b, a) for a, b in reversed(parts)] if flipped else parts
 
 
-def of_circle(circle: Arc, center: Vector, radius_sq: fmpq) -> list[Span] | None:
-    """The part of a full circle within a radius of a point: at most one; None if all of it is within."""
-    w = minus(raw(circle.center), center)
-    level, square = _level(circle, w, radius_sq), dot(w, w)
+def of_circle(circle: Arc, disc: Disc) -> list[Span] | None:
+    """The part of a full circle in a disc: at most one; None if all of it is."""
+    w = minus(raw(circle.center), disc.center)
+    level, square = _level(circle, w, disc.square), dot(w, w)
     rest = sign(circle.radius_sq * square - level * level)
     if rest <= 0:
         touching = rest == 0 and sign(level) < 0
@@ -60,42 +76,81 @@ def of_circle(circle: Arc, center: Vector, radius_sq: fmpq) -> list[Span] | None
     return [part] if circle.ccw else [part[::-1]]
 
 
-def _excess(point: Point, center: Vector, radius_sq: fmpq) -> int:
-    """-1, 0 or 1 as a point is nearer than the radius, as near, or farther."""
-    offset = minus(raw(point), center)
-    return sign(dot(offset, offset) - radius_sq)
+# -- segments --------------------------------------------------------------------------------------
 
 
-def _of_segment(
-    line: Segment, ends: Span, excess: tuple[int, ...], center: Vector, radius_sq: fmpq
-) -> list[Span]:
+def _of_segment(line: Segment, ends: Span, excess: tuple[int, ...], disc: Disc) -> list[Span]:
     if max(excess) <= 0:
         return [ends]
-    origin, along = raw(line.start), raw(line.direction)
-    offset = minus(center, origin)
-    foot, square, height = dot(offset, along), dot(along, along), cross(along, offset)
-    rest = square * radius_sq - height * height
+    chord = _Chord(line, disc)
     if min(excess) > 0:
-        before, after = (minus(center, raw(p)) for p in ends)
-        if sign(rest) < 0 or sign(dot(before, along)) <= 0 or sign(dot(after, along)) >= 0:
+        if chord.misses(*ends):
             return []
-        if sign(rest) == 0:
-            point = advance(origin, along, foot / square)
-            return [(point, point)]
-    root = square_root(rest)
+        if not ball_sign(chord.rest):
+            foot, square, rest = _foot(line, disc.center, disc.square)
+            if sign(rest) == 0:
+                point = advance(raw(line.start), raw(line.direction), foot / square)
+                return [(point, point)]
     start, end = ends
     first = start if excess[0] <= 0 else None
     last = end if excess[1] <= 0 else None
+    along, center = raw(line.direction), disc.center
     if first is not None and excess[0] == 0 and sign(dot(minus(center, raw(start)), along)) <= 0:
         return [(start, start)]
     if last is not None and excess[1] == 0 and sign(dot(minus(center, raw(end)), along)) >= 0:
         return [(end, end)]
-    return [
-        (
-            first or advance(origin, along, (foot - root) / square),
-            last or advance(origin, along, (foot + root) / square),
-        )
-    ]
+    return [(first or chord.crossing(-1), last or chord.crossing(1))]
+
+
+class _Chord:
+    """Where a segment's line meets a disc, in balls: as `_foot`."""
+
+    def __init__(self, line: Segment, disc: Disc) -> None:
+        self.line, self.disc = line, disc
+        self.start, self.along = start, (u, v) = balls(line.start), balls(line.direction)
+        x, y = disc.around[0] - start[0], disc.around[1] - start[1]
+        height = u * y - v * x
+        self.foot, self.square = x * u + y * v, u * u + v * v
+        self.rest = self.square * disc.square_ball - height * height
+
+    def misses(self, start: Point, end: Point) -> bool:
+        """Whether a piece of the line, both of whose ends are outside the disc, does not meet it."""
+        if ball_sign(self.rest) < 0 or self._forward(start) < 0 or self._forward(end) > 0:
+            return True
+        if ball_sign(self.rest) > 0 and self._forward(start) > 0 and self._forward(end) < 0:
+            return False
+        along, center = raw(self.line.direction), self.disc.center
+        before, after = (minus(center, raw(p)) for p in (start, end))
+        if sign(dot(before, along)) <= 0 or sign(dot(after, along)) >= 0:
+            return True
+        return sign(_foot(self.line, center, self.disc.square)[2]) < 0
+
+    def _forward(self, point: Point) -> int:
+        """1 or -1 as the foot of the centre is clearly ahead of a point of the line or behind it, or 0."""
+        x, y = balls(point)
+        center = self.disc.around
+        return ball_sign((center[0] - x) * self.along[0] + (center[1] - y) * self.along[1])
+
+    def crossing(self, side: int) -> Point:
+        """Where the line enters (-1) or leaves (1) the disc."""
+        share = (self.foot + self.rest.sqrt() * side) / self.square
+        around = self.start[0] + self.along[0] * share, self.start[1] + self.along[1] * share
+        return late_point(around, partial(_on_line, self.line, self.disc.center, self.disc.square, side))
+
+
+def _foot(line: Segment, center: Vector, radius_sq: fmpq) -> tuple[Any, Any, Any]:
+    """(f, q, r): the line is in range from the f - sqrt(r) to the f + sqrt(r) q-th parts of its vector."""
+    along, offset = raw(line.direction), minus(center, raw(line.start))
+    square, height = dot(along, along), cross(along, offset)
+    return dot(offset, along), square, square * radius_sq - height * height
+
+
+def _on_line(line: Segment, center: Vector, radius_sq: fmpq, side: int) -> Point:
+    foot, square, rest = _foot(line, center, radius_sq)
+    return advance(raw(line.start), raw(line.direction), (foot + square_root(rest) * side) / square)
+
+
+# -- arcs ------------------------------------------------------------------------------------------
 
 
 def _level(arc: Arc, w: Vector, radius_sq: fmpq) -> Any:
@@ -112,42 +167,70 @@ def _crossing(arc: Arc, w: Vector, level: Any, side: int) -> Point:
     return Point(x + (w[0] * level - w[1] * height) / square, y + (w[1] * level + w[0] * height) / square)
 
 
-def _of_arc(arc: Arc, ends: Span, excess: tuple[int, ...], center: Vector, radius_sq: fmpq) -> list[Span]:
+class _Crossings:
+    """Where an arc's circle meets a disc; w leads from the disc's centre to its own."""
+
+    def __init__(self, arc: Arc, disc: Disc) -> None:
+        self.arc, self.disc = arc, disc
+        self.w: Vector = minus(raw(arc.center), disc.center)
+        self.level = _level(arc, self.w, disc.square)
+
+    def rest(self) -> int:
+        """The sign of what is under the root: 0 if the circle touches the range, -1 if they do not meet."""
+        return sign(self.arc.radius_sq * dot(self.w, self.w) - self.level * self.level)
+
+    def touching(self) -> Point:
+        """Where the circle touches the range from outside."""
+        return advance(raw(self.arc.center), self.w, self.level / dot(self.w, self.w))
+
+    def point(self, side: int) -> Point:
+        """As `_crossing`."""
+        x, y = balls(self.arc.center)
+        u, v = x - self.disc.around[0], y - self.disc.around[1]
+        square, radius_sq = u * u + v * v, arb(self.arc.radius_sq)
+        level = (self.disc.square_ball - square - radius_sq) / 2
+        height = (radius_sq * square - level * level).sqrt() * side
+        around = x + (u * level - v * height) / square, y + (v * level + u * height) / square
+        return late_point(around, partial(_crossing, self.arc, self.w, self.level, side))
+
+    def is_point(self, point: Point, excess: int, side: int) -> bool:
+        """Whether a point of the circle is its crossing of the range to the left (1) or right (-1) of w.
+
+        Where the range only touches the circle, the two crossings are one point.
+        """
+        return excess == 0 and sign(cross(self.w, minus(raw(point), raw(self.arc.center)))) in (0, side)
+
+
+def _of_arc(arc: Arc, ends: Span, excess: tuple[int, ...], disc: Disc) -> list[Span]:
     """Of the counterclockwise piece between two points of the circle."""
     first, last = ends
-    w = minus(raw(arc.center), center)
-    whole = Arc(first, last, arc.center, arc.radius_sq, ccw=True)
+    at = _Crossings(arc, disc)
+    w = at.w
     if max(excess) <= 0:
-        far = w if sign(w[0]) or sign(w[1]) else None
-        if far is None or not spans(whole, far, strict=True):
+        if not (sign(w[0]) or sign(w[1])) or not _passes(arc, ends, w) or at.rest() <= 0:
             return [ends]
-        level = _level(arc, w, radius_sq)
-        if sign(arc.radius_sq * dot(w, w) - level * level) <= 0:
-            return [ends]
-        left = last if _is_side(last, arc, w, excess[1], 1) else _crossing(arc, w, level, 1)
-        right = first if _is_side(first, arc, w, excess[0], -1) else _crossing(arc, w, level, -1)
+        left = last if at.is_point(last, excess[1], 1) else at.point(1)
+        right = first if at.is_point(first, excess[0], -1) else at.point(-1)
         return [(first, right), (left, last)]
-    level = _level(arc, w, radius_sq)
     if min(excess) > 0:
-        rest = sign(arc.radius_sq * dot(w, w) - level * level)
-        if rest < 0 or not spans(whole, (-w[0], -w[1]), strict=True):
+        rest = at.rest()
+        if rest < 0 or not _passes(arc, ends, (-w[0], -w[1])):
             return []
         if rest == 0:
-            point = advance(raw(arc.center), w, level / dot(w, w))
+            point = at.touching()
             return [(point, point)]
-        return [(_crossing(arc, w, level, 1), _crossing(arc, w, level, -1))]
+        return [(at.point(1), at.point(-1))]
     if excess[0] <= 0:
-        if _is_side(first, arc, w, excess[0], -1):
-            return [(first, first)]
-        return [(first, _crossing(arc, w, level, -1))]
-    if _is_side(last, arc, w, excess[1], 1):
-        return [(last, last)]
-    return [(_crossing(arc, w, level, 1), last)]
+        return [(first, first if at.is_point(first, excess[0], -1) else at.point(-1))]
+    return [(last if at.is_point(last, excess[1], 1) else at.point(1), last)]
 
 
-def _is_side(point: Point, arc: Arc, w: Vector, excess: int, side: int) -> bool:
-    """Whether a point of the circle is its crossing of the range to the left (1) or right (-1) of w.
-
-    Where the range only touches the circle, the two crossings are one point.
-    """
-    return excess == 0 and sign(cross(w, minus(raw(point), raw(arc.center)))) in (0, side)
+def _passes(arc: Arc, ends: Span, direction: Vector) -> bool:
+    """Whether a direction, not 0, lies strictly between two points of the circle, counterclockwise."""
+    (x, y), (ax, ay), (bx, by) = (balls(p) for p in (arc.center, *ends))
+    ax, ay, bx, by = ax - x, ay - y, bx - x, by - y
+    u, v = (ball_of(c) for c in direction)
+    turn, after, before = (ball_sign(c) for c in (ax * by - ay * bx, ax * v - ay * u, u * by - v * bx))
+    if turn and after and before:
+        return min(after, before) > 0 if turn > 0 else max(after, before) > 0
+    return spans(Arc(*ends, arc.center, arc.radius_sq, ccw=True), direction, strict=True)

@@ -22,7 +22,7 @@ from exactacq.geometry.points import Point
 from exactacq.scene.edge_table import EdgeTable, Floats
 from exactacq.visibility.features import enters
 from exactacq.visibility.radial_sweep import BLOCKED, NOTHING, FirstFace, RadialSweep
-from exactacq.visibility.range_clip import Span, of_circle, within
+from exactacq.visibility.range_clip import Disc, Span, of_circle, within
 from exactacq.visibility.sensor_range import Range
 
 LAST = 1 << 60
@@ -73,6 +73,7 @@ class BoundaryView:
         self.own = table.edges_at(point) if own is None else own
         self.sweep = RadialSweep(table, point, range_.above, self.own)
         self.origin = self.sweep.faces.origin
+        self.disc = Disc(point, range_.square)
         self._at_range: dict[int, Point] = {}
         self.tight: set[Hold] = set()
         """What holds the ends of sights that are known, by who asks, to be as far away as the range."""
@@ -133,7 +134,7 @@ class BoundaryView:
             # All around is seen only a full circle: from inside a circle a ray meets it once, so that a part
             # of it covers less; from outside, and so of straight edges, a face covers less than half a turn.
             assert isinstance(curve, Arc)
-            some = of_circle(curve, self.origin, self.range.square)
+            some = of_circle(curve, self.disc)
             if some is None:
                 opposite = curve.center + (curve.center - curve.start)
                 return [(curve.start, opposite), (opposite, curve.start)]
@@ -179,19 +180,19 @@ class BoundaryView:
         curve = self.table.curves[self.sweep.edges[face]]
         if start is not end:
             try:
-                spans = within(curve, start, end, self.origin, self.range.square)
+                spans = within(curve, start, end, self.disc)
             except Undecided:
                 e = self.sweep.edges[face]
                 known = [id(p) for p in ends if any(hold in self.tight for hold in self.holds(e, p))]
-                spans = within(curve, start, end, self.origin, self.range.square, known)
+                spans = within(curve, start, end, self.disc, known)
             for point in (p for span in spans for p in span if p is not start and p is not end):
                 self._held[id(point)] = point, AT_RANGE
             return spans
         # All of a full circle that passes through the point itself: the ends of other faces are distinct.
         assert isinstance(curve, Arc)
         opposite = curve.center + (curve.center - start)
-        first = within(curve, start, opposite, self.origin, self.range.square)
-        return first + within(curve, opposite, end, self.origin, self.range.square)
+        first = within(curve, start, opposite, self.disc)
+        return first + within(curve, opposite, end, self.disc)
 
     def _order(self, face: int, rank: int) -> int:
         """Position of a rank on a face, in the boundary's direction."""
@@ -199,8 +200,7 @@ class BoundaryView:
         return (sweep.high[face] - rank) % max(sweep.count, 1)
 
     def _in_range(self, point: Point) -> bool:
-        offset = minus(raw(point), self.origin)
-        return sign(dot(offset, offset) - self.range.square) <= 0
+        return self.disc.excess(point) <= 0
 
     # -- single rays -------------------------------------------------------------------------------
 
@@ -251,8 +251,7 @@ class BoundaryView:
                 reached |= (ends_here and event == blocker) or (face == struck and blocker is None)
             elif face != BLOCKED:
                 place = sweep.at(face, rank, not high)
-                offset = minus(raw(place), self.origin)
-                reached |= sign(dot(offset, offset) - self.range.square) >= 0
+                reached |= self.disc.excess(place) >= 0
         alone = struck if limited and blocker is None and struck not in (before, after) else None
         return SingleRay(rank, end, tuple(met), along, not reached, alone)
 
@@ -319,7 +318,7 @@ class BoundaryView:
         for e in ray.along:
             if e not in self.own:
                 curve = table.curves[e]
-                for span in within(curve, curve.start, curve.end, self.origin, self.range.square):
+                for span in within(curve, curve.start, curve.end, self.disc):
                     found.setdefault(e, []).append(((-1, 0), span))
         for event in ray.events:
             if event in covered:
@@ -343,7 +342,7 @@ class BoundaryView:
             curve = self.table.curves[e]
             if isinstance(curve, Segment):
                 alone = False
-                spans = within(curve, curve.start, curve.end, self.origin, self.range.square)
+                spans = within(curve, curve.start, curve.end, self.disc)
                 found[e] = [((0, 0), span) for span in spans]
             elif not curve.ccw:
                 alone &= e not in found

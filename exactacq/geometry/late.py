@@ -1,0 +1,72 @@
+"""Late points: known by balls until more is asked of them, and made then, once for all of their numbers.
+
+Order, range and clipping are decided by the balls nearly always, and most points are asked for nothing else.
+A late point is a `Point` like any other: its coordinates, and parameters that are read off it, share one
+maker. What a maker holds lives as long as the point is not made, so it should hold little. Reading
+``rational``, `float`, ``xy`` or arithmetic makes the point; `compare`, ``clear_sign``, ``rough`` and
+``ball(64)`` do so only where the ball leaves them open.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeAlias
+
+from flint import arb, fmpq
+
+from exactacq.geometry.points import Point
+from exactacq.numbers.real import Real
+
+BITS = 64
+"""Working bits of the balls that decide before anything is made."""
+
+Balls: TypeAlias = "tuple[arb, arb]"
+"""Balls around two coordinates."""
+
+
+class _Once:
+    """A point that is made when one of its coordinates is first asked for."""
+
+    __slots__ = ("_make", "_point")
+
+    def __init__(self, make: Callable[[], Point]) -> None:
+        self._make: Callable[[], Point] | None = make
+
+    def _made(self) -> Point:
+        if self._make is not None:
+            self._point, self._make = self._make(), None
+        return self._point
+
+    def x(self) -> Real:
+        return self._made().x
+
+    def y(self) -> Real:
+        return self._made().y
+
+
+def late_point(around: Balls, make: Callable[[], Point]) -> Point:
+    """The point that *make* gives, whose coordinates lie in two balls.
+
+    *make* is called at most once. Where a ball is not finite it is called at once.
+
+    >>> corner = late_point((arb(3, 1e-9), arb(1.4, 0.1)), lambda: Point(3, Real(2).sqrt()))
+    >>> corner.x > 2, corner.y.is_late
+    (True, True)
+    >>> print(corner.y, corner.x)
+    sqrt(2) 3
+    """
+    x, y = around
+    if not (x.is_finite() and y.is_finite()):
+        return make()
+    once = _Once(make)
+    return Point(Real.late(x, once.x), Real.late(y, once.y))
+
+
+def balls(point: Point) -> Balls:
+    """Balls around the coordinates of a point; they are kept with its numbers."""
+    return point.x.ball(BITS), point.y.ball(BITS)
+
+
+def ball_of(value: fmpq | Real) -> arb:
+    """A ball around a number as `coordinates.raw` unpacks it."""
+    return value.ball(BITS) if isinstance(value, Real) else arb(value)
