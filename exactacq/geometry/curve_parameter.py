@@ -7,13 +7,14 @@ boundary edges are points with rational coordinates.
 
 from __future__ import annotations
 
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
-from flint import fmpq
+from flint import arb, fmpq
 
 from exactacq.geometry.coordinates import Vector, cross, dot, minus, raw, sign
 from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.late import BITS, Balls, ball_of, balls
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
 
@@ -25,6 +26,7 @@ class Rail:
 
     def __init__(self, curve: Curve) -> None:
         self.curve = curve
+        self.is_closed = isinstance(curve, Arc) and curve.full
 
     @cached_property
     def top(self) -> Real:
@@ -34,12 +36,17 @@ class Rail:
         return Real(4) if self.curve.full else self._turned(self.curve.end)
 
     def parameter(self, point: Point) -> Real:
-        """Where a point of the curve lies: its ends by identity; a full circle's start is at 0."""
+        """Where a point of the curve lies: its ends by identity; a full circle's start is at 0.
+
+        The parameter of a late point is late, and made with it.
+        """
         if point is self.curve.start:
             return ZERO
         if point is self.curve.end:
             return self.top
-        return self._fraction(point) if isinstance(self.curve, Segment) else self._turned(point)
+        if isinstance(self.curve, Segment):
+            return self._late_fraction(point) if point.x.is_late else self._fraction(point)
+        return self._late_turned(point) if point.x.is_late else self._turned(point)
 
     def point(self, u: fmpq) -> Point:
         """The point at a rational parameter."""
@@ -66,6 +73,17 @@ class Rail:
         place = point.y if k else point.x
         return Real(((place if place.rational is None else place.rational) - start) / growth)
 
+    def _late_fraction(self, point: Point) -> Real:
+        """That of a late point, as late: it shares the point's maker."""
+        k, start, growth = self._ball_axis
+        around = ((point.y if k else point.x).ball(BITS) - start) / growth
+        return Real.late(around, partial(self._fraction, point))
+
+    @cached_property
+    def _ball_axis(self) -> tuple[int, arb, arb]:
+        k, start, growth = self._axis
+        return k, ball_of(start), ball_of(growth)
+
     @cached_property
     def _sense(self) -> int:
         assert isinstance(self.curve, Arc)
@@ -81,6 +99,21 @@ class Rail:
             x, y = -y * self._sense, x * self._sense
             bases.append((x, y))
         return bases
+
+    def _late_turned(self, point: Point) -> Real:
+        """That of a late point, as late if balls tell the quarter turn."""
+        assert isinstance(self.curve, Arc)
+        (x, y), (cx, cy) = balls(point), balls(self.curve.center)
+        radius, radius_sq = (x - cx, y - cy), arb(self.curve.radius_sq)
+        for k, base in enumerate(self._ball_bases):
+            along, across = dot(base, radius), cross(base, radius) * self._sense
+            if along > 0 and across > 0:
+                return Real.late(k + across / (radius_sq + along), partial(self._turned, point))
+        return self._turned(point)
+
+    @cached_property
+    def _ball_bases(self) -> list[Balls]:
+        return [(ball_of(x), ball_of(y)) for x, y in self._bases]
 
     def _turned(self, point: Point) -> Real:
         assert isinstance(self.curve, Arc)

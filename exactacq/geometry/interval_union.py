@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from exactacq.geometry.curve_parameter import Rail
+from exactacq.geometry.curve_parameter import ZERO, Rail
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
 
@@ -22,7 +22,7 @@ class Interval:
     @classmethod
     def whole(cls, rail: Rail) -> Interval:
         """All of a rail."""
-        return cls(Real(0), rail.curve.start, rail.top, rail.curve.end)
+        return cls(ZERO, rail.curve.start, rail.top, rail.curve.end)
 
     @classmethod
     def of(cls, u: Real, p: Point, v: Real, q: Point) -> Interval:
@@ -38,13 +38,17 @@ class Interval:
     @classmethod
     def between(cls, rail: Rail, start: Point, end: Point) -> list[Interval]:
         """The part of a rail from start to end, in two pieces if it passes the start of a full circle."""
-        low, high = rail.parameter(start), rail.parameter(end)
-        if low.compare(high) <= 0:
+        curve = rail.curve
+        if start is curve.start and end is curve.end and not rail.is_closed:
+            return [cls.whole(rail)]
+        low = rail.parameter(start)
+        high = low if end is start else rail.parameter(end)
+        if low is high or not rail.is_closed or low.compare(high) <= 0:
             return [cls(low, start, high, end)]
-        seam = rail.curve.start
+        seam = curve.start
         return [
             part
-            for part in (cls(low, start, rail.top, seam), cls(Real(0), seam, high, end))
+            for part in (cls(low, start, rail.top, seam), cls(ZERO, seam, high, end))
             if part.low.compare(part.high) < 0
         ]
 

@@ -13,8 +13,12 @@ from functools import cached_property
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.interval_union import Interval
+from exactacq.geometry.late import BITS as LATE_BITS
+from exactacq.geometry.late import balls
 from exactacq.geometry.late_points import Pin
 from exactacq.geometry.points import Point
+from exactacq.numbers.rationals import ball_sign
+from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.view_families import End, FreeViews, ViewFamily
 from exactacq.visibility.sensor_range import Range
@@ -62,7 +66,7 @@ class Seen:
         for hold in self._holds(e, point, end.tight, family.free_views):
             pin = self._held.get(hold)
             # A full circle's start has two parameters: a family over it keeps the one on its side.
-            if pin is not None and (pin[1] - end.places[1 - side]).clear_sign(BITS) == 0:
+            if pin is not None and not _apart(pin[1], end.places[1 - side]):
                 here = end.points[side], end.places[side]
                 (p, u), (q, v) = (here, pin) if side == 0 else (pin, here)
                 return End(end.t, (p, q), (u, v), end.tight)
@@ -101,10 +105,21 @@ class Seen:
         curve = self.table.curves[e]
         if isinstance(curve, Arc):
             return self._turn(e, point)
-        return (point - self.place).dot(curve.direction).clear_sign(BITS)
+        (x, y), (a, b), (u, v) = balls(point), balls(self.place), balls(curve.direction)
+        clear = ball_sign((x - a) * u + (y - b) * v)
+        return clear or (point - self.place).dot(curve.direction).clear_sign(BITS)
 
     def _turn(self, arc: int, point: Point) -> int:
         """1 or -1 as an arc's centre is to the left or right of the line from here to a point; as above."""
         curve = self.table.curves[arc]
         assert isinstance(curve, Arc)
-        return (point - self.place).cross(curve.center - self.place).clear_sign(BITS)
+        (x, y), (a, b), (u, v) = balls(point), balls(self.place), balls(curve.center)
+        clear = ball_sign((x - a) * (v - b) - (y - b) * (u - a))
+        return clear or (point - self.place).cross(curve.center - self.place).clear_sign(BITS)
+
+
+def _apart(a: Real, b: Real) -> bool:
+    """Whether balls tell two parameters apart; those of late numbers are enough."""
+    if a.is_late or b.is_late:
+        return not a.ball(LATE_BITS).overlaps(b.ball(LATE_BITS))
+    return (a - b).clear_sign(BITS) != 0

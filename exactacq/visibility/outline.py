@@ -138,11 +138,12 @@ class _Assembly:
 
     def pieces(self) -> Iterator[ViewPiece]:
         """Parts joined where they continue each other, with windows where they do not meet."""
-        parts = [(part, sight) for sight in self.sights for part in self._parts(sight)]
+        parts = self._all_parts()
         merged: list[tuple[_PieceEnds, list[ViewPiece]]] = []
         pending: list[ViewPiece] = []
         for (before, sight), (part, after) in pairwise([parts[-1], *parts]):
-            windows = [] if sight is after else self._window(before.end, part.start, sight, after)
+            meet = before.end is part.start or sight is after
+            windows = [] if meet else self._window(before.end, part.start, sight, after)
             if part.is_point:
                 pending = windows
                 continue
@@ -163,6 +164,19 @@ class _Assembly:
             yield from windows
             yield self._piece(part)
 
+    def _all_parts(self) -> list[tuple[_PieceEnds, FirstFace]]:
+        """What the sights contribute, counterclockwise."""
+        found: list[tuple[_PieceEnds, FirstFace]] = []
+        near, sweep = self.view.near, self.sweep
+        for sight in self.sights:
+            face = sight.face
+            if face >= 0 and near[face]:
+                ends = self._end(sight, True), self._end(sight, False)
+                found.append((_PieceEnds(sweep.edges[face], *ends), sight))
+            else:
+                found += [(part, sight) for part in self._parts(sight)]
+        return found
+
     def _parts(self, sight: FirstFace) -> Iterator[_PieceEnds]:
         """What a sight contributes, counterclockwise; the point itself where its obstacle begins."""
         face = sight.face
@@ -173,13 +187,10 @@ class _Assembly:
             yield _PieceEnds(None, sight.low, sight.high)
             return
         e = self.sweep.edges[face]
-        if self.view.near[face]:
-            yield _PieceEnds(e, self._end(sight, True), self._end(sight, False))
-            return
         high, low = self.view.ends(sight)
         reached: End = sight.low
         at_low = low
-        for start, end in reversed(self.view.clipped(face, (high, low))):
+        for start, end in reversed(self.view.clipped(sight, (high, low))):
             if start is end:
                 continue
             if end is not at_low:
@@ -191,9 +202,14 @@ class _Assembly:
 
     def _end(self, sight: FirstFace, is_low: bool) -> Point | _RayHit:
         """An end of what a sight sees of its face, all of it within range."""
-        sweep, face = self.sweep, sight.face
-        rank, own = (sight.low, sweep.low) if is_low else (sight.high, sweep.high)
-        return sweep.end(face, is_low) if own[face] == rank else _RayHit(self.view, face, rank)
+        (face, rank, high), sweep = sight, self.sweep
+        if not is_low:
+            rank = high
+        if rank != (sweep.low if is_low else sweep.high)[face]:
+            return _RayHit(self.view, face, rank)
+        event = (sweep.ends_low if is_low else sweep.ends_high)[face]
+        curves = self.view.table.curves
+        return curves[event].start if 0 <= event < len(curves) else sweep.end(face, is_low)
 
     def _window(self, end: End, start: End, before: FirstFace, after: FirstFace) -> list[ViewPiece]:
         """What joins the end of one sight to the start of the next: nothing, a window, or an own edge."""
@@ -259,13 +275,15 @@ class _Assembly:
         view, e = self.view, part.edge
         if e is None:
             return ViewPiece(ViewKind.RANGE, partial(self._range, part))
-        return _edge_piece(view, e, partial(self._edge, part, view.table.curves[e]))
+        return _edge_piece(view, e, partial(self._edge, part))
 
     def _range(self, part: _PieceEnds) -> Curve:
         start, end = self._resolved(part.start), self._resolved(part.end)
         return Arc(start, end, self.view.point, self.view.range.square, ccw=True, full=start is end)
 
-    def _edge(self, part: _PieceEnds, curve: Curve) -> Curve:
+    def _edge(self, part: _PieceEnds) -> Curve:
+        assert part.edge is not None
+        curve = self.view.table.curves[part.edge]
         return _backwards(curve, self._resolved(part.end), self._resolved(part.start))
 
 

@@ -82,7 +82,7 @@ def of_circle(circle: Arc, disc: Disc) -> list[Span] | None:
 def _of_segment(line: Segment, ends: Span, excess: tuple[int, ...], disc: Disc) -> list[Span]:
     if max(excess) <= 0:
         return [ends]
-    chord = _Chord(line, disc)
+    chord = _Secant(line, disc)
     if min(excess) > 0:
         if chord.misses(*ends):
             return []
@@ -102,7 +102,7 @@ def _of_segment(line: Segment, ends: Span, excess: tuple[int, ...], disc: Disc) 
     return [(first or chord.crossing(-1), last or chord.crossing(1))]
 
 
-class _Chord:
+class _Secant:
     """Where a segment's line meets a disc, in balls: as `_foot`."""
 
     def __init__(self, line: Segment, disc: Disc) -> None:
@@ -167,7 +167,7 @@ def _crossing(arc: Arc, w: Vector, level: Any, side: int) -> Point:
     return Point(x + (w[0] * level - w[1] * height) / square, y + (w[1] * level + w[0] * height) / square)
 
 
-class _Crossings:
+class _CircleCut:
     """Where an arc's circle meets a disc; w leads from the disc's centre to its own."""
 
     def __init__(self, arc: Arc, disc: Disc) -> None:
@@ -204,7 +204,7 @@ class _Crossings:
 def _of_arc(arc: Arc, ends: Span, excess: tuple[int, ...], disc: Disc) -> list[Span]:
     """Of the counterclockwise piece between two points of the circle."""
     first, last = ends
-    at = _Crossings(arc, disc)
+    at = _CircleCut(arc, disc)
     w = at.w
     if max(excess) <= 0:
         if not (sign(w[0]) or sign(w[1])) or not _passes(arc, ends, w) or at.rest() <= 0:

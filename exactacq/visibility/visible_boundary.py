@@ -8,7 +8,7 @@ through the point itself, and corners touched on the way.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator
+from collections.abc import Hashable
 from dataclasses import dataclass
 from functools import cached_property, cmp_to_key
 from typing import Any, TypeAlias
@@ -19,7 +19,7 @@ from exactacq.errors import Undecided
 from exactacq.geometry.coordinates import Vector, advance, dot, minus, raw, sign, square_root
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.points import Point
-from exactacq.scene.edge_table import EdgeTable, Floats
+from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.features import enters
 from exactacq.visibility.radial_sweep import BLOCKED, NOTHING, FirstFace, RadialSweep
 from exactacq.visibility.range_clip import Disc, Span, of_circle, within
@@ -83,28 +83,39 @@ class BoundaryView:
     def near(self) -> list[bool]:
         """For each face whether floats prove that all of it is within range."""
         faces, table = self.sweep.faces, self.table
-        edge = faces.edge
-        size = np.maximum(_size(table.start[edge] - faces.xy), _size(table.end[edge] - faces.xy))
-        curved = table.kind[edge] != 0
-        if curved.any():
-            size = np.where(curved, _size(table.center[edge] - faces.xy) + table.radius[edge], size)
-        found: list[bool] = (size < self.range.below - 8 * faces.slack).tolist()
+        edge, (x, y) = faces.edge, faces.xy
+        sx, sy, ax, ay = table.rows[:, edge]
+        sx -= x
+        sy -= y
+        square = np.maximum(sx * sx + sy * sy, (sx + ax) ** 2 + (sy + ay) ** 2)
+        limit = self.range.below - 9 * faces.slack
+        if faces.curved:
+            curved = table.kind[edge] != 0
+            spoke = np.hypot(table.center[edge, 0] - x, table.center[edge, 1] - y) + table.radius[edge]
+            square = np.where(curved, spoke * spoke, square)
+        found: list[bool] = (square < limit * limit).tolist() if limit > 0 else [False] * len(edge)
         return found
 
     def seen(self) -> dict[int, list[Span]]:
         """See `seen_from`."""
         found: dict[int, list[tuple[tuple[int, int], Span]]] = {}
-        sweep = self.sweep
+        sweep, near = self.sweep, self.near
+        edges, top, cells = sweep.edges, sweep.high, max(sweep.count, 1)
         for sight in sweep.sights:
-            if sight.face < 0:
+            face, low, high = sight
+            if face < 0:
                 continue
-            for span in self.spans(sight):
-                key = sight.face, self._order(sight.face, sight.high)
-                found.setdefault(sweep.edges[sight.face], []).append((key, span))
+            spans = [self.ends(sight)] if near[face] and low != high else self.spans(sight)
+            # Its position on the face, in the boundary's direction.
+            key = face, (top[face] - high) % cells
+            found.setdefault(edges[face], []).extend([(key, span) for span in spans])
         for ray in self.rays:
             self._add_ray(ray, found)
         self._add_own(found)
-        pieces = {e: _joined([span for _, span in sorted(spans, key=_key)]) for e, spans in found.items()}
+        pieces = {
+            e: [spans[0][1]] if len(spans) == 1 else _joined([span for _, span in sorted(spans, key=_key)])
+            for e, spans in found.items()
+        }
         return self._tidied(pieces)
 
     def _tidied(self, pieces: dict[int, list[Span]]) -> dict[int, list[Span]]:
@@ -139,42 +150,51 @@ class BoundaryView:
                 opposite = curve.center + (curve.center - curve.start)
                 return [(curve.start, opposite), (opposite, curve.start)]
             return some
-        return self.clipped(face, self.ends(sight))
+        return self.clipped(sight, self.ends(sight))
 
     def ends(self, sight: FirstFace) -> Span:
         """What a sight sees of a face, in the boundary's direction and whatever the range."""
+        face, low, high = sight
+        sweep, curves = self.sweep, self.table.curves
+        event = sweep.ends_high[face] if high == sweep.high[face] else LAST
+        start = curves[event].start if event < len(curves) else self._end(face, event, high)
+        event = sweep.ends_low[face] if low == sweep.low[face] else LAST
+        end = curves[event].start if event < len(curves) else self._end(face, event, low)
+        return start, end
+
+    def _end(self, face: int, event: int, rank: int) -> Point:
+        """An end of what is seen of a face that is no vertex."""
         sweep = self.sweep
-        ends = sweep.at(sight.face, sight.high, False), sweep.at(sight.face, sight.low, True)
-        for point, rank in zip(ends, (sight.high, sight.low), strict=True):
-            self._held[id(point)] = point, rank
-        return ends
+        point = sweep.late_hit(face, rank) if event == LAST else sweep.faces.place(event)
+        self._held[id(point)] = point, rank
+        return point
 
     def is_at_range(self, point: Point) -> bool:
         """Whether an end of what is seen was made as a point as far away as the range."""
         return self._held.get(id(point), (point, LAST))[1] == AT_RANGE
 
-    def holds(self, e: int, point: Point) -> Iterator[Hold]:
-        """What holds the end of a sight, by what the ray to it touches."""
-        for number, side in self.touched(point):
-            yield e, ("circle", self.table.circles[number]) if side else ("corner", number), side
-
-    def touched(self, point: Point) -> list[tuple[int, int]]:
-        """What the ray to an end of what is seen touches, if it ends a sight; else nothing.
-
-        Vertices come with 0, arcs with 1 if the circle is to the left of the ray, else -1.
-        """
+    def holds(self, e: int, point: Point) -> list[Hold]:
+        """What holds an end of what is seen that is no vertex and ends a sight, by what the ray touches."""
         rank = self._held.get(id(point), (point, LAST))[1]
-        if rank in (AT_RANGE, LAST):
-            return []
+        return [] if rank in (AT_RANGE, LAST) else self._holds(e, rank)
+
+    def _holds(self, e: int, rank: int) -> list[Hold]:
+        return [
+            (e, ("circle", self.table.circles[number]) if side else ("corner", number), side)
+            for number, side in self._touched(rank)
+        ]
+
+    def _touched(self, rank: int) -> list[tuple[int, int]]:
+        """What a ray touches: vertices with 0, arcs with 1 if the circle is to its left, else -1."""
         count, marks = len(self.table.vertices), self.sweep.faces.marks
         return [
             (event, 0) if event < count else (marks[event - count].edge, marks[event - count].side)
             for event in self.sweep.groups[rank]
         ]
 
-    def clipped(self, face: int, ends: Span) -> list[Span]:
-        """The parts of a piece of a face within range; ends within range stay the same objects."""
-        start, end = ends
+    def clipped(self, sight: FirstFace, ends: Span) -> list[Span]:
+        """The parts within range of what a sight sees; ends within range stay the same objects."""
+        face, (start, end) = sight.face, ends
         if self.near[face] and start is not end:
             return [ends]
         curve = self.table.curves[self.sweep.edges[face]]
@@ -183,7 +203,8 @@ class BoundaryView:
                 spans = within(curve, start, end, self.disc)
             except Undecided:
                 e = self.sweep.edges[face]
-                known = [id(p) for p in ends if any(hold in self.tight for hold in self.holds(e, p))]
+                ranks = zip(ends, (sight.high, sight.low), strict=True)
+                known = [id(p) for p, rank in ranks if not self.tight.isdisjoint(self._holds(e, rank))]
                 spans = within(curve, start, end, self.disc, known)
             for point in (p for span in spans for p in span if p is not start and p is not end):
                 self._held[id(point)] = point, AT_RANGE
@@ -369,8 +390,3 @@ def _joined(spans: list[Span]) -> list[Span]:
         else:
             joined.append((start, end))
     return joined
-
-
-def _size(offsets: Floats) -> Floats:
-    size: Floats = np.hypot(offsets[:, 0], offsets[:, 1])
-    return size
