@@ -105,7 +105,11 @@ class BoundaryView:
             face, low, high = sight
             if face < 0:
                 continue
-            spans = [self.ends(sight)] if near[face] and low != high else self.spans(sight)
+            if low == high:
+                spans = self.spans(sight)
+            else:
+                ends = self.ends(sight)
+                spans = [ends] if near[face] and ends[0] is not ends[1] else self.clipped(sight, ends)
             # Its position on the face, in the boundary's direction.
             key = face, (top[face] - high) % cells
             found.setdefault(edges[face], []).extend([(key, span) for span in spans])
