@@ -110,9 +110,10 @@ class BoundaryView:
             else:
                 ends = self.ends(sight)
                 spans = [ends] if near[face] and ends[0] is not ends[1] else self.clipped(sight, ends)
-            # Its position on the face, in the boundary's direction.
+            # The position on the face, in the boundary's direction.
             key = face, (top[face] - high) % cells
-            found.setdefault(edges[face], []).extend([(key, span) for span in spans])
+            for span in spans:
+                found.setdefault(edges[face], []).append((key, span))
         for ray in self.rays:
             self._add_ray(ray, found)
         self._add_own(found)
