@@ -110,7 +110,7 @@ class BoundaryView:
             else:
                 ends = self.ends(sight)
                 spans = [ends] if near[face] and ends[0] is not ends[1] else self.clipped(sight, ends)
-            # Its position on the face, in the boundary's direction.
+            # The position on the face, in the boundary's direction.
             key = face, (top[face] - high) % cells
             for span in spans:
                 found.setdefault(edges[face], []).append((key, span))
