@@ -22,6 +22,8 @@ BITS = 64
 
 Balls: TypeAlias = "tuple[arb, arb]"
 """Balls around two coordinates."""
+Pin: TypeAlias = "tuple[Point, Real]"
+"""A point of a curve with its parameter there."""
 
 
 class _Once:

@@ -18,7 +18,7 @@ from flint import arb, fmpq
 from exactacq.geometry.coordinates import Vector, cross, dot, minus, raw
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Curve, Segment
-from exactacq.geometry.late_points import Pin, late_pin
+from exactacq.geometry.late import late_point
 from exactacq.geometry.points import Point, distance_sq
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
@@ -330,22 +330,18 @@ class FamilySweeper:
         make = partial(self._reached_exactly, sector, t, role, met)
         if met is None:
             away = role * arb(self.range.radius) / (dx * dx + dy * dy).sqrt()
-            spot = x + dx * away, y + dy * away, arb(0)
-        else:
-            hit = self.clipper.balls(met).met(at, role)
-            if hit is None:
-                return make()
-            _, spot = hit
-        place, u = late_pin(spot, make)
-        return place, None if met is None else u
+            return late_point((x + dx * away, y + dy * away), make), None
+        hit = self.clipper.balls(met).met(at, role)
+        place = make() if hit is None else late_point(hit[1], make)
+        return place, self.clipper.rails[met].parameter(place)
 
-    def _reached_exactly(self, sector: Sector, t: Real, role: Role, met: int | None) -> Pin:
+    def _reached_exactly(self, sector: Sector, t: Real, role: Role, met: int | None) -> Point:
         contact, direction = sector.touch(t)
         direction = direction * int(role)
         if met is None:
-            return contact + direction * (self.range.radius / direction.norm_sq().sqrt()), Real(0)
-        place = contact + direction * meet(contact, direction, self.table.curves[met], 1)
-        return place, self.clipper.rails[met].parameter(place)
+            return contact + direction * (self.range.radius / direction.norm_sq().sqrt())
+        reached: Point = contact + direction * meet(contact, direction, self.table.curves[met], 1)
+        return reached
 
     def _beside(self, feature: Feature) -> tuple[int, int]:
         """The edges into and out of a feature; an arc's neighbours only where they go on in its direction.

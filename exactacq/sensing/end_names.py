@@ -14,8 +14,7 @@ from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.late import BITS as LATE_BITS
-from exactacq.geometry.late import balls
-from exactacq.geometry.late_points import Pin
+from exactacq.geometry.late import Pin, balls
 from exactacq.geometry.points import Point
 from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real

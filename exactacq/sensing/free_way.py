@@ -21,7 +21,7 @@ from exactacq.geometry.coordinates import dot, minus, raw
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.interval_union import Cover
-from exactacq.geometry.late_points import Pin
+from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
 from exactacq.kernel import lines
 from exactacq.numbers.between import rational_between

@@ -15,7 +15,7 @@ from typing import TypeAlias
 
 from exactacq.errors import Undecided
 from exactacq.geometry.interval_union import EMPTY, Cover, Interval
-from exactacq.geometry.late_points import Pin
+from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real

@@ -20,7 +20,7 @@ from itertools import pairwise
 from math import hypot
 from typing import Any, TypeGuard
 
-from flint import fmpq
+from flint import arb, fmpq
 
 from exactacq.errors import Undecided
 from exactacq.geometry.coordinates import dot, raw
@@ -28,7 +28,7 @@ from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import contacts, line_contacts
 from exactacq.geometry.interval_union import Interval
-from exactacq.geometry.late_points import Pin, late_pin
+from exactacq.geometry.late import Pin, late_point
 from exactacq.geometry.points import Point, distance_sq
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
@@ -235,16 +235,17 @@ class FamilyClipper:
         curve = self.curve(side.edge)
         if side.role is Role.CONTACT and side.fixed:
             return curve.start, self.rails[side.edge].parameter(curve.start)
-        make = partial(self._exact_pin, sector, t, side, passed)
+        rail, make = self.rails[side.edge], partial(self._exact_point, sector, t, side, passed)
         at = line(sector, t.ball(64))
         if side.role is Role.CONTACT:
-            spot = self.balls(side.edge).place(*at[:2])
+            spot: tuple[arb, arb] | None = at[:2]
         elif any(self._is_at(number, touching, side.edge) for number, touching, _ in passed):
-            return make()
+            spot = None
         else:
             met = self.balls(side.edge).met(at, side.role)
             spot = None if met is None else met[1]
-        return make() if spot is None else late_pin(spot, make)
+        point = make() if spot is None else late_point(spot, make)
+        return point, rail.parameter(point)
 
     def balls(self, e: int) -> CurveBalls:
         """The curve of a number in balls."""
@@ -260,12 +261,10 @@ class FamilyClipper:
             not touching and vertex.rational in (curve.start.rational, curve.end.rational)
         )
 
-    def _exact_pin(self, sector: Sector, t: Real, side: Side, passed: Passed) -> Pin:
+    def _exact_point(self, sector: Sector, t: Real, side: Side, passed: Passed) -> Point:
         contact, direction = sector.touch(t)
         point = self._passed(side, contact, direction, passed)
-        if point is None:
-            point = self._point(sector, side, contact, direction)
-        return point, self.rails[side.edge].parameter(point)
+        return self._point(sector, side, contact, direction) if point is None else point
 
     def _touches(self, name: Any, edge: int) -> bool:
         """Whether a named line touches an edge's circle: then it meets the edge at the contact."""
