@@ -18,12 +18,14 @@ from exactacq.geometry.box_index import BoxIndex, bounds, circles, united
 from exactacq.geometry.coordinates import raw
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
+from exactacq.kernel import images
+from exactacq.kernel.images import EdgeImages
 from exactacq.scene.scene import Obstacle
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 
-STRAIGHT, CONVEX, CONCAVE = 0, 1, -1
+STRAIGHT, CONVEX, CONCAVE = images.STRAIGHT, images.CONVEX, images.CONCAVE
 NEAR_KEPT = 64
 BITS = 64
 """Precision of the balls that tell which edges are not near a point."""
@@ -82,6 +84,25 @@ class EdgeTable:
             for e, curve in enumerate(self.curves)
             if isinstance(curve, Arc)
         }
+
+    @cached_property
+    def images(self) -> EdgeImages:
+        """The edges as the compiled loops take them."""
+        xs, ys = zip(*(with_rests(v) for v in self.vertices), strict=True) if self.curves else ((), ())
+        centers = [_pair(c.center) if isinstance(c, Arc) else (fmpq(0), fmpq(0)) for c in self.curves]
+        us, vs = zip(*map(with_rests, centers), strict=True) if self.curves else ((), ())
+        return EdgeImages(
+            [x for x, _ in xs],
+            [rest for _, rest in xs],
+            [y for y, _ in ys],
+            [rest for _, rest in ys],
+            ([u for u, _ in us], [rest for _, rest in us], [v for v, _ in vs], [rest for _, rest in vs]),
+            self.radius.tolist(),
+            self.kind.tolist(),
+            self.full.tolist(),
+            self.next.tolist(),
+            self.previous.tolist(),
+        )
 
     def edges_of(self, obstacle: int) -> range:
         """The edges of one obstacle."""
@@ -156,6 +177,16 @@ def _pair(point: Any) -> tuple[fmpq, fmpq]:
     pair = point.rational
     assert pair is not None, "boundary vertices and centres are rational"
     return pair  # type: ignore[no-any-return]
+
+
+def with_rests(pair: tuple[fmpq, fmpq]) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Each coordinate as the nearest float and what that leaves, as a float."""
+    x, y = map(float, pair)
+    return (x, float(pair[0] - _of_float(x))), (y, float(pair[1] - _of_float(y)))
+
+
+def _of_float(value: float) -> fmpq:
+    return fmpq(*value.as_integer_ratio())
 
 
 def _floats(pair: tuple[fmpq, fmpq]) -> tuple[float, float]:

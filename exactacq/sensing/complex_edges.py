@@ -336,11 +336,13 @@ class FamilySweeper:
         return place, self.clipper.rails[met].parameter(place)
 
     def _reached_exactly(self, sector: Sector, t: Real, role: Role, met: int | None) -> Point:
-        contact, direction = sector.touch(t)
-        direction = direction * int(role)
+        contact, along = sector.touch(t)
+        onward: Point = along * int(role)
         if met is None:
-            return contact + direction * (self.range.radius / direction.norm_sq().sqrt())
-        reached: Point = contact + direction * meet(contact, direction, self.table.curves[met], 1)
+            far: Real = self.range.radius / onward.norm_sq().sqrt()
+        else:
+            far = meet(contact, onward, self.table.curves[met], 1)
+        reached: Point = contact + onward * far
         return reached
 
     def _beside(self, feature: Feature) -> tuple[int, int]:

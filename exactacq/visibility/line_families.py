@@ -9,7 +9,8 @@
 where ' turns a vector counterclockwise by a quarter. Turning and Rolling lines are the tangent lines of a
 feature, Sliding and Spokes the normals of an edge. Boundary data are rational, also for irrational radii;
 sectors that belong to a point of the path may have irrational frames. The event parameters at which a line
-passes a point or touches a circle come twice: as float guesses with proven margins, and exactly.
+passes a point or touches a circle come twice: as float intervals (`exactacq.kernel.line_events`), and
+exactly.
 """
 
 from __future__ import annotations
@@ -18,21 +19,24 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from math import hypot
+from math import frexp, hypot, inf, ldexp
 from typing import Any, TypeAlias
 
 import numpy as np
 from flint import arb, fmpq
 
+from exactacq import kernel
 from exactacq.geometry.coordinates import cross, dot, sign
 from exactacq.geometry.points import Point
+from exactacq.kernel.bounded import TINY, UNIT, WIDEN
+from exactacq.kernel.images import ROLLING, SLIDING, SPOKES, TURNING, LineFrame
 from exactacq.numbers.real import Real
-from exactacq.scene.edge_table import Floats, quotient
+from exactacq.scene.edge_table import Floats, with_rests
 
 Vector: TypeAlias = "tuple[Any, Any]"
-Guess: TypeAlias = "tuple[int, int, Floats, Floats]"
-"""Side and sign of an event (see `Sector.exact`), and its float parameters with their margins."""
 ZERO, ONE = fmpq(0), fmpq(1)
+BITS = 64
+"""Precision of the balls from which floats are taken."""
 
 
 @dataclass(frozen=True)
@@ -82,18 +86,6 @@ class Sector(ABC):
         """The parameters, in the sector or not, of the lines through a point."""
 
     @abstractmethod
-    def lines(self, t: Floats) -> tuple[Floats, Floats]:
-        """Contacts, relative to the centre, and unit directions in floats, one row for each parameter."""
-
-    @abstractmethod
-    def past_points(self, offsets: Floats, slack: float) -> Iterator[Guess]:
-        """Where lines pass points, given relative to the centre with an error below *slack*."""
-
-    @abstractmethod
-    def past_circles(self, offsets: Floats, radii: Floats, slack: float) -> Iterator[Guess]:
-        """Where lines touch circles."""
-
-    @abstractmethod
     def exact(self, center: Vector, radius_sq: fmpq, side: int, sign: int) -> Real | None:
         """The parameter of an event, or None if the line that floats proposed does not exist.
 
@@ -106,13 +98,19 @@ class Sector(ABC):
         offset = center[0] - self.center[0], center[1] - self.center[1]
         return offset, dot(self.base, offset), cross(self.base, offset)
 
-    def _polar(self, offsets: Floats, slack: float) -> tuple[Floats, Floats, Floats]:
-        """Distance, angle from the base vector, and error of the angle."""
-        x = offsets @ self.unit
-        y = offsets @ np.array((-self.unit[1], self.unit[0]))
-        size = np.hypot(x, y)
-        error = np.minimum(quotient(slack, size), 1.0) + 1e-14
-        return size, np.arctan2(y, x), error
+    def frame(self) -> LineFrame:
+        """The family as the compiled loops take it."""
+        kind, radius, sense = self._kind
+        center, blur = _place(self.center)
+        (x, p), (y, q) = (held(c) for c in self.base)
+        # A power of two, so that dividing by it is exact.
+        unit = ldexp(1.0, frexp(max(abs(x), abs(y)))[1])
+        return LineFrame(kind, center, blur, (x / unit, y / unit, max(p, q) / unit), unit, radius, sense)
+
+    @property
+    @abstractmethod
+    def _kind(self) -> tuple[int, float, int]:
+        """Kind of the family, radius and sense of its normals (see `exactacq.kernel.images.LineFrame`)."""
 
 
 class Turning(Sector):
@@ -130,21 +128,9 @@ class Turning(Sector):
         _, along, across = self._frame((point.x, point.y))
         return [across / along] if along.sign() else []
 
-    def lines(self, t: Floats) -> tuple[Floats, Floats]:
-        direction = _rotated(self.unit, np.arctan(t))
-        return np.zeros_like(direction), direction
-
-    def past_points(self, offsets: Floats, slack: float) -> Iterator[Guess]:
-        _, angle, error = self._polar(offsets, slack)
-        yield 0, 0, _slope(angle), 4 * error
-
-    def past_circles(self, offsets: Floats, radii: Floats, slack: float) -> Iterator[Guess]:
-        size, angle, error = self._polar(offsets, slack)
-        ratio = quotient(radii, size)
-        wing = np.arcsin(np.clip(ratio, -1.0, 1.0))
-        margin = 4 * (error + _arc_error(ratio, error))
-        for turn in (1, -1):
-            yield 1, turn, np.where(ratio > 1 + error, np.nan, _slope(angle + turn * wing)), margin
+    @property
+    def _kind(self) -> tuple[int, float, int]:
+        return TURNING, 0.0, 1
 
     def exact(self, center: Vector, radius_sq: fmpq, side: int, sign: int) -> Real | None:
         offset, along, across = self._frame(center)
@@ -192,27 +178,9 @@ class Rolling(Sector):
         root = square.sqrt()
         return [(across + root) / (k + along), (across - root) / (k + along)]
 
-    def lines(self, t: Floats) -> tuple[Floats, Floats]:
-        spoke = _rotated(self.unit, 2 * np.arctan(t))
-        return spoke * self.size, np.stack((-spoke[:, 1], spoke[:, 0]), axis=1)
-
-    def past_points(self, offsets: Floats, slack: float) -> Iterator[Guess]:
-        for turn in (1, -1):
-            yield 0, turn, *self._past(offsets, 0.0, turn, slack)
-
-    def past_circles(self, offsets: Floats, radii: Floats, slack: float) -> Iterator[Guess]:
-        for turn in (1, -1):
-            for side in (1, -1):
-                yield side, turn, *self._past(offsets, side * radii, turn, slack)
-
-    def _past(self, offsets: Floats, radii: Floats | float, turn: int, slack: float) -> tuple[Floats, Floats]:
-        """The line touching another circle (radius 0: through a point); negative radii lie to the right."""
-        size, angle, error = self._polar(offsets, slack)
-        ratio = quotient(self.size + radii, size)
-        wing = np.arccos(np.clip(ratio, -1.0, 1.0))
-        turned = np.remainder(angle + turn * wing + np.pi, 2 * np.pi) - np.pi
-        guess, margin = np.tan(turned / 2), 4 * (error + _arc_error(ratio, error))
-        return np.where(np.abs(ratio) > 1 + error, np.nan, guess), margin
+    @property
+    def _kind(self) -> tuple[int, float, int]:
+        return ROLLING, 0.0, 1
 
     def exact(self, center: Vector, radius_sq: fmpq, side: int, sign: int) -> Real | None:
         """Root of (k + q) t^2 - 2 p t + (k - q) = 0, k = rho (rho +- r)."""
@@ -250,22 +218,9 @@ class Sliding(Sector):
         _, along, _ = self._frame((point.x, point.y))
         return [along / dot(self.base, self.base)]
 
-    def lines(self, t: Floats) -> tuple[Floats, Floats]:
-        x, y = self.unit
-        normal = np.array((-y, x) if self.leftward else (y, -x))
-        return t[:, None] * (self.unit * self.size), np.broadcast_to(normal, (len(t), 2))
-
-    def past_points(self, offsets: Floats, slack: float) -> Iterator[Guess]:
-        yield 0, 0, *self._past(offsets, 0.0, slack)
-
-    def past_circles(self, offsets: Floats, radii: Floats, slack: float) -> Iterator[Guess]:
-        for turn in (1, -1):
-            yield 1, turn, *self._past(offsets, turn * radii, slack)
-
-    def _past(self, offsets: Floats, shift: Floats | float, slack: float) -> tuple[Floats, Floats]:
-        along = offsets @ self.unit
-        error = 4 * slack + 1e-14 * (np.abs(along) + np.abs(shift))
-        return (along + shift) / self.size, error / self.size
+    @property
+    def _kind(self) -> tuple[int, float, int]:
+        return SLIDING, 0.0, 1 if self.leftward else -1
 
     def exact(self, center: Vector, radius_sq: fmpq, side: int, sign: int) -> Real | None:
         _, along, _ = self._frame(center)
@@ -295,9 +250,9 @@ class Spokes(Turning):
         spoke = direction * (Real(self.radius_sq) / direction.norm_sq()).sqrt()
         return Point(*self.center) + spoke, direction if self.outward else -direction
 
-    def lines(self, t: Floats) -> tuple[Floats, Floats]:
-        _, direction = super().lines(t)
-        return direction * self._radius, direction if self.outward else -direction
+    @property
+    def _kind(self) -> tuple[int, float, int]:
+        return SPOKES, self._radius, 1 if self.outward else -1
 
 
 def corner_sectors(center: Vector, first: Vector, last: Vector | None) -> Iterator[Turning]:
@@ -337,20 +292,23 @@ def left(a: Vector) -> Vector:
     return -a[1], a[0]
 
 
-def _slope(angle: Floats) -> Floats:
-    """Parameter for a direction, taken modulo a half turn; NaN far from the base."""
-    folded = np.remainder(angle + np.pi / 2, np.pi) - np.pi / 2
-    return np.where(np.abs(folded) > 1.0, np.nan, np.tan(folded))
+def held(value: fmpq | Real) -> tuple[float, float]:
+    """A float near a number and a bound of its error, inf if tests want nothing decided by floats."""
+    if kernel.EXACT_ONLY:
+        return 0.0, inf
+    if isinstance(value, Real):
+        ball = value.ball(BITS)
+        near = float(ball.mid())
+        return near, (2 * float(ball.rad()) + 2 * UNIT * abs(near) + TINY) * WIDEN
+    near = float(value)
+    return near, UNIT * abs(near) + TINY
 
 
-def _arc_error(ratio: Floats, error: Floats) -> Floats:
-    """Error of asin or acos of a ratio that is off by about *error*."""
-    capped = np.minimum(np.abs(ratio), 1.0)
-    flat = np.sqrt(np.maximum(1 - capped * capped, 1e-30))
-    bound: Floats = np.minimum(4 * error / flat, 4 * np.sqrt(error))
-    return bound
-
-
-def _rotated(vector: Floats, angle: Floats) -> Floats:
-    cosine, sine = np.cos(angle), np.sin(angle)
-    return np.stack((cosine * vector[0] - sine * vector[1], cosine * vector[1] + sine * vector[0]), axis=1)
+def _place(point: Vector) -> tuple[tuple[float, float, float, float], float]:
+    """A point in floats, with rests if it is rational, and a bound of what they leave."""
+    x, y = point
+    if kernel.EXACT_ONLY or isinstance(x, Real) or isinstance(y, Real):
+        (u, p), (v, q) = held(x), held(y)
+        return (u, 0.0, v, 0.0), max(p, q)
+    (u, rest), (v, other) = with_rests((x, y))
+    return (u, rest, v, other), 0.0

@@ -7,36 +7,37 @@ so one rational line determines it: a `Cell`. The lines that bound a cell are li
 free. A line that touches two further features may be free although no line next to it is: such a line is
 *pinched*, and reported separately.
 
-Floats propose the order of events and the first edges; where their proven margins overlap, the exact
-values decide. Cost for n edges within reach: O(n log n) for the events, n times the number of cells
-for the edges met, the latter in numpy.
+Float intervals give the order of events and the first edges (`exactacq.kernel`); where they overlap, exact
+values decide. An event that overlaps no other is never made exact here: it is a late number. Cost for n edges
+within reach: O(n log n) for the events; near n for the edges met, as only those with an event are looked at
+again.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import cmp_to_key
+from functools import cmp_to_key, partial
 from itertools import pairwise
+from math import inf
+from operator import attrgetter
 from typing import TypeAlias
 
-import numpy as np
-from flint import fmpq
+from flint import arb, fmpq
 
 from exactacq.geometry.coordinates import raw
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.points import Point
+from exactacq.kernel.bounded import UNIT
+from exactacq.kernel.first_edges import DOUBT, first_edges
+from exactacq.kernel.line_events import line_events
+from exactacq.kernel.surroundings import Surroundings
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
-from exactacq.scene.edge_table import CONVEX, STRAIGHT, EdgeTable, Floats, Ints
+from exactacq.scene.edge_table import STRAIGHT, EdgeTable
 from exactacq.visibility.features import directions_at, enters
-from exactacq.visibility.line_families import Sector, Spokes, Vector
-from exactacq.visibility.line_hits import Crossings
-
-CHUNK = 1 << 18
-"""Entries of one array of the cell-by-edge tables: bounds the memory of a sweep."""
-
+from exactacq.visibility.line_families import Sector, Spokes, Vector, held
 
 Passed: TypeAlias = "tuple[tuple[int, int, int], ...]"
 """The events at one line, each with number (a vertex, or an arc), side and sign: see `Sector.exact`."""
@@ -46,7 +47,7 @@ Passed: TypeAlias = "tuple[tuple[int, int, int], ...]"
 class Cell:
     """Lines from ``low`` to ``high`` of a sector that first meet edge ``behind`` and edge ``ahead``.
 
-    The bounds say what the first and the last line pass.
+    The bounds say what the first and the last line pass. Neighbouring cells share a bound as one object.
     """
 
     low: Real
@@ -66,14 +67,15 @@ class Pencil:
 
 
 @dataclass(slots=True)
-class _Passage:
-    """Line through a vertex, or tangent to a convex arc (``side`` +1: on the left, -1: on the right)."""
+class _EventLine:
+    """A line of the family, its parameter between ``low`` and ``high``, and what it passes.
 
-    guess: float
-    margin: float
-    edge: int
-    side: int
-    sign: int
+    Before those that are equal are brought together, *passed* has at most one event.
+    """
+
+    low: float
+    high: float
+    passed: Passed
     value: Real | None = None
 
 
@@ -90,7 +92,7 @@ def pencil(
     lies beyond *reach* may be reported wrongly or as None, so a chord is to be trusted only if both its
     halves are no longer than *reach*.
     """
-    edges = table.near(*_box(sector), reach)
+    edges = table.near(*_box(sector), reach).tolist()
     return _SectorSweep(table, sector, own, edges, breaks).run()
 
 
@@ -101,148 +103,151 @@ def _box(sector: Sector) -> tuple[tuple[float, float], tuple[float, float]]:
 
 class _SectorSweep:
     def __init__(
-        self, table: EdgeTable, sector: Sector, own: tuple[int, ...], edges: Ints, breaks: tuple[Vector, ...]
+        self,
+        table: EdgeTable,
+        sector: Sector,
+        own: tuple[int, ...],
+        edges: list[int],
+        breaks: tuple[Vector, ...],
     ) -> None:
         self.table, self.sector, self.own, self.breaks = table, sector, own, breaks
-        self.slack = 64 * (table.roundoff + 2.0**-50 * sector.extent)
-        for e in own:
-            if sector.round or table.kind[e] == STRAIGHT:
-                edges = edges[edges != e]
-        self.edges = edges
+        images = table.images
+        left_out = [e for e in own if sector.round or images.kind[e] == STRAIGHT]
+        self.edges = [e for e in edges if e not in left_out] if left_out else edges
+        self.around = Surroundings(images, sector.frame(), self.edges, list(own))
         # The edges through the centre of an arc whose normals go there: all of these pass that point.
         self.through: tuple[int, ...] = ()
         if isinstance(sector, Spokes) and not sector.outward:
             self.through = table.edges_at(Point(*sector.center))
 
     def run(self) -> Pencil:
-        lines = self._events()
-        middles = [rational_between(a, b) for (a, _), (b, _) in pairwise(lines)]
-        cells: list[Cell] = []
+        lines = self._lines()
+        middles = [self._middle(a, b) for a, b in pairwise(lines)]
+        cells: list[tuple[_EventLine, _EventLine, int | None, int | None]] = []
         was_at_center = False
-        for ((low, first), (high, last)), middle, (behind, ahead) in zip(
-            pairwise(lines), middles, self._meets(middles), strict=True
+        for (first, last), (middle, _), (behind, ahead) in zip(
+            pairwise(lines), middles, self._meets(lines, middles), strict=True
         ):
-            cell = Cell(low, high, behind, ahead, (first, last))
             at_center = self._is_at_center(middle, ahead)
-            if (
-                cells
-                and (cells[-1].behind, cells[-1].ahead) == (behind, ahead)
-                and at_center == was_at_center
-            ):
-                before = cells.pop()
-                cell = Cell(before.low, high, behind, ahead, (before.bounds[0], last))
-            cells.append(cell)
+            if cells and cells[-1][2:] == (behind, ahead) and at_center == was_at_center:
+                cells[-1] = (cells[-1][0], last, behind, ahead)
+            else:
+                cells.append((first, last, behind, ahead))
             was_at_center = at_center
-        pinches = tuple(value for value, passed in lines if len(passed) > 1)
-        return Pencil(self.sector, tuple(cells), pinches)
+        return Pencil(
+            self.sector,
+            tuple(
+                Cell(self._value(first), self._value(last), behind, ahead, (first.passed, last.passed))
+                for first, last, behind, ahead in cells
+            ),
+            tuple(self._value(line) for line in lines if len(line.passed) > 1),
+        )
 
     # -- events --------------------------------------------------------------------------------
 
-    def _events(self) -> list[tuple[Real, Passed]]:
-        """Distinct event parameters from low to high, with what the lines pass there."""
-        low, high = Real(self.sector.low), Real(self.sector.high)
-        bounds = [_Passage(float(low), 1e-15, -1, 0, 0, low), _Passage(float(high), 1e-15, -1, 0, 0, high)]
-        events = [*bounds, *self._break_events(), *self._vertex_events(), *self._arc_events()]
-        lines = [line for cluster in _clusters(events) for line in self._resolve(cluster)]
-        while lines[0][0].compare(low) < 0:
-            del lines[0]
-        while lines[-1][0].compare(high) > 0:
-            del lines[-1]
+    def _lines(self) -> list[_EventLine]:
+        """The distinct lines at which there are events, from low to high."""
+        low, high = _known(Real(self.sector.low)), _known(Real(self.sector.high))
+        events = [low, high, *self._break_events(), *self._edge_events(low.low, high.high)]
+        events.sort(key=attrgetter("low"))
+        lines: list[_EventLine] = []
+        started = False
+        for cluster in _clusters(events):
+            has_low, has_high = low in cluster, high in cluster
+            started = started or has_low
+            if started:
+                if len(cluster) == 1:
+                    lines += cluster
+                else:
+                    lines += self._resolved(cluster, low if has_low else None, high if has_high else None)
+            if has_high:
+                break
         return lines
 
-    def _resolve(self, cluster: list[_Passage]) -> Iterator[tuple[Real, Passed]]:
-        """The distinct exact values of a cluster, ascending, with the true events at each."""
-        if len(cluster) == 1:
-            (event,) = cluster
-            value = self._exact(event)
-            if value is not None:
-                yield value, ((event.edge, event.side, event.sign),) if event.edge >= 0 else ()
-            return
-        known = [(value, event) for event in cluster if (value := self._exact(event)) is not None]
-        if len(known) > 1:
-            known.sort(key=cmp_to_key(_by_value))
+    def _resolved(
+        self, cluster: list[_EventLine], low: _EventLine | None, high: _EventLine | None
+    ) -> Iterator[_EventLine]:
+        """The distinct lines of a cluster, from the low bound on or up to the high one, in exact order."""
+        values = [(self._value(event), event) for event in cluster]
+        values.sort(key=cmp_to_key(_by_value))
         current: Real | None = None
-        passed: list[tuple[int, int, int]] = []
-        for value, event in known:
+        passed: Passed = ()
+        for value, event in values:
+            if low is not None and value.compare(low.value) < 0:
+                continue
+            if high is not None and value.compare(high.value) > 0:
+                break
             if current is not None and value.compare(current) != 0:
-                yield current, tuple(passed)
-                current, passed = None, []
+                yield _known(current, passed)
+                current, passed = None, ()
             current = value if current is None else current
-            if event.edge >= 0:
-                passed.append((event.edge, event.side, event.sign))
+            passed += event.passed
         if current is not None:
-            yield current, tuple(passed)
+            yield _known(current, passed)
 
-    def _break_events(self) -> Iterator[_Passage]:
+    def _break_events(self) -> Iterator[_EventLine]:
         x, y = self.sector.center
         at_center = directions_at(self.table, Point(x, y), self.through)
         for dx, dy in (*self.breaks, *at_center):
             value = self.sector.exact((x + dx, y + dy), fmpq(0), 0, 0)
             if value is not None and self.sector.low <= value <= self.sector.high:
-                yield _Passage(float(value), 1e-15, -1, 0, 0, value)
+                yield _known(value)
 
-    def _vertex_events(self) -> Iterator[_Passage]:
-        table, sector = self.table, self.sector
-        edges = self.edges[~table.full[self.edges]]
-        ids = np.unique(np.concatenate((edges, table.next[edges])))
-        if len(self.own) == 2:
-            ids = ids[ids != table.next[self.own[0]]]
-        offsets = table.start[ids] - sector.origin
-        for side, sign, guess, margin in sector.past_points(offsets, self.slack):
-            yield from self._collect(ids, side, sign, guess, margin)
+    def _edge_events(self, low: float, high: float) -> Iterator[_EventLine]:
+        """Where lines pass vertices or touch arcs; what floats leave open is made exact."""
+        corner = self.table.images.following[self.own[0]] if len(self.own) == 2 else -1
+        if low == -inf or high == inf:
+            low, high = -1.0, 1.0
+        for first, last, number, side, sign, sure in line_events(self.around, corner, low, high):
+            passed = ((number, side, sign),)
+            if sure:
+                yield _EventLine(first, last, passed)
+                continue
+            value = self.sector.exact(*self._target(number, side), side, sign)
+            if value is not None:
+                yield _known(value, passed)
 
-    def _arc_events(self) -> Iterator[_Passage]:
-        table, sector = self.table, self.sector
-        ids = self.edges[table.kind[self.edges] == CONVEX]
-        for e in self.own:
-            ids = ids[ids != e]
-        if not len(ids):
-            return
-        offsets, radii = table.center[ids] - sector.origin, table.radius[ids]
-        for side, sign, guess, margin in sector.past_circles(offsets, radii, self.slack):
-            yield from self._collect(ids, side, sign, guess, margin)
+    def _value(self, line: _EventLine) -> Real:
+        """The exact parameter of a line; a late number where only the interval is known."""
+        if line.value is None:
+            ((number, side, sign),) = line.passed
+            make = partial(_exact, self.sector, *self._target(number, side), side, sign)
+            line.value = Real.late(arb(line.low).union(arb(line.high)), make)
+        return line.value
 
-    def _collect(self, ids: Ints, side: int, sign: int, guess: Floats, margin: Floats) -> Iterator[_Passage]:
-        low, high = float(self.sector.low), float(self.sector.high)
-        vague = margin > 0.05
-        guess, margin = np.where(vague, 0.0, guess), np.where(vague, 3.0, margin)
-        inside = (guess >= low - margin) & (guess <= high + margin)
-        for k in np.flatnonzero(inside):
-            yield _Passage(float(guess[k]), float(margin[k]), int(ids[k]), side, sign)
-
-    def _exact(self, event: _Passage) -> Real | None:
-        """The exact parameter, or None if the tangent that floats proposed does not exist."""
-        if event.value is None:
-            event.value = self.sector.exact(*self._target(event), event.side, event.sign)
-        return event.value
-
-    def _target(self, event: _Passage) -> tuple[Vector, fmpq]:
-        if event.side == 0:
-            return self.table.vertices[event.edge], fmpq(0)
-        arc = self.table.curves[event.edge]
+    def _target(self, number: int, side: int) -> tuple[Vector, fmpq]:
+        if side == 0:
+            return self.table.vertices[number], fmpq(0)
+        arc = self.table.curves[number]
         return arc.center.rational, arc.radius_sq  # type: ignore[union-attr, return-value]
 
     # -- edges met -----------------------------------------------------------------------------
 
-    def _meets(self, middles: list[fmpq]) -> Iterator[tuple[int | None, int | None]]:
-        """First edge behind and ahead at each of the rational parameters."""
-        if not len(self.edges):
-            yield from ((None, None) for _ in middles)
-            return
-        step = max(1, CHUNK // len(self.edges))
-        for k in range(0, len(middles), step):
-            yield from self._meet_chunk(middles[k : k + step])
+    def _middle(self, a: _EventLine, b: _EventLine) -> tuple[float | fmpq, float]:
+        """A number between two lines, a float if they are apart, with the bound of its own float."""
+        if a.high < b.low:
+            middle = 0.5 * (a.high + b.low)
+            if a.high < middle < b.low:
+                return middle, 0.0
+        between = rational_between(self._value(a), self._value(b))
+        return between, UNIT * abs(float(between))
 
-    def _meet_chunk(self, middles: list[fmpq]) -> Iterator[tuple[int | None, int | None]]:
-        t = np.array([float(m) for m in middles])
-        contact, direction = self.sector.lines(t)
-        origin = self.sector.origin
-        found = Crossings(self.table, self.edges, self.own, origin, contact, direction, self.slack)
-        for row, middle in enumerate(middles):
-            met = found.nearest(row)
-            yield self._exact_meet(middle, found.possible(row)) if met is None else met
+    def _meets(
+        self, lines: list[_EventLine], middles: list[tuple[float | fmpq, float]]
+    ) -> Iterator[tuple[int | None, int | None]]:
+        """First edge behind and ahead in the middle of each cell."""
+        passed = [
+            [number if side == 0 else -1 - number for number, side, _ in line.passed] for line in lines[:-1]
+        ]
+        places, bounds = [float(middle) for middle, _ in middles], [bound for _, bound in middles]
+        found = first_edges(self.around, places, bounds, passed, bool(self.through))
+        for (middle, _), behind, ahead, possible in zip(middles, *found, strict=True):
+            if behind == DOUBT:
+                yield self._exact_meet(_rational(middle), possible)
+            else:
+                yield behind if behind >= 0 else None, ahead if ahead >= 0 else None
 
-    def _exact_meet(self, middle: fmpq, edges: Ints) -> tuple[int | None, int | None]:
+    def _exact_meet(self, middle: fmpq, edges: Iterable[int]) -> tuple[int | None, int | None]:
         contact, direction = self.sector.touch(Real(middle))
         nearest: dict[int, tuple[Real, int]] = {}
         center = (Point(*self.sector.center) - contact).dot(direction) / direction.norm_sq()
@@ -260,7 +265,7 @@ class _SectorSweep:
                     # A normal of a way where the way touches this arc.
                     side = 1 if self._enters(contact, direction, tau, e, 1) else -1
                 if side and (side not in nearest or (tau - nearest[side][0]).sign() == -side):
-                    nearest[side] = tau, int(e)
+                    nearest[side] = tau, e
         proper = {s: e for s, (tau, e) in nearest.items() if self._enters(contact, direction, tau, e, s)}
         return proper.get(-1), proper.get(1)
 
@@ -275,14 +280,14 @@ class _SectorSweep:
         ways = list(directions_at(self.table, Point(*self.sector.center), self.through))
         return enters(incoming, outgoing, ways[0], ways[-1], raw(direction))
 
-    def _is_at_center(self, middle: fmpq, ahead: int | None) -> bool:
+    def _is_at_center(self, middle: float | fmpq, ahead: int | None) -> bool:
         """Whether a normal meets the edge ahead in the centre of the arc.
 
         Then all normals of a family do; others, which meet the same arc elsewhere, are another family.
         """
         if ahead is None or ahead not in self.through:
             return False
-        contact, direction = self.sector.touch(Real(middle))
+        contact, direction = self.sector.touch(Real(_rational(middle)))
         center = (Point(*self.sector.center) - contact).dot(direction) / direction.norm_sq()
         return isinstance(self.table.curves[ahead], Segment) or self._enters(
             contact, direction, center, ahead, 1
@@ -297,19 +302,35 @@ class _SectorSweep:
         return outward == (-1 if edge.ccw else 1)
 
 
-def _clusters(events: list[_Passage]) -> Iterator[list[_Passage]]:
-    """Runs of events whose order the float guesses leave open."""
-    cluster: list[_Passage] = []
-    reached = -np.inf
-    for event in sorted(events, key=lambda e: e.guess - e.margin):
-        if cluster and event.guess - event.margin > reached:
+def _exact(sector: Sector, center: Vector, radius_sq: fmpq, side: int, sign: int) -> Real:
+    """The exact parameter of an event that there is."""
+    value = sector.exact(center, radius_sq, side, sign)
+    assert value is not None, "floats are certain only of lines that exist"
+    return value
+
+
+def _rational(middle: float | fmpq) -> fmpq:
+    return fmpq(*middle.as_integer_ratio()) if isinstance(middle, float) else middle
+
+
+def _known(value: Real, passed: Passed = ()) -> _EventLine:
+    near, bound = held(value)
+    return _EventLine(near - 2 * bound, near + 2 * bound, passed, value)
+
+
+def _clusters(events: list[_EventLine]) -> Iterator[list[_EventLine]]:
+    """Runs of events whose order the intervals leave open; the events come by their lower ends."""
+    cluster: list[_EventLine] = []
+    reached = -inf
+    for event in events:
+        if cluster and event.low > reached:
             yield cluster
             cluster = []
-        reached = max(reached, event.guess + event.margin) if cluster else event.guess + event.margin
+        reached = max(reached, event.high) if cluster else event.high
         cluster.append(event)
     if cluster:
         yield cluster
 
 
-def _by_value(a: tuple[Real, _Passage], b: tuple[Real, _Passage]) -> int:
+def _by_value(a: tuple[Real, _EventLine], b: tuple[Real, _EventLine]) -> int:
     return a[0].compare(b[0])

@@ -1,0 +1,173 @@
+"""How a line meets edges: which of them it crosses, where, and in which direction, in floats with bounds.
+
+A crossing is known by its edge and its *root*: of a segment 1 if the line, followed ahead, passes from free
+to blocked, 2 otherwise; of an arc 1 for the crossing farther ahead, 2 for the other one. The state of an edge
+is the sum of its roots, or `VAGUE`.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+from exactacq.kernel.bounded import TINY, UNIT, WIDEN, cross, product, quotient, root, total, verdict
+from exactacq.kernel.images import CONCAVE, STRAIGHT
+from exactacq.kernel.surroundings import FrameLine, Surroundings
+
+VAGUE: Final = 4
+"""Whether an edge is crossed is open."""
+
+
+class EdgeStates:
+    """The states of the edges around a family."""
+
+    def __init__(self, around: Surroundings) -> None:
+        self.around = around
+        count = len(around.edges)
+        self.state = [0] * count
+        # Of segments, once they are asked for: the vector from first to last end, and the first end times it.
+        self.asked = [False] * count
+        self.wx, self.wy, self.w_bound = [0.0] * count, [0.0] * count, [0.0] * count
+        self.turn, self.turn_bound = [0.0] * count, [0.0] * count
+
+    def side(self, k: int, line: FrameLine) -> int:
+        """On which side of a line a point certainly lies, 1 for the left; 0 where that is open."""
+        around = self.around
+        x, y = around.x[k], around.y[k]
+        m = line.dx * y - line.dy * x - line.cross
+        e = around.bound[k] * line.for_bound + around.size[k] * line.for_size + line.cross_bound
+        return 1 if m > e else -1 if -m > e else 0
+
+    def look(self, j: int, line: FrameLine) -> int:
+        """The state of edge j for a line."""
+        around = self.around
+        if around.middle[j] >= 0:
+            return self._look_at_arc(j, line)
+        return between(self.side(around.first[j], line), self.side(around.last[j], line))
+
+    def look_at_all(self, line: FrameLine) -> list[int]:
+        """The states of all edges; each vertex is looked at once."""
+        around = self.around
+        sides = [self.side(k, line) for k in range(len(around.x))]
+        return [
+            self._look_at_arc(j, line)
+            if around.middle[j] >= 0
+            else between(sides[around.first[j]], sides[around.last[j]])
+            for j in range(len(around.edges))
+        ]
+
+    def place(self, j: int, which: int, line: FrameLine) -> tuple[float, float]:
+        """Where on a line edge j is crossed, in multiples of the direction; *which* of its roots.
+
+        On the line through A along w it is (A - contact) x w / (direction x w).
+        """
+        if self.around.middle[j] >= 0:
+            h, h_bound, half, half_bound, _ = self._chord(j, line)
+            return _on_chord(h, h_bound, half, half_bound, 1 if which == 1 else -1, line)
+        self._ask(j)
+        wx, wy, w = self.wx[j], self.wy[j], self.w_bound[j]
+        size = abs(wx) + abs(wy)
+        below = line.dx * wy - line.dy * wx
+        below_bound = w * line.for_bound + size * line.for_size + TINY
+        top = self.turn[j] - (line.cx * wy - line.cy * wx)
+        data = line.contact_bound * (size + 2.0 * w) + line.contact_size * w
+        rounding = 2.0 * UNIT * (line.contact_size * size + abs(top))
+        return quotient(top, (self.turn_bound[j] + data + rounding + TINY) * WIDEN, below, below_bound)
+
+    def enters(self, j: int, which: int) -> bool:
+        """Whether the line, followed ahead, passes from free to blocked at a crossing."""
+        kind = self.around.images.kind[self.around.edges[j]]
+        if kind == STRAIGHT:
+            return which == 1
+        return (which == 1) == (kind == CONCAVE)
+
+    def _ask(self, j: int) -> None:
+        if self.asked[j]:
+            return
+        self.asked[j] = True
+        around = self.around
+        a, b = around.first[j], around.last[j]
+        wx, wy = around.x[b] - around.x[a], around.y[b] - around.y[a]
+        w = (around.bound[a] + around.bound[b] + UNIT * (abs(wx) + abs(wy))) * WIDEN
+        self.wx[j], self.wy[j], self.w_bound[j] = wx, wy, w
+        self.turn[j], self.turn_bound[j] = cross(around.x[a], around.y[a], around.bound[a], wx, wy, w)
+
+    def _look_at_arc(self, j: int, line: FrameLine) -> int:
+        around = self.around
+        h, h_bound, half, half_bound, known = self._chord(j, line)
+        if known < 0:
+            return 0
+        if known == 0:
+            return VAGUE
+        state = 0
+        edge = around.edges[j]
+        kind = around.images.kind[edge]
+        for sign in (1, -1):
+            if around.through[j]:
+                # The line meets the circle in the contact and at twice the foot of the centre.
+                ahead = verdict(h, h_bound)
+                if ahead == 0:
+                    return VAGUE
+                if ahead != sign:
+                    continue
+            if around.images.full[edge]:
+                state += 1 if sign > 0 else 2
+                continue
+            # A convex arc lies to the right of its chord.
+            m, e = self._off_chord(j, line, *_on_chord(h, h_bound, half, half_bound, sign, line))
+            side = -kind * verdict(m, e)
+            if side == 0:
+                return VAGUE
+            if side > 0:
+                state += 1 if sign > 0 else 2
+        return state
+
+    def _off_chord(self, j: int, line: FrameLine, place: float, bound: float) -> tuple[float, float]:
+        """On which side of an arc's chord a place on a line lies."""
+        self._ask(j)
+        around = self.around
+        a = around.first[j]
+        px, px_bound = product(place, bound, line.dx, line.direction_bound)
+        py, py_bound = product(place, bound, line.dy, line.direction_bound)
+        ox, oy = line.cx - around.x[a], line.cy - around.y[a]
+        x, y = ox + px, oy + py
+        rounding = UNIT * (abs(ox) + abs(oy) + abs(x) + abs(y))
+        e = (line.contact_bound + around.bound[a] + px_bound + py_bound + rounding) * WIDEN
+        return cross(self.wx[j], self.wy[j], self.w_bound[j], x, y, e)
+
+    def _chord(self, j: int, line: FrameLine) -> tuple[float, float, float, float, int]:
+        """Of a line and a circle: the centre's place and half the chord, both times the direction's length.
+
+        With their bounds; and whether the line crosses the circle (1, -1 or 0). A line through the contact,
+        where the circle passes too, has the chord from there to twice the foot of the centre.
+        """
+        around = self.around
+        k = around.middle[j]
+        x, y, p, size = around.x[k], around.y[k], around.bound[k], around.size[k]
+        common = p * line.for_bound + size * line.for_size
+        h, h_bound = line.dx * x + line.dy * y - line.dot, common + line.dot_bound
+        if around.through[j]:
+            return h, h_bound, abs(h), h_bound, 1
+        g, g_bound = line.dx * y - line.dy * x - line.cross, common + line.cross_bound
+        r, r_bound = around.radius(around.edges[j])
+        reach, reach_bound = product(r, r_bound, line.length, line.length_bound)
+        plus, plus_bound = total(reach, reach_bound, g, g_bound)
+        minus, minus_bound = total(reach, reach_bound, -g, g_bound)
+        under, under_bound = product(plus, plus_bound, minus, minus_bound)
+        half, half_bound = root(under, under_bound)
+        return h, h_bound, half, half_bound, verdict(under, under_bound)
+
+
+def between(first: int, last: int) -> int:
+    """The state of a segment by the sides of its ends."""
+    if first == 0 or last == 0:
+        return VAGUE
+    return 0 if first == last else 1 if first > 0 else 2
+
+
+def _on_chord(
+    h: float, h_bound: float, half: float, half_bound: float, sign: int, line: FrameLine
+) -> tuple[float, float]:
+    """Where on a line one end of a chord is, in multiples of the direction."""
+    square, bound = product(line.length, line.length_bound, line.length, line.length_bound)
+    top, top_bound = total(h, h_bound, sign * half, half_bound)
+    return quotient(top, top_bound, square, bound)

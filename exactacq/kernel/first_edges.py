@@ -1,0 +1,159 @@
+"""Which edges the lines of a family meet first behind and ahead of the contact, in floats with bounds.
+
+Cells follow one another between events, and in each a line at its middle stands for all. Whether a line
+crosses an edge changes only where it passes an end of the edge or becomes tangent to it. So an edge is looked
+at again only after an event of its own, and the nearest crossing stays the nearest until its own edge has an
+event or another crossing appears: crossings of different edges never change their order, as edges do not
+cross. A tangency to a concave arc, or to an arc through the contact, is no event; these are looked at in
+every cell.
+"""
+
+from __future__ import annotations
+
+from math import inf
+from typing import Final
+
+from exactacq.kernel.bounded import UNIT, WIDEN
+from exactacq.kernel.crossings import VAGUE, EdgeStates
+from exactacq.kernel.images import CONCAVE, STRAIGHT
+from exactacq.kernel.surroundings import FrameLine, Surroundings
+
+NOTHING: Final = -1
+"""No edge, or one that is met from its blocked side and stands for one that was left out."""
+DOUBT: Final = -2
+"""The margins leave it open."""
+
+
+def first_edges(
+    around: Surroundings,
+    middles: list[float],
+    errors: list[float],
+    passed: list[list[int]],
+    always: bool,
+) -> tuple[list[int], list[int], list[list[int]]]:
+    """For each cell the first edge behind, the one ahead, and where that is a `DOUBT` what may be met at all.
+
+    *passed* lists what is passed between a cell and the one before: a vertex by its number v, an arc e as
+    -1 - e. With *always* every edge is looked at in every cell.
+    """
+    behind: list[int] = []
+    ahead: list[int] = []
+    possible: list[list[int]] = []
+    walk = EdgeWalk(EdgeStates(around))
+    for cell in range(len(middles)):
+        line = FrameLine(around, middles[cell], errors[cell])
+        fresh = always or cell == 0
+        sure = walk.start(line) if fresh else walk.step(walk.concerned(passed[cell]), line)
+        behind.append(walk.met(0) if sure else DOUBT)
+        ahead.append(walk.met(1) if sure else DOUBT)
+        possible.append([] if sure else [around.edges[j] for j in walk.active])
+    return behind, ahead, possible
+
+
+class EdgeWalk:
+    """The state of a walk from cell to cell: what is crossed, and the nearest crossings if they are known."""
+
+    def __init__(self, states: EdgeStates) -> None:
+        self.states, self.around = states, states.around
+        kinds = self.around.images.kind
+        self.unsteady = [
+            j
+            for j, e in enumerate(self.around.edges)
+            if kinds[e] == CONCAVE or (self.around.through[j] and kinds[e] != STRAIGHT)
+        ]
+        self.active: list[int] = []
+        self.vague: list[int] = []
+        self.known = False
+        # The nearest crossings, behind (0) and ahead (1): number and root; the number is -1 for none.
+        self.near = [-1, -1]
+        self.root = [0, 0]
+
+    def concerned(self, passed: list[int]) -> list[int]:
+        """The numbers of the edges that have an event where something is passed."""
+        at, previous = self.around.at, self.around.images.previous
+        found: list[int] = []
+        for v in passed:
+            if v < 0:
+                if -1 - v in at:
+                    found.append(at[-1 - v])
+                continue
+            if v in at:
+                found.append(at[v])
+            if previous[v] in at:
+                found.append(at[previous[v]])
+        return found
+
+    def start(self, line: FrameLine) -> bool:
+        """Look at all edges; whether the nearest crossings are certain."""
+        states = self.states.look_at_all(line)
+        self.states.state = states
+        self.active = [j for j, state in enumerate(states) if state]
+        self.vague = [j for j in self.active if states[j] == VAGUE]
+        self.known = not self.vague and self._choose(self.active, line)
+        return self.known
+
+    def step(self, events: list[int], line: FrameLine) -> bool:
+        """Look at the edges that have an event before this cell, and at others that may have changed."""
+        changed = events + self.vague + self.unsteady if self.vague or self.unsteady else events
+        self._look(changed, line)
+        if self.vague:
+            self.known = False
+            return False
+        for side in (0, 1):
+            j = self.near[side]
+            if j >= 0 and (j in events or not self.states.state[j] & self.root[side]):
+                self.known = False
+        tried = self.active
+        if self.known:
+            tried = [j for j in self.near if j >= 0]
+            tried += [j for j in changed if self.states.state[j] and j not in tried]
+        self.known = self._choose(tried, line)
+        return self.known
+
+    def met(self, side: int) -> int:
+        """The edge of the nearest crossing on one side, if an obstacle is entered there."""
+        j = self.near[side]
+        if j >= 0 and self.states.enters(j, self.root[side]) == (side == 1):
+            return self.around.edges[j]
+        return NOTHING
+
+    def _look(self, changed: list[int], line: FrameLine) -> None:
+        states = self.states
+        self.vague = []
+        for j in changed:
+            old, new = states.state[j], states.look(j, line)
+            if new != old:
+                states.state[j] = new
+                if old == 0:
+                    self.active.append(j)
+                elif new == 0:
+                    self.active.remove(j)
+            if new == VAGUE:
+                self.vague.append(j)
+
+    def _choose(self, tried: list[int], line: FrameLine) -> bool:
+        """Find the nearest crossing on either side among those of some edges; False if it is not certain."""
+        states = self.states
+        near, roots = [-1, -1], [0, 0]
+        # Of the nearest the interval of its distance, and the least that another one's may be.
+        lows, highs, rests = [inf, inf], [inf, inf], [inf, inf]
+        for j in tried:
+            for which in (1, 2):
+                if not states.state[j] & which:
+                    continue
+                m, e = states.place(j, which, line)
+                e = e * WIDEN + UNIT * abs(m)
+                if not abs(m) > e:
+                    return False
+                side = 1 if m > 0.0 else 0
+                low, high = abs(m) - e, abs(m) + e
+                if high < highs[side]:
+                    rests[side] = min(rests[side], lows[side])
+                    lows[side], highs[side], near[side], roots[side] = low, high, j, which
+                else:
+                    rests[side] = min(rests[side], low)
+        for side in (0, 1):
+            if near[side] >= 0 and not rests[side] > highs[side]:
+                return False
+        self.near, self.root = near, roots
+        return True

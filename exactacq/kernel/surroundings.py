@@ -1,0 +1,152 @@
+"""Points and circles in the frame of a family of lines, and the lines there.
+
+Let e be the base vector divided by a power of two, its length about 1, and p the offset of a point from the
+centre. The point's coordinates in the frame are (e . p, e x p). So the frame is turned, and larger by the
+factor |e|, the *scale*. The base vector itself is (K, 0) there, with K, the *span*, its product with e. Lines
+have simple forms: with (c, d) for contact and direction
+
+- turning: (0, 0) and (1, t);
+- rolling: K (cos, sin) and (-sin, cos), where cos = (1 - t^2) / (1 + t^2) and sin = 2 t / (1 + t^2);
+- sliding: (t K, 0) and (0, 1) or (0, -1);
+- normals of an arc: r |e| (1, t) / sqrt(1 + t^2) and (1, t) or (-1, -t).
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from exactacq.kernel.bounded import TINY, UNIT, WIDEN, dot, product, root
+from exactacq.kernel.images import REST, ROLLING, SLIDING, SPOKES, STRAIGHT, EdgeImages, LineFrame
+
+
+class Surroundings:
+    """The edges within reach of a family, in its frame.
+
+    Vertices and arcs' centres have coordinates ``x`` and ``y``, held with the bound ``bound``, and ``size`` =
+    |x| + |y|. They are numbered anew: ``first`` and ``last`` give the ends of the edges, ``middle`` the
+    centre.
+
+    The bound: an offset o is held with b, see `exactacq.kernel.images`, and e with q. Both components of the
+    product with e are held with |e|_1 b + q (|o|_1 + 2 b) for the data and 2 UNIT |e|_1 |o|_1 for three
+    roundings, where | |_1 is the sum of the components' sizes.
+    """
+
+    def __init__(self, images: EdgeImages, frame: LineFrame, edges: list[int], own: list[int]) -> None:
+        self.images, self.frame, self.edges = images, frame, edges
+        self.scale, self.scale_bound = root(
+            *dot(frame.ux, frame.uy, frame.bound, frame.ux, frame.uy, frame.bound)
+        )
+        square, bound = dot(frame.ux, frame.uy, frame.bound, frame.ux, frame.uy, frame.bound)
+        self.span, self.span_bound = product(square, bound, frame.unit, 0.0)
+        self.x: list[float] = []
+        self.y: list[float] = []
+        self.bound: list[float] = []
+        self.size: list[float] = []
+        self.vertices: dict[int, int] = {}
+        self.at: dict[int, int] = {}
+        self.first: list[int] = []
+        self.last: list[int] = []
+        self.middle: list[int] = []
+        self.through: list[bool] = []
+        following, kinds = images.following, images.kind
+        for e in edges:
+            self.at[e] = len(self.first)
+            self.first.append(self._vertex(e))
+            self.last.append(self._vertex(following[e]))
+            self.through.append(e in own)
+            if kinds[e] == STRAIGHT:
+                self.middle.append(-1)
+            else:
+                self.middle.append(len(self.x))
+                self._add(images.cx[e], images.cx_rest[e], images.cy[e], images.cy_rest[e])
+
+    def _vertex(self, v: int) -> int:
+        if v in self.vertices:
+            return self.vertices[v]
+        k = len(self.x)
+        self.vertices[v] = k
+        images = self.images
+        self._add(images.x[v], images.x_rest[v], images.y[v], images.y_rest[v])
+        return k
+
+    def _add(self, x: float, x_rest: float, y: float, y_rest: float) -> None:
+        frame = self.frame
+        ux, uy = frame.ux, frame.uy
+        dx = (x - frame.x) + (x_rest - frame.x_rest)
+        dy = (y - frame.y) + (y_rest - frame.y_rest)
+        far = abs(x) + abs(y) + abs(frame.x) + abs(frame.y)
+        size, length = abs(dx) + abs(dy), abs(ux) + abs(uy)
+        b = UNIT * size + REST * far + frame.blur + TINY
+        u, v = ux * dx + uy * dy, ux * dy - uy * dx
+        self.x.append(u)
+        self.y.append(v)
+        self.size.append(abs(u) + abs(v))
+        self.bound.append(
+            (length * b + (frame.bound + 2.0 * UNIT * length) * (size + 2.0 * b) + TINY) * WIDEN
+        )
+
+    def radius(self, e: int) -> tuple[float, float]:
+        """The radius of an arc, in the frame."""
+        r = self.images.radius[e]
+        return product(self.scale, self.scale_bound, r, UNIT * r)
+
+
+class FrameLine:
+    """A line of the family in its frame: contact (cx, cy) and direction (dx, dy) with bounds, and what
+    follows.
+
+    ``cross`` and ``dot`` are those of direction and contact, with bounds. For a point (x, y) held with p, of
+    size |x| + |y| = z, the products of the direction with its offset from the contact,
+
+        dx y - dy x - cross  and  dx x + dy y - dot,
+
+    are held with p ``for_bound`` + z ``for_size`` + ``cross_bound`` or ``dot_bound``: for a direction held
+    with d, |d|_1 p + d (z + 2 p) are the data's errors, and three roundings make at most 2 UNIT (|d|_1 z +
+    |cross|).
+    """
+
+    def __init__(self, around: Surroundings, t: float, e: float) -> None:
+        """The line at t, which is held with e.
+
+        (1 - t^2) / (1 + t^2) is the cosine of the angle 2 atan t; where t is off by e, cosine and sine are
+        off by at most 2 e. Roundings make at most 6 u: 1 - t^2, computed as (1 - t) (1 + t), has a relative
+        error of 3 u, 1 + t^2 one of 2 u. So each is held with 3 UNIT + 2 e. Of normals of an arc, sqrt(1 +
+        t^2) is held with 2 UNIT times itself + e, and the cosine and sine of atan t with 4 UNIT + e.
+        """
+        kind, span, wide = around.frame.kind, around.span, around.span_bound
+        self.cx = self.cy = self.contact_bound = 0.0
+        self.dx, self.dy, self.direction_bound = 1.0, t, e
+        cross = dot = cross_bound = dot_bound = 0.0
+        self.length, self.length_bound = 1.0, 0.0
+        if kind == ROLLING:
+            below = 1.0 + t * t
+            cosine, sine = (1.0 - t) * (1.0 + t) / below, 2.0 * t / below
+            bound = (3.0 * UNIT + 2.0 * e) * WIDEN
+            self.cx, self.cy = span * cosine, span * sine
+            self.contact_bound = (wide * (1.0 + bound) + span * (bound + UNIT) + TINY) * WIDEN
+            self.dx, self.dy, self.direction_bound = -sine, cosine, bound
+            cross, cross_bound = -span, wide
+        elif kind == SLIDING:
+            self.cx = t * span
+            self.contact_bound = (abs(t) * wide + e * (span + wide) + UNIT * abs(self.cx) + TINY) * WIDEN
+            self.dx, self.dy, self.direction_bound = 0.0, float(around.frame.sense), 0.0
+            cross, cross_bound = -self.dy * self.cx, self.contact_bound
+        else:
+            self.length = sqrt(1.0 + t * t)
+            self.length_bound = (2.0 * UNIT * self.length + e) * WIDEN
+        if kind == SPOKES:
+            r = around.frame.radius
+            reach, reach_bound = product(around.scale, around.scale_bound, r, UNIT * r)
+            self.cx, self.cy = reach / self.length, reach * (t / self.length)
+            bound = 4.0 * UNIT + e
+            self.contact_bound = (reach_bound * (1.0 + bound) + reach * (bound + 2.0 * UNIT) + TINY) * WIDEN
+            dot, dot_bound = product(reach, reach_bound, self.length, self.length_bound)
+            if around.frame.sense < 0:
+                self.dx, self.dy, dot = -self.dx, -self.dy, -dot
+        one, d = abs(self.dx) + abs(self.dy), self.direction_bound
+        self.for_bound = (one + 2.0 * d) * WIDEN
+        self.for_size = (d + 2.0 * UNIT * one) * WIDEN
+        self.cross, self.dot = cross, dot
+        self.cross_bound = (cross_bound + 2.0 * UNIT * abs(cross) + TINY) * WIDEN
+        self.dot_bound = (dot_bound + 2.0 * UNIT * abs(dot) + TINY) * WIDEN
+        self.contact_size = abs(self.cx) + abs(self.cy)
