@@ -10,6 +10,7 @@ import pytest
 from strategies import arc_terrain, degenerate_terrain, random_terrain
 
 import exactacq as xa
+from exactacq import kernel
 from exactacq.files.octagons import random_octagons
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.numbers.real import Real
@@ -137,7 +138,7 @@ def test_leaving_out_changes_nothing(name: str, monkeypatch: pytest.MonkeyPatch)
     scene = xa.load(name)
     explore = xa.sightseer if name != "figure4" else xa.seed_spreader
     usual = record(explore(scene))
-    monkeypatch.setattr(family_filter, "EXACT_ONLY", True)
+    monkeypatch.setattr(kernel, "EXACT_ONLY", True)
     assert record(explore(scene)) == usual
 
 
@@ -155,3 +156,15 @@ def test_most_families_are_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(family_filter.FamilyFilter, "matter", counted)
     xa.sightseer(random_octagons(8, 1))
     assert asked > 500 and kept < asked / 4
+
+
+def test_normals_at_the_end_of_a_way() -> None:
+    """The robot sees a wall along its normals from a way that begins at the wall's corner.
+
+    The normals of an edge have the edge's start as their origin, as the tangents of a corner have the corner; but
+    they do not all pass it.
+    """
+    diamond = xa.Polygon([("9/2", 7), (3, "11/2"), ("9/2", 4), (6, "11/2")])
+    scene = xa.Scene([diamond], terrain=xa.Terrain(8, 8), radius=1)
+    lost = [e.point for e in xa.seed_spreader(scene).events if e.kind == "lose" and e.point.x == 3]
+    assert lost == [xa.Point(3, xa.Real("11/2") - xa.Real(2).sqrt())]

@@ -35,10 +35,6 @@ def inside(cover: Cover, rail: Rail) -> list[Span]:
     return found
 
 
-EXACT_ONLY = False
-"""Whether every family is taken to matter: a switch for tests, which changes nothing but the time."""
-
-
 class SourceSpan(NamedTuple):
     """Where a family of that number is seen from on the leg: at most and at least; names of both ends."""
 
@@ -71,8 +67,6 @@ class FamilyFilter:
 
         Then ``in_sight`` has, for obstacles, intervals from which they are surely seen.
         """
-        if EXACT_ONLY:
-            return [True] * len(seen)
         chosen = [one is None for one in seen]
         sources: dict[int, list[SourceSpan]] = {}
         for n, one in enumerate(seen):

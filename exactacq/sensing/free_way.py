@@ -35,7 +35,7 @@ from exactacq.sensing.side_filter import Sides, rough
 from exactacq.sensing.view_families import End, FreeViews, Role, Side, ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.visibility.chords import meet
-from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes
+from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes, Turning
 from exactacq.visibility.line_names import Names
 from exactacq.visibility.rotational_sweep import Passed, pencil
 
@@ -127,7 +127,7 @@ class WayViews:
 
     def extents(self, line_family: LineFamily) -> Iterator[tuple[Side, Extent | None]]:
         """The sides that a line family may show, and what floats tell of them."""
-        if not line_family.sector.round and line_family.sector.center in self.ends:
+        if type(line_family.sector) is Turning and line_family.sector.center in self.ends:
             # All lines pass an end of the way and meet its line nowhere else: the view from there tells.
             return
         images, wanted = self.complex.images, [s for s in line_family.sides if s.edge in self.wanted]

@@ -13,6 +13,7 @@ from functools import cached_property
 from itertools import chain, compress
 from typing import TypeAlias
 
+from exactacq import kernel
 from exactacq.errors import Undecided
 from exactacq.geometry.interval_union import EMPTY, Cover, Interval
 from exactacq.geometry.late import Pin
@@ -146,7 +147,7 @@ class Shares:
         near = complex_.table.near((x, y), (right, top), complex_.range.above).tolist()
         wanted = frozenset(near).intersection(chain.from_iterable(self.targets.edges[k] for k in obstacles))
         matter = None
-        if known is not None:
+        if known is not None and not kernel.EXACT_ONLY:
             along = [k for k in obstacles if self._is_along(k)]
             chooser = FamilyFilter(leg, self.targets, obstacles, along, known)
             matter, self.in_sight = chooser.matter, chooser.in_sight
