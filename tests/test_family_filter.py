@@ -161,7 +161,7 @@ def test_most_families_are_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_normals_at_the_end_of_a_way() -> None:
     """The robot sees a wall along its normals from a way that begins at the wall's corner.
 
-    The normals of an edge have the edge's start as their origin, as the tangents of a corner have the corner; but
+    The normals of an edge have its start as their origin, as the tangents of a corner have the corner; but
     they do not all pass it.
     """
     diamond = xa.Polygon([("9/2", 7), (3, "11/2"), ("9/2", 4), (6, "11/2")])

@@ -9,20 +9,21 @@ of single lines are added. One runs along a straight edge and shows that edge en
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
+from math import inf
 
 from flint import arb, fmpq
 
 from exactacq.geometry.coordinates import Vector, cross, dot, minus, raw
 from exactacq.geometry.curve_parameter import Rail
-from exactacq.geometry.curves import Curve, Segment
+from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.late import late_point
 from exactacq.geometry.points import Point, distance_sq
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.sensing.line_images import EVERYTHING, NOTHING, EndNames, Extent, Image, LineImages
+from exactacq.sensing.line_images import EVERYTHING, NOTHING, EndNames, Extent, Image, LineImages, Span
 from exactacq.sensing.side_filter import Sides
 from exactacq.sensing.view_families import FamilyClipper, FreeViews, Role, Side, ViewFamily
 from exactacq.visibility.chords import meet
@@ -31,6 +32,7 @@ from exactacq.visibility.free_segment import walk_line
 from exactacq.visibility.line_balls import line
 from exactacq.visibility.line_families import Sector, Sliding, Spokes, corner_sectors, quarters
 from exactacq.visibility.line_names import Anchor, Namer, Names
+from exactacq.visibility.pinched_lines import may_be_pinched
 from exactacq.visibility.rotational_sweep import Cell, Passed, Pencil, pencil
 from exactacq.visibility.sensor_range import Range
 
@@ -126,6 +128,16 @@ class SingleLine:
         """Two points of the line, of the scene's if possible."""
         return self.run if self.run[0] is not self.run[1] else (self.place, self.run[0])
 
+    def extent(self, table: EdgeTable, shown: bool = True) -> Extent:
+        """What is shown of the run from the place at most, or of the place from the run, and from where."""
+        run = _hull_on(table.curves[self.shown], self.run)
+        if self.edge is None:
+            return Extent(self.shown, run, EVERYTHING, NOTHING)
+        place = _hull_on(table.curves[self.edge], (self.place,))
+        if shown:
+            return Extent(self.shown, run, place, NOTHING)
+        return Extent(self.edge, place, run, NOTHING)
+
     def families(self, clipper: FamilyClipper) -> list[ViewFamily]:
         """The views from the place, within range; it lies on an edge."""
         assert self.edge is not None, "a place in free space is on no edge"
@@ -137,7 +149,7 @@ class SingleLine:
 class Bundle:
     """The parts of one family of free views within range, found when they are first asked for."""
 
-    __slots__ = ("_lines", "_source", "sides")
+    __slots__ = ("_lines", "_single", "_source", "sides")
 
     def __init__(
         self,
@@ -147,6 +159,7 @@ class Bundle:
     ) -> None:
         self.sides = sides
         self._source, self._lines = source, line_family
+        self._single = source if isinstance(source, SingleLine) else None
 
     def families(self, clipper: FamilyClipper) -> list[ViewFamily]:
         """The families within range."""
@@ -159,7 +172,8 @@ class Bundle:
     def seen(self, side: int, images: LineImages) -> Extent | None:
         """What is seen from one side of the other, in floats; None if these cannot tell."""
         if self._lines is None:
-            return Extent(self.sides[1 - side].edge, EVERYTHING, EVERYTHING, NOTHING)
+            assert self._single is not None, "a bundle is of a line family or of a single line"
+            return self._single.extent(images.table, shown=side == 0)
         image = self._lines.image(images)
         if image is None:
             return None
@@ -260,7 +274,11 @@ class FamilySweeper:
             self._line_family(feature, s.sector, cell, contact) for s in sweeps for cell in s.cells
         ]
         single_lines = [
-            single for s in sweeps for t in s.pinches for single in self._pinched(s.sector, t, feature.edges)
+            single
+            for s in sweeps
+            for t, passed in s.pinches
+            if may_be_pinched(self.table, feature, s.sector, t, passed)
+            for single in self._pinched(s.sector, t, feature.edges)
         ]
         return line_families, [*single_lines, *self._end_on(feature, sweeps[0], sweeps[-1])]
 
@@ -387,6 +405,15 @@ class FamilySweeper:
                     near, far = (low, high) if _nearer(place, low, high) else (high, low)
                     if place != near:
                         yield SingleLine(place, None, (near, far), f)
+
+
+def _hull_on(curve: Curve, points: Collection[Point]) -> Span:
+    """Bounds of the parameters of some points of a curve, in extended numbers: finite ones are not told."""
+    if isinstance(curve, Arc) and curve.full:
+        return EVERYTHING
+    known = {-inf for p in points if not p.is_late and p.rational == curve.start.rational}
+    known |= {inf for p in points if not p.is_late and p.rational == curve.end.rational}
+    return (min(known), max(known)) if len(known) == len(set(map(id, points))) else EVERYTHING
 
 
 def normals(curve: Curve) -> Iterator[Sector]:

@@ -30,7 +30,7 @@ from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.complex_edges import FeatureFamilies, LineFamily, SingleLine
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.legs import Leg
-from exactacq.sensing.line_images import SURE, EdgePlace, Extent, Image, bounds, sight
+from exactacq.sensing.line_images import EVERYTHING, SURE, EdgePlace, Extent, Image, bounds, sight
 from exactacq.sensing.side_filter import Sides, rough
 from exactacq.sensing.view_families import End, FreeViews, Role, Side, ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
@@ -83,13 +83,13 @@ class WayViews:
 
     def families(self, matter: Matter | None = None) -> Iterator[ViewFamily]:
         """All families at wanted edges whose first side lies on the way, or those that *matter*."""
-        found = self.crossing()
-        for line_family, certain, wanted in found if matter is None else self._mattering(found, matter):
+        found, single_lines = self.crossing(), self._single_lines()
+        if matter is not None:
+            found, single_lines = self._mattering(found, single_lines, matter)
+        for line_family, certain, wanted in found:
             yield from self.across(line_family, certain, wanted)
-        single_lines = [single for feature in self._near for single in feature.single_lines]
-        for k, _ in self._crossed(Sides.joined([feature.single_line_sides for feature in self._near])):
-            if single_lines[k].shown in self.wanted:
-                yield from self._along(single_lines[k])
+        for single in single_lines:
+            yield from self._along(single)
         yield from self._normals()
         yield from self._own_line()
 
@@ -111,19 +111,41 @@ class WayViews:
         for k in np.flatnonzero((one != other) | (one == 0)).tolist():
             yield k, bool(one[k] and other[k])
 
-    def _mattering(self, found: list[Crossing], matter: Matter) -> Iterator[Crossing]:
-        """The line families that matter, each with the edges for which it does."""
+    def _single_lines(self) -> list[SingleLine]:
+        """The single lines that may cross the way and show something that is wanted."""
+        single_lines = [single for feature in self._near for single in feature.single_lines]
+        crossed = self._crossed(Sides.joined([feature.single_line_sides for feature in self._near]))
+        return [single_lines[k] for k, _ in crossed if single_lines[k].shown in self.wanted]
+
+    def _mattering(
+        self, found: list[Crossing], single_lines: list[SingleLine], matter: Matter
+    ) -> tuple[list[Crossing], list[SingleLine]]:
+        """The line families that matter, each with the edges for which it does, and the single lines."""
         asked: list[tuple[int, Side]] = []
         seen: list[Extent | None] = []
         for n, (line_family, _, _) in enumerate(found):
             for side, one in self.extents(line_family):
                 asked.append((n, side))
                 seen.append(one)
+        table = self.complex.table
+        chosen = matter(
+            [*seen, *(single.extent(table)._replace(source=EVERYTHING) for single in single_lines)]
+        )
         edges: dict[int, set[int]] = {}
-        for n, side in compress(asked, matter(seen)):
+        for n, side in compress(asked, chosen):
             edges.setdefault(n, set()).add(side.edge)
-        for n, wanted in edges.items():
-            yield (*found[n][:2], frozenset(wanted))
+        families = [(*found[n][:2], frozenset(wanted)) for n, wanted in edges.items()]
+        return families, list(compress(single_lines, chosen[len(seen) :]))
+
+    def _extent(self, single: SingleLine) -> Extent:
+        """What a single line shows at most, and where it crosses the way."""
+        start, end = single.line
+        (x, y), (dx, dy) = rough(start), rough(end - start)
+        error = 4 * lines.EPS
+        line = x, y, dx, dy, error * (abs(x) + abs(y)), error * (abs(dx) + abs(dy))
+        _, _, u, ue, *_ = lines.meets_straight(line, self.image)
+        source = (u - ue, u + ue) if ue < inf else EVERYTHING
+        return single.extent(self.complex.table)._replace(source=source)
 
     def extents(self, line_family: LineFamily) -> Iterator[tuple[Side, Extent | None]]:
         """The sides that a line family may show, and what floats tell of them."""

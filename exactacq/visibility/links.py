@@ -272,7 +272,7 @@ class Links:
                         ends = int(owner[cell.behind]), int(owner[cell.ahead])
                         if ends[0] != ends[1]:
                             groups.setdefault(ends, []).append((sweep, cell))
-                for t in sweep.pinches:
+                for t, _ in sweep.pinches:
                     pinched += self._pinched_chords(sweep, t)
             self._pencils[k], self._pinch_table[k] = groups, pinched
         return self._pencils[k]
@@ -357,7 +357,7 @@ class Links:
                     continue
                 target = best.setdefault(int(self.table.owner[cell.ahead]), _Best(self.limit))
                 self._offer_fan(sweep, cell, target)
-            for t in sweep.pinches:
+            for t, _ in sweep.pinches:
                 self._offer_pinched_rays(sweep, t, best)
         links = ((j, found.link(START, j)) for j, found in sorted(best.items()))
         return {j: link for j, link in links if link is not None}

@@ -63,7 +63,7 @@ class Pencil:
 
     sector: Sector
     cells: tuple[Cell, ...]
-    pinches: tuple[Real, ...]
+    pinches: tuple[tuple[Real, Passed], ...]
 
 
 @dataclass(slots=True)
@@ -140,7 +140,7 @@ class _SectorSweep:
                 Cell(self._value(first), self._value(last), behind, ahead, (first.passed, last.passed))
                 for first, last, behind, ahead in cells
             ),
-            tuple(self._value(line) for line in lines if len(line.passed) > 1),
+            tuple((self._value(line), line.passed) for line in lines if len(line.passed) > 1),
         )
 
     # -- events --------------------------------------------------------------------------------
