@@ -58,11 +58,17 @@ def build(target: Path) -> list[Path]:
                 extension.extra_compile_args = [*extension.extra_compile_args, *flags]
             command.run()
             built = sorted(Path("lib", "exactacq", "kernel").iterdir())
-            made = [Path(shutil.copy(path, target)) for path in built]
+            made = [_placed(path, target) for path in built]
         finally:
             os.chdir(here)
     record.write_text(kernel.digest(KERNEL) + "\n", encoding="ascii")
     return [*made, record]
+
+
+def _placed(path: Path, folder: Path) -> Path:
+    """Copy a file into a folder in one step: a program that runs the former one keeps it."""
+    with tempfile.TemporaryDirectory(dir=folder) as beside:
+        return Path(shutil.copy(path, beside)).replace(folder / path.name)
 
 
 if __name__ == "__main__":

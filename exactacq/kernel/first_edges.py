@@ -65,22 +65,20 @@ class EdgeWalk:
         self.vague: list[int] = []
         self.known = False
         # The nearest crossings, behind (0) and ahead (1): number and root; the number is -1 for none.
-        self.near = [-1, -1]
-        self.root = [0, 0]
+        self.near = (-1, -1)
+        self.root = (0, 0)
 
     def concerned(self, passed: list[int]) -> list[int]:
         """The numbers of the edges that have an event where something is passed."""
         at, previous = self.around.at, self.around.images.previous
         found: list[int] = []
         for v in passed:
-            if v < 0:
-                if -1 - v in at:
-                    found.append(at[-1 - v])
-                continue
-            if v in at:
-                found.append(at[v])
-            if previous[v] in at:
-                found.append(at[previous[v]])
+            j = at.get(v if v >= 0 else -1 - v, -1)
+            if j >= 0:
+                found.append(j)
+            j = at.get(previous[v], -1) if v >= 0 else -1
+            if j >= 0:
+                found.append(j)
         return found
 
     def start(self, line: FrameLine) -> bool:
@@ -99,15 +97,23 @@ class EdgeWalk:
         if self.vague:
             self.known = False
             return False
+        state = self.states.state
         for side in (0, 1):
             j = self.near[side]
-            if j >= 0 and (j in events or not self.states.state[j] & self.root[side]):
+            if j >= 0 and (j in events or not state[j] & self.root[side]):
                 self.known = False
-        tried = self.active
-        if self.known:
-            tried = [j for j in self.near if j >= 0]
-            tried += [j for j in changed if self.states.state[j] and j not in tried]
-        self.known = self._choose(tried, line)
+        if not self.known:
+            self.known = self._choose(self.active, line)
+            return self.known
+        near, far = self.near
+        tried = [j for j in changed if state[j] and j != near and j != far]
+        if tried:
+            # Otherwise nothing has come in front of the nearest.
+            if near >= 0:
+                tried.append(near)
+            if far >= 0:
+                tried.append(far)
+            self.known = self._choose(tried, line)
         return self.known
 
     def met(self, side: int) -> int:
@@ -134,26 +140,34 @@ class EdgeWalk:
     def _choose(self, tried: list[int], line: FrameLine) -> bool:
         """Find the nearest crossing on either side among those of some edges; False if it is not certain."""
         states = self.states
-        near, roots = [-1, -1], [0, 0]
-        # Of the nearest the interval of its distance, and the least that another one's may be.
-        lows, highs, rests = [inf, inf], [inf, inf], [inf, inf]
+        ahead, ahead_root, behind, behind_root = -1, 0, -1, 0
+        # The interval of the nearest one's distance, and the least that another one's may be.
+        ahead_low = ahead_high = ahead_rest = inf
+        behind_low = behind_high = behind_rest = inf
         for j in tried:
+            state = states.state[j]
             for which in (1, 2):
-                if not states.state[j] & which:
+                if not state & which:
                     continue
                 m, e = states.place(j, which, line)
                 e = e * WIDEN + UNIT * abs(m)
-                if not abs(m) > e:
-                    return False
-                side = 1 if m > 0.0 else 0
-                low, high = abs(m) - e, abs(m) + e
-                if high < highs[side]:
-                    rests[side] = min(rests[side], lows[side])
-                    lows[side], highs[side], near[side], roots[side] = low, high, j, which
+                if m > e:
+                    low, high = m - e, m + e
+                    if high < ahead_high:
+                        ahead_rest = min(ahead_rest, ahead_low)
+                        ahead_low, ahead_high, ahead, ahead_root = low, high, j, which
+                    elif low < ahead_rest:
+                        ahead_rest = low
+                elif -m > e:
+                    low, high = -m - e, e - m
+                    if high < behind_high:
+                        behind_rest = min(behind_rest, behind_low)
+                        behind_low, behind_high, behind, behind_root = low, high, j, which
+                    elif low < behind_rest:
+                        behind_rest = low
                 else:
-                    rests[side] = min(rests[side], low)
-        for side in (0, 1):
-            if near[side] >= 0 and not rests[side] > highs[side]:
-                return False
-        self.near, self.root = near, roots
+                    return False
+        if (ahead >= 0 and not ahead_rest > ahead_high) or (behind >= 0 and not behind_rest > behind_high):
+            return False
+        self.near, self.root = (behind, ahead), (behind_root, ahead_root)
         return True

@@ -34,7 +34,8 @@ def line_events(around: Surroundings, corner: int, low: float, high: float) -> l
     found: list[Event] = []
     kind, span, wide = around.frame.kind, around.span, around.span_bound
     images = around.images
-    for v, n in around.vertices.items():
+    far = max(abs(low), abs(high))
+    for n, v in enumerate(around.vertices):
         if v == corner or images.full[v]:
             continue
         k, a, e = around.x[n], around.y[n], around.bound[n]
@@ -42,7 +43,7 @@ def line_events(around: Surroundings, corner: int, low: float, high: float) -> l
             _roll(found, a, e, k, e, span, wide, v, 0, low, high)
         elif kind == SLIDING:
             _note(found, k, e, span, wide, v, 0, 0, True, low, high)
-        else:
+        elif not abs(a) - e > (abs(k) + e) * far * WIDEN:
             _note(found, a, e, k, e, v, 0, 0, True, low, high)
     for j, c in enumerate(around.edges):
         if images.kind[c] != CONVEX or around.through[j]:

@@ -33,57 +33,65 @@ class Surroundings:
 
     def __init__(self, images: EdgeImages, frame: LineFrame, edges: list[int], own: list[int]) -> None:
         self.images, self.frame, self.edges = images, frame, edges
-        self.scale, self.scale_bound = root(
-            *dot(frame.ux, frame.uy, frame.bound, frame.ux, frame.uy, frame.bound)
-        )
         square, bound = dot(frame.ux, frame.uy, frame.bound, frame.ux, frame.uy, frame.bound)
+        self.scale, self.scale_bound = root(square, bound)
         self.span, self.span_bound = product(square, bound, frame.unit, 0.0)
         self.x: list[float] = []
         self.y: list[float] = []
         self.bound: list[float] = []
         self.size: list[float] = []
-        self.vertices: dict[int, int] = {}
         self.at: dict[int, int] = {}
-        self.first: list[int] = []
-        self.last: list[int] = []
-        self.middle: list[int] = []
-        self.through: list[bool] = []
-        following, kinds = images.following, images.kind
-        for e in edges:
-            self.at[e] = len(self.first)
-            self.first.append(self._vertex(e))
-            self.last.append(self._vertex(following[e]))
-            self.through.append(e in own)
-            if kinds[e] == STRAIGHT:
-                self.middle.append(-1)
-            else:
-                self.middle.append(len(self.x))
-                self._add(images.cx[e], images.cx_rest[e], images.cy[e], images.cy_rest[e])
+        count = len(edges)
+        following, kinds, at = images.following, images.kind, self.at
+        for j in range(count):
+            at[edges[j]] = j
+        self.vertices = edges.copy()
+        self.first = list(range(count))
+        self.last = [0] * count
+        self.middle = [-1] * count
+        self.through = [False] * count
+        for e in own:
+            if e in at:
+                self.through[at[e]] = True
+        beyond: dict[int, int] = {}
+        centers: list[int] = []
+        for j in range(count):
+            e = edges[j]
+            v = following[e]
+            k = at.get(v, -1)
+            if k < 0:
+                k = beyond.get(v, -1)
+            if k < 0:
+                k = beyond[v] = len(self.vertices)
+                self.vertices.append(v)
+            self.last[j] = k
+            if kinds[e] != STRAIGHT:
+                centers.append(j)
+        self._add(self.vertices, images.x, images.x_rest, images.y, images.y_rest)
+        for j in centers:
+            self.middle[j] = len(self.x)
+            self._add([edges[j]], images.cx, images.cx_rest, images.cy, images.cy_rest)
 
-    def _vertex(self, v: int) -> int:
-        if v in self.vertices:
-            return self.vertices[v]
-        k = len(self.x)
-        self.vertices[v] = k
-        images = self.images
-        self._add(images.x[v], images.x_rest[v], images.y[v], images.y_rest[v])
-        return k
-
-    def _add(self, x: float, x_rest: float, y: float, y_rest: float) -> None:
+    def _add(
+        self, points: list[int], x: list[float], x_rest: list[float], y: list[float], y_rest: list[float]
+    ) -> None:
+        """Add points, by their numbers in lists of coordinates with rests."""
         frame = self.frame
-        ux, uy = frame.ux, frame.uy
-        dx = (x - frame.x) + (x_rest - frame.x_rest)
-        dy = (y - frame.y) + (y_rest - frame.y_rest)
-        far = abs(x) + abs(y) + abs(frame.x) + abs(frame.y)
-        size, length = abs(dx) + abs(dy), abs(ux) + abs(uy)
-        b = UNIT * size + REST * far + frame.blur + TINY
-        u, v = ux * dx + uy * dy, ux * dy - uy * dx
-        self.x.append(u)
-        self.y.append(v)
-        self.size.append(abs(u) + abs(v))
-        self.bound.append(
-            (length * b + (frame.bound + 2.0 * UNIT * length) * (size + 2.0 * b) + TINY) * WIDEN
-        )
+        ux, uy, cx, cy, cx_rest, cy_rest = frame.ux, frame.uy, frame.x, frame.y, frame.x_rest, frame.y_rest
+        length = abs(ux) + abs(uy)
+        base, least = abs(cx) + abs(cy), frame.blur + TINY
+        for_size = frame.bound + 2.0 * UNIT * length
+        for k in points:
+            px, py = x[k], y[k]
+            dx = (px - cx) + (x_rest[k] - cx_rest)
+            dy = (py - cy) + (y_rest[k] - cy_rest)
+            size = abs(dx) + abs(dy)
+            b = UNIT * size + REST * (abs(px) + abs(py) + base) + least
+            u, v = ux * dx + uy * dy, ux * dy - uy * dx
+            self.x.append(u)
+            self.y.append(v)
+            self.size.append(abs(u) + abs(v))
+            self.bound.append((length * b + for_size * (size + 2.0 * b) + TINY) * WIDEN)
 
     def radius(self, e: int) -> tuple[float, float]:
         """The radius of an arc, in the frame."""

@@ -66,7 +66,7 @@ class Pencil:
     pinches: tuple[tuple[Real, Passed], ...]
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class _EventLine:
     """A line of the family, its parameter between ``low`` and ``high``, and what it passes.
 
