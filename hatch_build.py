@@ -5,6 +5,7 @@ Then the wheel is one for every platform. An editable installation is compiled i
 
 from __future__ import annotations
 
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -40,5 +41,10 @@ class KernelHook(BuildHookInterface):  # type: ignore[type-arg]
         build_data["pure_python"] = False
         build_data["infer_tag"] = True
         if version != "editable":
+            self.folder = folder
             for path in folder.iterdir():
                 build_data["force_include"][str(path)] = f"exactacq/kernel/compiled/{path.name}"
+
+    def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:
+        """Called when the wheel is made."""
+        shutil.rmtree(getattr(self, "folder", ""), ignore_errors=True)

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from exactacq.errors import ExactacqError, FormatError, InvalidScene
+from exactacq.kernel import DESCRIPTION
 from exactacq.strategies.options import Strategy, TargetChoice
 from exactacq.study.campaign.command import verify
 from exactacq.study.search.command import search
@@ -67,7 +68,7 @@ app = typer.Typer(
 
 def _print_version(asked: bool) -> None:
     if asked:
-        print(f"exactacq {version('exactacq')}")
+        print(f"exactacq {version('exactacq')} ({DESCRIPTION})")
         raise typer.Exit
 
 

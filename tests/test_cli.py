@@ -182,7 +182,9 @@ def test_gallery_lists_and_draws(capsys: pytest.CaptureFixture[str], tmp_path: P
 
 
 def test_version_and_help(capsys: pytest.CaptureFixture[str]) -> None:
-    assert re.fullmatch(r"exactacq \d+\.\d+\.\d+\S*\n", answered(capsys, "--version"))
+    assert re.fullmatch(
+        r"exactacq \d+\.\d+\.\d+\S* \((compiled kernel|kernel in Python)\)\n", answered(capsys, "--version")
+    )
     assert "explore" in answered(capsys)
     result = CliRunner().invoke(cli.app, ["explore", "--help"])
     assert result.exit_code == 0
