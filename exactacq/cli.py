@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from exactacq.errors import ExactacqError, FormatError, InvalidScene
-from exactacq.kernel import DESCRIPTION
 from exactacq.strategies.options import Strategy, TargetChoice
 from exactacq.study.campaign.command import verify
 from exactacq.study.search.command import search
@@ -68,6 +67,8 @@ app = typer.Typer(
 
 def _print_version(asked: bool) -> None:
     if asked:
+        from exactacq.kernel import DESCRIPTION
+
         print(f"exactacq {version('exactacq')} ({DESCRIPTION})")
         raise typer.Exit
 
@@ -405,6 +406,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except (ExactacqError, UsageError, OSError) as error:
         return _refuse(_one_line(error), REFUSED)
     except Exception as error:
+        if isinstance(error, ImportError) and error.name == "exactacq.kernel":
+            return _refuse(_one_line(error), REFUSED)
         if sys.flags.dev_mode:
             raise
         fault = f"internal error, please report it ({type(error).__name__}: {_one_line(error)})"

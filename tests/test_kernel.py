@@ -385,5 +385,12 @@ def test_the_switch(tmp_path: Path) -> None:
     assert "was edited since it was compiled" in asked("compiled", IMPORT, tmp_path).stderr
 
 
+def test_a_command_line_says_what_is_wrong_in_one_line() -> None:
+    script = "import sys; from exactacq.cli import main; sys.exit(main(['--version']))"
+    done = asked("fast", script)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == "exactacq: EXACTACQ_KERNEL must be 'python', 'compiled' or unset, not 'fast'\n"
+
+
 def test_constants_are_what_they_are_called() -> None:
     assert (bounded.UNIT, bounded.WIDEN, bounded.TINY) == (2.0**-52, 1 + 2.0**-47, 2.0**-900)

@@ -37,7 +37,7 @@ def _compiled() -> bool:
     """Whether compiled forms of the present sources are there and allowed; ImportError if they should be."""
     wish = environ.get(SWITCH, "")
     if wish not in ("", "python", "compiled"):
-        raise ImportError(f"{SWITCH} must be 'python', 'compiled' or unset, not {wish!r}")
+        raise ImportError(f"{SWITCH} must be 'python', 'compiled' or unset, not {wish!r}", name=__name__)
     if wish == "python":
         return False
     record = FOLDER / RECORD
@@ -48,7 +48,7 @@ def _compiled() -> bool:
     else:
         return True
     if wish == "compiled":
-        raise ImportError(f"{SWITCH}=compiled, but exactacq.kernel {fault}")
+        raise ImportError(f"{SWITCH}=compiled, but exactacq.kernel {fault}", name=__name__)
     return False
 
 
