@@ -7,7 +7,7 @@ is the sum of its roots, or `VAGUE`.
 
 from __future__ import annotations
 
-from typing import Final
+from typing import Final, final
 
 from exactacq.kernel.bounded import TINY, UNIT, WIDEN, cross, product, quotient, root, total, verdict
 from exactacq.kernel.images import CONCAVE, STRAIGHT
@@ -17,6 +17,7 @@ VAGUE: Final = 4
 """Whether an edge is crossed is open."""
 
 
+@final
 class EdgeStates:
     """The states of the edges around a family."""
 

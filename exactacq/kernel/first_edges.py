@@ -11,7 +11,7 @@ every cell.
 from __future__ import annotations
 
 from math import inf
-from typing import Final
+from typing import Final, final
 
 from exactacq.kernel.bounded import UNIT, WIDEN
 from exactacq.kernel.crossings import VAGUE, EdgeStates
@@ -50,6 +50,7 @@ def first_edges(
     return behind, ahead, possible
 
 
+@final
 class EdgeWalk:
     """The state of a walk from cell to cell: what is crossed, and the nearest crossings if they are known."""
 
@@ -98,7 +99,7 @@ class EdgeWalk:
             self.known = False
             return False
         state = self.states.state
-        for side in (0, 1):
+        for side in range(2):
             j = self.near[side]
             if j >= 0 and (j in events or not state[j] & self.root[side]):
                 self.known = False
@@ -106,7 +107,10 @@ class EdgeWalk:
             self.known = self._choose(self.active, line)
             return self.known
         near, far = self.near
-        tried = [j for j in changed if state[j] and j != near and j != far]
+        tried: list[int] = []
+        for j in changed:
+            if state[j] and j != near and j != far:
+                tried.append(j)
         if tried:
             # Otherwise nothing has come in front of the nearest.
             if near >= 0:
@@ -146,7 +150,7 @@ class EdgeWalk:
         behind_low = behind_high = behind_rest = inf
         for j in tried:
             state = states.state[j]
-            for which in (1, 2):
+            for which in range(1, 3):
                 if not state & which:
                     continue
                 m, e = states.place(j, which, line)

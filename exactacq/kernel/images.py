@@ -10,7 +10,7 @@ and |c - d| <= u (|a| + |b|) (1 + u). With the errors of the rests that is at mo
 
 from __future__ import annotations
 
-from typing import Final
+from typing import Final, final
 
 STRAIGHT: Final = 0
 CONVEX: Final = 1
@@ -23,6 +23,7 @@ REST: Final = 9.860761315262648e-32
 """2^-103: what coordinates with a rest lose, relative to their size."""
 
 
+@final
 class EdgeImages:
     """The edges of a scene: edge e runs from vertex e to vertex ``following[e]``.
 
@@ -49,6 +50,7 @@ class EdgeImages:
         self.following, self.previous = following, previous
 
 
+@final
 class LineFrame:
     """A family of lines (see `exactacq.visibility.line_families`), by the float images of its data.
 

@@ -14,11 +14,13 @@ have simple forms: with (c, d) for contact and direction
 from __future__ import annotations
 
 from math import sqrt
+from typing import final
 
 from exactacq.kernel.bounded import TINY, UNIT, WIDEN, dot, product, root
 from exactacq.kernel.images import REST, ROLLING, SLIDING, SPOKES, STRAIGHT, EdgeImages, LineFrame
 
 
+@final
 class Surroundings:
     """The edges within reach of a family, in its frame.
 
@@ -99,6 +101,7 @@ class Surroundings:
         return product(self.scale, self.scale_bound, r, UNIT * r)
 
 
+@final
 class FrameLine:
     """A line of the family in its frame: contact (cx, cy) and direction (dx, dy) with bounds, and what
     follows.
