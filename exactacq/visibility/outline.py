@@ -12,7 +12,6 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from enum import Enum
 from functools import partial
-from itertools import pairwise
 from typing import TypeAlias
 
 from exactacq.geometry.coordinates import dot, minus, raw, sign
@@ -136,45 +135,57 @@ class _Assembly:
         self.view, self.sights = view, sights
         self.sweep = view.sweep
 
-    def pieces(self) -> Iterator[ViewPiece]:
+    def pieces(self) -> list[ViewPiece]:
         """Parts joined where they continue each other, with windows where they do not meet."""
         parts = self._all_parts()
-        merged: list[tuple[_PieceEnds, list[ViewPiece]]] = []
+        found: list[ViewPiece] = []
         pending: list[ViewPiece] = []
-        for (before, sight), (part, after) in pairwise([parts[-1], *parts]):
-            meet = before.end is part.start or sight is after
-            windows = [] if meet else self._window(before.end, part.start, sight, after)
+        # Of the parts that became pieces the first and the last one, and where the windows before them begin.
+        first = last = None
+        lead, starts = 0, False
+        before, sight = parts[-1]
+        for part, after in parts:
+            windows = pending
+            if not (before.end is part.start or sight is after):
+                windows = windows + self._window(before.end, part.start, sight, after)
+            before, sight, pending = part, after, []
             if part.is_point:
                 pending = windows
-                continue
-            windows, pending = pending + windows, []
-            if merged and not windows and merged[-1][0].edge == part.edge:
-                merged[-1][0].end = part.end
+            elif last is not None and not windows and last.edge == part.edge:
+                last.end = part.end
             else:
-                merged.append((part, windows))
-        merged[0][1][:0] = pending
-        if len(merged) > 1 and not merged[0][1] and merged[-1][0].edge == merged[0][0].edge:
-            last, windows = merged.pop()
-            last.end = merged[0][0].end
-            merged[0] = last, windows
-        if len(merged) == 1 and merged[0][0].edge is None and not merged[0][1]:
-            yield ViewPiece(ViewKind.RANGE, partial(range_circle, self.view))
-            return
-        for part, windows in merged:
-            yield from windows
-            yield self._piece(part)
+                lead = len(found)
+                found += windows
+                found.append(self._piece(part))
+                last = part
+                if first is None:
+                    first, starts = part, bool(windows)
+        assert first is not None and last is not None
+        if pending:
+            return pending + found
+        if first is not last and not starts and last.edge == first.edge:
+            last.end = first.end
+            return found[lead:] + found[1:lead]
+        if len(found) == 1 and first.edge is None:
+            return [ViewPiece(ViewKind.RANGE, partial(range_circle, self.view))]
+        return found
 
     def _all_parts(self) -> list[tuple[_PieceEnds, FirstFace]]:
         """What the sights contribute, counterclockwise."""
         found: list[tuple[_PieceEnds, FirstFace]] = []
-        near, sweep = self.view.near, self.sweep
+        near, sweep, curves = self.view.near, self.sweep, self.view.table.curves
+        count = len(curves)
         for sight in self.sights:
-            face = sight.face
-            if face >= 0 and near[face]:
-                ends = self._end(sight, True), self._end(sight, False)
-                found.append((_PieceEnds(sweep.edges[face], *ends), sight))
-            else:
+            face, low, high = sight
+            if face < 0 or not near[face]:
                 found += [(part, sight) for part in self._parts(sight)]
+                continue
+            # Most ends are vertices.
+            event = sweep.ends_low[face] if low == sweep.low[face] else count
+            start = curves[event].start if 0 <= event < count else self._end(face, low, True)
+            event = sweep.ends_high[face] if high == sweep.high[face] else count
+            end = curves[event].start if 0 <= event < count else self._end(face, high, False)
+            found.append((_PieceEnds(sweep.edges[face], start, end), sight))
         return found
 
     def _parts(self, sight: FirstFace) -> Iterator[_PieceEnds]:
@@ -200,16 +211,11 @@ class _Assembly:
         if at_low is not high:
             yield _PieceEnds(None, reached, sight.high)
 
-    def _end(self, sight: FirstFace, is_low: bool) -> Point | _RayHit:
-        """An end of what a sight sees of its face, all of it within range."""
-        (face, rank, high), sweep = sight, self.sweep
-        if not is_low:
-            rank = high
-        if rank != (sweep.low if is_low else sweep.high)[face]:
-            return _RayHit(self.view, face, rank)
-        event = (sweep.ends_low if is_low else sweep.ends_high)[face]
-        curves = self.view.table.curves
-        return curves[event].start if 0 <= event < len(curves) else sweep.end(face, is_low)
+    def _end(self, face: int, rank: int, is_low: bool) -> Point | _RayHit:
+        """An end of what is seen of a face, all of it within range."""
+        sweep = self.sweep
+        own = rank == (sweep.low if is_low else sweep.high)[face]
+        return sweep.end(face, is_low) if own else _RayHit(self.view, face, rank)
 
     def _window(self, end: End, start: End, before: FirstFace, after: FirstFace) -> list[ViewPiece]:
         """What joins the end of one sight to the start of the next: nothing, a window, or an own edge."""
