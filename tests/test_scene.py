@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from shapely import Polygon as ShapelyPolygon
 
 from exactacq.errors import FormatError, InvalidScene
+from exactacq.geometry import box_index
 from exactacq.geometry.box_index import BoxIndex, Separator, bounds
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.intersections import contacts
@@ -340,6 +341,9 @@ def test_the_index_finds_what_brute_force_finds(seed):
         if rng.random() < 0.3:
             boxes[0] = [-inf, 0, inf, 1e308]
         index = BoxIndex(boxes)
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(box_index, "SCANNED", 0)
+            celled = BoxIndex(boxes)
         meets = (boxes[:, None, :2] <= boxes[None, :, 2:]).all(axis=2)
         meets &= meets.T
         found = np.zeros((n, n), dtype=int)
@@ -348,6 +352,7 @@ def test_the_index_finds_what_brute_force_finds(seed):
         assert (found == np.triu(meets, 1)).all()
         for k in range(n):
             assert index.query(*boxes[k]).tolist() == np.flatnonzero(meets[k]).tolist()
+            assert celled.query(*boxes[k]).tolist() == np.flatnonzero(meets[k]).tolist()
 
 
 def test_an_empty_index():
