@@ -131,7 +131,7 @@ def without_balls(patch: pytest.MonkeyPatch) -> None:
     """Let balls decide nothing and make every point at once."""
     for module in (radial_sweep, front_faces, range_clip):
         patch.setattr(module, "late_point", lambda around, make: make())
-    for module in (range_clip, end_names):
+    for module in (late, front_faces, range_clip, end_names):
         patch.setattr(module, "ball_sign", lambda ball: 0)
 
 

@@ -15,6 +15,7 @@ from typing import TypeAlias
 from flint import arb, fmpq
 
 from exactacq.geometry.points import Point
+from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 
 BITS = 64
@@ -72,3 +73,17 @@ def balls(point: Point) -> Balls:
 def ball_of(value: fmpq | Real) -> arb:
     """A ball around a number as `coordinates.raw` unpacks it."""
     return value.ball(BITS) if isinstance(value, Real) else arb(value)
+
+
+def from_to(start: Balls, end: Balls) -> Balls:
+    """Balls around the vector between two points."""
+    return end[0] - start[0], end[1] - start[1]
+
+
+def clearly_between(start: Balls, end: Balls, direction: Balls) -> bool | None:
+    """Whether a direction lies counterclockwise between two others; None if balls leave that open."""
+    (ax, ay), (bx, by), (u, v) = start, end, direction
+    turn, after, before = (ball_sign(c) for c in (ax * by - ay * bx, ax * v - ay * u, u * by - v * bx))
+    if not (turn and after and before):
+        return None
+    return min(after, before) > 0 if turn > 0 else max(after, before) > 0

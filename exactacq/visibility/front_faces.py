@@ -24,9 +24,10 @@ from flint import arb
 from exactacq.geometry.coordinates import Vector, advance, cross, dot, minus, raw, sign, square_root
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import spans
-from exactacq.geometry.late import Balls, ball_of, balls, late_point
+from exactacq.geometry.late import Balls, ball_of, balls, clearly_between, from_to, late_point
 from exactacq.geometry.points import Point
-from exactacq.scene.edge_table import STRAIGHT, EdgeTable, Ints
+from exactacq.numbers.rationals import ball_sign
+from exactacq.scene.edge_table import STRAIGHT, EdgeTable, Floats, Ints
 from exactacq.visibility.features import is_spike, parallel
 
 SLACK = 8.0
@@ -149,10 +150,15 @@ class FrontFaces:
         self.curved = bool(arcs)
         if arcs:
             more = np.array(arcs, dtype=np.intp)
+            self.rows = np.concatenate((self.rows, np.zeros((6, len(more)))), axis=1)
             edges, low, high = (
                 np.concatenate((a, b)) for a, b in zip((edges, low, high), more.T, strict=True)
             )
         self.edge, self.low, self.high = edges, low, high
+
+    rows: Floats
+    """Six rows, zeros for arcs: from the point to a face's start (x, y), from there to its end (x, y), the
+    vector product of these two, and its margin."""
 
     def __len__(self) -> int:
         return len(self.edge)
@@ -221,7 +227,9 @@ class FrontFaces:
                 front[k] = side < 0
                 if side == 0:
                     self.on_ray.append(e)
-        chosen = edges[front & near]
+        front &= near
+        chosen = edges[front]
+        self.rows = np.concatenate((rows, (turn, margin)))[:, front]
         return chosen, table.next[chosen], chosen
 
     # -- arcs --------------------------------------------------------------------------------------
@@ -248,9 +256,9 @@ class FrontFaces:
         front, back = (away, w) if arc.ccw else (w, away)
         first, last = (not arc.full and self._facing(arc, w, p) for p in (arc.start, arc.end))
         if first and last:
-            if not spans(arc, back):
+            if not self._spans(arc, back):
                 return [(e, end, e)]
-        elif not (first or last) and not spans(arc, front):
+        elif not (first or last) and not self._spans(arc, front):
             return []
         # From the left tangent point to the right one: clockwise as seen from the point.
         enter, leave = self._tangent(e, w, 1), self._tangent(e, w, -1)
@@ -260,13 +268,24 @@ class FrontFaces:
 
     def _facing(self, arc: Arc, w: Vector, end: Point) -> bool:
         """Whether the boundary near an end of the arc, on the arc, turns its free side to the point."""
-        z = minus(raw(end), raw(arc.center))
-        beyond = sign(dot(z, w) + arc.radius_sq) * (-1 if arc.ccw else 1)
-        if beyond == 0:
-            # The end is a tangent point: faces go from the left one to the right one.
-            left = sign(cross(w, z)) > 0
-            return left if end is arc.start else not left
-        return beyond > 0
+        center = balls(arc.center)
+        beyond = ball_sign(dot(from_to(center, balls(end)), from_to(self.around, center)) + arc.radius_sq)
+        if not beyond:
+            z = minus(raw(end), raw(arc.center))
+            beyond = sign(dot(z, w) + arc.radius_sq)
+            if beyond == 0:
+                # The end is a tangent point: faces go from the left one to the right one.
+                left = sign(cross(w, z)) > 0
+                return left if end is arc.start else not left
+        return (beyond < 0) if arc.ccw else (beyond > 0)
+
+    def _spans(self, arc: Arc, direction: Vector) -> bool:
+        """Whether an arc contains the point of its circle in a direction from the centre."""
+        center = balls(arc.center)
+        first, last = (from_to(center, balls(p)) for p in (arc.start, arc.end))
+        ends = (first, last) if arc.ccw else (last, first)
+        clear = clearly_between(*ends, (ball_of(direction[0]), ball_of(direction[1])))
+        return spans(arc, direction) if clear is None else clear
 
     def _tangent(self, e: int, w: Vector, side: int) -> int:
         """The event of the left (1) or right (-1) tangent from the point to the circle of an arc."""

@@ -219,13 +219,9 @@ class RadialSweep:
             middle, rough = np.zeros(1), np.full(1, 2e-15)
         face, cell = self._facet, self._cell
         ux, uy, rough = np.array((np.cos(middle), np.sin(middle), rough))[:, cell]
-        rows = table.rows[:, faces.edge]
-        rows[0] -= faces.xy[0]
-        rows[1] -= faces.xy[1]
-        sx, sy, ax, ay = rows
+        _, _, ax, ay, above, spread = faces.rows[:, face]
         size = np.abs(ax) + np.abs(ay)
-        above, spread = sx * ay - sy * ax, 4 * slack * (np.abs(sx) + np.abs(sy) + size + slack)
-        ax, ay, size, above, spread = np.array((ax, ay, size, above, spread))[:, face]
+        spread += 4 * slack * slack
         below = ux * ay
         below -= uy * ax
         clear = np.abs(below)

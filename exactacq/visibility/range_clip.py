@@ -16,7 +16,7 @@ from flint import arb, fmpq
 from exactacq.geometry.coordinates import Vector, advance, cross, dot, minus, raw, sign, square_root
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import spans
-from exactacq.geometry.late import ball_of, balls, late_point
+from exactacq.geometry.late import ball_of, balls, clearly_between, from_to, late_point
 from exactacq.geometry.points import Point
 from exactacq.numbers.rationals import ball_sign
 
@@ -227,10 +227,9 @@ def _of_arc(arc: Arc, ends: Span, excess: tuple[int, ...], disc: Disc) -> list[S
 
 def _passes(arc: Arc, ends: Span, direction: Vector) -> bool:
     """Whether a direction, not 0, lies strictly between two points of the circle, counterclockwise."""
-    (x, y), (ax, ay), (bx, by) = (balls(p) for p in (arc.center, *ends))
-    ax, ay, bx, by = ax - x, ay - y, bx - x, by - y
-    u, v = (ball_of(c) for c in direction)
-    turn, after, before = (ball_sign(c) for c in (ax * by - ay * bx, ax * v - ay * u, u * by - v * bx))
-    if turn and after and before:
-        return min(after, before) > 0 if turn > 0 else max(after, before) > 0
+    center, first, last = (balls(p) for p in (arc.center, *ends))
+    vector = ball_of(direction[0]), ball_of(direction[1])
+    clear = clearly_between(from_to(center, first), from_to(center, last), vector)
+    if clear is not None:
+        return clear
     return spans(Arc(*ends, arc.center, arc.radius_sq, ccw=True), direction, strict=True)

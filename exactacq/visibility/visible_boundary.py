@@ -83,17 +83,15 @@ class BoundaryView:
     def near(self) -> list[bool]:
         """For each face whether floats prove that all of it is within range."""
         faces, table = self.sweep.faces, self.table
-        edge, (x, y) = faces.edge, faces.xy
-        sx, sy, ax, ay = table.rows[:, edge]
-        sx -= x
-        sy -= y
+        sx, sy, ax, ay = faces.rows[:4]
         square = np.maximum(sx * sx + sy * sy, (sx + ax) ** 2 + (sy + ay) ** 2)
         limit = self.range.below - 9 * faces.slack
         if faces.curved:
+            edge, (x, y) = faces.edge, faces.xy
             curved = table.kind[edge] != 0
             spoke = np.hypot(table.center[edge, 0] - x, table.center[edge, 1] - y) + table.radius[edge]
             square = np.where(curved, spoke * spoke, square)
-        found: list[bool] = (square < limit * limit).tolist() if limit > 0 else [False] * len(edge)
+        found: list[bool] = (square < limit * limit).tolist() if limit > 0 else [False] * len(faces)
         return found
 
     def seen(self) -> dict[int, list[Span]]:
