@@ -21,8 +21,10 @@ from stepping import Stepper
 
 import exactacq as xa
 from exactacq.files.octagons import random_octagons
+from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.points import Location
 from exactacq.scene.edge_table import EdgeTable
+from exactacq.sensing.end_names import Seen
 from exactacq.sensing.sensor import Sensor
 from exactacq.sensing.view_events import Sweep
 from exactacq.visibility.sensor_range import Range
@@ -73,9 +75,28 @@ def places(n: int) -> list[tuple[fmpq, fmpq]]:
 # -- views: one group, so that n = 100, n = 1000 and the peer stand side by side -------------------------
 
 
-def outline(scene: xa.Scene, point: object, radius: int) -> list[tuple[xa.Point, xa.Point]]:
-    """The closed outline with all its ends, as a view makes only what it is asked for."""
-    return [(piece.curve.start, piece.curve.end) for piece in xa.isovist(scene, point, radius).pieces]
+def outline(scene: xa.Scene, point: object, radius: int) -> list[object]:
+    """The closed outline with all its exact ends, as a view makes only what it is asked for."""
+    curves = [piece.curve for piece in xa.isovist(scene, point, radius).pieces]
+    return [end.rational for curve in curves for end in (curve.start, curve.end)]
+
+
+def unread(scene: xa.Scene, point: object, radius: int) -> tuple[object, ...]:
+    """The closed outline of whose ends nobody asks more than what kind they are."""
+    return xa.isovist(scene, point, radius).pieces
+
+
+def boundary(scene: xa.Scene, point: object, radius: int) -> object:
+    """The boundary seen, of whose ends nobody asks more than their order on the edges."""
+    table, rails = sensed(scene)
+    return Seen(table, rails, xa.Point.of(point), Range(fmpq(radius)), ()).spans
+
+
+@cache
+def sensed(scene: xa.Scene) -> tuple[EdgeTable, list[Rail]]:
+    """What the sensor keeps of a scene."""
+    table = EdgeTable(scene.obstacles)
+    return table, [Rail(curve) for curve in table.curves]
 
 
 def area(scene: xa.Scene, point: object, radius: int) -> xa.Length:
@@ -86,7 +107,7 @@ def area(scene: xa.Scene, point: object, radius: int) -> xa.Length:
 @pytest.mark.benchmark(group="one view")
 @pytest.mark.parametrize("radius", [5, 10])
 @pytest.mark.parametrize("n", [100, 1000])
-@pytest.mark.parametrize("ask", [outline, area])
+@pytest.mark.parametrize("ask", [outline, unread, boundary, area])
 def test_isovist(benchmark: object, ask: Callable[..., object], n: int, radius: int) -> None:
     """The median is one view; what a scene needs once is made before."""
     skip_unless_timed(benchmark, n)
