@@ -289,7 +289,7 @@ class RadialSweep:
                 rank = self.low[face]
             return [FirstFace(face, rank, rank)]
         ends = [*changes[1:], changes[0]]
-        return [FirstFace(first[a], a, b) for a, b in zip(changes, ends, strict=True)]
+        return list(map(FirstFace._make, zip([first[k] for k in changes], changes, ends, strict=True)))
 
     # -- points ------------------------------------------------------------------------------------
 
