@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from random import Random
@@ -71,6 +72,14 @@ def test_parameters_on_an_arc(ccw: bool) -> None:
         u = rail.parameter(late_point(ball, lambda x=x, y=y: Point(x, y)))  # type: ignore[misc]
         assert u.is_late == (x != 0 and y != 0)
         assert u == rail.parameter(Point(x, y))
+
+
+def test_copies_are_made() -> None:
+    """A late point, its parameter and a rail that was asked for it survive a copy."""
+    rail = Rail(Segment((0, 0), (3, 4)))
+    point = late_point((arb(1.5, 1e-9), arb(2, 1e-9)), lambda: Point(Q(3, 2), 2))
+    again, u, its = pickle.loads(pickle.dumps((point, rail.parameter(point), rail)))
+    assert again == point and u == fmpq(1, 2) == its.parameter(again)
 
 
 def test_a_point_without_finite_balls_is_made_at_once() -> None:

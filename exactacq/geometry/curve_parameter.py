@@ -28,6 +28,10 @@ class Rail:
         self.curve = curve
         self.is_closed = isinstance(curve, Arc) and curve.full
 
+    def __reduce__(self) -> tuple[type[Rail], tuple[Curve]]:
+        # Balls cannot be pickled.
+        return Rail, (self.curve,)
+
     @cached_property
     def top(self) -> Real:
         """Parameter of the end: 1 for a segment, 4 for a full circle."""

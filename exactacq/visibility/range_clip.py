@@ -184,7 +184,7 @@ class _CircleCut:
         return advance(raw(self.arc.center), self.w, self.level / dot(self.w, self.w))
 
     def point(self, side: int) -> Point:
-        """As `_crossing`."""
+        """Where the circle leaves the range to the left (1) or right (-1) of w; a late point."""
         x, y = balls(self.arc.center)
         u, v = x - self.disc.around[0], y - self.disc.around[1]
         square, radius_sq = u * u + v * v, arb(self.arc.radius_sq)
