@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
-from flint import arb, ctx
+from flint import arb
 
 from exactacq.auditing.comparisons import BITS, agrees, ball_sum
 from exactacq.auditing.ground import Field
@@ -16,6 +16,7 @@ from exactacq.geometry.box_index import united
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.intersections import nearest_points
 from exactacq.numbers.length import Length
+from exactacq.numbers.precision import workprec
 from exactacq.numbers.real import Real
 from exactacq.strategies.run import Run, SeedSpreaderRun, SightseerRun
 
@@ -41,7 +42,7 @@ def check_bounds(run: Run, values: Mapping[str, arb]) -> None:
         holds = True if length < value else False if length > value else exact <= bound.value
         if bound.holds is not holds:
             raise AuditError(f"bound {bound.name} says {bound.holds}, but holds is {holds}")
-        with ctx.workprec(BITS):
+        with workprec(BITS):
             ratio = length / value if value != 0 else arb("nan")
         if not abs(ratio - arb(bound.ratio)) < 1e-12 and (ratio.is_finite() or bound.ratio == bound.ratio):
             raise AuditError(f"bound {bound.name} has the ratio {bound.ratio}, not {ratio.str(17)}")
@@ -56,7 +57,8 @@ def sightseer_values(run: SightseerRun, world: World) -> dict[str, arb]:
     obstacles, n = run.scene.obstacles, len(run.scene.obstacles)
     if not n:
         return {}
-    with ctx.workprec(BITS):
+    farthest = clipped_distance(run, world)
+    with workprec(BITS):
         perimeters = [ball_sum(obstacle.edges) for obstacle in obstacles]
         reach = arb(run.radius)
         lengths = [(link.source, ball_sum([Segment(link.leave, link.hit)])) for link in run.links]
@@ -69,7 +71,7 @@ def sightseer_values(run: SightseerRun, world: World) -> dict[str, arb]:
         corrected = approach + (step * (2 * n - 3) + around - last / 2 if n > 1 else perimeters[0])
         wide = 2 * (n - 1) * reach + around
         return {
-            "(1)": 2 * (n - 1) * clipped_distance(run, world).ball(BITS) + around,
+            "(1)": 2 * (n - 1) * farthest.ball(BITS) + around,
             "(2)": wide,
             "T1 corrected": corrected,
             "(2) + S-S1": wide + approach,
@@ -93,7 +95,7 @@ def spreader_values(run: SeedSpreaderRun, field: Field) -> dict[str, arb]:
     counts = Counter(field.strip(k) for k in range(n) if k not in crossing)
     counts[0] = len(crossing)
     pairs = sum(count * (count - 1) for count in counts.values())
-    with ctx.workprec(BITS):
+    with workprec(BITS):
         perimeters = [ball_sum(body.edges) for body in run.obstacles]
         total, largest = sum(perimeters, arb(0)), _greatest([*perimeters, arb(0)])
         hops = largest * (2 * n * len(crossing) + pairs)

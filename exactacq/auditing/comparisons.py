@@ -9,11 +9,12 @@ from collections.abc import Callable, Sequence
 from math import ceil, log2
 from typing import NamedTuple, TypeAlias
 
-from flint import arb, ctx, fmpq
+from flint import arb, fmpq
 
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
+from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import rational
 from exactacq.sensing.event import Event
 from exactacq.strategies.run import Run
@@ -53,7 +54,7 @@ def refined(compute: Callable[[int], arb]) -> arb:
     """A ball computed with enough working bits to know `DIGITS` decimals."""
     bits = BITS
     while True:
-        with ctx.workprec(bits):
+        with workprec(bits):
             ball = compute(bits)
             if ball.is_finite() and ball.rad() < arb(10) ** -DIGITS:
                 return ball
@@ -91,7 +92,7 @@ def ball_sum(curves: Sequence[Curve]) -> arb:
 
 def agrees(length: Length, ball: arb) -> bool:
     """Whether a length and a ball agree to `DIGITS` decimals."""
-    with ctx.workprec(BITS):
+    with workprec(BITS):
         low, high = length.enclosure(BITS - SPARE)
         return not (arb(high) < ball or arb(low) > ball)
 

@@ -6,8 +6,6 @@ from collections.abc import Collection
 from itertools import pairwise
 from random import Random
 
-from flint import ctx
-
 from exactacq.auditing.comparisons import (
     BITS,
     agrees,
@@ -21,6 +19,7 @@ from exactacq.auditing.comparisons import (
 from exactacq.auditing.knowledge import MOMENTS
 from exactacq.errors import AuditError
 from exactacq.geometry.points import Point
+from exactacq.numbers.precision import workprec
 from exactacq.sensing.event import SENSED, Event, EventKind, Reason
 from exactacq.strategies.run import Run
 
@@ -60,7 +59,7 @@ def check_events(run: Run, rng: Random, moves: Collection[EventKind]) -> None:
         raise AuditError("the stop is not at the end of the path")
     for event in rng.sample(run.events, min(MOMENTS, len(run.events))):
         done = ball_sum([piece.curve for piece in run.path[: event.after]])
-        with ctx.workprec(BITS):
+        with workprec(BITS):
             here = done + event_position(run, event)[1]
         if not agrees(event.at, here):
             raise AuditError(

@@ -13,7 +13,7 @@ from functools import cached_property, cmp_to_key
 from itertools import pairwise
 from typing import Any, NamedTuple
 
-from flint import arb, ctx, fmpq
+from flint import arb, fmpq
 from networkx.utils import UnionFind
 
 from exactacq.auditing.comparisons import (
@@ -32,6 +32,7 @@ from exactacq.geometry.box_index import bounds
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.points import Location, Point
+from exactacq.numbers.precision import workprec
 from exactacq.numbers.real import Real
 from exactacq.scene.scene import Obstacle
 from exactacq.strategies.run import SeedSpreaderRun
@@ -309,7 +310,7 @@ class _ClaimedComponent(NamedTuple):
 
     def holds(self, part: _EdgePart) -> bool:
         """Whether the middle of a part is claimed."""
-        with ctx.workprec(BITS):
+        with workprec(BITS):
             middle = (part.low + part.high) / 2
             return self.edge == part.edge and bool(self.low < middle) and bool(middle < self.high)
 
@@ -360,7 +361,7 @@ def _claims(run: SeedSpreaderRun, field: Field) -> Iterator[_ClaimedComponent]:
                 if part.edge not in range(len(edges)) or not is_part(part.curve, edges[part.edge]):
                     raise AuditError(f"a part of component {k} is not on edge {part.edge} of obstacle {i}")
                 low, size = _length_to(edges[part.edge], part.curve.start), ball_sum([part.curve])
-                with ctx.workprec(BITS):
+                with workprec(BITS):
                     high = low + size
                 yield _ClaimedComponent(
                     k, shore is component.shore, field.world.first[i] + part.edge, low, high
@@ -370,7 +371,7 @@ def _claims(run: SeedSpreaderRun, field: Field) -> Iterator[_ClaimedComponent]:
 def _check_component(field: Field, k: int, component: Any, parts: Sequence[_EdgePart]) -> None:
     """A component has the length of its parts, and its shore is a loop, or leads from border to border."""
     claimed = ball_sum([part.curve for shore in (component.shore, *component.hidden) for part in shore])
-    with ctx.workprec(BITS):
+    with workprec(BITS):
         total = sum((part.high - part.low for part in parts), arb(0))
     if not is_close(claimed, total):
         raise AuditError(
@@ -401,7 +402,7 @@ def _parts(field: Field, obstacle: Obstacle) -> Iterator[_EdgePart]:
                 cuts.append((_length_to(edge, point), point))
         cuts.sort(key=cmp_to_key(_order))
         for (low, start), (high, end) in pairwise(cuts):
-            with ctx.workprec(BITS):
+            with workprec(BITS):
                 inside = field.is_well_inside(*_point_after(edge, (low + high) / 2))
             if inside:
                 yield _EdgePart(obstacle.index, e, low, high, start, end)

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from random import Random
 from typing import Any, NamedTuple
 
-from flint import arb, ctx, fmpq
+from flint import arb, fmpq
 
 from exactacq.auditing.comparisons import (
     BITS,
@@ -27,6 +27,7 @@ from exactacq.auditing.visibility import Viewpoints, World, point_at, point_near
 from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
+from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import rational
 from exactacq.sensing.event import SENSED, Event, EventKind
 from exactacq.strategies.run import Run
@@ -97,7 +98,7 @@ class Knowledge:
                 raise AuditError(f"{where} runs against edge {part.edge}")
             if part.edge < before[0] or (part.edge == before[0] and not before[1] < low):
                 raise AuditError(f"{where} is not beyond the one before")
-            with ctx.workprec(BITS):
+            with workprec(BITS):
                 before, total = (part.edge, high), total + high - low
             ends += [p for p in (part.start, part.end) if not (same(p, edge.start) or same(p, edge.end))]
         if not agrees(chart.known_length(i), total):

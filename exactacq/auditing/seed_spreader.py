@@ -13,7 +13,7 @@ from functools import cached_property
 from random import Random
 from typing import Any
 
-from flint import arb, ctx, fmpq
+from flint import arb, fmpq
 
 from exactacq.auditing.comparisons import (
     BITS,
@@ -33,6 +33,7 @@ from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import contacts, nearest_points
 from exactacq.geometry.points import Point
+from exactacq.numbers.precision import workprec
 from exactacq.numbers.real import Real
 from exactacq.sensing.event import Ending, Event, EventKind, Reason
 from exactacq.strategies.run import Diversion, SeedSpreaderRun
@@ -244,9 +245,9 @@ class Replay:
             raise AuditError(f"{self.name(event)} is not reached by one walk to {place_text(goal)}")
         if not (self.bodies[i].closed and senses):
             return
-        walked = ball_sum([piece.curve for piece in self.run.path[first : self.done]])
-        with ctx.workprec(BITS):
-            rest = self._perimeters[i] - walked
+        walked, whole = ball_sum([p.curve for p in self.run.path[first : self.done]]), self._perimeters[i]
+        with workprec(BITS):
+            rest = whole - walked
         if walked > rest or (not walked < rest and senses != {True}):
             raise AuditError(f"{self.name(event)} is not reached the shorter way")
 

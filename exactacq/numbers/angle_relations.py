@@ -17,10 +17,11 @@ from contextlib import suppress
 from itertools import combinations, pairwise
 from math import gcd, isqrt
 
-from flint import arb, ctx, fmpq, fmpz, fmpz_mat
+from flint import arb, fmpq, fmpz, fmpz_mat
 
 from exactacq.errors import Undecided
 from exactacq.numbers.angles import HALF, Angle, AngleSum, Ends
+from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import coprime_base, valuation
 from exactacq.numbers.real import FILTER_BITS, Real
 
@@ -69,7 +70,7 @@ def _whole_quarters(form: AngleSum) -> int:
     """form / (pi/2), known to be an integer."""
     bits = FILTER_BITS[0]
     while True:
-        with ctx.workprec(bits):
+        with workprec(bits):
             quarters = 2 * form.ball(bits) / arb.pi()
         whole = quarters.unique_fmpz()
         if whole is not None:
@@ -286,7 +287,7 @@ def _relation(angles: list[Angle]) -> AngleSum | None:
     size = len(angles) + 1
     bits = 64 * size
     rows = [[int(i == k) for i in range(size - 1)] for k in range(size)]
-    with ctx.workprec(bits + 64):
+    with workprec(bits + 64):
         for angle, row in zip(angles, rows, strict=False):
             share = 2 * angle.ball(bits + 64) / arb.pi()
             row.append(int((share.mid() * fmpz(2) ** bits).floor().unique_fmpz()))
@@ -305,7 +306,7 @@ def _proved(powers: Mapping[Angle, int]) -> AngleSum | None:
     if all(angle.half_tangent is not None for angle in powers):
         return None
     total = _combination(powers)
-    with ctx.workprec(FILTER_BITS[-1]):
+    with workprec(FILTER_BITS[-1]):
         share = 2 * total.ball(FILTER_BITS[-1]) / arb.pi()
         whole = int((share.mid() + HALF).floor().unique_fmpz())
         if not abs(share - whole) < arb(2) ** -128:

@@ -12,9 +12,10 @@ from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from typing import ClassVar, NamedTuple, TypeAlias
 from weakref import WeakValueDictionary
 
-from flint import arb, ctx, fmpq, fmpz_poly
+from flint import arb, fmpq, fmpz_poly
 
 from exactacq.errors import Undecided
+from exactacq.numbers.precision import LOCK, workprec
 from exactacq.numbers.real import Real, roots
 
 MAX_DENOMINATOR = 30
@@ -62,16 +63,17 @@ class Angle:
         c, s = cosine.rational, sine.rational
         # Not by the rational itself, which cannot be hashed while the interpreter shuts down.
         key = cosine.key if c is None else (int(c.p), int(c.q))
-        angle = cls._interned.get(key)
-        if angle is None:
-            angle = object.__new__(cls)
-            angle.cosine, angle.sine, angle._bits, angle._ends = cosine, sine, 0, {}
-            angle.half_tangent = None if c is None or s is None else s / (1 + c)
-            angle.share = _share_of_pi(angle)
-            cls._interned[key] = angle
-        for pair in ends:
-            angle.remember(pair)
-        return angle
+        with LOCK:
+            angle = cls._interned.get(key)
+            if angle is None:
+                angle = object.__new__(cls)
+                angle.cosine, angle.sine, angle._bits, angle._ends = cosine, sine, 0, {}
+                angle.half_tangent = None if c is None or s is None else s / (1 + c)
+                angle.share = _share_of_pi(angle)
+                cls._interned[key] = angle
+            for pair in ends:
+                angle.remember(pair)
+            return angle
 
     def __reduce__(self) -> tuple[Callable[..., Angle], tuple[Real, Real, tuple[Ends, ...]]]:
         return Angle.make, (self.cosine, self.sine, self.ends)
@@ -93,12 +95,12 @@ class Angle:
     def ball(self, bits: int) -> arb:
         """Enclosure with at least *bits* working bits."""
         if self._bits < bits:
-            with ctx.workprec(bits):
+            with workprec(bits):
                 if self.half_tangent is not None:
-                    ball = 2 * arb(self.half_tangent).atan()
+                    self._ball = 2 * arb(self.half_tangent).atan()
                 else:
-                    ball = arb.atan2(self.sine.ball(bits), self.cosine.ball(bits))
-            self._ball, self._bits = ball, bits
+                    self._ball = arb.atan2(self.sine.ball(bits), self.cosine.ball(bits))
+                self._bits = bits
         return self._ball
 
 
@@ -114,7 +116,7 @@ def _share_of_pi(angle: Angle) -> fmpq | None:
     """
     if angle.half_tangent is not None:
         return None  # Niven: no rational multiple of pi in (0, pi/4] has rational cosine and sine.
-    with ctx.workprec(64):
+    with workprec(64):
         share = float((angle.ball(64) / arb.pi()).mid())
     for q in range(5, MAX_DENOMINATOR + 1):
         p = round(share * q)
@@ -257,7 +259,7 @@ class AngleSum:
 
     def ball(self, bits: int) -> arb:
         """Enclosure computed with *bits* working bits."""
-        with ctx.workprec(bits):
+        with workprec(bits):
             ball = self.turn.ball(bits) * arb.pi() if self.turn.rational != 0 else arb(0)
             for angle, c in self.angles.items():
                 ball += c.ball(bits) * angle.ball(bits)
@@ -270,7 +272,7 @@ def _cosine_of_pi(share: fmpq) -> Real:
     found = roots(fmpz_poly.cos_minpoly(int(turn.q)).coeffs())
     # The root that is meant overlaps at every precision, each other one only up to some precision.
     while len(found) > 1:
-        with ctx.workprec(bits):
+        with workprec(bits):
             near = 2 * arb.cos_pi_fmpq(share)
         found = [root for root in found if root.ball(bits).overlaps(near)]
         bits *= 2

@@ -14,8 +14,9 @@ from math import log2, prod
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeAlias
 from weakref import WeakValueDictionary
 
-from flint import arb, ctx, fmpq, fmpz
+from flint import arb, fmpq, fmpz
 
+from exactacq.numbers.precision import LOCK, workprec
 from exactacq.numbers.root_isolation import refined
 
 if TYPE_CHECKING:
@@ -74,12 +75,13 @@ class Node(ABC):
 
     @classmethod
     def _intern(cls, key: Hashable, args: tuple[Any, ...]) -> Node:
-        node = Node._interned.get(key)
-        if node is None:
-            node = object.__new__(cls)
-            node.args, node._bits, node._height, node._generators = args, 0, None, None
-            Node._interned[key] = node
-        return node
+        with LOCK:
+            node = Node._interned.get(key)
+            if node is None:
+                node = object.__new__(cls)
+                node.args, node._bits, node._height, node._generators = args, 0, None, None
+                Node._interned[key] = node
+            return node
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self).make, self.args
@@ -92,7 +94,7 @@ class Node(ABC):
 
     def precise_ball(self, bits: int) -> arb:
         """An enclosure computed with at least *bits* working bits, which this method sets itself."""
-        with ctx.workprec(bits):
+        with workprec(bits):
             return self.ball(bits)
 
     def height(self) -> float:

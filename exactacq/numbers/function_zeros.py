@@ -12,10 +12,11 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterator
 from typing import TYPE_CHECKING, Any, Protocol
 
-from flint import arb, arb_series, ctx, fmpq, fmpz
+from flint import arb, arb_series, fmpq, fmpz
 
 from exactacq.errors import Undecided
 from exactacq.numbers.atoms import Generators, Node
+from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import ball_sign, decimal_string
 from exactacq.numbers.real import Real
 
@@ -70,7 +71,7 @@ class Zero(Node):
         With m <= |f'| <= M in a ball of radius r around c, f(c) / f' has radius at most r (M/m - 1) / 2.
         """
         function, low, high = self.args
-        with ctx.workprec(max(bits, BITS)):
+        with workprec(max(bits, BITS)):
             ball = self._ball if self._bits else _cell(low, high)
             while True:
                 middle = ball.mid()
@@ -109,7 +110,7 @@ def zeros_between(
         left, right = cells.pop()
         if right < begin or left > end:
             continue
-        with ctx.workprec(BITS):
+        with workprec(BITS):
             cell = _cell(left, right)
             slope = _slope(function, cell)
             if _excludes_zero(function, cell, slope):
@@ -154,7 +155,7 @@ def _zero_in(
 
 def _sign(function: Function, t: Real, exact: Callable[[Real], int] | None = None) -> int:
     """The sign of a value: by a ball, and exactly if the ball contains 0."""
-    with ctx.workprec(BITS):
+    with workprec(BITS):
         sign = ball_sign(function(t.working_ball(BITS)))
     return sign or (int(function(t).sign()) if exact is None else exact(t))
 

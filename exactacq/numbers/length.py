@@ -28,12 +28,13 @@ from fractions import Fraction
 from itertools import product
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeGuard
 
-from flint import arb, ctx, fmpq, fmpz
+from flint import arb, fmpq, fmpz
 
 from exactacq.errors import Undecided
 from exactacq.numbers.angle_relations import reduced, simplified
 from exactacq.numbers.angles import HALF, Angle, AngleSum, Ends, Vector, folded
 from exactacq.numbers.exact import Exact
+from exactacq.numbers.precision import workprec
 from exactacq.numbers.quotient import Quotient
 from exactacq.numbers.rationals import (
     ball_sign,
@@ -153,7 +154,7 @@ class Length(Exact):
         bits = 4 * digits + 64
         total, sums = arb(0), ["0"]
         for value in values:
-            with ctx.workprec(bits):
+            with workprec(bits):
                 total += value.ball(bits)
             # An exact 0 so far stays "0"; otherwise the ball has far more digits than are asked for.
             sums.append("0" if total == 0 else str(total.str(digits, radius=False)))
@@ -203,7 +204,7 @@ class Length(Exact):
         total = Length._make(self._algebraic + right._algebraic, self._angular + right._angular)
         bits = min(self._bits, right._bits)
         if bits:  # A running total of n pieces would otherwise evaluate all n again.
-            with ctx.workprec(bits):
+            with workprec(bits):
                 total._ball, total._bits = self._ball + right._ball, bits
         return total
 
@@ -312,9 +313,9 @@ class Length(Exact):
         [6.28318530717959 +/- 3.53e-15]
         """
         if self._bits < bits:
-            with ctx.workprec(bits):
-                ball = self._algebraic.ball(bits) + self._angular.ball(bits)
-            self._ball, self._bits = ball, bits
+            with workprec(bits):
+                self._ball = self._algebraic.ball(bits) + self._angular.ball(bits)
+                self._bits = bits
         return self._ball
 
     def enclosure(self, bits: int) -> tuple[fmpq, fmpq]:

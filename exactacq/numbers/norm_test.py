@@ -12,9 +12,10 @@ from __future__ import annotations
 
 from typing import Any, TypeAlias
 
-from flint import arb, ctx, fmpq_poly, fmpz
+from flint import arb, fmpq_poly, fmpz
 
 from exactacq.numbers.atoms import Form, Inverse, Node, Product, Root, Sqrt
+from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import ball_sign, coprime_base
 
 Coefficient: TypeAlias = "fmpz | fmpq_poly"
@@ -170,7 +171,7 @@ class _Tower:
             bits *= 2
 
     def _ball(self, value: Polynomial, bits: int) -> arb:
-        with ctx.workprec(bits):
+        with workprec(bits):
             total = arb(0)
             for mask, c in value.items():
                 term = arb(c) if self.field is None else self._evaluated(c, bits)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from flint import arb, ctx, fmpq
+from flint import arb, fmpq
 
 from exactacq.errors import FormatError, Undecided
 from exactacq.numbers.exact import Exact
+from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import decimal_string, enclose, rational, round_to_float
 
 PRECISIONS = (64, 256, 1024, 4096)
@@ -35,7 +36,7 @@ class Quotient(Exact):
     def ball(self, bits: int) -> arb:
         """An enclosing ball computed with *bits* working bits, or more where the divisor is near 0."""
         while True:
-            with ctx.workprec(bits):
+            with workprec(bits):
                 below = self.bottom.ball(bits)
                 if not below.contains(0):
                     return self.top.ball(bits) / below

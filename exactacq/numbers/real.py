@@ -28,7 +28,7 @@ from fractions import Fraction
 from math import log2
 from typing import TYPE_CHECKING, Any
 
-from flint import arb, ctx, fmpq, fmpq_poly, fmpz, fmpz_poly
+from flint import arb, fmpq, fmpq_poly, fmpz, fmpz_poly
 
 from exactacq.numbers.atoms import (
     Atom,
@@ -53,6 +53,7 @@ from exactacq.numbers.linear_forms import (
     polynomial,
     square_root,
 )
+from exactacq.numbers.precision import LOCK, workprec
 from exactacq.numbers.rationals import (
     ball_sign,
     decimal_string,
@@ -75,7 +76,6 @@ LATE_BITS = 64
 """Up to this precision a late number answers by the ball it came with."""
 EXPAND_TERMS = 64
 """A product of two radical sums is multiplied out up to this many terms."""
-
 ZERO, ONE = fmpq(0), fmpq(1)
 
 
@@ -140,15 +140,18 @@ class Real(Exact):
         return self._bits == LATE
 
     def _made(self) -> None:
-        """Turn a late number into what it stands for."""
-        value = self._make()
-        rational = value.rational
-        self.rational, self._bits, self._sign = rational, value._bits, value._sign
-        if rational is None:
-            self._terms = value._terms
-        if self._bits:
-            self._ball = value._ball
-        del self._make
+        """Turn a late number into what it stands for; the entry that tells other threads is set last."""
+        make = getattr(self, "_make", None)
+        value = None if make is None else make()
+        rational = None if value is None else value.rational
+        with LOCK:
+            if value is not None and self._bits == LATE:
+                if rational is None:
+                    self._terms = value._terms
+                if value._bits:
+                    self._ball = value._ball
+                self.rational, self._sign, self._bits = rational, value._sign, value._bits
+                del self._make
 
     @classmethod
     def sum(cls, values: Iterable[Real]) -> Real:
@@ -167,11 +170,9 @@ class Real(Exact):
         # A late number is made when it is first looked into. Most rationals never need the form.
         if name in ("rational", "_terms") and self._bits == LATE:
             self._made()
-            return getattr(self, name)
-        if name != "_terms":
-            raise AttributeError(name)
-        self._terms = {1: self.rational} if self.rational else {}
-        return self._terms
+        elif name == "_terms" and self.rational is not None:
+            self._terms = {1: self.rational} if self.rational else {}
+        return object.__getattribute__(self, name)
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Caches stay behind: balls cannot be pickled, and atoms must be interned where they arrive.
@@ -452,7 +453,7 @@ class Real(Exact):
         """
         if self._bits >= bits or (self._bits == LATE and bits <= LATE_BITS):
             return self._ball
-        with ctx.workprec(bits):
+        with workprec(bits):
             return self.working_ball(bits)
 
     def working_ball(self, bits: int) -> arb:

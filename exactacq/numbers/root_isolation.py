@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from flint import arb, ctx, fmpz_poly
+from flint import arb, fmpz_poly
+
+from exactacq.numbers.precision import workprec
 
 
 @lru_cache(maxsize=1 << 10)
@@ -18,7 +20,7 @@ def isolated_roots(coefficients: tuple[int, ...]) -> list[arb]:
     slope = polynomial.derivative()
     bits = 64
     while True:
-        with ctx.workprec(bits):
+        with workprec(bits):
             balls = [root.real for root, _ in polynomial.complex_roots() if root.imag == 0]
             if all(slope(ball) > 0 or slope(ball) < 0 for ball in balls):
                 return sorted(balls, key=lambda ball: ball.mid().fmpq())

@@ -17,6 +17,7 @@ from flint import arb, ctx, fmpq
 
 from exactacq.errors import Undecided
 from exactacq.numbers.atoms import Atom, Form, Generators, Inverse, Node, Product, Sqrt, atom_ball
+from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import Enclosing, ball_sign, decimal_string, enclose
 
 if TYPE_CHECKING:
@@ -121,7 +122,7 @@ def _beside(value: Form, tau: Generic) -> tuple[fmpq, fmpq]:
     As far apart as the value allows: short rationals are decided soon.
     """
     for bits in NEAR:
-        with ctx.workprec(4 * bits):
+        with workprec(4 * bits):
             low, high = enclose(tau.precise_ball, bits)
             around = arb((low + high) / 2, (high - low) / 2)
             if _evaluated(value, {tau: around}, lambda atom: atom_ball(atom, ctx.prec)).is_finite():

@@ -14,7 +14,10 @@ from contextlib import contextmanager
 
 @contextmanager
 def uncollected() -> Iterator[None]:
-    """No search for cyclic garbage meanwhile (of the whole process), if there is one. Also a decorator."""
+    """No search for cyclic garbage meanwhile (of the whole process), if there is one. Also a decorator.
+
+    Where the pauses of two threads overlap, the search goes on as soon as the one that stopped it ends.
+    """
     searching = gc.isenabled()
     gc.disable()
     try:

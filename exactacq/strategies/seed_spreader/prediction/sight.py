@@ -7,11 +7,12 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from flint import arb, ctx, fmpq
+from flint import arb, fmpq
 
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import ContactKind, contacts
 from exactacq.geometry.points import Point
+from exactacq.numbers.precision import workprec
 from exactacq.numbers.real import Real
 from exactacq.strategies.seed_spreader.prediction.pieces import Pieces
 
@@ -182,7 +183,7 @@ def growth_sign(
     *shape* is a feature's centre with the signed turn; *length* is l at one of the ordinates: it tells
     which of the two points of a circle is meant.
     """
-    with ctx.workprec(BITS):
+    with workprec(BITS):
         rate = _rate(_ball(x), _ball(ordinates[0]).union(_ball(ordinates[1])), shape, target, _ball(length))
     return 0 if rate is None else int(rate > 0) - int(rate < 0)
 
