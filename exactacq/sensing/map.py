@@ -125,7 +125,12 @@ class Map:
         return self.knows_some(spots)
 
     def spots(self, i: int, point: Point) -> Spots:
-        """Where on the boundary of obstacle i a point lies; the same for all maps of a run."""
+        """Where on the boundary of obstacle i a point lies; the same for all maps of a run.
+
+        >>> import exactacq as xa
+        >>> xa.sightseer(xa.load("squares")).map.spots(0, xa.Point(-9, -9))
+        ()
+        """
         targets = (self._targets.of[i][k] for k, e in enumerate(self.obstacles[i].edges) if e.passes(point))
         return tuple((target.edge, u) for target in targets for u in self._parameters(target, point))
 
@@ -135,7 +140,14 @@ class Map:
         return ends or [self._rails[target.edge].parameter(point)]
 
     def knows_some(self, spots: Spots) -> bool:
-        """Whether a point is known at some of its places on a boundary (see `spots`)."""
+        """Whether a point is known at some of its places on a boundary (see `spots`).
+
+        >>> import exactacq as xa
+        >>> run = xa.sightseer(xa.load("circles"))
+        >>> spots = run.map.spots(0, xa.Point(7, 0))
+        >>> run.map_at(2).knows_some(spots), run.map.knows_some(spots)
+        (False, True)
+        """
         return any(self._cover(e).contains(u) for e, u in spots)
 
     def known_length(self, i: int | None = None) -> Length:
