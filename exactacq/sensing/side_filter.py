@@ -86,6 +86,14 @@ def rough(point: Point) -> tuple[float, float]:
     return _float(point.x, TINY), _float(point.y, TINY)
 
 
+def _bound(t: Real, side: int) -> float:
+    """A parameter as a float; that of a late one to the outside: a few more lines do no harm."""
+    if not t.is_late:
+        return _float(t, 1.0)
+    ball = t.ball(64)
+    return float(ball.mid()) + side * float(ball.rad())
+
+
 def _float(value: Real, least: float) -> float:
     """A float that is off by at most 2^-51 of the number, or of *least* if that is more."""
     bits = 64
@@ -103,7 +111,7 @@ def _table(rows: list[tuple[float, ...]]) -> Floats:
 
 def _image(sector: Sector, low: Real, high: Real) -> tuple[float, ...]:
     """Origin; directions or places of first and last line; lift; sense of normals, else 0; base; error."""
-    first, last = _float(low, 1.0), _float(high, 1.0)
+    first, last = _bound(low, -1), _bound(high, 1)
     (ox, oy), (ux, uy), size = sector.origin, sector.unit, sector.size
     error = _error(ox, oy, sector.extent, size)
     if isinstance(sector, Sliding):

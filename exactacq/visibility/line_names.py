@@ -17,11 +17,14 @@ from exactacq.geometry.curves import Arc
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.features import Feature
+from exactacq.visibility.line_balls import line
 from exactacq.visibility.line_families import Sector
 from exactacq.visibility.rotational_sweep import Passed
 
 Names: TypeAlias = "tuple[tuple[Hashable, int], ...]"
 """Names of one line with their senses."""
+BITS = 64
+"""Precision of the parameter from which a line's direction is taken."""
 Anchor: TypeAlias = "tuple[str, int]"
 """A corner, by the edge that starts there, or a circle, by the first arc on it."""
 
@@ -61,7 +64,8 @@ class Namer:
         corner lies on the circle.
         """
         own = feature.edges[1]
-        x, y = sector.touch(t)[1].xy
+        _, _, *along_it = line(sector, t.ball(BITS))
+        x, y = (float(v.mid()) for v in along_it)
         for number, side, sign in passed:
             curve = self.table.curves[number]
             place = raw(curve.center) if side and isinstance(curve, Arc) else self.table.vertices[number]
