@@ -79,7 +79,8 @@ class FamilyFilter:
             for k, target in self.targets.on(one.edge):
                 if k in self.obstacles:
                     chosen[n] |= new
-                    if k not in self.along:
+                    # What is seen from an end of the leg alone is part of the view from there.
+                    if k not in self.along and outer[0] < inf and outer[1] > -inf:
                         if not target.whole:
                             surely = NOTHING
                         sources.setdefault(k, []).append(SourceSpan(n, outer, surely, one.names))
@@ -110,9 +111,10 @@ class FamilyFilter:
     def _clipped(self, one: Extent) -> tuple[Span, Span]:
         """Where a family is seen from on the leg: at most and at least; the leg's ends are infinite."""
         (low, high), (first, last) = one.source, one.surely
-        if high == -inf or low == inf or high < self.low[0] or low > self.high[1]:
-            # Views from an end of the leg alone are part of what is seen from there.
+        if high < self.low[0] or low > self.high[1]:
             return NOTHING, NOTHING
+        if high == -inf or low == inf:
+            return (low, high), NOTHING
         source = -inf if low <= self.low[1] else low, inf if high >= self.high[0] else high
         if first > last or last < self.low[1] or first > self.high[0]:
             return source, NOTHING

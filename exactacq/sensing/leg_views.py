@@ -246,13 +246,16 @@ class Shares:
         span = self.leg.span
         if self._is_along(k) and edge in (None, self.leg.edge):
             return Cover((span,))
+        surely = self.in_sight.get(k, ())
+        if any(interval.low is span.low and interval.high is span.high for interval in surely):
+            return Cover((span,))
         times = Cover()
         for u, place in ((span.low, span.start), (span.high, span.end)):
             seen = self.targets.within(k, self.view(place, self.leg.own(u)).spans)
             if any(edge in (None, e) for e, _ in seen):
                 times = times.added(Interval(u, place, u, place))
         sources = [share.source for share in self.of[k] if edge in (None, share.edge)]
-        sources += self.in_sight.get(k, ())
+        sources += surely
         sources += [part for end, part in self.ends.get(k, ()) if edge in (None, end.edge)]
         for interval in sorted(sources, key=size, reverse=True):
             times = times.added(interval)
