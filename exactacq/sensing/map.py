@@ -253,6 +253,14 @@ class Map:
     def _is_acquired(self, i: int) -> bool:
         return self._targets.is_whole(i, self._covers)
 
+    def _is_told_by_next(self, i: int, k: int) -> bool:
+        """Whether the corner where an edge ends is known as a point of the next one."""
+        targets = self._targets.of[i]
+        target, after = targets[k], targets[(k + 1) % len(targets)]
+        if len(targets) == 1 or target.span.end != after.span.start:
+            return False
+        return any(part.low.compare(after.span.low) == 0 for part in self._parts(after))
+
     def _on_edge(self, i: int, k: int) -> Iterator[Known]:
         target = self._targets.of[i][k]
         curve = self.obstacles[i].edges[k]
@@ -261,7 +269,8 @@ class Map:
             return
         for part in self._parts(target):
             if part.low.compare(part.high) == 0:
-                # The two ends may be one point in two forms.
-                yield Known(k, part.start, part.start, None)
+                # The two ends may be one point in two forms. A corner belongs to the edge that starts there.
+                if not (part.high.compare(target.span.high) == 0 and self._is_told_by_next(i, k)):
+                    yield Known(k, part.start, part.start, None)
             else:
                 yield Known(k, part.start, part.end, curve.part(part.start, part.end))
