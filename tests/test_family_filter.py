@@ -168,3 +168,15 @@ def test_normals_at_the_end_of_a_way() -> None:
     scene = xa.Scene([diamond], terrain=xa.Terrain(8, 8), radius=1)
     lost = [e.point for e in xa.seed_spreader(scene).events if e.kind == "lose" and e.point.x == 3]
     assert lost == [xa.Point(3, xa.Real("11/2") - xa.Real(2).sqrt())]
+
+
+def test_along_a_row_of_circles() -> None:
+    """From its lowest point a circle sees all others of a row, along their common tangent.
+
+    All of them lie on the same side of it. That point is no end of an edge, and no tangent line of another
+    circle beside the common one leads there: turned one way it is blocked, turned the other way it misses.
+    """
+    row = [xa.Circle((2 * k, 2), "3/5") for k in range(4)]
+    run = xa.sightseer(xa.Scene(row, start=(-1, 1), radius=20))
+    lowest = xa.Point(0, "7/5")
+    assert [e.obstacle for e in run.events if e.kind == "lose" and e.point == lowest] == [2, 3, 2, 3]

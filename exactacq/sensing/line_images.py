@@ -98,10 +98,32 @@ class LineImages:
                 if spot is None:
                     return None
                 found.append(spot)
-            if self.table.full[side.edge] and not _is_plain(sector, side, *found):
-                return None
+            if self.table.full[side.edge]:
+                found = self._on_circle(sector, ends, side, found)
+                if not found:
+                    return None
             spots[side.role] = found[0], found[1]
         return Image(frame, (low[0], high[0]), first, last, spots)
+
+    def _on_circle(
+        self, sector: Sector, ends: tuple[Real, Real], side: Side, places: list[EdgePlace]
+    ) -> list[EdgePlace]:
+        """Two places on a full circle if the side does not pass its start, where parameters jump, else none.
+
+        While lines turn by a quarter at most, a contact moves by a quarter, another place by less than three
+        quarters, for its direction from the circle's centre is off the line's by less than a quarter.
+        """
+        start = self.table.curves[side.edge].start
+        for k, (a, b) in enumerate((places, places[::-1])):
+            if a.low <= 0 or a.high >= 4:
+                contact, direction = sector.touch(ends[k])
+                if direction.cross(start - contact).sign() != 0 or not 0 < b.low <= b.high < 4:
+                    return []
+                at_zero = b.high < 2
+                places[k] = a._replace(low=-inf, high=-inf) if at_zero else a._replace(low=inf, high=inf)
+        bounds = [(max(p.low, 0.0), min(p.high, 4.0)) for p in places]
+        apart = max(b for _, b in bounds) - min(a for a, _ in bounds)
+        return places if apart < 1 else []
 
     def seen(self, sector: Sector, image: Image, side: Side, other: Side, names: EndNames) -> Extent:
         """What views along the lines of an image show of edge *other* from *side*; two lines are named."""
@@ -204,17 +226,6 @@ def _bend(sector: Sector, curve: Curve, chord: float) -> float:
     if isinstance(sector, Rolling | Sliding):
         return 2 * radius
     return min(chord**2 / (4 * radius) * (1 + SURE) * 2, radius)
-
-
-def _is_plain(sector: Sector, side: Side, a: EdgePlace, b: EdgePlace) -> bool:
-    """Whether a side on a full circle certainly does not pass the circle's start, where parameters jump.
-
-    A contact moves a quarter turn, another side of lines that turn about a point at most a half.
-    """
-    if side.role is not Role.CONTACT and sector.round:
-        return False
-    most = 1.5 if side.role is Role.CONTACT else 2.0
-    return min(a.low, b.low) > 0 and max(a.high, b.high) < 4 and max(a.high - b.low, b.high - a.low) < most
 
 
 def curve_image(curve: Curve) -> lines.Straight | lines.Round:

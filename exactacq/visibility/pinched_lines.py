@@ -4,7 +4,8 @@ What a line shows is also shown by the closed cells of the tangent lines beside 
 runs along an edge. If all it touches lies to its left, it may turn about any of them such that those behind
 stay clear, or those ahead. If it touches only two, on two sides, it may turn about either and clear the
 other. With three there is one such that the two others are in the way of both turns, or of the one that
-clears either: from beyond these it is seen along the line itself only.
+clears either: from beyond these it is seen along the line itself only. The same holds for three on one side
+if one of them is an arc: the robot sees the others from one point of it, which is no end of an edge.
 """
 
 from __future__ import annotations
@@ -25,15 +26,17 @@ def may_be_pinched(table: EdgeTable, feature: Feature, sector: Sector, t: Real, 
     """Whether a tangent line of a feature may show, by what it passes, what no line beside it does."""
     contact, direction = sector.touch(t)
     if feature.round:
-        if not t.is_late and t.rational in (sector.low, sector.high):
+        is_arc = not table.full[feature.edges[0]]
+        if is_arc and not t.is_late and t.rational in (sector.low, sector.high):
             return True
     elif touched_side(table, feature.edges[1], direction) is None:
         return True
-    sides = [1]
+    sides, is_round = [1], feature.round
     for number, touching, _ in passed:
         if touching:
             curve = table.curves[number]
             assert isinstance(curve, Arc), "only arcs are touched between their ends"
+            is_round = True
             side: int | None = direction.cross(curve.center - contact).clear_sign(BITS) or None
         else:
             side = touched_side(table, number, direction)
@@ -41,7 +44,7 @@ def may_be_pinched(table: EdgeTable, feature: Feature, sector: Sector, t: Real, 
             return True
         if side:
             sides.append(side)
-    return len(sides) > 2 and min(sides) < 0
+    return len(sides) > 2 and (is_round or min(sides) < 0)
 
 
 def touched_side(table: EdgeTable, vertex: int, direction: Point) -> int | None:
