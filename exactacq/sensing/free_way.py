@@ -127,10 +127,7 @@ class WayViews:
             for side, one in self.extents(line_family):
                 asked.append((n, side))
                 seen.append(one)
-        table = self.complex.table
-        chosen = matter(
-            [*seen, *(single.extent(table)._replace(source=EVERYTHING) for single in single_lines)]
-        )
+        chosen = matter([*seen, *map(self._extent, single_lines)])
         edges: dict[int, set[int]] = {}
         for n, side in compress(asked, chosen):
             edges.setdefault(n, set()).add(side.edge)
