@@ -17,7 +17,7 @@ import networkx as nx
 from flint import fmpq
 
 from exactacq.geometry.curve_parameter import Rail
-from exactacq.geometry.interval_union import Cover, Interval
+from exactacq.geometry.interval_union import EMPTY, Cover, Interval
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
 from exactacq.sensing.legs import Leg
@@ -33,6 +33,25 @@ def inside(cover: Cover, rail: Rail) -> list[Span]:
         if low <= high:
             found.append((low, high))
     return found
+
+
+class KnownSpans(Mapping[int, Sequence[Span]]):
+    """What covers contain of edges, by their numbers, rounded inward: made when it is asked for."""
+
+    def __init__(self, covers: Mapping[int, Cover], rails: Sequence[Rail]) -> None:
+        self._covers, self._rails = covers, rails
+        self._spans: dict[int, list[Span]] = {}
+
+    def __getitem__(self, e: int) -> Sequence[Span]:
+        if e not in self._spans:
+            self._spans[e] = inside(self._covers.get(e, EMPTY), self._rails[e])
+        return self._spans[e]
+
+    def __iter__(self) -> Iterator[int]:
+        return iter(self._covers)
+
+    def __len__(self) -> int:
+        return len(self._covers)
 
 
 class SourceSpan(NamedTuple):

@@ -24,7 +24,7 @@ from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.event import SENSED, EventKind, Reason
-from exactacq.sensing.family_filter import inside
+from exactacq.sensing.family_filter import KnownSpans, inside
 from exactacq.sensing.leg_views import Covers, Shares, add
 from exactacq.sensing.legs import Leg
 from exactacq.sensing.line_images import Span
@@ -151,7 +151,7 @@ class Sensor:
 
     def known_after(self, leg: Leg, covers: Covers) -> dict[int, Cover]:
         """The covers that grow along a leg, if *covers* are known before it."""
-        return self._whole(leg).taught(covers)
+        return self._told_by(leg, covers).taught(covers)
 
     def known_within(self, leg: Leg, part: Leg, covers: Covers) -> dict[int, Cover]:
         """The covers that grow along *part*, the beginning of a leg, if *covers* are known before it.
@@ -159,12 +159,13 @@ class Sensor:
         They are restricted from what the whole leg shows. Sensing *part* by itself would be harder, since its
         end often has complicated coordinates.
         """
-        return self._whole(leg).cut(part).taught(covers)
+        return self._told_by(leg, covers).cut(part).taught(covers)
 
-    def _whole(self, leg: Leg) -> Shares:
-        """All that a leg shows; that of the last leg is kept."""
+    def _told_by(self, leg: Leg, covers: Covers) -> Shares:
+        """What a leg may show beyond *covers*, which are known before it; that of the last leg is kept."""
         if self._last is None or self._last.leg is not leg:
-            self._last = self.shares(leg)
+            known = KnownSpans(covers, self.rails)
+            self._last = Shares(self.complex, self.targets, leg, self._near(leg), self._view, known)
         return self._last
 
     def shares(self, leg: Leg) -> Shares:
