@@ -291,7 +291,7 @@ def told(sweep: Pencil) -> list[object]:
     cells: list[object] = [
         (str(c.low), str(c.high), c.behind, c.ahead, *map(sorted, c.bounds)) for c in sweep.cells
     ]
-    return [*cells, [str(t) for t in sweep.pinches]]
+    return [*cells, [(str(t), sorted(passed)) for t, passed in sweep.pinches]]
 
 
 @pytest.mark.parametrize("name", ["figure1", "circles", "m8", "m11", "plate"])

@@ -170,7 +170,7 @@ class Real(Exact):
         # A late number is made when it is first looked into. Most rationals never need the form.
         if name in ("rational", "_terms") and self._bits == LATE:
             self._made()
-        elif name == "_terms" and self.rational is not None:
+        if name == "_terms" and self.rational is not None:
             self._terms = {1: self.rational} if self.rational else {}
         return object.__getattribute__(self, name)
 

@@ -24,8 +24,9 @@ from exactacq.geometry.points import Point, distance_sq
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.line_images import EVERYTHING, NOTHING, EndNames, Extent, Image, LineImages, Span
+from exactacq.sensing.line_points import Role, Side
 from exactacq.sensing.side_filter import Sides
-from exactacq.sensing.view_families import FamilyClipper, FreeViews, Role, Side, ViewFamily
+from exactacq.sensing.view_families import FamilyClipper, FreeViews, ViewFamily
 from exactacq.visibility.chords import meet
 from exactacq.visibility.features import Feature, features, leaving
 from exactacq.visibility.free_segment import walk_line
@@ -57,7 +58,6 @@ class LineFamily:
     anchor: Anchor | None = None
     names: tuple[Names, Names] = ((), ())
     passed: tuple[Passed, Passed] = ((), ())
-    _bundles: tuple[Bundle, ...] | None = None
     _image: Image | None = None
     _is_imaged: bool = False
 
@@ -67,12 +67,8 @@ class LineFamily:
         return [side for side in (self.behind, self.contact, self.ahead) if side is not None]
 
     def bundles(self) -> tuple[Bundle, ...]:
-        """The families of its free views; made at the first call, as most line families are never asked."""
-        if self._bundles is None:
-            self._bundles = tuple(
-                Bundle(free_views.sides, free_views, self) for free_views in self.free_views()
-            )
-        return self._bundles
+        """The families of its free views."""
+        return tuple(Bundle(views.sides, views, self) for views in self.free_views())
 
     @property
     def end_names(self) -> EndNames:
@@ -196,6 +192,7 @@ class FeatureFamilies:
         self.line_families, self.single_lines = line_families, single_lines
         self._families_on: dict[int, list[LineFamily | Bundle]] = {}
         self._on: dict[int, list[tuple[Bundle, int]]] = {}
+        self._of: dict[int, tuple[Bundle, ...]] = {}
         sources: list[LineFamily | Bundle] = [*line_families, *bundles]
         for source in sources:
             for e in {side.edge for side in source.sides if not side.fixed}:
@@ -209,11 +206,19 @@ class FeatureFamilies:
             self._on[edge] = [
                 (bundle, k)
                 for source in self._families_on[edge]
-                for bundle in (source.bundles() if isinstance(source, LineFamily) else (source,))
+                for bundle in self._bundles(source)
                 for k, side in enumerate(bundle.sides)
                 if side.edge == edge and not side.fixed
             ]
         return self._on[edge]
+
+    def _bundles(self, source: LineFamily | Bundle) -> tuple[Bundle, ...]:
+        """Those of a line family; made when first asked for, as most are never asked."""
+        if isinstance(source, Bundle):
+            return (source,)
+        if id(source) not in self._of:
+            self._of[id(source)] = source.bundles()
+        return self._of[id(source)]
 
     @cached_property
     def sides(self) -> Sides:

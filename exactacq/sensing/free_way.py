@@ -31,8 +31,9 @@ from exactacq.sensing.complex_edges import FeatureFamilies, LineFamily, SingleLi
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.legs import Leg
 from exactacq.sensing.line_images import EVERYTHING, SURE, EdgePlace, Extent, Image, bounds, sight
+from exactacq.sensing.line_points import Role, Side
 from exactacq.sensing.side_filter import Sides, rough
-from exactacq.sensing.view_families import End, FreeViews, Role, Side, ViewFamily
+from exactacq.sensing.view_families import End, FreeViews, ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.visibility.chords import meet
 from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes, Turning

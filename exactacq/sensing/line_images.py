@@ -17,7 +17,7 @@ from exactacq.kernel import lines
 from exactacq.numbers.rationals import nearest_float
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.sensing.view_families import Role, Side
+from exactacq.sensing.line_points import Role, Side
 from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes
 from exactacq.visibility.rotational_sweep import Passed
 from exactacq.visibility.sensor_range import Range

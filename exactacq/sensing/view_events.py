@@ -26,10 +26,10 @@ from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.scene import Scene, radius_of
 from exactacq.sensing.leg_views import Share, Shares
 from exactacq.sensing.legs import legs_of
+from exactacq.sensing.line_points import Role, Side
 from exactacq.sensing.map import Map
 from exactacq.sensing.path import Piece
 from exactacq.sensing.sensor import Sensor
-from exactacq.sensing.view_families import Role, Side
 from exactacq.visibility.line_families import Sector
 from exactacq.visibility.sensor_range import Range
 

@@ -14,11 +14,10 @@ from __future__ import annotations
 from collections import ChainMap
 from collections.abc import Collection, Hashable, Iterator, Mapping, MutableMapping
 from dataclasses import dataclass
-from enum import IntEnum
 from functools import cmp_to_key, partial
 from itertools import pairwise
 from math import hypot
-from typing import Any, TypeGuard
+from typing import Any
 
 from flint import arb, fmpq
 
@@ -32,8 +31,9 @@ from exactacq.geometry.late import Pin, late_point
 from exactacq.geometry.points import Point, distance_sq
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
+from exactacq.sensing.line_points import LinePoints, Role, Side, along_normal
 from exactacq.sensing.view_length import of_length_on
-from exactacq.visibility.chords import meet, of_length
+from exactacq.visibility.chords import of_length
 from exactacq.visibility.line_balls import CurveBalls, line
 from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes
 from exactacq.visibility.line_names import Anchor, Names
@@ -44,26 +44,6 @@ SURE = 1e-9
 """Relative margin beyond which floats decide on the range; round-off is far below."""
 BITS = 128
 """Precision of the balls that tell a short way from a long proof."""
-
-
-class Role(IntEnum):
-    """Where on a line one end of a view lies."""
-
-    BEHIND = -1
-    CONTACT = 0
-    AHEAD = 1
-
-
-@dataclass(slots=True)
-class Side:
-    """One end of a family of views: the edge it runs on and its role on the lines.
-
-    A ``fixed`` end stays at the contact: a corner, the start of its edge.
-    """
-
-    edge: int
-    role: Role
-    fixed: bool = False
 
 
 @dataclass(slots=True)
@@ -120,6 +100,7 @@ class FamilyClipper:
 
     def __init__(self, rails: list[Rail], range_: Range, roundoff: float, circles: Mapping[int, int]) -> None:
         self.rails, self.range, self.roundoff, self.circles = rails, range_, roundoff, circles
+        self._points = LinePoints(rails)
         self._pins: MutableMapping[tuple[Hashable, int, int], Pin] = {}
         self._balls: dict[int, CurveBalls] = {}
         self._touched: set[Hashable] = set()
@@ -235,7 +216,7 @@ class FamilyClipper:
         curve = self.curve(side.edge)
         if side.role is Role.CONTACT and side.fixed:
             return curve.start, self.rails[side.edge].parameter(curve.start)
-        rail, make = self.rails[side.edge], partial(self._exact_point, sector, t, side, passed)
+        rail, make = self.rails[side.edge], partial(self._points.exact, sector, t, side, passed)
         at = line(sector, t.ball(64))
         if side.role is Role.CONTACT:
             spot: tuple[arb, arb] | None = at[:2]
@@ -261,11 +242,6 @@ class FamilyClipper:
             not touching and vertex.rational in (curve.start.rational, curve.end.rational)
         )
 
-    def _exact_point(self, sector: Sector, t: Real, side: Side, passed: Passed) -> Point:
-        contact, direction = sector.touch(t)
-        point = self._passed(side, contact, direction, passed)
-        return self._point(sector, side, contact, direction) if point is None else point
-
     def _touches(self, name: Any, edge: int) -> bool:
         """Whether a named line touches an edge's circle: then it meets the edge at the contact."""
         circle = self.circles.get(edge)
@@ -275,25 +251,6 @@ class FamilyClipper:
         return (kind == "circles" and circle in features[:2]) or (
             kind == "corner, circle" and circle == features[1]
         )
-
-    def _passed(self, side: Side, contact: Point, direction: Point, passed: Passed) -> Point | None:
-        """Where a line meets an edge, if that is an event of the line: no root is to be proved 0 or equal."""
-        if side.role is Role.CONTACT:
-            return None
-        curve = self.curve(side.edge)
-        for number, touching, _ in passed:
-            if touching and number == side.edge and isinstance(curve, Arc):
-                foot: Real = (curve.center - contact).dot(direction) / direction.norm_sq()
-                return contact + direction * foot
-            vertex = self.curve(number).start
-            for end in (curve.start, curve.end):
-                if (
-                    not touching
-                    and end.rational == vertex.rational
-                    and _is_met(direction, curve, end, side.role)
-                ):
-                    return end
-        return None
 
     def clipped(self, family: ViewFamily, side: int, span: Interval) -> ViewFamily | None:
         """The part of a family whose one side lies in an interval of that side's rail."""
@@ -354,7 +311,7 @@ class FamilyClipper:
             for contact, direction in (sector.touch(t) for t in lines if t.overlaps(end.t)):
                 if isinstance(far, Segment) and direction.cross(far.direction).sign() == 0:
                     continue
-                if self._point(sector, sides[1 - side], contact, direction) == here:
+                if self._points.at(sector, sides[1 - side], contact, direction) == here:
                     return True
         except Undecided:
             pass
@@ -377,9 +334,9 @@ class FamilyClipper:
             # 0: the two sides meet there, as where a way touches a circle.
             if role == 0 or (point - contact).dot(direction).sign() in (0, role):
                 near, far = (self.curve(free_views.sides[k].edge) for k in (side, 1 - side))
-                other = _along_normal(sector, free_views.sides[1 - side].role, near, far, point, direction)
+                other = along_normal(sector, free_views.sides[1 - side].role, near, far, point, direction)
                 if other is None:
-                    other = self._point(sector, free_views.sides[1 - side], contact, direction)
+                    other = self._points.at(sector, free_views.sides[1 - side], contact, direction)
                 points = (point, other) if side == 0 else (other, point)
                 places = [
                     self.rails[s.edge].parameter(p) for s, p in zip(free_views.sides, points, strict=True)
@@ -392,28 +349,9 @@ class FamilyClipper:
         # there is no place between: `rotational_sweep` parts such normals from the others.
         raise AssertionError("a line of the family passes each point between its extreme views")
 
-    def _point(self, sector: Sector, side: Side, contact: Point, direction: Point) -> Point:
-        curve = self.curve(side.edge)
-        if side.role is Role.CONTACT:
-            return curve.start if side.fixed else contact
-        center = _met_in_center(sector, curve, direction, side.role)
-        if center is not None:
-            return center
-        try:
-            if isinstance(curve, Segment) and curve.start.rational is not None:
-                # Linear in one number, and with an edge's own abscissa if that is vertical: ties show.
-                along = curve.direction
-                share = direction.cross(contact - curve.start) / direction.cross(along)
-                return curve.start + along * share
-            return contact + direction * meet(contact, direction, curve, side.role)
-        except ZeroDivisionError:
-            # A line along the edge: where the others meet the edge has a limit. Normals of an arc all pass
-            # through its centre. A tangent meets another one half way, by angle, between the two contacts.
-            return Point(*sector.center) if isinstance(sector, Spokes) else contact
-
     def _is_inside(self, free_views: FreeViews, t: fmpq) -> bool:
         contact, direction = free_views.sector.touch(Real(t))
-        a, b = (self._point(free_views.sector, side, contact, direction) for side in free_views.sides)
+        a, b = (self._points.at(free_views.sector, side, contact, direction) for side in free_views.sides)
         return self.range.order(a, b) <= 0
 
     def _certain(self, free_views: FreeViews, low: End, high: End) -> bool | None:
@@ -513,51 +451,6 @@ def _rough(point: Point) -> tuple[float, float, float]:
     x, y = point.x.ball(64), point.y.ball(64)
     a, b = float(x.mid()), float(y.mid())
     return a, b, (float(x.rad()) + float(y.rad()) + 2.0**-52 * (abs(a) + abs(b))) * (1 + SURE)
-
-
-def _along_normal(
-    sector: Sector, role: Role, near: Curve, far: Curve, point: Point, direction: Point
-) -> Point | None:
-    """Where a normal of an arc that passes a point of a curve meets an arc with the same centre, if it does.
-
-    Of concentric arcs each has the normals of the other. So that both tell of the same point, it is made
-    from the given one: c + (p - c) r / |p - c|, or on the other side of the centre.
-    """
-    if not isinstance(sector, Spokes) or not _is_about(far, sector):
-        return None
-    offset = point - far.center
-    ahead = offset.dot(direction).clear_sign(BITS)
-    if not ahead:
-        return None
-    size = near.radius if _is_about(near, sector) else offset.norm_sq().sqrt()
-    side = -role if far.ccw else int(role)
-    if role is Role.CONTACT:
-        side = 1 if sector.outward else -1
-    return far.center + offset * (far.radius / size * (ahead * side))
-
-
-def _is_about(curve: Curve, sector: Sector) -> TypeGuard[Arc]:
-    """Whether a curve is an arc about the centre of a sector."""
-    return isinstance(curve, Arc) and curve.center.rational == sector.center
-
-
-def _met_in_center(sector: Sector, curve: Curve, direction: Point, role: Role) -> Point | None:
-    """The centre of an arc, if that is where a normal of the arc meets an edge: then all of them do."""
-    if not isinstance(sector, Spokes):
-        return None
-    center = Point(*sector.center)
-    if not curve.may_pass(center, BITS) or not curve.passes(center):
-        return None
-    ends = (end for end in (curve.start, curve.end) if end == center)
-    return next(ends, center) if _is_met(direction, curve, center, role) else None
-
-
-def _is_met(direction: Point, curve: Curve, end: Point, role: Role) -> bool:
-    """Whether balls tell that a line through a point of an edge, perhaps an end, enters its obstacle."""
-    if isinstance(curve, Segment):
-        return direction.cross(curve.direction).clear_sign(BITS) != 0
-    far = -role if curve.ccw else role
-    return (end - curve.center).dot(direction).clear_sign(BITS) == far
 
 
 def _shared(end: End, k: int, point: Point, place: Real) -> End:
