@@ -18,7 +18,7 @@ from exactacq.numbers.rationals import nearest_float
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.line_points import Role, Side
-from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes
+from exactacq.visibility.line_families import Rolling, Sector, Sliding
 from exactacq.visibility.rotational_sweep import Passed
 from exactacq.visibility.sensor_range import Range
 
@@ -70,10 +70,6 @@ class Image:
     last: lines.Line
     spots: dict[Role, Places]
 
-    def span(self, role: Role) -> Span:
-        """What the lines meet of an edge, at most."""
-        return _hull(*self.spots[role])
-
 
 class LineImages:
     """Makes the images of line families, and tells what views between their edges show."""
@@ -81,13 +77,12 @@ class LineImages:
     def __init__(self, table: EdgeTable, range_: Range) -> None:
         self.table, self.range = table, range_
         self._curves: dict[int, lines.Straight | lines.Round] = {}
-        self._frames: dict[int, tuple[Sector, lines.Frame]] = {}
 
     def of(
         self, sector: Sector, ends: tuple[Real, Real], passed: tuple[Passed, Passed], sides: Iterable[Side]
     ) -> Image | None:
         """The image of the lines of a sector between two; None if floats cannot tell what they meet."""
-        frame = self._frame(sector)
+        frame = sector.image
         low, high = (float_ball(t) for t in ends)
         first, last = lines.line_at(frame, *low), lines.line_at(frame, *high)
         spots: dict[Role, Places] = {}
@@ -117,7 +112,9 @@ class LineImages:
         for k, (a, b) in enumerate((places, places[::-1])):
             if a.low <= 0 or a.high >= 4:
                 contact, direction = sector.touch(ends[k])
-                if direction.cross(start - contact).sign() != 0 or not 0 < b.low <= b.high < 4:
+                # Where the line is nearly a tangent, both its crossings are within the error.
+                is_one = a.high - a.low < SURE and direction.cross(start - contact).sign() == 0
+                if not (is_one and 0 < b.low <= b.high < 4):
                     return []
                 at_zero = b.high < 2
                 places[k] = a._replace(low=-inf, high=-inf) if at_zero else a._replace(low=inf, high=inf)
@@ -147,12 +144,6 @@ class LineImages:
         if e not in self._curves:
             self._curves[e] = curve_image(self.table.curves[e])
         return self._curves[e]
-
-    def _frame(self, sector: Sector) -> lines.Frame:
-        kept = self._frames.get(id(sector))
-        if kept is None:
-            kept = self._frames[id(sector)] = sector, _frame(sector)
-        return kept[1]
 
     def _spot(
         self, sector: Sector, side: Side, line: lines.Line, t: Real, passed: Passed
@@ -237,18 +228,6 @@ def curve_image(curve: Curve) -> lines.Straight | lines.Round:
     ax, ay = _pair(curve.center.rational)
     bx, by = _pair((curve.start - curve.center).rational)
     return ax, ay, sqrt(nearest_float(curve.radius_sq)), bx, by, 1 if curve.ccw else -1
-
-
-def _frame(sector: Sector) -> lines.Frame:
-    radius = 0.0
-    if isinstance(sector, Sliding):
-        kind = lines.LEFTWARD if sector.leftward else lines.RIGHTWARD
-    elif isinstance(sector, Spokes):
-        kind = lines.OUTWARD if sector.outward else lines.INWARD
-        radius = sqrt(nearest_float(sector.radius_sq))
-    else:
-        kind = lines.ROLLING if isinstance(sector, Rolling) else lines.TURNING
-    return kind, *_pair(sector.center), *_pair(sector.base), radius
 
 
 def _pair(values: Any) -> tuple[float, float]:

@@ -19,7 +19,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from math import frexp, hypot, inf, ldexp
+from math import frexp, hypot, inf, ldexp, sqrt
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -28,8 +28,10 @@ from flint import arb, fmpq
 from exactacq import kernel
 from exactacq.geometry.coordinates import cross, dot, sign
 from exactacq.geometry.points import Point
+from exactacq.kernel import lines
 from exactacq.kernel.bounded import TINY, UNIT, WIDEN
 from exactacq.kernel.images import ROLLING, SLIDING, SPOKES, TURNING, LineFrame
+from exactacq.numbers.rationals import nearest_float
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import Floats, with_rests
 
@@ -65,6 +67,18 @@ class Sector(ABC):
     def unit(self) -> Floats:
         """Direction of the base vector in floats."""
         return np.array((float(self.base[0]), float(self.base[1]))) / self.size
+
+    @cached_property
+    def image(self) -> lines.Frame:
+        """The sector in floats, if its frame is rational."""
+        kind, radius = lines.ROLLING if self.round else lines.TURNING, 0.0
+        if isinstance(self, Sliding):
+            kind = lines.LEFTWARD if self.leftward else lines.RIGHTWARD
+        elif isinstance(self, Spokes):
+            kind = lines.OUTWARD if self.outward else lines.INWARD
+            radius = sqrt(nearest_float(self.radius_sq))
+        (x, y), (dx, dy) = self.center, self.base
+        return kind, *map(nearest_float, (x, y, dx, dy)), radius  # type: ignore[return-value]
 
     @cached_property
     def balls(self) -> tuple[arb, arb, arb, arb]:
