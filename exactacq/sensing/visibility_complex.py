@@ -19,7 +19,7 @@ from exactacq.sensing.complex_edges import Bundle, FamilySweeper, FeatureFamilie
 from exactacq.sensing.line_images import LineImages
 from exactacq.visibility.sensor_range import Range
 
-KEPT = 8192
+KEPT = 1024
 """Families that are remembered, the last used of each kind: enough for a wide neighbourhood, and a bound of
 the memory."""
 
