@@ -90,7 +90,7 @@ class TestLinesThroughCornersOnCircles:
     )
     def test_scenes_that_ended_in_an_assertion(self, path: Path) -> None:
         run = xa.sightseer(xa.load(path))
-        for k in range(1, 40, 6):
+        for k in range(1, 40, 13):
             place = Length(Q(int(float(run.length) * 1000), 40_000) * k)
             known = run.map_at(place)
             assert known.known_length() <= run.map.known_length()

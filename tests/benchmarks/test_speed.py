@@ -16,32 +16,32 @@ SEED = 1
 
 def skip_unless_timed(benchmark: object, n: int) -> None:
     """Large workloads are for timing only."""
-    if n > 100 and benchmark.disabled:
+    if n > 30 and benchmark.disabled:
         pytest.skip(f"n = {n} takes too long for the everyday suite: run with --benchmark-enable")
 
 
-@pytest.mark.parametrize("n", [100, 1000])
+@pytest.mark.parametrize("n", [30, 100, 1000])
 def test_visibility_graph(benchmark: object, n: int) -> None:
     skip_unless_timed(benchmark, n)
     scene = random_octagons(n, SEED)
-    graph = benchmark.pedantic(xa.visibility_graph, (scene,), rounds=3 if n == 100 else 1)
+    graph = benchmark.pedantic(xa.visibility_graph, (scene,), rounds=3 if n <= 100 else 1)
     assert graph.number_of_nodes() == n + 1
 
 
-@pytest.mark.parametrize("n", [100, 1000])
+@pytest.mark.parametrize("n", [30, 100, 1000])
 def test_sightseer(benchmark: object, n: int) -> None:
     skip_unless_timed(benchmark, n)
     scene = random_octagons(n, SEED)
-    run = benchmark.pedantic(xa.sightseer, (scene,), rounds=3 if n == 100 else 1)
+    run = benchmark.pedantic(xa.sightseer, (scene,), rounds=3 if n <= 100 else 1)
     assert run.complete
 
 
-@pytest.mark.parametrize("n", [100, 1000])
+@pytest.mark.parametrize("n", [30, 100, 1000])
 def test_length_of_a_run(benchmark: object, n: int) -> None:
     """The sum of all pieces, and its first 50 digits."""
     skip_unless_timed(benchmark, n)
     path = xa.sightseer(random_octagons(n, SEED)).path
-    digits = benchmark.pedantic(lambda: path.length_after(len(path)).decimal(50), rounds=3 if n == 100 else 1)
+    digits = benchmark.pedantic(lambda: path.length_after(len(path)).decimal(50), rounds=3 if n <= 100 else 1)
     assert len(digits) > 50
 
 
