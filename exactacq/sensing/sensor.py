@@ -8,7 +8,7 @@ its two ends (see `view_families`). Only obstacles that are not acquired yet are
 from __future__ import annotations
 
 from collections import ChainMap
-from collections.abc import Iterable, Iterator, Sequence, Set
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cmp_to_key
 from typing import TypeAlias
@@ -58,24 +58,12 @@ class Notice:
 
 @dataclass(frozen=True)
 class Ahead:
-    """What a leg will show: its reports in order, the covers that will grow, and those ``before`` it.
-
-    The latter are the sensor's own: what is asked of them is asked before the leg is followed.
-    """
+    """What a leg will show: its reports in order, and the covers that will grow."""
 
     leg: Leg
     notices: list[Notice]
     learned: dict[int, Cover]
     shares: Shares | None
-    before: dict[int, Cover]
-
-    def covers(self, u: Real, place: Point, obstacles: Set[int]) -> dict[int, Cover]:
-        """What will be known of some obstacles at a place of the leg; of others, what was before."""
-        covers = dict(self.before)
-        if self.shares is not None and self.leg.order(u, self.leg.first) > 0:
-            some = obstacles & set(self.shares.obstacles)
-            covers.update(self.shares.cut(self.leg.upto(u, place), some).taught(covers))
-        return covers
 
 
 class Sensor:
@@ -130,7 +118,7 @@ class Sensor:
             known = self._known
             shares = Shares(self.complex, self.targets, leg, obstacles, self._view, known)
         told = ([], {}) if shares is None else self._told(shares, retraced)
-        return Ahead(leg, *told, shares, self.covers)
+        return Ahead(leg, *told, shares)
 
     def _told(self, shares: Shares, retraced: bool) -> tuple[list[Notice], dict[int, Cover]]:
         leg = shares.leg
