@@ -52,7 +52,7 @@ from math import cos, pi, sin
 def corner(k):
     size = 100 + (5 if k % 2 else 0)
     return [Fraction(round(1000 * size * f(2 * pi * k / 1000)), 1000) for f in (cos, sin)]
-scene = xa.Scene([xa.Polygon([corner(k) for k in range(1000)])], start=(-200, 0), radius=20)
+scene = xa.Scene([xa.Polygon([corner(k) for k in range(1000)])], start=(-112, 0), radius=20)
 """
 WORKS = {
     "Sightseer, 10 octagons": (OCTAGONS.format(n=10), "xa.sightseer(scene, 10)"),
