@@ -55,7 +55,7 @@ def _compiled() -> bool:
 COMPILED = _compiled()
 """Whether the compiled forms run."""
 DESCRIPTION = "compiled kernel" if COMPILED else "kernel in Python"
-"""The same in words."""
+"""Which form of the kernel runs, for people to read."""
 
 if COMPILED:
     __path__.insert(0, str(FOLDER))

@@ -1,31 +1,27 @@
 """Lines of a sector and where they meet curves, in floats: each value with a bound of its error.
 
-Let u = 2^-53 be the unit roundoff and EPS = 2 u. Coordinates and vectors come in as the nearest floats of
-rationals, so they are off by u of themselves; a sum, product, quotient or root is off by u of itself. A
-computed value is returned with a bound of its distance from the exact value. Bounds are sums of first-order
-terms: for each input its error times the size of the derivative, for each operation u times the result. They
-are rounded up by constants at least twice as large as the count of operations requires, which also covers
-what the bounds themselves lose to rounding and all products of two errors, as long as a bound is smaller than
-what it belongs to; where it is not (a divisor that may be 0), the bound is infinite. `TINY` covers underflow.
+Let u = 2^-53 be the unit roundoff and EPS = 2 u. Coordinates and vectors of a scene come in as the nearest
+floats of rationals, off by u of themselves, those of a robot's way off by 4 u at most; a sum, product,
+quotient or root is off by u of itself. A computed value is returned with a bound of its distance from the
+exact value. Bounds are sums of first-order terms: for each input its error times the size of the derivative,
+for each operation u times the result. They are rounded up by constants at least twice as large as the count
+of operations requires, which also covers what the bounds themselves lose to rounding and all products of two
+errors, as long as a bound is smaller than what it belongs to; where it is not (a divisor that may be 0), the
+bound is infinite. `TINY` covers underflow.
 """
 
 from __future__ import annotations
 
 from math import hypot, inf, sqrt
 
+from exactacq.kernel.images import ROLLING, SLIDING, TURNING
+
 EPS = 2.0**-52
 TINY = 1e-290
 
-TURNING = 0
-ROLLING = 1
-LEFTWARD = 2
-RIGHTWARD = 3
-OUTWARD = 4
-INWARD = 5
-"""Kinds of sectors: see `exactacq.visibility.line_families`."""
-
-Frame = tuple[int, float, float, float, float, float]
-"""A sector: its kind, centre, base vector and, of an arc's normals, the arc's radius."""
+Frame = tuple[int, float, float, float, float, float, int]
+"""A sector: its kind, centre, base vector and, of normals, the arc's radius and the sense in which they go
+(see `exactacq.kernel.images.LineFrame`)."""
 Line = tuple[float, float, float, float, float, float]
 """Contact, direction, and bounds of the errors of their coordinates."""
 Straight = tuple[float, float, float, float]
@@ -45,13 +41,12 @@ def line_at(frame: Frame, t: float, te: float) -> Line:
     The derivatives of unit vectors with respect to t are at most 2: those of cosine and sine of twice the
     arc tangent, and 1 for the direction of e + t e'.
     """
-    kind, cx, cy, ex, ey, radius = frame
+    kind, cx, cy, ex, ey, radius, sense = frame
     size = abs(ex) + abs(ey)
     base = EPS * (abs(cx) + abs(cy))
-    if kind in (LEFTWARD, RIGHTWARD):
+    if kind == SLIDING:
         error = base + size * (te + 8.0 * EPS) + TINY
-        turn = 1.0 if kind == LEFTWARD else -1.0
-        return cx + ex * t, cy + ey * t, -ey * turn, ex * turn, error, EPS * size + TINY
+        return cx + ex * t, cy + ey * t, -ey * sense, ex * sense, error, EPS * size + TINY
     if kind == ROLLING:
         square = t * t
         cosine, sine = (1.0 - square) / (1.0 + square), 2.0 * t / (1.0 + square)
@@ -64,8 +59,7 @@ def line_at(frame: Frame, t: float, te: float) -> Line:
         return cx, cy, dx, dy, base + TINY, error
     away = radius / hypot(dx, dy)
     contact = 2.0 * base + radius * (2.0 * te + 32.0 * EPS) + TINY
-    turn = 1.0 if kind == OUTWARD else -1.0
-    return cx + dx * away, cy + dy * away, dx * turn, dy * turn, contact, error
+    return cx + dx * away, cy + dy * away, dx * sense, dy * sense, contact, error
 
 
 def meets(line: Line, curve: Straight | Round, side: int) -> Meeting:
@@ -78,7 +72,7 @@ def meets_straight(line: Line, segment: Straight) -> Meeting:
     x, y, dx, dy, ce, de = line
     sx, sy, wx, wy = segment
     ox, oy = x - sx, y - sy
-    oe = ce + EPS * (abs(sx) + abs(sy) + abs(ox) + abs(oy))
+    oe = ce + 4.0 * EPS * (abs(sx) + abs(sy) + abs(ox) + abs(oy))
     d, w, o = abs(dx) + abs(dy), abs(wx) + abs(wy), abs(ox) + abs(oy)
     under = wx * dy - wy * dx
     undere = w * (de + 8.0 * EPS * d) + TINY

@@ -24,6 +24,7 @@ from exactacq.geometry.interval_union import Cover
 from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
 from exactacq.kernel import lines
+from exactacq.kernel.images import ROLLING, SPOKES
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
@@ -184,11 +185,11 @@ class WayViews:
             role, wall = Role.BEHIND, line_family.behind
         else:
             return None
-        kind, cx, cy, ex, ey, radius = image.frame
-        if kind in (lines.ROLLING, lines.OUTWARD, lines.INWARD):
-            radius = hypot(ex, ey) if kind == lines.ROLLING else radius
+        kind, cx, cy, ex, ey, radius, sense = image.frame
+        if kind in (ROLLING, SPOKES):
+            radius = hypot(ex, ey) if kind == ROLLING else radius
             height = abs((cx - self.image[0]) * wy - (cy - self.image[1]) * wx) / hypot(wx, wy)
-            if kind == lines.INWARD or height < radius * (1 + SURE) + self.slack:
+            if sense < 0 or height < radius * (1 + SURE) + self.slack:
                 return None
         spots = self._spot(a, line_family.passed[0]), self._spot(b, line_family.passed[1])
         if wall is None:

@@ -19,7 +19,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from math import frexp, hypot, inf, ldexp, sqrt
+from math import frexp, hypot, inf, ldexp
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -71,14 +71,9 @@ class Sector(ABC):
     @cached_property
     def image(self) -> lines.Frame:
         """The sector in floats, if its frame is rational."""
-        kind, radius = lines.ROLLING if self.round else lines.TURNING, 0.0
-        if isinstance(self, Sliding):
-            kind = lines.LEFTWARD if self.leftward else lines.RIGHTWARD
-        elif isinstance(self, Spokes):
-            kind = lines.OUTWARD if self.outward else lines.INWARD
-            radius = sqrt(nearest_float(self.radius_sq))
         (x, y), (dx, dy) = self.center, self.base
-        return kind, *map(nearest_float, (x, y, dx, dy)), radius  # type: ignore[return-value]
+        kind, radius, sense = self._kind
+        return kind, nearest_float(x), nearest_float(y), nearest_float(dx), nearest_float(dy), radius, sense
 
     @cached_property
     def balls(self) -> tuple[arb, arb, arb, arb]:
