@@ -13,13 +13,13 @@ import exactacq as xa
 from exactacq import kernel
 from exactacq.files.octagons import random_octagons
 from exactacq.geometry.curve_parameter import Rail
+from exactacq.kernel.extents import Span
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing import family_filter
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.free_way import WayViews
 from exactacq.sensing.legs import Leg, legs_of
-from exactacq.sensing.line_images import Span
 from exactacq.sensing.view_families import ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.visibility.sensor_range import Range
@@ -32,7 +32,7 @@ SCENES = ["figure2", "m11", "plate"]
 
 def told(complex_: VisibilityComplex, leg: Leg, run: xa.SightseerRun) -> Iterator[Told]:
     """What floats tell of every family at a leg, beside the exact families."""
-    wanted, images = frozenset(range(len(complex_.table.curves))), complex_.images
+    wanted = frozenset(range(len(complex_.table.curves)))
     rails = complex_.clipper.rails
 
     def pair(family: ViewFamily, side: int, near: Rail) -> tuple[Real, Real, Rail, Real, Real, Rail]:
@@ -40,29 +40,31 @@ def told(complex_: VisibilityComplex, leg: Leg, run: xa.SightseerRun) -> Iterato
         return min(here), max(here), near, min(there), max(there), rails[family.edges[1 - side]]
 
     if leg.edge is not None:
-        for bundle, side in complex_.on(leg.edge, wanted):
-            seen = bundle.seen(side, images)
-            exact = [pair(family, side, rails[leg.edge]) for family in bundle.families(complex_.clipper)]
-            yield None if seen is None else (seen.source, seen.surely, seen.shown), exact
+        for one in complex_.extents(leg.edge):
+            exact = [pair(family, side, rails[leg.edge]) for family, side in complex_.views(one)]
+            yield (one.source, one.surely, one.shown) if one.is_known else None, exact
         return
 
     def view(place: xa.Point, own: tuple[int, ...] | None) -> Seen:
         return Seen(complex_.table, rails, place, complex_.range, own)
 
     way = WayViews(complex_, leg, wanted, view)
-    for found in way.crossing():
-        parts = dict.fromkeys(side.edge for side in found[0].sides)
-        for side, seen in way.extents(found[0]):
+    extents = way.extents()
+    for n, (line_family, certain) in enumerate(way.crossing):
+        parts = {side.edge for side in line_family.sides if side is not None}
+        for one in extents:
+            if one.origin != n:
+                continue
             exact = []
-            for family in way.across(found[0], found[1], frozenset({side.edge})):
+            for family in way.across(line_family, certain, frozenset({one.edge})):
                 part = way.clipper.clipped(family, 0, leg.span)
-                if part is not None and family.free_views.sides[1] is side:
+                if part is not None and family.free_views.sides[1] is line_family.sides[one.there + 1]:
                     exact.append(pair(part, 0, leg.rail))
-            parts.pop(side.edge, None)
-            yield None if seen is None else (seen.source, seen.surely, seen.shown), exact
+            parts.discard(one.edge)
+            yield (one.source, one.surely, one.shown) if one.is_known else None, exact
         for edge in parts:
             # What is not mentioned is not shown, but from an end of the way.
-            for family in way.across(found[0], found[1], frozenset({edge})):
+            for family in way.across(line_family, certain, frozenset({edge})):
                 part = way.clipper.clipped(family, 0, leg.span)
                 if part is not None:
                     low, high = sorted(end.places[0] for end in (part.first, part.last))
@@ -145,15 +147,16 @@ def test_leaving_out_changes_nothing(name: str, monkeypatch: pytest.MonkeyPatch)
 def test_most_families_are_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
     """Among octagons fewer than a quarter of the families at a leg are made exact."""
     asked, kept = 0, 0
-    matter = family_filter.FamilyFilter.matter
+    choose = family_filter.FamilyFilter.choose
 
-    def counted(self: family_filter.FamilyFilter, seen: list) -> list[bool]:
+    def counted(self: family_filter.FamilyFilter, extents: list) -> list:
         nonlocal asked, kept
-        chosen = matter(self, seen)
-        asked, kept = asked + len(chosen), kept + sum(chosen)
+        chosen = choose(self, extents)
+        obstacles = [{k for k, _ in self.targets.on(one.edge)} for one in extents]
+        asked, kept = asked + sum(1 for some in obstacles if some & self.obstacles), kept + len(chosen)
         return chosen
 
-    monkeypatch.setattr(family_filter.FamilyFilter, "matter", counted)
+    monkeypatch.setattr(family_filter.FamilyFilter, "choose", counted)
     xa.sightseer(random_octagons(8, 1))
     assert asked > 500 and kept < asked / 4
 

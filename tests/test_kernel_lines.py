@@ -13,6 +13,7 @@ from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.points import Point
 from exactacq.kernel import lines
+from exactacq.kernel.curve_images import CurveImage
 from exactacq.numbers.real import Real
 from exactacq.visibility.chords import meet
 from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes, Turning
@@ -54,14 +55,15 @@ def bounded(rng: Random) -> Iterator[tuple[Real, float, float]]:
         if direction.rational is not None and rng.random() < 0.3:  # nearly parallel
             way = direction + Point(0, fmpq(1, rng.choice([10**3, 10**9, 10**14])))
         curve: Segment | Arc = Segment(place, place + way)
-        met = lines.meets_straight(line, (*place.xy, *way.xy))
+        met = lines.meets_straight(line, CurveImage(*place.xy, *way.xy, 0.0, 0, False))
         rail = Rail(curve)
     else:
         radius_sq = way.norm_sq().rational
         assert radius_sq is not None
         curve = Arc(place + way, place - way, place, radius_sq, ccw=rng.random() < 0.5)
         sense = 1 if curve.ccw else -1
-        met = lines.meets_round(line, (*place.xy, float(curve.radius), *way.xy, sense), side)
+        image = CurveImage(*place.xy, *way.xy, float(curve.radius), sense, False)
+        met = lines.meets_round(line, image, side)
         rail = Rail(Arc(curve.start, curve.start, place, radius_sq, ccw=curve.ccw, full=True))
     if inf in (met[1], met[3]):
         return

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from math import hypot, inf, sqrt
 
+from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.images import ROLLING, SLIDING, TURNING
 
 EPS = 2.0**-52
@@ -24,10 +25,6 @@ Frame = tuple[int, float, float, float, float, float, int]
 (see `exactacq.kernel.images.LineFrame`)."""
 Line = tuple[float, float, float, float, float, float]
 """Contact, direction, and bounds of the errors of their coordinates."""
-Straight = tuple[float, float, float, float]
-"""A segment: its start and the vector to its end."""
-Round = tuple[float, float, float, float, float, int]
-"""An arc: centre, radius, the vector from centre to start, and 1 if it runs counterclockwise, else -1."""
 Meeting = tuple[float, float, float, float, float, float, float]
 """How far along a line, in lengths, a curve is met, with error; the parameter there, with error; the point,
 with the error of its coordinates. An infinite error: unknown."""
@@ -62,15 +59,15 @@ def line_at(frame: Frame, t: float, te: float) -> Line:
     return cx + dx * away, cy + dy * away, dx * sense, dy * sense, contact, error
 
 
-def meets(line: Line, curve: Straight | Round, side: int) -> Meeting:
+def meets(line: Line, curve: CurveImage, side: int) -> Meeting:
     """Where a line enters what a curve bounds, ahead (1) or back (-1) along the line."""
-    return meets_straight(line, curve) if len(curve) == 4 else meets_round(line, curve, side)
+    return meets_round(line, curve, side) if curve.sense else meets_straight(line, curve)
 
 
-def meets_straight(line: Line, segment: Straight) -> Meeting:
+def meets_straight(line: Line, segment: CurveImage) -> Meeting:
     """Where a line meets a segment's line."""
     x, y, dx, dy, ce, de = line
-    sx, sy, wx, wy = segment
+    sx, sy, wx, wy = segment.x, segment.y, segment.wx, segment.wy
     ox, oy = x - sx, y - sy
     oe = ce + 4.0 * EPS * (abs(sx) + abs(sy) + abs(ox) + abs(oy))
     d, w, o = abs(dx) + abs(dy), abs(wx) + abs(wy), abs(ox) + abs(oy)
@@ -90,13 +87,13 @@ def meets_straight(line: Line, segment: Straight) -> Meeting:
     return far, fe, u, ue, px, py, pe
 
 
-def meets_round(line: Line, arc: Round, side: int) -> Meeting:
+def meets_round(line: Line, arc: CurveImage, side: int) -> Meeting:
     """Where a line enters what an arc bounds, ahead (1) or back (-1) along the line.
 
     With the unit direction, h is the foot of the centre along the line and g its height above it.
     """
     x, y, dx, dy, ce, de = line
-    ax, ay, radius, _, _, sense = arc
+    ax, ay, radius, sense = arc.x, arc.y, arc.radius, arc.sense
     size = hypot(dx, dy)
     if not size > 4.0 * de:
         return UNKNOWN
@@ -125,24 +122,14 @@ def meets_round(line: Line, arc: Round, side: int) -> Meeting:
     return far, fe, u, ue, px, py, pe
 
 
-def parameter_straight(segment: Straight, x: float, y: float, e: float) -> tuple[float, float]:
-    """The parameter of a point of a segment."""
-    sx, sy, wx, wy = segment
-    if abs(wx) >= abs(wy):
-        u, over = (x - sx) / wx, abs(wx)
-    else:
-        u, over = (y - sy) / wy, abs(wy)
-    return u, 2.0 * (e + EPS * (abs(sx) + abs(sy))) / over + 8.0 * EPS * abs(u) + TINY
-
-
-def parameter_round(arc: Round, x: float, y: float, e: float) -> tuple[float, float]:
+def parameter_round(arc: CurveImage, x: float, y: float, e: float) -> tuple[float, float]:
     """The parameter of a point of an arc; for a full circle, if it is not 0 within the error.
 
     Quarter turns follow each other continuously. At their border the slope jumps by a factor of 2: a point
     taken for one of the wrong quarter is off by no more than twice the bound of the right one. A point that
     may be the start is one next to it on the arc, for the other side of the start is not on the arc.
     """
-    ax, ay, radius, bx, by, sense = arc
+    ax, ay, radius, bx, by, sense = arc.x, arc.y, arc.radius, arc.wx, arc.wy, arc.sense
     vx, vy = x - ax, y - ay
     e = e + EPS * (abs(ax) + abs(ay) + abs(vx) + abs(vy))
     along, across = bx * vx + by * vy, (bx * vy - by * vx) * sense

@@ -9,23 +9,27 @@ of single lines are added. One runs along a straight edge and shows that edge en
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Hashable, Iterable, Iterator
+from dataclasses import dataclass, field
 from functools import cached_property, partial
 from math import inf
 
 from flint import arb, fmpq
 
+from exactacq import kernel
 from exactacq.geometry.coordinates import Vector, cross, dot, minus, raw
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.late import late_point
 from exactacq.geometry.points import Point, distance_sq
+from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent, Span
+from exactacq.kernel.family_images import NONE, FamilyImage
+from exactacq.kernel.images import TURNING
+from exactacq.kernel.lines import EPS
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.sensing.line_images import EVERYTHING, NOTHING, EndNames, Extent, Image, LineImages, Span
+from exactacq.sensing.line_images import LineImages, curve_image
 from exactacq.sensing.line_points import Role, Side
-from exactacq.sensing.side_filter import Sides
 from exactacq.sensing.view_families import FamilyClipper, FreeViews, ViewFamily
 from exactacq.visibility.chords import meet
 from exactacq.visibility.features import Feature, features, leaving
@@ -45,7 +49,7 @@ class LineFamily:
     Normals have nothing ``behind`` and do not go back: they start at the contact, which lies on an edge. So
     does the contact of a convex arc; a corner counts as the start of the edge that follows it. ``anchor``
     names what tangents touch, ``names`` the first and the last line (see `line_names`), ``passed`` what they
-    pass.
+    pass; ``keys`` are numbers of these lines, equal only for equal lines.
     """
 
     sector: Sector
@@ -55,54 +59,39 @@ class LineFamily:
     contact: Side
     ahead: Side | None
     goes_back: bool
+    keys: tuple[list[int], list[int]]
     anchor: Anchor | None = None
     names: tuple[Names, Names] = ((), ())
     passed: tuple[Passed, Passed] = ((), ())
-    _image: Image | None = None
-    _is_imaged: bool = False
+    _views: dict[tuple[int, int], list[ViewFamily]] = field(default_factory=dict)
 
     @property
-    def sides(self) -> list[Side]:
-        """What its lines meet or touch."""
-        return [side for side in (self.behind, self.contact, self.ahead) if side is not None]
+    def sides(self) -> tuple[Side | None, Side, Side | None]:
+        """What its lines meet or touch: behind, at the contact, ahead."""
+        return self.behind, self.contact, self.ahead
 
-    def bundles(self) -> tuple[Bundle, ...]:
-        """The families of its free views."""
-        return tuple(Bundle(views.sides, views, self) for views in self.free_views())
+    def image(self, images: LineImages) -> FamilyImage:
+        """The family in floats."""
+        ends = self.low, self.high
+        return images.of(self.sector, ends, self.passed, self.sides, self.goes_back, self.keys)
 
-    @property
-    def end_names(self) -> EndNames:
-        """What its first and last line are called: by what else they touch, or as this family's."""
-        first, last = (
-            [name for name, _ in names] or [(id(self.sector), id(t))]
-            for names, t in zip(self.names, (self.low, self.high), strict=True)
+    def views(self, here: int, there: int, clipper: FamilyClipper) -> tuple[list[ViewFamily], int]:
+        """The views within range between two of its parts, and which of their two sides is *here*.
+
+        They are made when they are first asked for.
+        """
+        pair = min(here, there), max(here, there)
+        if pair not in self._views:
+            self._views[pair] = clipper.families(self._free_views(*pair))
+        return self._views[pair], int(here > there)
+
+    def _free_views(self, first: int, last: int) -> FreeViews:
+        one, other = self.sides[first + 1], self.sides[last + 1]
+        assert one is not None and other is not None, "views lie between edges"
+        anchor = self.anchor if self.goes_back else None
+        return FreeViews(
+            self.sector, self.low, self.high, (one, other), self.names, passed=self.passed, anchor=anchor
         )
-        return first, last
-
-    def image(self, images: LineImages) -> Image | None:
-        """The family in floats; None if these cannot tell where it ends."""
-        if not self._is_imaged:
-            ends = self.low, self.high
-            self._image, self._is_imaged = images.of(self.sector, ends, self.passed, self.sides), True
-        return self._image
-
-    def free_views(self) -> Iterator[FreeViews]:
-        """The families of views between any two of the three."""
-        for one, other in (
-            (self.behind, self.ahead),
-            (self.behind, self.contact),
-            (self.contact, self.ahead),
-        ):
-            if one is not None and other is not None:
-                yield FreeViews(
-                    self.sector,
-                    self.low,
-                    self.high,
-                    (one, other),
-                    self.names,
-                    passed=self.passed,
-                    anchor=self.anchor if self.goes_back else None,
-                )
 
 
 @dataclass(slots=True)
@@ -118,117 +107,67 @@ class SingleLine:
     run: tuple[Point, Point]
     shown: int
     u: Real | None = None
+    _views: list[ViewFamily] | None = None
+    _image: FamilyImage | None = None
 
     @property
     def line(self) -> tuple[Point, Point]:
         """Two points of the line, of the scene's if possible."""
         return self.run if self.run[0] is not self.run[1] else (self.place, self.run[0])
 
-    def extent(self, table: EdgeTable, shown: bool = True) -> Extent:
-        """What is shown of the run from the place at most, or of the place from the run, and from where."""
+    @property
+    def image(self) -> FamilyImage:
+        """The line in floats, as a family of one: by a point and a direction.
+
+        The points are subtracted exactly and then rounded: the difference of their floats could be 0.
+        """
+        if self._image is None:
+            self._image = self._imaged()
+        return self._image
+
+    def _imaged(self) -> FamilyImage:
+        start, end = self.line
+        way = curve_image(Segment(start, end))
+        frame = TURNING, way.x, way.y, way.wx, way.wy, 0.0, 1
+        at = 0.0, 4 * EPS, 0.0, 4 * EPS
+        return FamilyImage(frame, at, (NONE, NONE, NONE), False, True, NONE, ([], []), ([], []))
+
+    def extent(self, table: EdgeTable, here: int = 0) -> Extent:
+        """What is shown at most, and from where: of the run from the place, or if *here* of the place."""
         run = _hull_on(table.curves[self.shown], self.run)
-        if self.edge is None:
-            return Extent(self.shown, run, EVERYTHING, NOTHING)
-        place = _hull_on(table.curves[self.edge], (self.place,))
-        if shown:
-            return Extent(self.shown, run, place, NOTHING)
-        return Extent(self.edge, place, run, NOTHING)
+        edge, shown, source = self.shown, run, EVERYTHING
+        if self.edge is not None:
+            source = _hull_on(table.curves[self.edge], (self.place,))
+            if here:
+                edge, shown, source = self.edge, source, run
+        is_known = not kernel.EXACT_ONLY
+        return Extent(edge, shown, source, NOTHING, [], [], self, here, 1 - here, is_known)
 
-    def families(self, clipper: FamilyClipper) -> list[ViewFamily]:
-        """The views from the place, within range; it lies on an edge."""
-        assert self.edge is not None, "a place in free space is on no edge"
-        u = clipper.rails[self.edge].parameter(self.place) if self.u is None else self.u
-        ends = clipper.along((self.place, u), self.run, self.shown)
-        return [ViewFamily((self.edge, self.shown), *end) for end in ends]
+    def views(self, here: int, there: int, clipper: FamilyClipper) -> tuple[list[ViewFamily], int]:
+        """The views from the place, which lies on an edge, within range; and on which side of them is *here*.
 
-
-class Bundle:
-    """The parts of one family of free views within range, found when they are first asked for."""
-
-    __slots__ = ("_lines", "_single", "_source", "sides")
-
-    def __init__(
-        self,
-        sides: tuple[Side, Side],
-        source: FreeViews | SingleLine | list[ViewFamily],
-        line_family: LineFamily | None = None,
-    ) -> None:
-        self.sides = sides
-        self._source, self._lines = source, line_family
-        self._single = source if isinstance(source, SingleLine) else None
-
-    def families(self, clipper: FamilyClipper) -> list[ViewFamily]:
-        """The families within range."""
-        if isinstance(self._source, FreeViews):
-            self._source = clipper.families(self._source)
-        elif isinstance(self._source, SingleLine):
-            self._source = self._source.families(clipper)
-        return self._source
-
-    def seen(self, side: int, images: LineImages) -> Extent | None:
-        """What is seen from one side of the other, in floats; None if these cannot tell."""
-        if self._lines is None:
-            assert self._single is not None, "a bundle is of a line family or of a single line"
-            return self._single.extent(images.table, shown=side == 0)
-        image = self._lines.image(images)
-        if image is None:
-            return None
-        here, there = self.sides[side], self.sides[1 - side]
-        return images.seen(self._lines.sector, image, here, there, self._lines.end_names)
+        They are made when they are first asked for.
+        """
+        if self._views is None:
+            assert self.edge is not None, "a place in free space is on no edge"
+            u = clipper.rails[self.edge].parameter(self.place) if self.u is None else self.u
+            ends = clipper.along((self.place, u), self.run, self.shown)
+            self._views = [ViewFamily((self.edge, self.shown), *end) for end in ends]
+        return self._views, here
 
 
 class FeatureFamilies:
-    """The line families and single lines of one feature, edge or corner.
+    """The line families and single lines of one feature, edge or corner."""
 
-    *bundles* are those of the single lines.
-    """
+    def __init__(self, line_families: Iterable[LineFamily], single_lines: Iterable[SingleLine] = ()) -> None:
+        self.line_families, self.single_lines = tuple(line_families), tuple(single_lines)
+        self._images: list[FamilyImage] | None = None
 
-    def __init__(
-        self,
-        line_families: tuple[LineFamily, ...],
-        single_lines: tuple[SingleLine, ...],
-        bundles: Iterable[Bundle],
-    ) -> None:
-        self.line_families, self.single_lines = line_families, single_lines
-        self._families_on: dict[int, list[LineFamily | Bundle]] = {}
-        self._on: dict[int, list[tuple[Bundle, int]]] = {}
-        self._of: dict[int, tuple[Bundle, ...]] = {}
-        sources: list[LineFamily | Bundle] = [*line_families, *bundles]
-        for source in sources:
-            for e in {side.edge for side in source.sides if not side.fixed}:
-                self._families_on.setdefault(e, []).append(source)
-
-    def on(self, edge: int) -> Sequence[tuple[Bundle, int]]:
-        """The bundles with a side on an edge, with the number of that side; not if it stays at a corner."""
-        if edge not in self._families_on:
-            return ()
-        if edge not in self._on:
-            self._on[edge] = [
-                (bundle, k)
-                for source in self._families_on[edge]
-                for bundle in self._bundles(source)
-                for k, side in enumerate(bundle.sides)
-                if side.edge == edge and not side.fixed
-            ]
-        return self._on[edge]
-
-    def _bundles(self, source: LineFamily | Bundle) -> tuple[Bundle, ...]:
-        """Those of a line family; made when first asked for, as most are never asked."""
-        if isinstance(source, Bundle):
-            return (source,)
-        if id(source) not in self._of:
-            self._of[id(source)] = source.bundles()
-        return self._of[id(source)]
-
-    @cached_property
-    def sides(self) -> Sides:
-        """The line families as `Sides`."""
-        return Sides([(family.sector, family.low, family.high) for family in self.line_families])
-
-    @cached_property
-    def single_line_sides(self) -> Sides:
-        """The lines of the single lines as `Sides`."""
-        return Sides.of_lines([single.line for single in self.single_lines])
+    def images(self, images: LineImages) -> list[FamilyImage]:
+        """The line families in floats."""
+        if self._images is None:
+            self._images = [line_family.image(images) for line_family in self.line_families]
+        return self._images
 
 
 class FamilySweeper:
@@ -238,7 +177,7 @@ class FamilySweeper:
         self.table, self.range = table, range_
         rails = [Rail(curve) for curve in table.curves]
         self.clipper = FamilyClipper(rails, range_, table.roundoff, table.circles)
-        self._namer = Namer(table)
+        self._namer, self._keys = Namer(table), LineKeys()
 
     @cached_property
     def features(self) -> list[Feature]:
@@ -247,27 +186,15 @@ class FamilySweeper:
 
     def normals(self, e: int) -> FeatureFamilies:
         """The normals of an edge."""
-        return self._family(self._normals(e))
+        return FeatureFamilies(self._normals(e))
 
     def tangents(self, k: int) -> FeatureFamilies:
         """The tangent lines of a feature, and the single lines that join them."""
-        return self._family(*self._tangents(self.features[k]))
+        return FeatureFamilies(*self._tangents(self.features[k]))
 
     def corner_normals(self, k: int) -> FeatureFamilies:
         """The normals of the boundary at a feature that is a corner."""
-        return self._family(self._corner_normals(self.features[k]))
-
-    def _family(
-        self, line_families: Iterable[LineFamily], single_lines: Iterable[SingleLine] = ()
-    ) -> FeatureFamilies:
-        """Line families and single lines, and what the single lines show to edges."""
-        line_families, single_lines = tuple(line_families), tuple(single_lines)
-        bundles: list[Bundle] = []
-        for single in single_lines:
-            if single.edge is not None:
-                sides = Side(single.edge, Role.CONTACT), Side(single.shown, Role.AHEAD)
-                bundles.append(Bundle(sides, single))
-        return FeatureFamilies(line_families, single_lines, bundles)
+        return FeatureFamilies(self._corner_normals(self.features[k]))
 
     # -- the families ------------------------------------------------------------------------------
 
@@ -294,16 +221,17 @@ class FamilySweeper:
             self._namer.names(feature, sector, t, passed)
             for t, passed in zip((cell.low, cell.high), cell.bounds, strict=True)
         )
-        anchor = self._namer.anchor(feature)
+        anchor, names = self._namer.anchor(feature), (first, last)
+        keys = self._keys.of(cell, names)
         return LineFamily(
-            sector, cell.low, cell.high, behind, contact, ahead, True, anchor, (first, last), cell.bounds
+            sector, cell.low, cell.high, behind, contact, ahead, True, keys, anchor, names, cell.bounds
         )
 
     def _normals(self, e: int) -> Iterator[LineFamily]:
         """The views along the normals of an edge."""
         for sector in normals(self.table.curves[e]):
             sweep = pencil(self.table, sector, (e,), self.range.above)
-            yield from (_outward(sector, cell, Side(e, Role.CONTACT)) for cell in sweep.cells)
+            yield from (self._outward(sector, cell, Side(e, Role.CONTACT)) for cell in sweep.cells)
 
     def _corner_normals(self, feature: Feature) -> Iterator[LineFamily]:
         """The views from a convex corner along the normals of the boundary there."""
@@ -314,7 +242,14 @@ class FamilySweeper:
         for sector in corner_sectors(feature.center, (ay, -ax), (by, -bx)):
             sweep = pencil(self.table, sector, feature.edges, self.range.above)
             anchor = self._namer.anchor(feature)
-            yield from (_outward(sector, cell, corner, anchor) for cell in sweep.cells)
+            yield from (self._outward(sector, cell, corner, anchor) for cell in sweep.cells)
+
+    def _outward(self, sector: Sector, cell: Cell, start: Side, anchor: Anchor | None = None) -> LineFamily:
+        ahead = None if cell.ahead is None else Side(cell.ahead, Role.AHEAD)
+        keys = self._keys.of(cell, ((), ()))
+        return LineFamily(
+            sector, cell.low, cell.high, None, start, ahead, False, keys, anchor, passed=cell.bounds
+        )
 
     # -- single lines ------------------------------------------------------------------------------
 
@@ -412,6 +347,30 @@ class FamilySweeper:
                         yield SingleLine(place, None, (near, far), f)
 
 
+class LineKeys:
+    """Numbers for the lines that bound cells: one for each name, and one for each that has no name.
+
+    Neighbouring cells share a bound without a name; their sweeps follow each other.
+    """
+
+    def __init__(self) -> None:
+        self._of: dict[Hashable, int] = {}
+        self._count = 0
+        self._last: tuple[Real, int] | None = None
+
+    def of(self, cell: Cell, names: tuple[Names, Names]) -> tuple[list[int], list[int]]:
+        """The keys of the first and of the last line of a cell."""
+        return self._numbers(cell.low, names[0]), self._numbers(cell.high, names[1])
+
+    def _numbers(self, t: Real, names: Names) -> list[int]:
+        if names:
+            return [self._of.setdefault(name, len(self._of)) for name, _ in names]
+        if self._last is None or self._last[0] is not t:
+            self._count -= 1
+            self._last = t, self._count
+        return [self._last[1]]
+
+
 def _hull_on(curve: Curve, points: Collection[Point]) -> Span:
     """Bounds of the parameters of some points of a curve, in extended numbers: finite ones are not told."""
     if isinstance(curve, Arc) and curve.full:
@@ -433,11 +392,6 @@ def normals(curve: Curve) -> Iterator[Sector]:
         first, last = last, first
     for base, low, high in quarters(first, last):
         yield Spokes(center, base, low, high, radius_sq=curve.radius_sq, outward=curve.ccw)
-
-
-def _outward(sector: Sector, cell: Cell, start: Side, anchor: Anchor | None = None) -> LineFamily:
-    ahead = None if cell.ahead is None else Side(cell.ahead, Role.AHEAD)
-    return LineFamily(sector, cell.low, cell.high, None, start, ahead, False, anchor, passed=cell.bounds)
 
 
 def _continues(a: Vector, b: Vector) -> bool:

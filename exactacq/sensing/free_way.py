@@ -8,49 +8,47 @@ of the piece; each part then crosses the piece in all its lines or in none.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property, cmp_to_key
-from itertools import compress, pairwise
+from itertools import pairwise
 from math import hypot, inf
 from typing import Any, TypeAlias
 
 import numpy as np
 from flint import fmpq
 
+from exactacq import kernel
+from exactacq.geometry.box_index import box
 from exactacq.geometry.coordinates import dot, minus, raw
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.interval_union import Cover
 from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
-from exactacq.kernel import lines
-from exactacq.kernel.images import ROLLING, SPOKES
+from exactacq.kernel.extents import EVERYTHING, Extent
+from exactacq.kernel.family_images import FamilyImage
+from exactacq.kernel.lines import EPS, TINY, meets_straight
+from exactacq.kernel.ways import Crossing, WayImage, crossings, extents_from_way
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.complex_edges import FeatureFamilies, LineFamily, SingleLine
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.legs import Leg
-from exactacq.sensing.line_images import EVERYTHING, SURE, EdgePlace, Extent, Image, bounds, sight
+from exactacq.sensing.line_images import bounds, curve_image, rough
 from exactacq.sensing.line_points import Role, Side
-from exactacq.sensing.side_filter import Sides, rough
 from exactacq.sensing.view_families import End, FreeViews, ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.visibility.chords import meet
-from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes, Turning
+from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes
 from exactacq.visibility.line_names import Names
-from exactacq.visibility.rotational_sweep import Passed, pencil
+from exactacq.visibility.rotational_sweep import pencil
 
 Cut: TypeAlias = "tuple[Real, Pin | None, Names]"
 """A parameter where a line family is cut, the point of the way there, and the names of the line."""
+Choose: TypeAlias = "Callable[[list[Extent]], Iterable[Extent]]"
+"""Chooses those of families that matter (see `exactacq.sensing.family_filter`)."""
 
-Crossing: TypeAlias = "tuple[LineFamily, bool, frozenset[int]]"
-"""A line family that may cross the way, True if all its lines do, and the edges that are to be shown."""
-Matter: TypeAlias = "Callable[[Sequence[Extent | None]], list[bool]]"
-"""Tells which families matter (see `FamilyFilter.matter`)."""
-
-STEPS = 24
-"""How often an interval of lines is halved to find one that crosses the way."""
 BITS = 256
 """Precision of the balls that propose ties."""
 
@@ -73,170 +71,98 @@ class WayViews:
         self.rail = rail = leg.rail
         self.piece = Segment(leg.span.start, leg.span.end)
         self.line = rail.curve
-        self.places = [rough(p) for p in (leg.span.start, leg.span.end)]
+        self.places = [(rough(p.x), rough(p.y)) for p in (leg.span.start, leg.span.end)]
         self.clipper = complex_.clipper.with_way(rail, leg.touches)
         self.way = len(self.clipper.rails) - 1
         self.slack = 256 * self.clipper.roundoff
-        start, along = self.line.start, self.line.end - self.line.start
-        self.image = (*rough(start), *rough(along))
-        self.ends = [leg.span.start.rational, leg.span.end.rational]
-        self.low, self.high = (bounds(u, None) for u in (leg.span.low, leg.span.high))
         self._through: dict[int, tuple[Sector, list[tuple[Pin, list[Real]]]]] = {}
 
-    def families(self, matter: Matter | None = None) -> Iterator[ViewFamily]:
-        """All families at wanted edges whose first side lies on the way, or those that *matter*."""
-        found, single_lines = self.crossing(), self._single_lines()
-        if matter is not None:
-            found, single_lines = self._mattering(found, single_lines, matter)
-        for line_family, certain, wanted in found:
-            yield from self.across(line_family, certain, wanted)
+    def families(self, choose: Choose | None = None) -> Iterator[ViewFamily]:
+        """All families at wanted edges whose first side lies on the way, or those that are chosen."""
+        single_lines = self._single_lines()
+        if choose is None:
+            wanted = dict.fromkeys(range(len(self.crossing)), self.wanted)
+        else:
+            wanted, single_lines = self._chosen(single_lines, choose)
+        for n, edges in wanted.items():
+            yield from self.across(*self.crossing[n], edges)
         for single in single_lines:
             yield from self._along(single)
         yield from self._normals()
         yield from self._own_line()
 
+    def _chosen(
+        self, single_lines: list[SingleLine], choose: Choose
+    ) -> tuple[dict[int, frozenset[int]], list[SingleLine]]:
+        """The line families that matter, by number with the edges for which they do, and single lines."""
+        extents = [*self.extents(), *map(self._extent, single_lines)]
+        lines: list[SingleLine] = []
+        wanted: dict[int, frozenset[int]] = {}
+        for one in choose(extents):
+            if isinstance(one.origin, SingleLine):
+                lines.append(one.origin)
+            elif isinstance(one.origin, int):
+                wanted[one.origin] = wanted.get(one.origin, frozenset()) | {one.edge}
+        return wanted, lines
+
+    @cached_property
+    def crossing(self) -> list[tuple[LineFamily, bool]]:
+        """The line families that may cross the way, and whether all their lines do."""
+        line_families = [line_family for feature in self._near for line_family in feature.line_families]
+        return [(line_families[k], certain) for k, certain in self._found]
+
+    def extents(self) -> list[Extent]:
+        """What the line families in `crossing` show, in floats; the origins are their places there."""
+        images = self.complex.images
+        wanted = set(self.wanted)
+        return extents_from_way(self._families, self._found, wanted, self._image, images.curves, images.reach)
+
     @cached_property
     def _near(self) -> list[FeatureFamilies]:
+        x, y, right, top = box(self.piece)
+        return list(self.complex.near(np.array((x, y, right, top)), self.wanted))
+
+    @cached_property
+    def _families(self) -> list[FamilyImage]:
+        return [image for feature in self._near for image in feature.images(self.complex.images)]
+
+    @cached_property
+    def _found(self) -> list[Crossing]:
+        return crossings(self._families, self._image)
+
+    @cached_property
+    def _image(self) -> WayImage:
         (ax, ay), (bx, by) = self.places
-        box = np.array((min(ax, bx), min(ay, by), max(ax, bx), max(ay, by)))
-        return list(self.complex.near(box, self.wanted))
+        error = inf if kernel.EXACT_ONLY else EPS * (abs(ax) + abs(ay) + abs(bx) + abs(by)) + TINY
+        starts, stops = (self._vertices_at(end) for end in (self.span.start, self.span.end))
+        low, high = bounds(self.span.low, None), bounds(self.span.high, None)
+        return WayImage(curve_image(self.line), low, high, (ax, ay, bx, by, error), starts, stops, self.slack)
 
-    def crossing(self) -> list[Crossing]:
-        """The line families that may cross the way."""
-        line_families = [line_family for feature in self._near for line_family in feature.line_families]
-        crossed = self._crossed(Sides.joined([feature.sides for feature in self._near]))
-        return [(line_families[k], certain, self.wanted) for k, certain in crossed]
-
-    def _crossed(self, sides: Sides) -> Iterator[tuple[int, bool]]:
-        """The line families that do not leave the whole way on one side; True if all their lines cross it."""
-        one, other = (sides.of(x, y, self.slack) for x, y in self.places)
-        for k in np.flatnonzero((one != other) | (one == 0)).tolist():
-            yield k, bool(one[k] and other[k])
+    def _vertices_at(self, point: Point) -> list[int]:
+        """The vertices at a point."""
+        if point.rational is None:
+            return []
+        x, y = point.xy
+        table = self.complex.table
+        near = table.near((x, y), (x, y), 0.0).tolist()
+        numbers = {number for e in near for number in (e, int(table.next[e]))}
+        return [number for number in numbers if table.vertices[number] == point.rational]
 
     def _single_lines(self) -> list[SingleLine]:
         """The single lines that may cross the way and show something that is wanted."""
-        single_lines = [single for feature in self._near for single in feature.single_lines]
-        crossed = self._crossed(Sides.joined([feature.single_line_sides for feature in self._near]))
-        return [single_lines[k] for k, _ in crossed if single_lines[k].shown in self.wanted]
-
-    def _mattering(
-        self, found: list[Crossing], single_lines: list[SingleLine], matter: Matter
-    ) -> tuple[list[Crossing], list[SingleLine]]:
-        """The line families that matter, each with the edges for which it does, and the single lines."""
-        asked: list[tuple[int, Side]] = []
-        seen: list[Extent | None] = []
-        for n, (line_family, _, _) in enumerate(found):
-            for side, one in self.extents(line_family):
-                asked.append((n, side))
-                seen.append(one)
-        chosen = matter([*seen, *map(self._extent, single_lines)])
-        edges: dict[int, set[int]] = {}
-        for n, side in compress(asked, chosen):
-            edges.setdefault(n, set()).add(side.edge)
-        families = [(*found[n][:2], frozenset(wanted)) for n, wanted in edges.items()]
-        return families, list(compress(single_lines, chosen[len(seen) :]))
+        lines = [line for feature in self._near for line in feature.single_lines if line.shown in self.wanted]
+        return [lines[k] for k, _ in crossings([line.image for line in lines], self._image)]
 
     def _extent(self, single: SingleLine) -> Extent:
         """What a single line shows at most, and where it crosses the way."""
-        start, end = single.line
-        (x, y), (dx, dy) = rough(start), rough(end - start)
-        error = 4 * lines.EPS
-        line = x, y, dx, dy, error * (abs(x) + abs(y)), error * (abs(dx) + abs(dy))
-        _, _, u, ue, *_ = lines.meets_straight(line, self.image)
-        source = (u - ue, u + ue) if ue < inf else EVERYTHING
-        return single.extent(self.complex.table)._replace(source=source)
-
-    def extents(self, line_family: LineFamily) -> Iterator[tuple[Side, Extent | None]]:
-        """The sides that a line family may show, and what floats tell of them."""
-        if type(line_family.sector) is Turning and line_family.sector.center in self.ends:
-            # All lines pass an end of the way and meet its line nowhere else: the view from there tells.
-            return
-        images, wanted = self.complex.images, [s for s in line_family.sides if s.edge in self.wanted]
-        image = line_family.image(images) if wanted else None
-        source = None if image is None else self._source(line_family, image)
-        if image is None or source is None:
-            yield from ((side, None) for side in wanted)
-            return
-        role, spots = source
-        if role is None:
-            return
-        for side in self._shown(line_family, role, self.wanted):
-            shown = image.spots[side.role]
-            slack = images.slack(line_family.sector, side, shown) + 2 * (spots[0].error + spots[1].error)
-            names = line_family.end_names
-            yield side, sight(self.complex.range, side.edge, spots, shown, slack, names)
-
-    def _source(
-        self, line_family: LineFamily, image: Image
-    ) -> tuple[Role | None, tuple[EdgePlace, EdgePlace]] | None:
-        """Where the lines of a family cross the way's line, and on which side of their contact.
-
-        On none (None) if a wall is before it.
-        None if floats cannot tell that the crossing moves one way from the first line to the last. It does if
-        no line between is parallel to the way and the contact stays on one side of it.
-        """
-        (_, _, wx, wy), one, other = self.image, image.first, image.last
-        a, b = (lines.meets_straight(line, self.image) for line in (one, other))
-        if inf in (a[3], b[3]) or (wx * one[3] - wy * one[2] > 0) != (wx * other[3] - wy * other[2] > 0):
-            return None
-        if min(a[0] - a[1], b[0] - b[1]) > 0:
-            role, wall = Role.AHEAD, line_family.ahead
-        elif max(a[0] + a[1], b[0] + b[1]) < 0:
-            role, wall = Role.BEHIND, line_family.behind
-        else:
-            return None
-        kind, cx, cy, ex, ey, radius, sense = image.frame
-        if kind in (ROLLING, SPOKES):
-            radius = hypot(ex, ey) if kind == ROLLING else radius
-            height = abs((cx - self.image[0]) * wy - (cy - self.image[1]) * wx) / hypot(wx, wy)
-            if sense < 0 or height < radius * (1 + SURE) + self.slack:
-                return None
-        spots = self._spot(a, line_family.passed[0]), self._spot(b, line_family.passed[1])
-        if wall is None:
-            return (role if line_family.goes_back or role is Role.AHEAD else None), spots
-        if max(spot.high for spot in spots) < self.low[0] or min(spot.low for spot in spots) > self.high[1]:
-            return None, spots
-        free = self._is_before(image, (a[2], b[2]), role, wall.edge)
-        return None if free is None else (role if free else None, spots)
-
-    def _is_before(self, image: Image, ends: tuple[float, float], role: Role, wall: int) -> bool | None:
-        """Whether lines of a family that cross the way do so before they meet a wall; None if that is open.
-
-        The way does not cross the wall, so one line tells: it is looked for between the first and the last,
-        which cross the way's line at *ends*.
-        """
-        curve = self.complex.images.curve(wall)
-        low, high = image.parameters
-        a, b = ends
-        middle = (self.low[0] + self.high[1]) / 2
-        for _ in range(STEPS):
-            t = (low + high) / 2
-            line = lines.line_at(image.frame, t, 0.0)
-            way = lines.meets_straight(line, self.image)
-            far = lines.meets(line, curve, int(role))
-            u, error = way[2:4]
-            if self.low[1] < u - error and u + error < self.high[0] and far[1] < inf:
-                gap = (far[0] - way[0]) * role
-                return gap > 0 if abs(gap) > far[1] + way[1] else None
-            if (u < middle) == (a < b):
-                low = t
-            else:
-                high = t
-        return None
-
-    def _spot(self, met: lines.Meeting, passed: Passed) -> EdgePlace:
-        """Where a line crosses the way's line: at an infinite parameter if it passes an end of the way."""
-        _, _, u, error, x, y, e = met
-        for number, touching, _ in passed:
-            vertex = self.complex.table.vertices[number]
-            if not touching and vertex in self.ends:
-                end = -inf if vertex == self.ends[0] else inf
-                return EdgePlace(end, end, x, y, e)
-        return EdgePlace(u - error, u + error, x, y, e)
+        one = single.extent(self.complex.table)
+        _, _, u, error, *_ = meets_straight(single.image.first, self._image.line)
+        one.source = (u - error, u + error) if error < inf else EVERYTHING
+        return one
 
     def across(self, line_family: LineFamily, certain: bool, wanted: frozenset[int]) -> Iterator[ViewFamily]:
         """Views along the lines of a family; *certain* if each line passes between the ends of the way."""
-        if not any(side.edge in wanted for side in line_family.sides):
+        if not any(side is not None and side.edge in wanted for side in line_family.sides):
             return
         if not line_family.sector.round and line_family.anchor in self.touches:
             # Every line through a corner that the way touches crosses it there and shows nothing else.
@@ -430,7 +356,7 @@ class WayViews:
         """The corners and the tangent points of wanted edges on the way's line, named or not."""
         table, start = self.complex.table, self.line.start
         along = self.line.end - start
-        (x, y), (dx, dy) = rough(start), rough(along)
+        (x, y), (dx, dy) = start.xy, along.xy
         slack = self.slack * hypot(dx, dy)
         for e in self.wanted:
             left, bottom, right, top = table.boxes[e]
@@ -452,7 +378,7 @@ class WayViews:
         """What the way's line meets beyond an end, as far as it is seen from there."""
         table = self.complex.table
         own = _edges_near(table, end)
-        (x, y), (dx, dy) = rough(end), rough(onward)
+        (x, y), (dx, dy) = end.xy, onward.xy
         size = hypot(dx, dy)
         for e, intervals in self.view(end, None).spans.items():
             curve = table.curves[e]

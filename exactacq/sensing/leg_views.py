@@ -10,14 +10,14 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import chain, compress
+from itertools import chain
 from typing import TypeAlias
 
-from exactacq import kernel
 from exactacq.errors import Undecided
 from exactacq.geometry.interval_union import EMPTY, Cover, Interval
 from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
+from exactacq.kernel.extents import Span
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
 from exactacq.sensing.cut_ends import CutEnd
@@ -25,7 +25,6 @@ from exactacq.sensing.end_names import Seen
 from exactacq.sensing.family_filter import FamilyFilter
 from exactacq.sensing.free_way import WayViews
 from exactacq.sensing.legs import Leg
-from exactacq.sensing.line_images import Span
 from exactacq.sensing.targets import Targets
 from exactacq.sensing.view_families import End, FamilyClipper, ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
@@ -143,25 +142,21 @@ class Shares:
     def _families(self, known: Mapping[int, Sequence[Span]] | None) -> Iterator[tuple[ViewFamily, int]]:
         """The families at the leg; only those that matter if it is told what is *known*."""
         complex_, leg, obstacles = self.complex, self.leg, self.obstacles
-        x, y, right, top = leg.box
-        near = complex_.table.near((x, y), (right, top), complex_.range.above).tolist()
-        wanted = frozenset(near).intersection(chain.from_iterable(self.targets.edges[k] for k in obstacles))
-        matter = None
-        if known is not None and not kernel.EXACT_ONLY:
-            along = [k for k in obstacles if self._is_along(k)]
-            chooser = FamilyFilter(leg, self.targets, obstacles, along, known)
-            matter, self.in_sight = chooser.matter, chooser.in_sight
+        along = [k for k in obstacles if self._is_along(k)]
+        chooser = None if known is None else FamilyFilter(leg, self.targets, obstacles, along, known)
+        choose = None if chooser is None else chooser.choose
         if leg.edge is None:
-            crossing = WayViews(complex_, leg, wanted, self.view)
-            yield from ((family, 0) for family in crossing.families(matter))
-            return
-        bundles = list(complex_.on(leg.edge, wanted))
-        if matter is not None:
-            chosen = matter([bundle.seen(side, complex_.images) for bundle, side in bundles])
-            bundles = list(compress(bundles, chosen))
-        for bundle, side in bundles:
-            for family in bundle.families(complex_.clipper):
-                yield family, side
+            x, y, right, top = leg.box
+            near = complex_.table.near((x, y), (right, top), complex_.range.above).tolist()
+            edges = chain.from_iterable(self.targets.edges[k] for k in obstacles)
+            crossing = WayViews(complex_, leg, frozenset(near).intersection(edges), self.view)
+            yield from ((family, 0) for family in crossing.families(choose))
+        else:
+            extents = complex_.extents(leg.edge)
+            for one in extents if choose is None else choose(extents):
+                yield from complex_.views(one)
+        if chooser is not None:
+            self.in_sight = chooser.in_sight
 
     @cached_property
     def _clipper(self) -> FamilyClipper:

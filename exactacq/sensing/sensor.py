@@ -19,6 +19,7 @@ from exactacq.geometry.curves import Arc
 from exactacq.geometry.intersections import contacts
 from exactacq.geometry.interval_union import EMPTY, Cover, Interval
 from exactacq.geometry.points import Point
+from exactacq.kernel.extents import Span
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
@@ -27,7 +28,6 @@ from exactacq.sensing.event import SENSED, EventKind, Reason
 from exactacq.sensing.family_filter import KnownSpans, inside
 from exactacq.sensing.leg_views import Covers, Shares, add
 from exactacq.sensing.legs import Leg
-from exactacq.sensing.line_images import Span
 from exactacq.sensing.targets import Targets
 from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.visibility.sensor_range import Range

@@ -7,6 +7,7 @@ that the robot can reach counts, and one edge may belong to several components.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cached_property
 from typing import NamedTuple
 
 from exactacq.geometry.curve_parameter import Rail
@@ -52,6 +53,12 @@ class Targets:
         for k, targets in enumerate(self.of):
             for target in targets:
                 self._on.setdefault(target.edge, []).append((k, target))
+
+    @cached_property
+    def owners(self) -> list[list[tuple[int, bool]]]:
+        """For every edge the obstacles that it counts for, and whether all of it does."""
+        last = max(self._on, default=-1)
+        return [[(k, target.whole) for k, target in self.on(e)] for e in range(last + 1)]
 
     @classmethod
     def whole(cls, table: EdgeTable, rails: Sequence[Rail]) -> Targets:

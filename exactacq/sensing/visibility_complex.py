@@ -14,14 +14,20 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
+from exactacq.kernel.extents import Extent, extents_from
+from exactacq.kernel.family_images import FamilyImage
 from exactacq.scene.edge_table import EdgeTable, Floats, Ints
-from exactacq.sensing.complex_edges import Bundle, FamilySweeper, FeatureFamilies
+from exactacq.sensing.complex_edges import FamilySweeper, FeatureFamilies, LineFamily, SingleLine
 from exactacq.sensing.line_images import LineImages
+from exactacq.sensing.view_families import ViewFamily
 from exactacq.visibility.sensor_range import Range
 
 KEPT = 1024
 """Families that are remembered, the last used of each kind: enough for a wide neighbourhood, and a bound of
 the memory."""
+
+EDGES_KEPT = 256
+"""Edges for which it is remembered what is seen from them."""
 
 
 class VisibilityComplex:
@@ -35,6 +41,7 @@ class VisibilityComplex:
         self._normals_of = lru_cache(KEPT)(sweeper.normals)
         self._tangents_of = lru_cache(KEPT)(sweeper.tangents)
         self._corner_normals_of = lru_cache(KEPT)(sweeper.corner_normals)
+        self._extents_from = lru_cache(EDGES_KEPT)(self._from)
 
     @cached_property
     def _spots(self) -> Floats:
@@ -53,38 +60,65 @@ class VisibilityComplex:
             numbers[feature.edges[-1], int(not feature.round)] = k
         return numbers
 
-    def on(self, edge: int, wanted: frozenset[int]) -> Iterator[tuple[Bundle, int]]:
-        """The bundles between an edge and wanted ones, with the number of its side.
+    def extents(self, edge: int) -> list[Extent]:
+        """What the families at an edge show of others from it, in floats.
 
-        Not those that start at a corner of it: what a corner sees is a view.
+        Not what starts at a corner of the edge: what a corner sees is a view. The last are kept: a robot
+        comes back to an edge.
         """
-        for feature in self.near(self.table.boxes[edge], wanted, edge):
-            for bundle, side in feature.on(edge):
-                if bundle.sides[1 - side].edge in wanted:
-                    yield bundle, side
+        return self._extents_from(edge)
 
-    def near(self, box: Floats, wanted: frozenset[int], own: int | None = None) -> Iterator[FeatureFamilies]:
-        """The families that may show wanted edges to places in a box, which lies on edge *own* if given.
+    def views(self, one: Extent) -> Iterator[tuple[ViewFamily, int]]:
+        """The families that `extents` tells of, and which of their sides lies on the edge."""
+        origin = one.origin
+        assert isinstance(origin, LineFamily | SingleLine), "families come from lines"
+        families, side = origin.views(one.here, one.there, self.clipper)
+        return ((family, side) for family in families)
 
-        A tangent's contact lies between the two ends of a view, so both are within reach of it together.
+    def _from(self, edge: int) -> list[Extent]:
+        families: list[FamilyImage] = []
+        origins: list[object] = []
+        single_lines: list[Extent] = []
+        for feature in self.near(self.table.boxes[edge], own=edge):
+            families += feature.images(self.images)
+            origins += feature.line_families
+            for single in feature.single_lines:
+                if single.edge == edge:
+                    single_lines.append(single.extent(self.table))
+                if single.edge is not None and single.shown == edge:
+                    single_lines.append(single.extent(self.table, here=1))
+        images = self.images
+        return extents_from(edge, families, origins, images.curves, images.reach) + single_lines
+
+    def near(
+        self, box: Floats, wanted: frozenset[int] | None = None, own: int | None = None
+    ) -> Iterator[FeatureFamilies]:
+        """The families that may show edges, the *wanted* ones if given, to places in a box.
+
+        The box lies on edge *own* if that is given. A tangent's contact lies between the two ends of a view,
+        so both are within reach of it together.
         """
-        edges = np.array(sorted(wanted), dtype=np.intp)
+        left, bottom, right, top = box.tolist()
         reach = self.range.above + 8 * self.table.roundoff
+        around = self.table.near((left, bottom), (right, top), self.range.above)
+        edges = around if wanted is None else np.array(sorted(wanted), dtype=np.intp)
         edges = edges[_gaps(self.table.boxes[edges], box) <= reach]
         for e in edges.tolist():
             if e != own:
                 yield self._normals_of(e)
         if own is not None:
             yield self._normals_of(own)
-        left, bottom, right, top = box.tolist()
-        close = self._features_at[self.table.near((left, bottom), (right, top), self.range.above)].ravel()
+        close = self._features_at[around].ravel()
         close = close[close >= 0]
         here = _gaps(self._spots[close], box)
         close, here = close[here <= reach], here[here <= reach]
-        there = _gaps(self.table.boxes[edges], self._spots[close, None]).min(axis=1, initial=np.inf)
-        for k in close[here + there <= reach].tolist():
+        if wanted is not None:
+            there = _gaps(self.table.boxes[edges], self._spots[close, None]).min(axis=1, initial=np.inf)
+            close = close[here + there <= reach]
+        for k in close.tolist():
             yield self._tangents_of(k)
-            if not self.features[k].round and self.features[k].edges[1] in wanted:
+            feature = self.features[k]
+            if not feature.round and (wanted is None or feature.edges[1] in wanted):
                 yield self._corner_normals_of(k)
 
 

@@ -1,0 +1,151 @@
+"""Which of the families at a leg matter: most show what is known, from where more is seen anyway.
+
+A family matters if it may show anything new, or if where it is seen from may decide when an obstacle comes
+into sight or goes out of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from math import inf
+from typing import final
+
+from exactacq.kernel.extents import NOTHING, Extent, Span
+
+Group = tuple[int, Span, Span]
+"""An obstacle, and of intervals that are connected, from which it is surely seen, the one that begins first
+and the one that ends last."""
+Known = Mapping[int, Sequence[Span]]
+"""What is known of edges, by their numbers, rounded inward."""
+
+
+@final
+class LegSpan:
+    """A leg, by bounds of the parameters of both its ends."""
+
+    def __init__(self, low: Span, high: Span) -> None:
+        self.low, self.high = low, high
+
+    def outer(self, source: Span) -> Span:
+        """What of an interval may lie in the leg; the ends of the leg are infinite."""
+        low, high = source
+        if high < self.low[0] or low > self.high[1]:
+            return NOTHING
+        if high == -inf or low == inf:
+            return source
+        return -inf if low <= self.low[1] else low, inf if high >= self.high[0] else high
+
+    def inner(self, surely: Span) -> Span:
+        """What of an interval, rounded inward, surely lies in the leg; ends as above."""
+        first, last = surely
+        if first > last or last < self.low[1] or first > self.high[0]:
+            return NOTHING
+        return -inf if first <= self.low[0] else first, inf if last >= self.high[1] else last
+
+
+@final
+class Source:
+    """Where the family of that number is seen from on a leg."""
+
+    def __init__(self, number: int, outer: Span, surely: Span, one: Extent) -> None:
+        self.number, self.outer, self.surely, self.extent = number, outer, surely, one
+
+
+def mattering(
+    extents: list[Extent],
+    span: LegSpan,
+    owners: list[list[tuple[int, bool]]],
+    obstacles: set[int],
+    along: set[int],
+    known: Known,
+) -> tuple[list[int], list[Group]]:
+    """Which of some families matter on a leg, by their numbers, and from where obstacles surely are seen.
+
+    *owners* are the obstacles that edges count for, and whether all of the edge does. The leg lies on the
+    boundaries of the obstacles *along*, which are in sight anyway.
+    """
+    chosen = [False] * len(extents)
+    sources: dict[int, list[Source]] = {}
+    for n in range(len(extents)):
+        one = extents[n]
+        concerned = [owner for owner in owners[one.edge] if owner[0] in obstacles]
+        if not concerned:
+            continue
+        if not one.is_known:
+            chosen[n] = True
+            continue
+        outer = span.outer(one.source)
+        if outer[0] > outer[1]:
+            continue
+        chosen[n] = not _is_known(one, known)
+        # What is seen from an end of the leg alone is part of the view from there.
+        if not (outer[0] < inf and outer[1] > -inf):
+            continue
+        surely = span.inner(one.surely)
+        for k, whole in concerned:
+            if k not in along:
+                if k not in sources:
+                    sources[k] = []
+                sources[k].append(Source(n, outer, surely if whole else NOTHING, one))
+    groups: list[Group] = []
+    for k, some in sources.items():
+        spans: list[Span] = []
+        for group in _joined([source for source in some if source.surely[0] <= source.surely[1]]):
+            last = group[0].surely
+            for source in group:
+                if source.surely[1] > last[1]:
+                    last = source.surely
+            spans.append((group[0].surely[0], last[1]))
+            groups.append((k, group[0].surely, last))
+        for source in some:
+            low, high = source.outer
+            if not any(a <= low and high <= b for a, b in spans):
+                chosen[source.number] = True
+    return [n for n in range(len(extents)) if chosen[n]], groups
+
+
+def _is_known(one: Extent, known: Known) -> bool:
+    """Whether all that a family shows is known."""
+    low, high = one.shown
+    spans = known.get(one.edge)
+    return spans is not None and any(a <= low and high <= b for a, b in spans)
+
+
+def _joined(sources: list[Source]) -> list[list[Source]]:
+    """Intervals in groups that are connected, since they overlap or have an end in common.
+
+    Each group is in the order of its lower ends.
+    """
+    count = len(sources)
+    order = sorted([(sources[n].surely, n) for n in range(count)])
+    leader = list(range(count))
+    at: dict[int, int] = {}
+    reached, last = -inf, -1
+    for (low, high), n in order:
+        if last >= 0 and low <= reached:
+            _unite(leader, last, n)
+        if high >= reached:
+            reached, last = high, n
+        for key in sources[n].extent.first_keys + sources[n].extent.last_keys:
+            if key in at:
+                _unite(leader, at[key], n)
+            else:
+                at[key] = n
+    groups: dict[int, list[Source]] = {}
+    for _, n in order:
+        first = _leader(leader, n)
+        if first not in groups:
+            groups[first] = []
+        groups[first].append(sources[n])
+    return list(groups.values())
+
+
+def _leader(leader: list[int], n: int) -> int:
+    while leader[n] != n:
+        leader[n] = leader[leader[n]]
+        n = leader[n]
+    return n
+
+
+def _unite(leader: list[int], a: int, b: int) -> None:
+    leader[_leader(leader, b)] = _leader(leader, a)

@@ -1,0 +1,165 @@
+"""Line families in floats: their first and last lines and where these meet the family's edges, with bounds.
+
+Parameters along an edge are bounded in extended numbers: its start, where a line is known to pass it, is
+minus infinity and its end infinity, so that nothing is to be compared with them.
+"""
+
+from __future__ import annotations
+
+from math import inf
+from typing import Final, final
+
+from exactacq.kernel.curve_images import CurveImage
+from exactacq.kernel.images import ROLLING, SLIDING
+from exactacq.kernel.lines import EPS, TINY, Frame, Line, line_at, meets, parameter_round
+
+BEHIND: Final = -1
+CONTACT: Final = 0
+AHEAD: Final = 1
+NONE: Final = -1
+"""No edge, or no vertex."""
+ROUNDED: Final = 0.3
+"""More than 1 - 1/sqrt(2): see `FamilyImage.side`."""
+
+EdgePlace = tuple[float, float, float, float, float]
+"""Where a line meets an edge: bounds of the parameter, the point, and the error of its coordinates."""
+EdgePlaces = tuple[EdgePlace, EdgePlace]
+"""Where the first and the last line of a family meet an edge."""
+NOWHERE: EdgePlace = (0.0, 0.0, 0.0, 0.0, inf)
+
+
+@final
+class FamilyImage:
+    """A line family: a cell of a pencil, and the edges that its lines meet behind and ahead of the contact.
+
+    ``edges`` are those behind, at the contact and ahead, `NONE` where there is none. The contact is
+    ``fixed`` at a corner. ``corner`` is the vertex about which lines turn, or `NONE`. Of the first and of the
+    last line are known: the vertices that they pass, and their ``keys``, numbers that are equal only for
+    equal lines. Unless the image ``is_known`` floats cannot tell where the lines meet the edges.
+    """
+
+    def __init__(
+        self,
+        frame: Frame,
+        ends: tuple[float, float, float, float],
+        edges: tuple[int, int, int],
+        fixed: bool,
+        goes_back: bool,
+        corner: int,
+        corners: tuple[list[int], list[int]],
+        keys: tuple[list[int], list[int]],
+    ) -> None:
+        """*ends* are the parameters of both lines, each with its error."""
+        self.frame, self.edges = frame, edges
+        self.fixed, self.goes_back, self.corner = fixed, goes_back, corner
+        self.first_corners, self.last_corners = corners
+        self.first_keys, self.last_keys = keys
+        low, low_error, high, high_error = ends
+        self.low, self.high = low, high
+        self.first: Line = line_at(frame, low, low_error)
+        self.last: Line = line_at(frame, high, high_error)
+        self.fraction = (low - low_error, low + low_error, high - high_error, high + high_error)
+        self.behind: EdgePlaces = (NOWHERE, NOWHERE)
+        self.contact: EdgePlaces = (NOWHERE, NOWHERE)
+        self.ahead: EdgePlaces = (NOWHERE, NOWHERE)
+        self.is_known = False
+
+    def edge(self, role: int) -> int:
+        """The edge behind (-1), at the contact (0) or ahead (1)."""
+        return self.edges[0] if role < 0 else self.edges[2] if role > 0 else self.edges[1]
+
+    def places(self, role: int) -> EdgePlaces:
+        """Where the first and the last line meet that edge."""
+        return self.behind if role < 0 else self.ahead if role > 0 else self.contact
+
+    def move(self, role: int, places: EdgePlaces) -> None:
+        """Tell where the first and the last line meet that edge."""
+        if role < 0:
+            self.behind = places
+        elif role > 0:
+            self.ahead = places
+        else:
+            self.contact = places
+
+    def side(self, x: float, y: float, error: float) -> int:
+        """1 or -1 if a place is certainly left or right of all lines of the family, else 0.
+
+        *error* bounds that of its coordinates. The height of a place above a line, times the length of the
+        direction, is linear in the parameter where the contact is fixed, slides, or lies on the spokes of
+        an arc: there both ends decide. Of lines that roll on a circle of radius r it is r (w + r), with w the
+        height above the parallel through the centre, a sum a w_1 + b w_2 of those at the ends with a, b >= 0
+        and 1 <= a + b <= sqrt(2), as lines turn by a quarter at most. So it is negative if it is at both ends
+        (w_1, w_2 < -r), and positive if at both w + r > (1 - 1/sqrt(2)) r.
+        """
+        least = 0.0
+        if self.frame[0] == ROLLING:
+            least = ROUNDED * (self.frame[3] * self.frame[3] + self.frame[4] * self.frame[4])
+        one = _height(self.first, x, y, error, least)
+        return one if one == _height(self.last, x, y, error, least) else 0
+
+
+def locate(image: FamilyImage, curves: list[CurveImage], following: list[int]) -> None:
+    """Find where the first and the last line of an image meet its edges."""
+    for role in (BEHIND, CONTACT, AHEAD):
+        e = image.edge(role)
+        if e < 0:
+            continue
+        curve, after = curves[e], following[e]
+        low, high = image.fraction[:2], image.fraction[2:]
+        one = _place(image, role, curve, image.first, low, _corner(e, after, image.first_corners))
+        other = _place(image, role, curve, image.last, high, _corner(e, after, image.last_corners))
+        if not (one[4] < inf and other[4] < inf):
+            return
+        image.move(role, (one, other))
+    image.is_known = True
+
+
+def _place(
+    image: FamilyImage,
+    role: int,
+    curve: CurveImage,
+    line: Line,
+    fraction: tuple[float, float],
+    end: float,
+) -> EdgePlace:
+    """Where a line meets an edge; *end* is minus infinity or infinity if that is an end of the edge."""
+    x, y, _, _, error, _ = line
+    if role == CONTACT:
+        if image.fixed:
+            return -inf, -inf, x, y, error
+        if image.frame[0] == SLIDING:
+            return (end, end, x, y, error) if end else (fraction[0], fraction[1], x, y, error)
+        u, ue = parameter_round(curve, x, y, error)
+        return u - ue, u + ue, x, y, error
+    _, fe, u, ue, x, y, error = meets(line, curve, role)
+    if not (fe < inf and ue < inf):
+        return NOWHERE
+    return (end, end, x, y, error) if end and not curve.sense else (u - ue, u + ue, x, y, error)
+
+
+def _corner(edge: int, following: int, passed: list[int]) -> float:
+    """Which end of an edge a line passes: minus infinity, infinity, or 0 if none is known."""
+    for vertex in passed:
+        if vertex == edge:
+            return -inf
+        if vertex == following:
+            return inf
+    return 0.0
+
+
+def _height(line: Line, x: float, y: float, error: float, least: float) -> int:
+    """1 or -1 if a place is certainly left of a line, by more than *least*, or right of it; else 0.
+
+    The height is the product of the direction (d, held with p) with the offset (o, with q), times |d|. That
+    is off by |d| q + |o| p + p q for the data and by 8 EPS |d| |o| for rounding, doubled as in
+    `exactacq.kernel.lines`.
+    """
+    cx, cy, dx, dy, ce, de = line
+    ox, oy = x - cx, y - cy
+    d, o = abs(dx) + abs(dy), abs(ox) + abs(oy)
+    oe = ce + error + EPS * o
+    height = dx * oy - dy * ox
+    bound = 2.0 * (d * oe + o * de + oe * de) + 8.0 * EPS * d * o + TINY
+    if height - bound > least:
+        return 1
+    return -1 if -height > bound else 0
