@@ -16,7 +16,7 @@ from exactacq.geometry.points import Point
 from exactacq.kernel.family_images import NONE, FamilyImage
 from exactacq.kernel.lines import EPS
 from exactacq.numbers.real import Real, fmpq, rational
-from exactacq.sensing.complex_edges import SingleLine
+from exactacq.sensing.line_family import SingleLine
 from exactacq.sensing.line_images import float_ball, rough
 from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes, Turning
 
@@ -57,7 +57,7 @@ def of_lines(start: Point, end: Point) -> FamilyImage:
 def family(sector: Sector, low: Real, high: Real) -> FamilyImage:
     """The lines of a sector between two parameters."""
     ends = (*float_ball(low), *float_ball(high))
-    return FamilyImage(sector.image, ends, (NONE, NONE, NONE), False, True, NONE, ([], []), ([], []))
+    return FamilyImage(sector.image, ends, (NONE, NONE, NONE), False, True, NONE, ([], []), ([], []), None, 0)
 
 
 def side_of(image: FamilyImage, place: Point) -> int:

@@ -53,18 +53,14 @@ def unknown(edge: int, origin: object, here: int, there: int) -> Extent:
 
 
 def extents_from(
-    edge: int,
-    families: list[FamilyImage],
-    origins: list[object],
-    curves: list[CurveImage],
-    reach: tuple[float, float],
+    edge: int, families: list[FamilyImage], curves: list[CurveImage], reach: tuple[float, float]
 ) -> list[Extent]:
     """What families show from an edge of others, unless all of it is out of range.
 
     *reach* bounds the radius of vision from below and above. A side that stays at a corner is left out.
     """
     found: list[Extent] = []
-    for k, family in enumerate(families):
+    for family in families:
         for here in range(-1, 2):
             if family.edge(here) != edge or (here == CONTACT and family.fixed):
                 continue
@@ -73,13 +69,13 @@ def extents_from(
                 if there == here or shown < 0:
                     continue
                 if not family.is_known:
-                    found.append(unknown(shown, origins[k], here, there))
+                    found.append(unknown(shown, family, here, there))
                     continue
                 near, far = family.places(here), family.places(there)
                 slack = bent(family, here, near, curves) + bent(family, there, far, curves)
                 # A line may meet an arc twice: there its key does not name one place.
                 named = not curves[edge].sense
-                one = extent(shown, near, far, slack, family, named, reach, origins[k], here, there)
+                one = extent(shown, near, far, slack, family, named, reach, family, here, there)
                 if one is not None:
                     found.append(one)
     return found

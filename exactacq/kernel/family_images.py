@@ -35,7 +35,8 @@ class FamilyImage:
     ``edges`` are those behind, at the contact and ahead, `NONE` where there is none. The contact is
     ``fixed`` at a corner. ``corner`` is the vertex about which lines turn, or `NONE`. Of the first and of the
     last line are known: the vertices that they pass, and their ``keys``, numbers that are equal only for
-    equal lines. Unless the image ``is_known`` floats cannot tell where the lines meet the edges.
+    equal lines. Unless the image ``is_known`` floats cannot tell where the lines meet the edges. It belongs
+    to cell ``number`` of what it comes from, its ``origin``.
     """
 
     def __init__(
@@ -48,8 +49,11 @@ class FamilyImage:
         corner: int,
         corners: tuple[list[int], list[int]],
         keys: tuple[list[int], list[int]],
+        origin: object,
+        number: int,
     ) -> None:
         """*ends* are the parameters of both lines, each with its error."""
+        self.origin, self.number = origin, number
         self.frame, self.edges = frame, edges
         self.fixed, self.goes_back, self.corner = fixed, goes_back, corner
         self.first_corners, self.last_corners = corners
@@ -98,8 +102,13 @@ class FamilyImage:
         return one if one == _height(self.last, x, y, error, least) else 0
 
 
-def locate(image: FamilyImage, curves: list[CurveImage], following: list[int]) -> None:
-    """Find where the first and the last line of an image meet its edges."""
+def locate(families: list[FamilyImage], curves: list[CurveImage], following: list[int]) -> None:
+    """Find where the first and the last lines of families meet their edges."""
+    for image in families:
+        _locate(image, curves, following)
+
+
+def _locate(image: FamilyImage, curves: list[CurveImage], following: list[int]) -> None:
     for role in (BEHIND, CONTACT, AHEAD):
         e = image.edge(role)
         if e < 0:

@@ -32,9 +32,10 @@ from exactacq.kernel.ways import Crossing, WayImage, crossings, extents_from_way
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.sensing.complex_edges import FeatureFamilies, LineFamily, SingleLine
+from exactacq.sensing.complex_edges import FeatureFamilies
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.legs import Leg
+from exactacq.sensing.line_family import LineFamily, SingleLine, family_of
 from exactacq.sensing.line_images import bounds, curve_image, rough
 from exactacq.sensing.line_points import Role, Side
 from exactacq.sensing.view_families import End, FreeViews, ViewFamily
@@ -108,8 +109,7 @@ class WayViews:
     @cached_property
     def crossing(self) -> list[tuple[LineFamily, bool]]:
         """The line families that may cross the way, and whether all their lines do."""
-        line_families = [line_family for feature in self._near for line_family in feature.line_families]
-        return [(line_families[k], certain) for k, certain in self._found]
+        return [(family_of(self._families[k]), certain) for k, certain in self._found]
 
     def extents(self) -> list[Extent]:
         """What the line families in `crossing` show, in floats; the origins are their places there."""
@@ -124,7 +124,7 @@ class WayViews:
 
     @cached_property
     def _families(self) -> list[FamilyImage]:
-        return [image for feature in self._near for image in feature.images(self.complex.images)]
+        return [image for feature in self._near for image in feature.images]
 
     @cached_property
     def _found(self) -> list[Crossing]:

@@ -12,13 +12,12 @@ from exactacq.geometry.points import Point
 from exactacq.kernel import lines
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import SURE, Span
-from exactacq.kernel.family_images import NONE, EdgePlace, FamilyImage, locate
+from exactacq.kernel.family_images import EdgePlace, FamilyImage, locate
 from exactacq.numbers.rationals import nearest_float
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.sensing.line_points import Role, Side
-from exactacq.visibility.line_families import Sector, Spokes, Turning
-from exactacq.visibility.rotational_sweep import Passed
+from exactacq.sensing.line_points import Role
+from exactacq.visibility.rotational_sweep import Pencil
 from exactacq.visibility.sensor_range import Range
 
 
@@ -34,52 +33,36 @@ class LineImages:
         """The edges."""
         return [curve_image(curve) for curve in self.table.curves]
 
-    def of(
-        self,
-        sector: Sector,
-        ends: tuple[Real, Real],
-        passed: tuple[Passed, Passed],
-        sides: tuple[Side | None, Side, Side | None],
-        goes_back: bool,
-        keys: tuple[list[int], list[int]],
-    ) -> FamilyImage:
-        """The image of the lines of a sector between two; *sides* lie behind, at the contact and ahead."""
-        edges = [NONE if side is None else side.edge for side in sides]
-        contact = sides[1]
-        turns = isinstance(sector, Turning) and not isinstance(sector, Spokes)
-        corners = tuple([number for number, touching, _ in some if not touching] for some in passed)
-        image = FamilyImage(
-            sector.image,
-            (*float_ball(ends[0]), *float_ball(ends[1])),
-            (edges[0], edges[1], edges[2]),
-            contact.fixed,
-            goes_back,
-            contact.edge if turns else NONE,
-            (corners[0], corners[1]),
-            keys,
-        )
-        if kernel.EXACT_ONLY:
-            return image
-        locate(image, self.curves, self.table.images.following)
-        for role, side in zip(Role, sides, strict=True):
-            if image.is_known and side is not None and self.table.full[side.edge]:
-                self._unroll(image, role, sector, ends, side)
-        return image
+    @cached_property
+    def circles(self) -> list[int]:
+        """For every arc the number of the first one on its circle; for a segment its own."""
+        return [self.table.circles.get(e, e) for e in range(len(self.table.curves))]
 
-    def _unroll(
-        self, image: FamilyImage, role: Role, sector: Sector, ends: tuple[Real, Real], side: Side
-    ) -> None:
+    def locate(self, families: list[FamilyImage], lines: Pencil) -> None:
+        """Find where the first and the last lines of a pencil's families meet their edges."""
+        if kernel.EXACT_ONLY:
+            return
+        locate(families, self.curves, self.table.images.following)
+        if self.table.curved:
+            for image in families:
+                for role in Role:
+                    edge = image.edge(role)
+                    if image.is_known and edge >= 0 and self.table.full[edge]:
+                        self._unroll(image, role, lines, edge)
+
+    def _unroll(self, image: FamilyImage, role: Role, lines: Pencil, edge: int) -> None:
         """Two places on a full circle: known if the side does not pass its start, where parameters jump.
 
         While lines turn by a quarter at most, a contact moves by a quarter, another place by less than three
         quarters, for its direction from the circle's centre is off the line's by less than a quarter.
         """
-        start = self.table.curves[side.edge].start
+        start = self.table.curves[edge].start
+        row = lines.rows[image.number]
         found: list[EdgePlace] = list(image.places(role))
-        for k in (0, 1):
+        for k, bound in enumerate((row.first, row.last)):
             (low, high, *rest), other = found[k], found[1 - k]
             if low <= 0 or high >= 4:
-                contact, direction = sector.touch(ends[k])
+                contact, direction = lines.sector.touch(lines.value(bound))
                 # Where the line is nearly a tangent, both its crossings are within the error.
                 is_one = high - low < SURE and direction.cross(start - contact).sign() == 0
                 if not (is_one and 0 < other[0] <= other[1] < 4):

@@ -17,8 +17,8 @@ import numpy as np
 from exactacq.kernel.extents import Extent, extents_from
 from exactacq.kernel.family_images import FamilyImage
 from exactacq.scene.edge_table import EdgeTable, Floats, Ints
-from exactacq.sensing.complex_edges import FamilySweeper, FeatureFamilies, LineFamily, SingleLine
-from exactacq.sensing.line_images import LineImages
+from exactacq.sensing.complex_edges import FamilySweeper, FeatureFamilies
+from exactacq.sensing.line_family import LineFamily, SingleLine, family_of
 from exactacq.sensing.view_families import ViewFamily
 from exactacq.visibility.sensor_range import Range
 
@@ -37,7 +37,7 @@ class VisibilityComplex:
         self.table, self.range = table, range_
         sweeper = FamilySweeper(table, range_)
         self.clipper, self.features = sweeper.clipper, sweeper.features
-        self.images = LineImages(table, range_)
+        self.images = sweeper.images
         self._normals_of = lru_cache(KEPT)(sweeper.normals)
         self._tangents_of = lru_cache(KEPT)(sweeper.tangents)
         self._corner_normals_of = lru_cache(KEPT)(sweeper.corner_normals)
@@ -70,25 +70,23 @@ class VisibilityComplex:
 
     def views(self, one: Extent) -> Iterator[tuple[ViewFamily, int]]:
         """The families that `extents` tells of, and which of their sides lies on the edge."""
-        origin = one.origin
-        assert isinstance(origin, LineFamily | SingleLine), "families come from lines"
-        families, side = origin.views(one.here, one.there, self.clipper)
+        source = family_of(one.origin) if isinstance(one.origin, FamilyImage) else one.origin
+        assert isinstance(source, LineFamily | SingleLine), "families come from lines"
+        families, side = source.views(one.here, one.there, self.clipper)
         return ((family, side) for family in families)
 
     def _from(self, edge: int) -> list[Extent]:
         families: list[FamilyImage] = []
-        origins: list[object] = []
         single_lines: list[Extent] = []
         for feature in self.near(self.table.boxes[edge], own=edge):
-            families += feature.images(self.images)
-            origins += feature.line_families
+            families += feature.images
             for single in feature.single_lines:
                 if single.edge == edge:
                     single_lines.append(single.extent(self.table))
                 if single.edge is not None and single.shown == edge:
                     single_lines.append(single.extent(self.table, here=1))
         images = self.images
-        return extents_from(edge, families, origins, images.curves, images.reach) + single_lines
+        return extents_from(edge, families, images.curves, images.reach) + single_lines
 
     def near(
         self, box: Floats, wanted: frozenset[int] | None = None, own: int | None = None

@@ -41,6 +41,10 @@ class Namer:
             return "circle", self.table.circles[feature.edges[0]]
         return "corner", feature.edges[1]
 
+    def number(self, feature: Feature) -> int:
+        """The number in that name."""
+        return self.anchor(feature)[1]
+
     def passed(self, passed: Passed) -> Iterator[Anchor]:
         """The names of what a line passes."""
         for number, side, _ in passed:

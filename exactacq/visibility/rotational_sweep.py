@@ -15,12 +15,10 @@ again.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cmp_to_key, partial
-from itertools import pairwise
-from math import inf
-from operator import attrgetter
+from functools import cached_property, cmp_to_key, partial
+from math import inf, isnan
 from typing import TypeAlias
 
 from flint import arb, fmpq
@@ -30,7 +28,8 @@ from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.points import Point
 from exactacq.kernel.bounded import UNIT
-from exactacq.kernel.first_edges import DOUBT, first_edges
+from exactacq.kernel.cells import BoundLine, LineCells, clusters, middles, rows, sure_bounds
+from exactacq.kernel.first_edges import DOUBT, NOTHING, first_edges
 from exactacq.kernel.line_events import line_events
 from exactacq.kernel.surroundings import Surroundings
 from exactacq.numbers.between import rational_between
@@ -57,26 +56,51 @@ class Cell:
     bounds: tuple[Passed, Passed] = ((), ())
 
 
-@dataclass(slots=True)
 class Pencil:
-    """The cells of one sector, from low to high, and its pinched lines."""
+    """The lines of one sector: ``rows`` are its cells, from low to high, as floats tell them apart.
 
-    sector: Sector
-    cells: tuple[Cell, ...]
-    pinches: tuple[tuple[Real, Passed], ...]
-
-
-@dataclass(slots=True, eq=False)
-class _EventLine:
-    """A line of the family, its parameter between ``low`` and ``high``, and what it passes.
-
-    Before those that are equal are brought together, *passed* has at most one event.
+    The exact parameters of the lines that bound cells are made when they are first asked for.
     """
 
-    low: float
-    high: float
-    passed: Passed
-    value: Real | None = None
+    def __init__(self, table: EdgeTable, sector: Sector) -> None:
+        self.table, self.sector = table, sector
+        self.rows: list[LineCells] = []
+        self._pinched: list[BoundLine] = []
+
+    def join(self, bounds: list[BoundLine], rows: list[LineCells]) -> None:
+        """Take in what was swept."""
+        self.rows = rows
+        self._pinched = [bound for bound in bounds if len(bound.passed) > 1]
+
+    @cached_property
+    def cells(self) -> tuple[Cell, ...]:
+        """The cells."""
+        return tuple(self.cell(row) for row in self.rows)
+
+    @property
+    def pinches(self) -> Iterator[tuple[Real, Passed]]:
+        """The lines that pass several things, and these."""
+        return ((self.value(bound), tuple(bound.passed)) for bound in self._pinched)
+
+    def cell(self, row: LineCells) -> Cell:
+        """The cell of a row."""
+        first, last = row.first, row.last
+        return Cell(
+            self.value(first),
+            self.value(last),
+            None if row.behind < 0 else row.behind,
+            None if row.ahead < 0 else row.ahead,
+            (tuple(first.passed), tuple(last.passed)),
+        )
+
+    def value(self, bound: BoundLine) -> Real:
+        """The exact parameter of a line; a late number where only the interval is known."""
+        if bound.value is None:
+            ((number, side, sign),) = bound.passed
+            make = partial(_exact, self.sector, *target(self.table, number, side), side, sign)
+            bound.value = Real.late(arb(bound.low).union(arb(bound.high)), make)
+        assert isinstance(bound.value, Real), "values are made here"
+        return bound.value
 
 
 def pencil(
@@ -111,6 +135,7 @@ class _SectorSweep:
         breaks: tuple[Vector, ...],
     ) -> None:
         self.table, self.sector, self.own, self.breaks = table, sector, own, breaks
+        self.pencil = Pencil(table, sector)
         images = table.images
         left_out = [e for e in own if sector.round or images.kind[e] == STRAIGHT]
         self.edges = [e for e in edges if e not in left_out] if left_out else edges
@@ -121,71 +146,67 @@ class _SectorSweep:
             self.through = table.edges_at(Point(*sector.center))
 
     def run(self) -> Pencil:
-        lines = self._lines()
-        middles = [self._middle(a, b) for a, b in pairwise(lines)]
-        cells: list[tuple[_EventLine, _EventLine, int | None, int | None]] = []
-        was_at_center = False
-        for (first, last), (middle, _), (behind, ahead) in zip(
-            pairwise(lines), middles, self._meets(lines, middles), strict=True
-        ):
-            at_center = self._is_at_center(middle, ahead)
-            if cells and cells[-1][2:] == (behind, ahead) and at_center == was_at_center:
-                cells[-1] = (cells[-1][0], last, behind, ahead)
-            else:
-                cells.append((first, last, behind, ahead))
-            was_at_center = at_center
-        return Pencil(
-            self.sector,
-            tuple(
-                Cell(self._value(first), self._value(last), behind, ahead, (first.passed, last.passed))
-                for first, last, behind, ahead in cells
-            ),
-            tuple((self._value(line), line.passed) for line in lines if len(line.passed) > 1),
-        )
+        bounds = self._bounds()
+        exact: dict[int, fmpq] = {}
+        places = middles(bounds)
+        errors = [0.0] * len(places)
+        for k, place in enumerate(places):
+            if isnan(place):
+                exact[k] = rational_between(self.pencil.value(bounds[k]), self.pencil.value(bounds[k + 1]))
+                places[k] = float(exact[k])
+                errors[k] = UNIT * abs(places[k])
+        passed = [
+            [number if side == 0 else -1 - number for number, side, _ in bound.passed]
+            for bound in bounds[:-1]
+        ]
+        behind, ahead, possible = first_edges(self.around, places, errors, passed, bool(self.through))
+        for k, edge in enumerate(behind):
+            if edge == DOUBT:
+                behind[k], ahead[k] = self._exact_meet(exact.get(k, _rational(places[k])), possible[k])
+        kinds = [0] * len(places)
+        if self.through:
+            kinds = [
+                int(self._is_at_center(exact.get(k, _rational(place)), ahead[k]))
+                for k, place in enumerate(places)
+            ]
+        self.pencil.join(bounds, rows(bounds, behind, ahead, kinds))
+        return self.pencil
 
     # -- events --------------------------------------------------------------------------------
 
-    def _lines(self) -> list[_EventLine]:
+    def _bounds(self) -> list[BoundLine]:
         """The distinct lines at which there are events, from low to high."""
         low, high = _known(Real(self.sector.low)), _known(Real(self.sector.high))
         events = [low, high, *self._break_events(), *self._edge_events(low.low, high.high)]
-        events.sort(key=attrgetter("low"))
-        lines: list[_EventLine] = []
-        started = False
-        for cluster in _clusters(events):
-            has_low, has_high = low in cluster, high in cluster
-            started = started or has_low
-            if started:
-                if len(cluster) == 1:
-                    lines += cluster
-                else:
-                    lines += self._resolved(cluster, low if has_low else None, high if has_high else None)
-            if has_high:
-                break
-        return lines
+        found: list[BoundLine] = []
+        for cluster in clusters(events, low, high):
+            if len(cluster) == 1:
+                found += cluster
+            else:
+                found += self._resolved(cluster, low in cluster, high in cluster)
+        return found
 
-    def _resolved(
-        self, cluster: list[_EventLine], low: _EventLine | None, high: _EventLine | None
-    ) -> Iterator[_EventLine]:
+    def _resolved(self, cluster: list[BoundLine], has_low: bool, has_high: bool) -> Iterator[BoundLine]:
         """The distinct lines of a cluster, from the low bound on or up to the high one, in exact order."""
-        values = [(self._value(event), event) for event in cluster]
+        values = [(self.pencil.value(event), event) for event in cluster]
         values.sort(key=cmp_to_key(_by_value))
+        low, high = Real(self.sector.low), Real(self.sector.high)
         current: Real | None = None
-        passed: Passed = ()
+        passed: list[tuple[int, int, int]] = []
         for value, event in values:
-            if low is not None and value.compare(low.value) < 0:
+            if has_low and value.compare(low) < 0:
                 continue
-            if high is not None and value.compare(high.value) > 0:
+            if has_high and value.compare(high) > 0:
                 break
             if current is not None and value.compare(current) != 0:
                 yield _known(current, passed)
-                current, passed = None, ()
+                current, passed = None, []
             current = value if current is None else current
             passed += event.passed
         if current is not None:
             yield _known(current, passed)
 
-    def _break_events(self) -> Iterator[_EventLine]:
+    def _break_events(self) -> Iterator[BoundLine]:
         x, y = self.sector.center
         at_center = directions_at(self.table, Point(x, y), self.through)
         for dx, dy in (*self.breaks, *at_center):
@@ -193,61 +214,24 @@ class _SectorSweep:
             if value is not None and self.sector.low <= value <= self.sector.high:
                 yield _known(value)
 
-    def _edge_events(self, low: float, high: float) -> Iterator[_EventLine]:
+    def _edge_events(self, low: float, high: float) -> list[BoundLine]:
         """Where lines pass vertices or touch arcs; what floats leave open is made exact."""
         corner = self.table.images.following[self.own[0]] if len(self.own) == 2 else -1
         if low == -inf or high == inf:
             low, high = -1.0, 1.0
-        for first, last, number, side, sign, sure in line_events(self.around, corner, low, high):
-            passed = ((number, side, sign),)
-            if sure:
-                yield _EventLine(first, last, passed)
-                continue
-            value = self.sector.exact(*self._target(number, side), side, sign)
-            if value is not None:
-                yield _known(value, passed)
-
-    def _value(self, line: _EventLine) -> Real:
-        """The exact parameter of a line; a late number where only the interval is known."""
-        if line.value is None:
-            ((number, side, sign),) = line.passed
-            make = partial(_exact, self.sector, *self._target(number, side), side, sign)
-            line.value = Real.late(arb(line.low).union(arb(line.high)), make)
-        return line.value
-
-    def _target(self, number: int, side: int) -> tuple[Vector, fmpq]:
-        if side == 0:
-            return self.table.vertices[number], fmpq(0)
-        arc = self.table.curves[number]
-        return arc.center.rational, arc.radius_sq  # type: ignore[union-attr, return-value]
+        events = line_events(self.around, corner, low, high)
+        found = sure_bounds(events)
+        if len(found) < len(events):
+            for _, _, number, side, sign, sure in events:
+                if not sure:
+                    value = self.sector.exact(*target(self.table, number, side), side, sign)
+                    if value is not None:
+                        found.append(_known(value, [(number, side, sign)]))
+        return found
 
     # -- edges met -----------------------------------------------------------------------------
 
-    def _middle(self, a: _EventLine, b: _EventLine) -> tuple[float | fmpq, float]:
-        """A number between two lines, a float if they are apart, with the bound of its own float."""
-        if a.high < b.low:
-            middle = 0.5 * (a.high + b.low)
-            if a.high < middle < b.low:
-                return middle, 0.0
-        between = rational_between(self._value(a), self._value(b))
-        return between, UNIT * abs(float(between))
-
-    def _meets(
-        self, lines: list[_EventLine], middles: list[tuple[float | fmpq, float]]
-    ) -> Iterator[tuple[int | None, int | None]]:
-        """First edge behind and ahead in the middle of each cell."""
-        passed = [
-            [number if side == 0 else -1 - number for number, side, _ in line.passed] for line in lines[:-1]
-        ]
-        places, bounds = [float(middle) for middle, _ in middles], [bound for _, bound in middles]
-        found = first_edges(self.around, places, bounds, passed, bool(self.through))
-        for (middle, _), behind, ahead, possible in zip(middles, *found, strict=True):
-            if behind == DOUBT:
-                yield self._exact_meet(_rational(middle), possible)
-            else:
-                yield behind if behind >= 0 else None, ahead if ahead >= 0 else None
-
-    def _exact_meet(self, middle: fmpq, edges: Iterable[int]) -> tuple[int | None, int | None]:
+    def _exact_meet(self, middle: fmpq, edges: Iterable[int]) -> tuple[int, int]:
         contact, direction = self.sector.touch(Real(middle))
         nearest: dict[int, tuple[Real, int]] = {}
         center = (Point(*self.sector.center) - contact).dot(direction) / direction.norm_sq()
@@ -267,7 +251,7 @@ class _SectorSweep:
                 if side and (side not in nearest or (tau - nearest[side][0]).sign() == -side):
                     nearest[side] = tau, e
         proper = {s: e for s, (tau, e) in nearest.items() if self._enters(contact, direction, tau, e, s)}
-        return proper.get(-1), proper.get(1)
+        return proper.get(-1, NOTHING), proper.get(1, NOTHING)
 
     def _is_blocked_at_center(self, direction: Point) -> bool:
         """Whether a normal enters an obstacle in the centre of the arc, on a boundary that goes through it.
@@ -280,14 +264,14 @@ class _SectorSweep:
         ways = list(directions_at(self.table, Point(*self.sector.center), self.through))
         return enters(incoming, outgoing, ways[0], ways[-1], raw(direction))
 
-    def _is_at_center(self, middle: float | fmpq, ahead: int | None) -> bool:
+    def _is_at_center(self, middle: fmpq, ahead: int) -> bool:
         """Whether a normal meets the edge ahead in the centre of the arc.
 
         Then all normals of a family do; others, which meet the same arc elsewhere, are another family.
         """
-        if ahead is None or ahead not in self.through:
+        if ahead not in self.through:
             return False
-        contact, direction = self.sector.touch(Real(_rational(middle)))
+        contact, direction = self.sector.touch(Real(middle))
         center = (Point(*self.sector.center) - contact).dot(direction) / direction.norm_sq()
         return isinstance(self.table.curves[ahead], Segment) or self._enters(
             contact, direction, center, ahead, 1
@@ -309,28 +293,22 @@ def _exact(sector: Sector, center: Vector, radius_sq: fmpq, side: int, sign: int
     return value
 
 
-def _rational(middle: float | fmpq) -> fmpq:
-    return fmpq(*middle.as_integer_ratio()) if isinstance(middle, float) else middle
+def target(table: EdgeTable, number: int, side: int) -> tuple[Vector, fmpq]:
+    """What a line passes, as a circle: a vertex, with radius 0, or that of an arc."""
+    if side == 0:
+        return table.vertices[number], fmpq(0)
+    arc = table.curves[number]
+    return arc.center.rational, arc.radius_sq  # type: ignore[union-attr, return-value]
 
 
-def _known(value: Real, passed: Passed = ()) -> _EventLine:
+def _rational(middle: float) -> fmpq:
+    return fmpq(*middle.as_integer_ratio())
+
+
+def _known(value: Real, passed: Sequence[tuple[int, int, int]] = ()) -> BoundLine:
     near, bound = held(value)
-    return _EventLine(near - 2 * bound, near + 2 * bound, passed, value)
+    return BoundLine(near - 2 * bound, near + 2 * bound, list(passed), value)
 
 
-def _clusters(events: list[_EventLine]) -> Iterator[list[_EventLine]]:
-    """Runs of events whose order the intervals leave open; the events come by their lower ends."""
-    cluster: list[_EventLine] = []
-    reached = -inf
-    for event in events:
-        if cluster and event.low > reached:
-            yield cluster
-            cluster = []
-        reached = max(reached, event.high) if cluster else event.high
-        cluster.append(event)
-    if cluster:
-        yield cluster
-
-
-def _by_value(a: tuple[Real, _EventLine], b: tuple[Real, _EventLine]) -> int:
+def _by_value(a: tuple[Real, BoundLine], b: tuple[Real, BoundLine]) -> int:
     return a[0].compare(b[0])
