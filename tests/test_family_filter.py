@@ -20,6 +20,7 @@ from exactacq.sensing import family_filter
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.free_way import WayViews
 from exactacq.sensing.legs import Leg, legs_of
+from exactacq.sensing.line_family import family_of
 from exactacq.sensing.view_families import ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.visibility.sensor_range import Range
@@ -50,7 +51,8 @@ def told(complex_: VisibilityComplex, leg: Leg, run: xa.SightseerRun) -> Iterato
 
     way = WayViews(complex_, leg, wanted, view)
     extents = way.extents()
-    for n, (line_family, certain) in enumerate(way.crossing):
+    for n, (image, certain) in enumerate(way.crossing):
+        line_family = family_of(image)
         parts = {side.edge for side in line_family.sides if side is not None}
         for one in extents:
             if one.origin != n:

@@ -7,7 +7,7 @@ sides and shows what no neighbouring line does.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from functools import cached_property, partial
 
 from flint import arb, fmpq
@@ -17,6 +17,7 @@ from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.late import late_point
 from exactacq.geometry.points import Point, distance_sq
+from exactacq.kernel.family_images import FamilyImage
 from exactacq.kernel.line_keys import LineNumbers
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
@@ -35,12 +36,12 @@ from exactacq.visibility.rotational_sweep import Pencil, pencil
 from exactacq.visibility.sensor_range import Range
 
 
-class FeatureFamilies:
-    """The line families, as float images, and the single lines of one feature, edge or corner."""
+class EdgeFamilies:
+    """The line families of one edge, as float images, and the single lines."""
 
-    def __init__(self, pencils: Iterable[PencilFamilies], single_lines: Iterable[SingleLine] = ()) -> None:
-        self.images = [image for one in pencils for image in one.images]
-        self.single_lines = tuple(single_lines)
+    def __init__(self) -> None:
+        self.images: list[FamilyImage] = []
+        self.single_lines: list[SingleLine] = []
 
 
 class FamilySweeper:
@@ -54,55 +55,55 @@ class FamilySweeper:
         self._namer, self._numbers = Namer(table), LineNumbers(self.images.circles)
 
     @cached_property
-    def features(self) -> list[Feature]:
-        """Convex corners and arcs."""
-        return features(self.table)
+    def _features(self) -> dict[int, list[Feature]]:
+        """Convex arcs, by their numbers, and corners, by the edges that start there."""
+        found: dict[int, list[Feature]] = {}
+        for feature in features(self.table):
+            found.setdefault(feature.edges[-1], []).append(feature)
+        return found
 
-    def normals(self, e: int) -> FeatureFamilies:
-        """The normals of an edge."""
-        contact = Side(e, Role.CONTACT)
-        return FeatureFamilies(
-            self._families(sector, (e,), contact, None, goes_back=False)
-            for sector in normals(self.table.curves[e])
-        )
+    def of(self, e: int) -> EdgeFamilies:
+        """The normals of an edge, the tangents of the features at it, and the normals at its start.
 
-    def tangents(self, k: int) -> FeatureFamilies:
-        """The tangent lines of a feature, and the single lines that join them."""
-        feature = self.features[k]
-        contact = Side(feature.edges[-1], Role.CONTACT, fixed=not feature.round)
-        pencils = [self._families(s, feature.edges, contact, feature) for s in feature.sectors]
-        sweeps = [one.lines for one in pencils]
-        single_lines = [
-            single
-            for s in sweeps
-            for t, passed in s.pinches
-            if may_be_pinched(self.table, feature, s.sector, t, passed)
-            for single in self._pinched(s.sector, t, feature.edges)
-        ]
-        return FeatureFamilies(pencils, [*single_lines, *self._end_on(feature, sweeps[0], sweeps[-1])])
+        With the single lines that join the tangents. A corner belongs to the edge that starts there.
+        """
+        found = EdgeFamilies()
+        for sector in normals(self.table.curves[e]):
+            self._add(found, sector, (e,), Side(e, Role.CONTACT), None, goes_back=False)
+        for feature in self._features.get(e, ()):
+            contact = Side(e, Role.CONTACT, fixed=not feature.round)
+            sweeps = [self._add(found, s, feature.edges, contact, feature) for s in feature.sectors]
+            for s in sweeps:
+                for t, passed in s.pinches:
+                    if may_be_pinched(self.table, feature, s.sector, t, passed):
+                        found.single_lines += self._pinched(s.sector, t, feature.edges)
+            found.single_lines += self._end_on(feature, sweeps[0], sweeps[-1])
+            if not feature.round:
+                for sector in self._corner_normals(feature):
+                    self._add(found, sector, feature.edges, contact, feature, goes_back=False)
+        return found
 
-    def corner_normals(self, k: int) -> FeatureFamilies:
-        """The views from a convex corner along the normals of the boundary there."""
-        feature = self.features[k]
+    def _corner_normals(self, feature: Feature) -> Iterator[Sector]:
+        """The normals of the boundary at a convex corner."""
         incoming, outgoing = feature.edges
         ax, ay = leaving(self.table.curves[incoming], at_end=True)
         bx, by = leaving(self.table.curves[outgoing], at_end=False)
-        corner = Side(outgoing, Role.CONTACT, fixed=True)
-        return FeatureFamilies(
-            self._families(sector, feature.edges, corner, feature, goes_back=False)
-            for sector in corner_sectors(feature.center, (ay, -ax), (by, -bx))
-        )
+        return corner_sectors(feature.center, (ay, -ax), (by, -bx))
 
-    def _families(
+    def _add(
         self,
+        found: EdgeFamilies,
         sector: Sector,
         own: tuple[int, ...],
         contact: Side,
         feature: Feature | None,
         goes_back: bool = True,
-    ) -> PencilFamilies:
+    ) -> Pencil:
+        """Sweep a sector and add its families."""
         lines = pencil(self.table, sector, own, self.range.above)
-        return PencilFamilies(lines, self.images, contact, self._namer, self._numbers, feature, goes_back)
+        made = PencilFamilies(lines, self.images, contact, self._namer, self._numbers, feature, goes_back)
+        found.images += made.images
+        return lines
 
     # -- single lines ------------------------------------------------------------------------------
 

@@ -32,7 +32,7 @@ from exactacq.kernel.ways import Crossing, WayImage, crossings, extents_from_way
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.sensing.complex_edges import FeatureFamilies
+from exactacq.sensing.complex_edges import EdgeFamilies
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.legs import Leg
 from exactacq.sensing.line_family import LineFamily, SingleLine, family_of
@@ -82,11 +82,12 @@ class WayViews:
         """All families at wanted edges whose first side lies on the way, or those that are chosen."""
         single_lines = self._single_lines()
         if choose is None:
-            wanted = dict.fromkeys(range(len(self.crossing)), self.wanted)
+            wanted = dict.fromkeys(range(len(self._found)), self.wanted)
         else:
             wanted, single_lines = self._chosen(single_lines, choose)
         for n, edges in wanted.items():
-            yield from self.across(*self.crossing[n], edges)
+            k, certain = self._found[n]
+            yield from self.across(family_of(self._families[k]), certain, edges)
         for single in single_lines:
             yield from self._along(single)
         yield from self._normals()
@@ -106,10 +107,10 @@ class WayViews:
                 wanted[one.origin] = wanted.get(one.origin, frozenset()) | {one.edge}
         return wanted, lines
 
-    @cached_property
-    def crossing(self) -> list[tuple[LineFamily, bool]]:
+    @property
+    def crossing(self) -> list[tuple[FamilyImage, bool]]:
         """The line families that may cross the way, and whether all their lines do."""
-        return [(family_of(self._families[k]), certain) for k, certain in self._found]
+        return [(self._families[k], certain) for k, certain in self._found]
 
     def extents(self) -> list[Extent]:
         """What the line families in `crossing` show, in floats; the origins are their places there."""
@@ -118,13 +119,13 @@ class WayViews:
         return extents_from_way(self._families, self._found, wanted, self._image, images.curves, images.reach)
 
     @cached_property
-    def _near(self) -> list[FeatureFamilies]:
+    def _near(self) -> list[EdgeFamilies]:
         x, y, right, top = box(self.piece)
-        return list(self.complex.near(np.array((x, y, right, top)), self.wanted))
+        return self.complex.near(np.array((x, y, right, top)))
 
     @cached_property
     def _families(self) -> list[FamilyImage]:
-        return [image for feature in self._near for image in feature.images]
+        return [image for edge in self._near for image in edge.images]
 
     @cached_property
     def _found(self) -> list[Crossing]:
@@ -150,7 +151,7 @@ class WayViews:
 
     def _single_lines(self) -> list[SingleLine]:
         """The single lines that may cross the way and show something that is wanted."""
-        lines = [line for feature in self._near for line in feature.single_lines if line.shown in self.wanted]
+        lines = [line for edge in self._near for line in edge.single_lines if line.shown in self.wanted]
         return [lines[k] for k, _ in crossings([line.image for line in lines], self._image)]
 
     def _extent(self, single: SingleLine) -> Extent:

@@ -10,23 +10,22 @@ of every convex corner. Each is swept once; cost: near linear in the scene at co
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import cached_property, lru_cache
+from functools import lru_cache
 
 import numpy as np
 
 from exactacq.kernel.extents import Extent, extents_from
 from exactacq.kernel.family_images import FamilyImage
-from exactacq.scene.edge_table import EdgeTable, Floats, Ints
-from exactacq.sensing.complex_edges import FamilySweeper, FeatureFamilies
+from exactacq.scene.edge_table import EdgeTable, Floats
+from exactacq.sensing.complex_edges import EdgeFamilies, FamilySweeper
 from exactacq.sensing.line_family import LineFamily, SingleLine, family_of
 from exactacq.sensing.view_families import ViewFamily
 from exactacq.visibility.sensor_range import Range
 
 KEPT = 1024
-"""Families that are remembered, the last used of each kind: enough for a wide neighbourhood, and a bound of
-the memory."""
-
-EDGES_KEPT = 256
+"""Edges whose families are remembered, the last used: enough for a wide neighbourhood, and a bound of the
+memory."""
+SEEN_FROM_KEPT = 256
 """Edges for which it is remembered what is seen from them."""
 
 
@@ -36,29 +35,9 @@ class VisibilityComplex:
     def __init__(self, table: EdgeTable, range_: Range) -> None:
         self.table, self.range = table, range_
         sweeper = FamilySweeper(table, range_)
-        self.clipper, self.features = sweeper.clipper, sweeper.features
-        self.images = sweeper.images
-        self._normals_of = lru_cache(KEPT)(sweeper.normals)
-        self._tangents_of = lru_cache(KEPT)(sweeper.tangents)
-        self._corner_normals_of = lru_cache(KEPT)(sweeper.corner_normals)
-        self._extents_from = lru_cache(EDGES_KEPT)(self._from)
-
-    @cached_property
-    def _spots(self) -> Floats:
-        """Boxes of the features: where their contacts lie."""
-        boxes = [
-            self.table.boxes[f.edges[0]] if f.round else (*self.table.start[f.edges[1]],) * 2
-            for f in self.features
-        ]
-        return np.array(boxes, dtype=float).reshape(-1, 4)
-
-    @cached_property
-    def _features_at(self) -> Ints:
-        """For every edge its number as a feature, and that of its start; -1 for none."""
-        numbers = np.full((len(self.table.curves), 2), -1, dtype=np.intp)
-        for k, feature in enumerate(self.features):
-            numbers[feature.edges[-1], int(not feature.round)] = k
-        return numbers
+        self.clipper, self.images = sweeper.clipper, sweeper.images
+        self._of = lru_cache(KEPT)(sweeper.of)
+        self._seen_from = lru_cache(SEEN_FROM_KEPT)(self._from)
 
     def extents(self, edge: int) -> list[Extent]:
         """What the families at an edge show of others from it, in floats.
@@ -66,7 +45,7 @@ class VisibilityComplex:
         Not what starts at a corner of the edge: what a corner sees is a view. The last are kept: a robot
         comes back to an edge.
         """
-        return self._extents_from(edge)
+        return self._seen_from(edge)
 
     def views(self, one: Extent) -> Iterator[tuple[ViewFamily, int]]:
         """The families that `extents` tells of, and which of their sides lies on the edge."""
@@ -78,9 +57,9 @@ class VisibilityComplex:
     def _from(self, edge: int) -> list[Extent]:
         families: list[FamilyImage] = []
         single_lines: list[Extent] = []
-        for feature in self.near(self.table.boxes[edge], own=edge):
-            families += feature.images
-            for single in feature.single_lines:
+        for near in self.near(self.table.boxes[edge]):
+            families += near.images
+            for single in near.single_lines:
                 if single.edge == edge:
                     single_lines.append(single.extent(self.table))
                 if single.edge is not None and single.shown == edge:
@@ -88,39 +67,15 @@ class VisibilityComplex:
         images = self.images
         return extents_from(edge, families, images.curves, images.reach) + single_lines
 
-    def near(
-        self, box: Floats, wanted: frozenset[int] | None = None, own: int | None = None
-    ) -> Iterator[FeatureFamilies]:
-        """The families that may show edges, the *wanted* ones if given, to places in a box.
-
-        The box lies on edge *own* if that is given. A tangent's contact lies between the two ends of a view,
-        so both are within reach of it together.
-        """
+    def near(self, box: Floats) -> list[EdgeFamilies]:
+        """The families of the edges within reach of a box: all that may show anything to places in it."""
         left, bottom, right, top = box.tolist()
-        reach = self.range.above + 8 * self.table.roundoff
-        around = self.table.near((left, bottom), (right, top), self.range.above)
-        edges = around if wanted is None else np.array(sorted(wanted), dtype=np.intp)
-        edges = edges[_gaps(self.table.boxes[edges], box) <= reach]
-        for e in edges.tolist():
-            if e != own:
-                yield self._normals_of(e)
-        if own is not None:
-            yield self._normals_of(own)
-        close = self._features_at[around].ravel()
-        close = close[close >= 0]
-        here = _gaps(self._spots[close], box)
-        close, here = close[here <= reach], here[here <= reach]
-        if wanted is not None:
-            there = _gaps(self.table.boxes[edges], self._spots[close, None]).min(axis=1, initial=np.inf)
-            close = close[here + there <= reach]
-        for k in close.tolist():
-            yield self._tangents_of(k)
-            feature = self.features[k]
-            if not feature.round and (wanted is None or feature.edges[1] in wanted):
-                yield self._corner_normals_of(k)
+        edges = self.table.near((left, bottom), (right, top), self.range.above)
+        gaps = _gaps(self.table.boxes[edges], box)
+        return [self._of(e) for e in edges[gaps <= self.range.above + 8 * self.table.roundoff].tolist()]
 
 
 def _gaps(boxes: Floats, box: Floats) -> Floats:
-    """Distances of boxes from a box, or from each of several in a row of its own."""
-    apart = np.maximum(np.maximum(boxes[:, :2] - box[..., 2:], box[..., :2] - boxes[:, 2:]), 0.0)
-    return np.hypot(apart[..., 0], apart[..., 1])
+    """Distances of boxes from a box."""
+    apart = np.maximum(np.maximum(boxes[:, :2] - box[2:], box[:2] - boxes[:, 2:]), 0.0)
+    return np.hypot(apart[:, 0], apart[:, 1])
