@@ -185,3 +185,18 @@ def test_along_a_row_of_circles() -> None:
     run = xa.sightseer(xa.Scene(row, start=(-1, 1), radius=20))
     lowest = xa.Point(0, "7/5")
     assert [e.obstacle for e in run.events if e.kind == "lose" and e.point == lowest] == [2, 3, 2, 3]
+
+
+def test_a_family_with_a_line_parallel_to_the_way() -> None:
+    """Lines through the square's corner cross the way's line beyond it, then nowhere, then at its very end.
+
+    Taken for one that moves from far away towards the end, the crossing would pass all of the way, and the
+    square would be in sight from the start.
+    """
+    wall = xa.Outline([(5, 2, "1/5"), (6, 2), (6, 1), (5, 1)])
+    square = xa.Polygon([(1, 4), (1, 7), (4, 7), (4, 4)])
+    hidden = xa.Polygon([(4, 0), (4, 3), (1, 3), ("13/4", "3/2"), (1, 0)])
+    front = xa.Polygon([(5, 6), (5, 4), (7, 4), ("11/2", 5), (7, 6)])
+    run = xa.sightseer(xa.Scene([wall, square, hidden, front], start=("13/2", -1), radius=60))
+    (seen,) = (event.point for event in run.events if event.kind == "sight" and event.obstacle == 1)
+    assert seen == xa.Point(6, 2)

@@ -15,6 +15,7 @@ from exactacq.kernel.extents import NOTHING, Extent, Span
 Group = tuple[int, Span, Span]
 """An obstacle, and of intervals that are connected, from which it is surely seen, the one that begins first
 and the one that ends last."""
+NOBODY: list[tuple[int, bool]] = []
 Known = Mapping[int, Sequence[Span]]
 """What is known of edges, by their numbers, rounded inward."""
 
@@ -54,7 +55,7 @@ class Source:
 def mattering(
     extents: list[Extent],
     span: LegSpan,
-    owners: list[list[tuple[int, bool]]],
+    owners: dict[int, list[tuple[int, bool]]],
     obstacles: set[int],
     along: set[int],
     known: Known,
@@ -68,7 +69,7 @@ def mattering(
     sources: dict[int, list[Source]] = {}
     for n in range(len(extents)):
         one = extents[n]
-        concerned = [owner for owner in owners[one.edge] if owner[0] in obstacles]
+        concerned = [owner for owner in owners.get(one.edge, NOBODY) if owner[0] in obstacles]
         if not concerned:
             continue
         if not one.is_known:

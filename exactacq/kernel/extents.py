@@ -74,8 +74,8 @@ def extents_from(
                 near, far = family.places(here), family.places(there)
                 slack = bent(family, here, near, curves) + bent(family, there, far, curves)
                 # A line may meet an arc twice: there its key does not name one place.
-                named = not curves[edge].sense
-                one = extent(shown, near, far, slack, family, named, reach, family, here, there)
+                keys = ([], []) if curves[edge].sense else (family.first_keys, family.last_keys)
+                one = extent(shown, near, far, slack, keys, reach, family, here, there)
                 if one is not None:
                     found.append(one)
     return found
@@ -86,8 +86,7 @@ def extent(
     source: EdgePlaces,
     shown: EdgePlaces,
     slack: float,
-    family: FamilyImage,
-    named: bool,
+    keys: tuple[list[int], list[int]],
     reach: tuple[float, float],
     origin: object,
     here: int,
@@ -95,7 +94,8 @@ def extent(
 ) -> Extent | None:
     """What is shown of an edge, and from where, by the two extreme views; None if nothing is within range.
 
-    *slack* is how far sides may leave the boxes of their extreme points.
+    *slack* is how far sides may leave the boxes of their extreme points, *keys* are those of the first and
+    of the last line.
     """
     (a, b), (c, d) = source, shown
     longest = max(_apart(a, c), _apart(a, d), _apart(b, c), _apart(b, d))
@@ -108,15 +108,13 @@ def extent(
     seen, outer = _hull(c, d), _hull(a, b)
     if not is_in_range:
         return Extent(edge, seen, outer, NOTHING, [], [], origin, here, there, True)
-    first, last = family.first_keys, family.last_keys
+    first, last = keys
     surely = NOTHING
     if a[1] <= b[0]:
         surely = (a[1], b[0])
     elif b[1] <= a[0]:
         surely = (b[1], a[0])
         first, last = last, first
-    if not named:
-        first, last = [], []
     return Extent(edge, seen, outer, surely, first, last, origin, here, there, True)
 
 

@@ -7,14 +7,16 @@ from typing import Final, final
 
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import SURE, Extent, Span, bent, extent, unknown
-from exactacq.kernel.family_images import AHEAD, BEHIND, CONTACT, EdgePlace, EdgePlaces, FamilyImage
-from exactacq.kernel.images import ROLLING, SPOKES
+from exactacq.kernel.family_images import AHEAD, BEHIND, CONTACT, EdgePlace, FamilyImage
+from exactacq.kernel.images import ROLLING, SLIDING, SPOKES
 from exactacq.kernel.lines import Line, Meeting, line_at, meets, meets_straight
 
 STEPS: Final = 24
 """How often an interval of lines is halved to find one that crosses the way."""
 
-NOT_MET: EdgePlaces = ((0.0, 0.0, 0.0, 0.0, inf), (0.0, 0.0, 0.0, 0.0, inf))
+OPEN: Final = 2
+"""Instead of a role or a part: floats cannot tell."""
+NOT_MET: EdgePlace = (0.0, 0.0, 0.0, 0.0, inf)
 
 Crossing = tuple[int, bool]
 """The number of a family that may cross the way, and whether all its lines do."""
@@ -72,83 +74,186 @@ def extents_from_way(
         roles = [role for role in (BEHIND, CONTACT, AHEAD) if family.edge(role) in wanted]
         if not roles:
             continue
-        open_, role, spots = _source(family, way, curves) if family.is_known else (True, CONTACT, NOT_MET)
+        crossed = _crossed(family, way, curves) if family.is_known else _unknown()
         for there in roles:
             edge = family.edge(there)
-            if open_:
+            if not crossed.is_known:
                 extents.append(unknown(edge, n, CONTACT, there))
-            elif role != CONTACT and there != role:
-                shown = family.places(there)
+            elif crossed.role != CONTACT and there != crossed.role:
+                spots, shown = (crossed.first, crossed.last), family.places(there)
                 slack = bent(family, there, shown, curves) + 2.0 * (spots[0][4] + spots[1][4])
-                one = extent(edge, spots, shown, slack, family, True, reach, n, role, there)
+                keys = crossed.first_keys, crossed.last_keys
+                one = extent(edge, spots, shown, slack, keys, reach, n, crossed.role, there)
                 if one is not None:
                     extents.append(one)
     return extents
 
 
-def _source(family: FamilyImage, way: WayImage, curves: list[CurveImage]) -> tuple[bool, int, EdgePlaces]:
-    """Whether floats leave open how a family crosses the way's line; where its first and last line do.
+@final
+class Crossed:
+    """How a family crosses a way: from where to where, and on which side of the contact.
 
-    And on which side of their contact; on none (0) if a wall is before it. Open unless the crossing moves
-    one way from the first line to the last: it does if no line between is parallel to the way and the contact
-    stays on one side of it.
+    ``role`` is `CONTACT` if it does not, or meets a wall before. The keys are those of the lines there, if
+    lines of the family's ends they are. Where it is open how the family crosses, nothing ``is_known``.
+    """
+
+    def __init__(
+        self, role: int, first: EdgePlace, last: EdgePlace, first_keys: list[int], last_keys: list[int]
+    ) -> None:
+        self.is_known = True
+        self.role, self.first, self.last = role, first, last
+        self.first_keys, self.last_keys = first_keys, last_keys
+
+
+def _unknown() -> Crossed:
+    crossed = Crossed(CONTACT, NOT_MET, NOT_MET, [], [])
+    crossed.is_known = False
+    return crossed
+
+
+def _crossed(family: FamilyImage, way: WayImage, curves: list[CurveImage]) -> Crossed:
+    """How a family crosses a way.
+
+    While lines of a family turn or slide, and the contact stays on one side of the way's line, the crossing
+    moves along that line without turning back, from a to b. If a line between is parallel to the way, the
+    crossing leaves over infinity and comes back from the other side, and the contact is behind it before and
+    ahead after, or the other way round. Then the way may be met by one of the two parts only.
     """
     one, other = family.first, family.last
     wx, wy = way.line.wx, way.line.wy
     a, b = meets_straight(one, way.line), meets_straight(other, way.line)
-    if not (a[3] < inf and b[3] < inf) or (wx * one[3] - wy * one[2] > 0) != (
-        wx * other[3] - wy * other[2] > 0
-    ):
-        return True, CONTACT, NOT_MET
-    if a[0] > a[1] and b[0] > b[1]:
-        role = AHEAD
-    elif -a[0] > a[1] and -b[0] > b[1]:
-        role = BEHIND
-    else:
-        return True, CONTACT, NOT_MET
-    kind, cx, cy, ex, ey, radius, sense = family.frame
-    if kind in (ROLLING, SPOKES):
-        if kind == ROLLING:
-            radius = sqrt(ex * ex + ey * ey)
-        height = abs((cx - way.line.x) * wy - (cy - way.line.y) * wx) / sqrt(wx * wx + wy * wy)
-        if sense < 0 or height < radius * (1.0 + SURE) + way.slack:
-            return True, CONTACT, NOT_MET
-    spots = (_spot(a, family.first_corners, way), _spot(b, family.last_corners, way))
+    if not (a[3] < inf and b[3] < inf) or _may_touch(family, way):
+        return _unknown()
+    role, last_role = _role(a, family, family.first_corners, way), _role(b, family, family.last_corners, way)
+    role, last_role = role if role else last_role, last_role if last_role else role
+    spots = _spot(a, family.first_corners, way), _spot(b, family.last_corners, way)
+    keys = family.first_keys, family.last_keys
+    low, high = way.low[0], way.high[1]
+    turn = wx * one[3] - wy * one[2]
+    is_rising = a[2] < b[2]
+    part = 0
+    if (turn > 0.0) != (wx * other[3] - wy * other[2] > 0.0):
+        part = _part(a[2] - a[3], a[2] + a[3], b[2] - b[3], b[2] + b[3], low, high)
+        if role != -last_role or part == OPEN:
+            return _unknown()
+        if part == 0:
+            return Crossed(CONTACT, NOT_MET, NOT_MET, [], [])
+        # The first part begins at a and moves away from b, the last one comes to b, moving towards a.
+        beyond = (-inf, -inf) if is_rising == (part < 0) else (inf, inf)
+        end = (beyond[0], beyond[1], 0.0, 0.0, 0.0)
+        if part < 0:
+            spots, keys = (spots[0], end), (keys[0], [])
+        else:
+            role, spots, keys = last_role, (end, spots[1]), ([], keys[1])
+            turn = -turn
+        is_rising = not is_rising
+    elif role != last_role or role == OPEN:
+        return _unknown()
+    if role == 0:
+        return _unknown()
+    if max(spots[0][1], spots[1][1]) < low or min(spots[0][0], spots[1][0]) > high:
+        return Crossed(CONTACT, NOT_MET, NOT_MET, [], [])
     wall = family.edge(role)
     if wall < 0:
-        return False, role if family.goes_back or role == AHEAD else CONTACT, spots
-    if max(spots[0][1], spots[1][1]) < way.low[0] or min(spots[0][0], spots[1][0]) > way.high[1]:
-        return False, CONTACT, spots
-    before = _is_before(family, way, a[2], b[2], role, curves[wall])
-    if before == 0:
-        return True, CONTACT, NOT_MET
-    return False, role if before > 0 else CONTACT, spots
+        if not family.goes_back and role == BEHIND:
+            role = CONTACT
+    else:
+        before = _is_before(family, way, is_rising, part, turn > 0.0, role, curves[wall])
+        if before == 0:
+            return _unknown()
+        if before < 0:
+            role = CONTACT
+    return Crossed(role, _within(spots[0], way), _within(spots[1], way), keys[0], keys[1])
+
+
+def _may_touch(family: FamilyImage, way: WayImage) -> bool:
+    """Whether the circle that a family rolls on, or whose normals go inward, may meet the way's line."""
+    kind, cx, cy, ex, ey, radius, sense = family.frame
+    if kind not in (ROLLING, SPOKES):
+        return False
+    if kind == ROLLING:
+        radius = sqrt(ex * ex + ey * ey)
+    wx, wy = way.line.wx, way.line.wy
+    height = abs((cx - way.line.x) * wy - (cy - way.line.y) * wx) / sqrt(wx * wx + wy * wy)
+    return sense < 0 or height < radius * (1.0 + SURE) + way.slack
+
+
+def _role(met: Meeting, family: FamilyImage, passed: list[int], way: WayImage) -> int:
+    """The side of the contact on which a line crosses the way's line; 0 if it is open or does so there.
+
+    That is known of the normals of a segment from an end of the way alone.
+    """
+    if met[0] > met[1]:
+        return AHEAD
+    if -met[0] > met[1]:
+        return BEHIND
+    if family.frame[0] == SLIDING and any(v in way.starts or v in way.stops for v in passed):
+        return 0
+    return OPEN
+
+
+def _part(a_low: float, a_high: float, b_low: float, b_high: float, low: float, high: float) -> int:
+    """Which part of a family that passes infinity may meet a way: the first (-1), the last (1), none (0).
+
+    `OPEN` if both may. The first line crosses the way's line in a, the last one in b.
+    """
+    if a_high < b_low:
+        first, last = low <= a_high, high >= b_low
+    elif b_high < a_low:
+        first, last = high >= a_low, low <= b_high
+    else:
+        return OPEN
+    if first and last:
+        return OPEN
+    return -1 if first else 1 if last else 0
 
 
 def _is_before(
-    family: FamilyImage, way: WayImage, first: float, last: float, role: int, wall: CurveImage
+    family: FamilyImage,
+    way: WayImage,
+    is_rising: bool,
+    part: int,
+    turns_left: bool,
+    role: int,
+    wall: CurveImage,
 ) -> int:
     """1 or -1 as lines of a family that cross the way do so before they meet a wall or not; 0 if open.
 
-    The way does not cross the wall, so one line tells: it is looked for between the first and the last,
-    which cross the way's line at *first* and *last*.
+    The way does not cross the wall, so one line tells. It is looked for between the first and the last; if
+    only a *part* of the family meets the way, among those that turn from the way to the same side.
     """
     low, high = family.low, family.high
     middle = (way.low[0] + way.high[1]) / 2.0
     for _ in range(STEPS):
         t = (low + high) / 2.0
         line: Line = line_at(family.frame, t, 0.0)
+        if part and (way.line.wx * line[3] - way.line.wy * line[2] > 0.0) != turns_left:
+            if part < 0:
+                high = t
+            else:
+                low = t
+            continue
         crossed: Meeting = meets_straight(line, way.line)
         far: Meeting = meets(line, wall, role)
         u, error = crossed[2], crossed[3]
         if way.low[1] < u - error and u + error < way.high[0] and far[1] < inf:
             gap, bound = (far[0] - crossed[0]) * role, far[1] + crossed[1]
             return 1 if gap > bound else -1 if -gap > bound else 0
-        if (u < middle) == (first < last):
+        if (u < middle) == is_rising:
             low = t
         else:
             high = t
     return 0
+
+
+def _within(spot: EdgePlace, way: WayImage) -> EdgePlace:
+    """A place on the way's line, moved to the end of the way if it certainly lies beyond it."""
+    ax, ay, bx, by, error = way.ends
+    if spot[1] < way.low[0]:
+        return -inf, -inf, ax, ay, error
+    if spot[0] > way.high[1]:
+        return inf, inf, bx, by, error
+    return spot
 
 
 def _spot(met: Meeting, passed: list[int], way: WayImage) -> EdgePlace:

@@ -23,7 +23,7 @@ from exactacq.kernel.lines import EPS
 from exactacq.kernel.pencil_images import pencil_images
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.sensing.line_images import LineImages, curve_image
+from exactacq.sensing.line_images import LineImages, bounds, curve_image
 from exactacq.sensing.line_points import Role, Side
 from exactacq.sensing.view_families import FamilyClipper, FreeViews, ViewFamily
 from exactacq.visibility.features import Feature
@@ -186,6 +186,8 @@ class SingleLine:
         edge, shown, source = self.shown, run, EVERYTHING
         if self.edge is not None:
             source = _hull_on(table.curves[self.edge], (self.place,))
+            if source == EVERYTHING and self.u is not None and not table.full[self.edge]:
+                source = bounds(self.u, None)
             if here:
                 edge, shown, source = self.edge, source, run
         is_known = not kernel.EXACT_ONLY

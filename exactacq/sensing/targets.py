@@ -55,10 +55,9 @@ class Targets:
                 self._on.setdefault(target.edge, []).append((k, target))
 
     @cached_property
-    def owners(self) -> list[list[tuple[int, bool]]]:
-        """For every edge the obstacles that it counts for, and whether all of it does."""
-        last = max(self._on, default=-1)
-        return [[(k, target.whole) for k, target in self.on(e)] for e in range(last + 1)]
+    def owners(self) -> dict[int, list[tuple[int, bool]]]:
+        """The obstacles that edges count for, and whether all of the edge does."""
+        return {e: [(k, target.whole) for k, target in some] for e, some in self._on.items()}
 
     @classmethod
     def whole(cls, table: EdgeTable, rails: Sequence[Rail]) -> Targets:
