@@ -13,8 +13,8 @@ from random import Random
 import pytest
 
 from exactacq.geometry.points import Point
+from exactacq.kernel.bounded import UNIT
 from exactacq.kernel.family_images import NONE, FamilyImage
-from exactacq.kernel.lines import EPS
 from exactacq.numbers.real import Real, fmpq, rational
 from exactacq.sensing.line_family import SingleLine
 from exactacq.sensing.line_images import float_ball, rough
@@ -62,7 +62,7 @@ def family(sector: Sector, low: Real, high: Real) -> FamilyImage:
 
 def side_of(image: FamilyImage, place: Point) -> int:
     x, y = rough(place.x), rough(place.y)
-    return image.side(x, y, EPS * (abs(x) + abs(y)))
+    return image.side(x, y, UNIT * (abs(x) + abs(y)))
 
 
 def judge(image: FamilyImage, lines: list[tuple[Point, Point]], place: Point, room: float) -> bool:

@@ -9,9 +9,10 @@ from __future__ import annotations
 from math import inf
 from typing import Final, final
 
+from exactacq.kernel.bounded import cross, total
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.images import ROLLING, SLIDING
-from exactacq.kernel.lines import EPS, TINY, Frame, Line, line_at, meets, parameter_round
+from exactacq.kernel.lines import Frame, Line, line_at, meets, parameter_round
 
 BEHIND: Final = -1
 CONTACT: Final = 0
@@ -159,16 +160,12 @@ def _corner(edge: int, following: int, passed: list[int]) -> float:
 def _height(line: Line, x: float, y: float, error: float, least: float) -> int:
     """1 or -1 if a place is certainly left of a line, by more than *least*, or right of it; else 0.
 
-    The height is the product of the direction (d, held with p) with the offset (o, with q), times |d|. That
-    is off by |d| q + |o| p + p q for the data and by 8 EPS |d| |o| for rounding, doubled as in
-    `exactacq.kernel.lines`.
+    The height is the product of the direction with the offset: times the direction's length.
     """
     cx, cy, dx, dy, ce, de = line
-    ox, oy = x - cx, y - cy
-    d, o = abs(dx) + abs(dy), abs(ox) + abs(oy)
-    oe = ce + error + EPS * o
-    height = dx * oy - dy * ox
-    bound = 2.0 * (d * oe + o * de + oe * de) + 8.0 * EPS * d * o + TINY
+    ox, p = total(x, error, -cx, ce)
+    oy, q = total(y, error, -cy, ce)
+    height, bound = cross(dx, dy, de, ox, oy, max(p, q))
     if height - bound > least:
         return 1
     return -1 if -height > bound else 0

@@ -25,9 +25,10 @@ from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.interval_union import Cover
 from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
+from exactacq.kernel.bounded import TINY, UNIT
 from exactacq.kernel.extents import EVERYTHING, Extent
 from exactacq.kernel.family_images import FamilyImage
-from exactacq.kernel.lines import EPS, TINY, meets_straight
+from exactacq.kernel.lines import meets_straight
 from exactacq.kernel.ways import Crossing, WayImage, crossings, extents_from_way
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
@@ -134,7 +135,7 @@ class WayViews:
     @cached_property
     def _image(self) -> WayImage:
         (ax, ay), (bx, by) = self.places
-        error = inf if kernel.EXACT_ONLY else EPS * (abs(ax) + abs(ay) + abs(bx) + abs(by)) + TINY
+        error = inf if kernel.EXACT_ONLY else UNIT * (abs(ax) + abs(ay) + abs(bx) + abs(by)) + TINY
         starts, stops = (self._vertices_at(end) for end in (self.span.start, self.span.end))
         low, high = bounds(self.span.low, None), bounds(self.span.high, None)
         return WayImage(curve_image(self.line), low, high, (ax, ay, bx, by, error), starts, stops, self.slack)

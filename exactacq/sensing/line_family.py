@@ -19,7 +19,6 @@ from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent, Span
 from exactacq.kernel.family_images import NONE, FamilyImage
 from exactacq.kernel.images import TURNING
 from exactacq.kernel.line_keys import LineNumbers
-from exactacq.kernel.lines import EPS
 from exactacq.kernel.pencil_images import pencil_images
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
@@ -177,7 +176,7 @@ class SingleLine:
         start, end = self.line
         way = curve_image(Segment(start, end))
         frame = TURNING, way.x, way.y, way.wx, way.wy, 0.0, 1
-        at = 0.0, 4 * EPS, 0.0, 4 * EPS
+        at = 0.0, 0.0, 0.0, 0.0
         return FamilyImage(frame, at, (NONE, NONE, NONE), False, True, NONE, ([], []), ([], []), self, 0)
 
     def extent(self, table: EdgeTable, here: int = 0) -> Extent:

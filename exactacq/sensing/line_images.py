@@ -9,7 +9,7 @@ from exactacq import kernel
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Point
-from exactacq.kernel import lines
+from exactacq.kernel.bounded import TINY, UNIT
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import SURE, Span
 from exactacq.kernel.family_images import EdgePlace, FamilyImage, locate
@@ -90,14 +90,14 @@ def _pair(point: Point) -> tuple[float, float]:
 
 
 def rough(value: Real) -> float:
-    """A float that is off by at most `lines.EPS` times a number, or times `lines.TINY` if that is more."""
+    """A float that is off by at most `UNIT` times a number, or times `TINY` if that is more."""
     if not value.is_late and value.rational is not None:
         return nearest_float(value.rational)
     bits = 64
     while True:
         ball = value.ball(bits)
         middle = nearest_float(ball.mid().fmpq())
-        if float(ball.rad()) <= 2.0**-55 * max(abs(middle), lines.TINY):
+        if float(ball.rad()) <= 2.0**-55 * max(abs(middle), TINY):
             return middle
         bits *= 2
 
@@ -124,6 +124,6 @@ def float_ball(t: Real) -> tuple[float, float]:
             bits *= 2
             ball = t.ball(bits)
         middle = float(ball.mid())
-        return middle, 2.0 * float(ball.rad()) + lines.EPS * abs(middle) + lines.TINY
+        return middle, 2.0 * float(ball.rad()) + UNIT * abs(middle) + TINY
     middle = nearest_float(t.rational)
-    return middle, lines.EPS * abs(middle)
+    return middle, UNIT * abs(middle)
