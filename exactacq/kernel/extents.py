@@ -61,6 +61,8 @@ def extents_from(
     """
     found: list[Extent] = []
     for family in families:
+        if edge not in family.edges:
+            continue
         for here in range(-1, 2):
             if family.edge(here) != edge or (here == CONTACT and family.fixed):
                 continue

@@ -44,11 +44,14 @@ class WayImage:
         self.ends, self.starts, self.stops, self.slack = ends, starts, stops, slack
 
 
-def crossings(families: list[FamilyImage], way: WayImage) -> list[Crossing]:
-    """The families that do not leave the whole way on one side."""
+def crossings(families: list[FamilyImage], wanted: set[int], way: WayImage) -> list[Crossing]:
+    """The families with a *wanted* edge that do not leave the whole way on one side."""
     ax, ay, bx, by, error = way.ends
     found: list[Crossing] = []
     for k in range(len(families)):
+        behind, contact, ahead = families[k].edges
+        if behind not in wanted and contact not in wanted and ahead not in wanted:
+            continue
         one = families[k].side(ax, ay, error)
         other = families[k].side(bx, by, error)
         if one == 0 or one != other:
@@ -72,8 +75,6 @@ def extents_from_way(
             # All lines pass an end of the way and meet its line nowhere else: the view from there tells.
             continue
         roles = [role for role in (BEHIND, CONTACT, AHEAD) if family.edge(role) in wanted]
-        if not roles:
-            continue
         crossed = _crossed(family, way, curves) if family.is_known else _unknown()
         for there in roles:
             edge = family.edge(there)

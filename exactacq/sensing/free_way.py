@@ -27,7 +27,7 @@ from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
 from exactacq.kernel.bounded import TINY, UNIT
 from exactacq.kernel.extents import EVERYTHING, Extent
-from exactacq.kernel.family_images import FamilyImage
+from exactacq.kernel.family_images import NONE, FamilyImage
 from exactacq.kernel.lines import meets_straight
 from exactacq.kernel.ways import Crossing, WayImage, crossings, extents_from_way
 from exactacq.numbers.between import rational_between
@@ -130,7 +130,7 @@ class WayViews:
 
     @cached_property
     def _found(self) -> list[Crossing]:
-        return crossings(self._families, self._image)
+        return crossings(self._families, set(self.wanted), self._image)
 
     @cached_property
     def _image(self) -> WayImage:
@@ -153,7 +153,7 @@ class WayViews:
     def _single_lines(self) -> list[SingleLine]:
         """The single lines that may cross the way and show something that is wanted."""
         lines = [line for edge in self._near for line in edge.single_lines if line.shown in self.wanted]
-        return [lines[k] for k, _ in crossings([line.image for line in lines], self._image)]
+        return [lines[k] for k, _ in crossings([line.image for line in lines], {NONE}, self._image)]
 
     def _extent(self, single: SingleLine) -> Extent:
         """What a single line shows at most, and where it crosses the way."""
