@@ -27,14 +27,14 @@ from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import contacts, line_contacts
 from exactacq.geometry.interval_union import Interval
-from exactacq.geometry.late import Pin, late_point
-from exactacq.geometry.points import Point, distance_sq
+from exactacq.geometry.late import Balls, Pin, balls, late_point
+from exactacq.geometry.points import Point
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
 from exactacq.sensing.line_points import LinePoints, Role, Side, along_normal
 from exactacq.sensing.view_length import of_length_on
 from exactacq.visibility.chords import of_length
-from exactacq.visibility.line_balls import CurveBalls, line
+from exactacq.visibility.line_balls import CurveBalls, Line, line
 from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes
 from exactacq.visibility.line_names import Anchor, Names
 from exactacq.visibility.rotational_sweep import Passed
@@ -218,15 +218,19 @@ class FamilyClipper:
             return curve.start, self.rails[side.edge].parameter(curve.start)
         rail, make = self.rails[side.edge], partial(self._points.exact, sector, t, side, passed)
         at = line(sector, t.ball(64))
-        if side.role is Role.CONTACT:
-            spot: tuple[arb, arb] | None = at[:2]
-        elif any(self._is_at(number, touching, side.edge) for number, touching, _ in passed):
-            spot = None
-        else:
-            met = self.balls(side.edge).met(at, side.role)
-            spot = None if met is None else met[1]
+        is_end = side.role is not Role.CONTACT and any(
+            self._is_at(number, touching, side.edge) for number, touching, _ in passed
+        )
+        spot = None if is_end else self._spot(at, side)
         point = make() if spot is None else late_point(spot, make)
         return point, rail.parameter(point)
+
+    def _spot(self, at: Line, side: Side) -> Balls | None:
+        """Where a line meets an edge, in balls; None if no ball holds it."""
+        if side.role is Role.CONTACT:
+            return at[:2]
+        met = self.balls(side.edge).met(at, side.role)
+        return None if met is None else met[1]
 
     def balls(self, e: int) -> CurveBalls:
         """The curve of a number in balls."""
@@ -350,6 +354,10 @@ class FamilyClipper:
         raise AssertionError("a line of the family passes each point between its extreme views")
 
     def _is_inside(self, free_views: FreeViews, t: fmpq) -> bool:
+        at = line(free_views.sector, arb(t))
+        here, there = (self._spot(at, side) for side in free_views.sides)
+        if here is not None and there is not None and (clear := self.range.clear_order(here, there)):
+            return clear < 0
         contact, direction = free_views.sector.touch(Real(t))
         a, b = (self._points.at(free_views.sector, side, contact, direction) for side in free_views.sides)
         return self.range.order(a, b) <= 0
@@ -404,7 +412,7 @@ class FamilyClipper:
         return self.range.order(*end.points)
 
     def _may_be_at_range(self, end: End) -> bool:
-        return not abs((distance_sq(*end.points) - self.range.square).ball(128)) > 0
+        return not self.range.clear_order(*map(balls, end.points))
 
     def _candidates(self, free_views: FreeViews, low: End, high: End) -> Iterator[Real]:
         sector, (one, other) = free_views.sector, free_views.sides

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from flint import arb, fmpq
 
+from exactacq.geometry.late import Balls, balls
 from exactacq.geometry.points import Point, distance_sq
-
-BITS = 64
-"""Precision of the balls that tell most distances from the radius."""
+from exactacq.numbers.rationals import ball_sign
 
 
 class Range:
@@ -25,8 +24,12 @@ class Range:
     def order(self, a: Point, b: Point) -> int:
         """-1, 0 or 1 as two points are closer than the radius, at its distance, or farther."""
         if a.is_late or b.is_late or a.rational is None or b.rational is None:
-            x, y = a.x.ball(BITS) - b.x.ball(BITS), a.y.ball(BITS) - b.y.ball(BITS)
-            excess = x * x + y * y - arb(self.square)
-            if excess > 0 or excess < 0:
-                return 1 if excess > 0 else -1
+            clear = self.clear_order(balls(a), balls(b))
+            if clear:
+                return clear
         return distance_sq(a, b).compare(self.square)
+
+    def clear_order(self, a: Balls, b: Balls) -> int:
+        """The same of points in balls; 0 where these leave it open too."""
+        x, y = a[0] - b[0], a[1] - b[1]
+        return ball_sign(x * x + y * y - arb(self.square))
