@@ -112,6 +112,17 @@ def meets_round(line: Line, arc: CurveImage, side: int) -> Meeting:
     return far, fe, u, ue, px, py, pe
 
 
+def parameter(curve: CurveImage, x: float, y: float, e: float) -> tuple[float, float]:
+    """The parameter of a point of a curve."""
+    if curve.sense:
+        return parameter_round(curve, x, y, e)
+    se, we = UNIT * max(abs(curve.x), abs(curve.y)) + TINY, UNIT * max(abs(curve.wx), abs(curve.wy)) + TINY
+    ox, oy, oe = _moved(x, y, e, -curve.x, -curve.y, se, 1.0, 0.0)
+    along, along_bound = dot(ox, oy, oe, curve.wx, curve.wy, we)
+    square, square_bound = dot(curve.wx, curve.wy, we, curve.wx, curve.wy, we)
+    return quotient(along, along_bound, square, square_bound)
+
+
 def parameter_round(arc: CurveImage, x: float, y: float, e: float) -> tuple[float, float]:
     """The parameter of a point of an arc; for a full circle, if it is not 0 within the bound.
 

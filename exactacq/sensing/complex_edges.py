@@ -7,6 +7,7 @@ sides and shows what no neighbouring line does.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from functools import cached_property, partial
 
@@ -20,14 +21,14 @@ from exactacq.geometry.points import Point, distance_sq
 from exactacq.kernel.family_images import FamilyImage
 from exactacq.kernel.line_keys import LineNumbers
 from exactacq.numbers.real import Real
-from exactacq.scene.edge_table import EdgeTable
+from exactacq.scene.edge_table import CONVEX, EdgeTable
 from exactacq.sensing.line_family import PencilFamilies, SingleLine
 from exactacq.sensing.line_images import LineImages
 from exactacq.sensing.line_points import Role, Side
 from exactacq.sensing.view_families import FamilyClipper
 from exactacq.visibility.chords import meet
 from exactacq.visibility.features import Feature, features, leaving
-from exactacq.visibility.free_segment import walk_line
+from exactacq.visibility.free_segment import LineWalk, walk_line
 from exactacq.visibility.line_balls import line
 from exactacq.visibility.line_families import Sector, Sliding, Spokes, corner_sectors, quarters
 from exactacq.visibility.line_names import Namer
@@ -177,6 +178,7 @@ class FamilySweeper:
         behind, ahead = walk_line(self.table, sector, t, self.range.above)
         contact, direction = sector.touch(t)
         met = [*reversed(behind.hits), (Real(0), own[-1]), *ahead.hits]
+        others = self._touched_arcs(behind, ahead) - {own[-1]}
         runs: list[tuple[int, Point, Point]] = []
         for e in dict.fromkeys(e for _, e in met):
             points = [contact + direction * tau for tau, f in met if f == e]
@@ -186,7 +188,7 @@ class FamilySweeper:
                 runs += [(e, point, point) for point in points]
         for e, start, end in runs:
             for f, low, high in runs:
-                if e == f:
+                if e == f or f in others:
                     continue
                 for place in (start, end) if start != end else (start,):
                     near, far = (low, high) if _nearer(place, low, high) else (high, low)
@@ -196,9 +198,22 @@ class FamilySweeper:
         for walk, place in ((behind, contact - step), (ahead, contact + step)):
             if not walk.blocked:
                 for f, low, high in runs:
+                    if f in others:
+                        continue
                     near, far = (low, high) if _nearer(place, low, high) else (high, low)
                     if place != near:
                         yield SingleLine(place, None, (near, far), f)
+
+    def _touched_arcs(self, *walks: LineWalk) -> set[int]:
+        """The convex arcs that a line touches once, between their ends: they tell who sees them along it."""
+        met = [hit for walk in walks for hit in walk.hits]
+        blocking = {walk.hits[-1][1] for walk in walks if walk.blocked and walk.hits}
+        times = Counter(e for _, e in met)
+        return {
+            e
+            for e, count in times.items()
+            if count == 1 and e not in blocking and self.table.images.kind[e] == CONVEX
+        }
 
 
 def normals(curve: Curve) -> Iterator[Sector]:

@@ -157,7 +157,7 @@ class WayViews:
 
     def _extent(self, single: SingleLine) -> Extent:
         """What a single line shows at most, and where it crosses the way."""
-        one = single.extent(self.complex.table)
+        one = single.extent(self.complex.images)
         _, _, u, error, *_ = meets_straight(single.image.first, self._image.line)
         one.source = (u - error, u + error) if error < inf else EVERYTHING
         return one

@@ -7,22 +7,19 @@ behind to the contact, from the contact to the edge ahead, and from the one edge
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from dataclasses import dataclass, field
-from math import inf
 
 from exactacq import kernel
-from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.curves import Segment
 from exactacq.geometry.points import Point
 from exactacq.kernel.cells import LineCells
-from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent, Span
+from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent
 from exactacq.kernel.family_images import NONE, FamilyImage
 from exactacq.kernel.images import TURNING
 from exactacq.kernel.line_keys import LineNumbers
 from exactacq.kernel.pencil_images import pencil_images
 from exactacq.numbers.real import Real
-from exactacq.scene.edge_table import EdgeTable
-from exactacq.sensing.line_images import LineImages, bounds, curve_image
+from exactacq.sensing.line_images import LineImages, curve_image
 from exactacq.sensing.line_points import Role, Side
 from exactacq.sensing.view_families import FamilyClipper, FreeViews, ViewFamily
 from exactacq.visibility.features import Feature
@@ -179,16 +176,13 @@ class SingleLine:
         at = 0.0, 0.0, 0.0, 0.0
         return FamilyImage(frame, at, (NONE, NONE, NONE), False, True, NONE, ([], []), ([], []), self, 0)
 
-    def extent(self, table: EdgeTable, here: int = 0) -> Extent:
+    def extent(self, images: LineImages, here: int = 0) -> Extent:
         """What is shown at most, and from where: of the run from the place, or if *here* of the place."""
-        run = _hull_on(table.curves[self.shown], self.run)
-        edge, shown, source = self.shown, run, EVERYTHING
+        edge, shown, source = self.shown, images.hull(self.shown, self.run), EVERYTHING
         if self.edge is not None:
-            source = _hull_on(table.curves[self.edge], (self.place,))
-            if source == EVERYTHING and self.u is not None and not table.full[self.edge]:
-                source = bounds(self.u, None)
+            source = images.hull(self.edge, (self.place,))
             if here:
-                edge, shown, source = self.edge, source, run
+                edge, shown, source = self.edge, source, shown
         is_known = not kernel.EXACT_ONLY
         return Extent(edge, shown, source, NOTHING, [], [], self, here, 1 - here, is_known)
 
@@ -203,12 +197,3 @@ class SingleLine:
             ends = clipper.along((self.place, u), self.run, self.shown)
             self._views = [ViewFamily((self.edge, self.shown), *end) for end in ends]
         return self._views, here
-
-
-def _hull_on(curve: Curve, points: Collection[Point]) -> Span:
-    """Bounds of the parameters of some points of a curve, in extended numbers: finite ones are not told."""
-    if isinstance(curve, Arc) and curve.full:
-        return EVERYTHING
-    known = {-inf for p in points if not p.is_late and p.rational == curve.start.rational}
-    known |= {inf for p in points if not p.is_late and p.rational == curve.end.rational}
-    return (min(known), max(known)) if len(known) == len(set(map(id, points))) else EVERYTHING

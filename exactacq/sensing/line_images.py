@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import cached_property
 from math import inf
 
@@ -11,8 +12,9 @@ from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.kernel.bounded import TINY, UNIT
 from exactacq.kernel.curve_images import CurveImage
-from exactacq.kernel.extents import SURE, Span
+from exactacq.kernel.extents import EVERYTHING, SURE, Span
 from exactacq.kernel.family_images import EdgePlace, FamilyImage, locate
+from exactacq.kernel.lines import parameter
 from exactacq.numbers.rationals import nearest_float
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
@@ -37,6 +39,24 @@ class LineImages:
     def circles(self) -> list[int]:
         """For every arc the number of the first one on its circle; for a segment its own."""
         return [self.table.circles.get(e, e) for e in range(len(self.table.curves))]
+
+    def hull(self, e: int, points: Iterable[Point]) -> Span:
+        """Bounds of the parameters of some points of an edge; of a circle's start nothing is told."""
+        curve, places = self.table.curves[e], []
+        for point in points:
+            if not point.is_late and not self.table.full[e]:
+                if point.rational == curve.start.rational:
+                    places.append((-inf, -inf))
+                    continue
+                if point.rational == curve.end.rational:
+                    places.append((inf, inf))
+                    continue
+            (x, p), (y, q) = float_ball(point.x), float_ball(point.y)
+            u, error = parameter(self.curves[e], x, y, max(p, q))
+            if self.table.full[e] and not error < u < 4 - error:
+                return EVERYTHING
+            places.append((u - error, u + error))
+        return min(low for low, _ in places), max(high for _, high in places)
 
     def locate(self, families: list[FamilyImage], lines: Pencil) -> None:
         """Find where the first and the last lines of a pencil's families meet their edges."""

@@ -61,9 +61,9 @@ class VisibilityComplex:
             families += near.images
             for single in near.single_lines:
                 if single.edge == edge:
-                    single_lines.append(single.extent(self.table))
+                    single_lines.append(single.extent(self.images))
                 if single.edge is not None and single.shown == edge:
-                    single_lines.append(single.extent(self.table, here=1))
+                    single_lines.append(single.extent(self.images, here=1))
         images = self.images
         return extents_from(edge, families, images.curves, images.reach) + single_lines
 
