@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import gc
+import weakref
 from collections.abc import Callable, Iterator
 
 import pytest
 
 import exactacq as xa
+from exactacq.strategies.gc_pause import MOST, uncollected
 
 FEW = 100
 """Objects that belong to others: the libraries below, and the tests themselves."""
@@ -57,3 +59,39 @@ def test_a_run_resumes_the_search() -> None:
 def test_who_switched_it_off_finds_it_off() -> None:
     xa.sightseer(xa.load("m11"))
     assert not gc.isenabled()
+
+
+def test_what_a_run_made_is_not_searched_when_the_pause_is_over() -> None:
+    with uncollected():
+        made = [[k] for k in range(100_000)]
+    youngest = len(gc.get_objects(generation=0)) + len(gc.get_objects(generation=1))
+    assert len(made) == 100_000
+    assert youngest < 50_000
+    assert gc.isenabled()
+
+
+def test_what_others_froze_stays_frozen() -> None:
+    gc.freeze()
+    frozen = gc.get_freeze_count()
+    try:
+        with uncollected():
+            pass
+        assert gc.get_freeze_count() > frozen // 2
+    finally:
+        gc.unfreeze()
+
+
+def test_cycles_around_many_runs_do_not_pile_up() -> None:
+    class Ring:
+        """A user's object that refers to itself."""
+
+    alive = weakref.WeakSet()
+    most = 0
+    for _ in range(4 * MOST):
+        ring = Ring()
+        ring.self = ring
+        alive.add(ring)
+        with uncollected():
+            pass
+        most = max(most, len(alive))
+    assert most <= MOST + 1
