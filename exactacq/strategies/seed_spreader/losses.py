@@ -9,8 +9,7 @@ comes back to the line, and it is out of reach already. Not so if it is known to
 from __future__ import annotations
 
 from bisect import bisect_left, insort
-from collections.abc import Container, Iterator
-from math import inf
+from collections.abc import Callable, Container, Iterator, Sequence, Set
 from typing import NamedTuple
 
 from exactacq.geometry.curves import Curve, Segment
@@ -20,14 +19,9 @@ from exactacq.sensing.event import EventKind, Reason
 from exactacq.sensing.legs import Leg
 from exactacq.sensing.map import Map
 from exactacq.sensing.sensor import Ahead, Notice
+from exactacq.strategies.seed_spreader.horizon import Horizon, reach_begins
 from exactacq.strategies.seed_spreader.prediction.decide import sees_later
-from exactacq.strategies.seed_spreader.range_thresholds import (
-    first_out_of_reach,
-    is_in_reach,
-    last_in_reach,
-    leftmost,
-    thresholds,
-)
+from exactacq.strategies.seed_spreader.range_thresholds import first_out_of_reach, is_in_reach, leftmost
 from exactacq.strategies.seed_spreader.robot import SeedSpreaderRobot
 
 
@@ -84,16 +78,15 @@ class Line:
         for k in out_of_sight:
             if k in self._from:
                 del self._by_ordinate[bisect_left(self._by_ordinate, (self._from.pop(k), k))]
-            if k in robot.incomplete and self._is_at_stake(k, robot.map):
-                self._from[k] = self._earliest(known(robot.map, k))
+            if k in robot.incomplete and (curves := self._at_stake(k, robot.map)):
+                self._from[k] = self._earliest(curves)
                 insort(self._by_ordinate, (self._from[k], k))
 
     def _earliest(self, curves: list[Curve]) -> float:
-        """Pieces do not go out of reach before this ordinate, times the sense: rounded, so in order."""
-        ends = [
-            self.sense * float(y) for curve in curves for y in thresholds(self.x, curve, self.robot.radius)
-        ]
-        return (max if self.lookahead else min)(ends, default=-inf)
+        """Pieces do not go out of reach before this ordinate, times the sense."""
+        if self.lookahead:
+            return self._horizon(curves).bounds[0]
+        return reach_begins(self.sense, curves, self.robot.radius)
 
     def _due(self, before: Real) -> Iterator[int]:
         """Obstacles at stake that may go out of reach up to an ordinate, the first one first."""
@@ -107,7 +100,7 @@ class Line:
         self._unsettled |= self.robot.news()
         chart = self.robot.map
         some = {*self._from, *self._unsettled} & self.robot.incomplete
-        return [k for k in sorted(some) if self._is_at_stake(k, chart)]
+        return [k for k in sorted(some) if self._at_stake(k, chart)]
 
     # -- on the way --------------------------------------------------------------------------------
 
@@ -173,41 +166,62 @@ class Line:
     def _loss(self, gap: _OutOfSight, ahead: Ahead) -> tuple[Real, Reason] | None:
         """Where, before the end of a gap and of the way, its obstacle is about to be lost, and why."""
         robot, y, k = self.robot, gap.place.y, gap.obstacle
-        chart = robot.map_ahead(ahead, gap.u, gap.place, {k})
-        if not self._is_at_stake(k, chart):
+
+        def chart(obstacles: Set[int]) -> Map:
+            return robot.map_ahead(ahead, gap.u, gap.place, obstacles)
+
+        # Asked first, as this spares the map.
+        curves = self._at_stake(k, chart({k})) if robot.may_lie_west(k, self.x) else []
+        if not curves:
             return None
-        curves = known(chart, k)
-        if gap.fresh:
-            around = robot.map_ahead(ahead, gap.u, gap.place, robot.near(curves))
-            if not (self.lookahead and self._sees(k, around, y, Real(self.last))):
-                return y, Reason.OUT_OF_SIGHT
-        last = last_in_reach(self.x, self.upward, curves, robot.radius)
-        if last is None or self._order(last, y) < 0:
+        if gap.fresh and not (self.lookahead and self._sees(k, curves, chart, y, Real(self.last))):
+            return y, Reason.OUT_OF_SIGHT
+        horizon = self._horizon(curves)
+        if horizon.order(y) < 0:
             return y, Reason.OVERDUE
-        if not self.lookahead:
-            first = first_out_of_reach(self.x, self.upward, y, curves, robot.radius)
-            last = last if first is None else first
         end = ahead.leg.end.y if gap.end is None else gap.end
-        return (last, Reason.OUT_OF_REACH) if self._order(last, end) < 0 else None
+        last = None
+        if not self.lookahead:
+            last = first_out_of_reach(self.x, self.upward, y, curves, robot.radius)
+        if last is None and horizon.order(end) < 0:
+            last = horizon.exact
+        return (last, Reason.OUT_OF_REACH) if last is not None and self._order(last, end) < 0 else None
 
-    def _is_at_stake(self, obstacle: int, chart: Map) -> bool:
-        """Whether an obstacle is incomplete, known west of the line, and not known to block what is left."""
-        curves = known(chart, obstacle)
-        return (
-            chart.is_incomplete(obstacle)
-            and any(leftmost(curve).compare(self.x) < 0 for curve in curves)
-            and not self.robot.blocks_ahead(obstacle, chart)
-        )
+    def _horizon(self, curves: Sequence[Curve]) -> Horizon:
+        return Horizon(self.x, self.upward, curves, self.robot.radius)
 
-    def _sees(self, obstacle: int, chart: Map, start: Real, stop: Real, including: bool = False) -> bool:
-        """Whether by the map a point of an obstacle can be seen from the line between two ordinates.
+    def _at_stake(self, obstacle: int, chart: Map) -> list[Curve]:
+        """What is known of an obstacle, if it is at stake: else nothing.
 
-        What is farther than the radius from all its known points hides none of them.
+        So it is if it is incomplete, known west of the line, and not known to block what is left.
         """
-        pieces = known(chart, obstacle)
-        blockers = [c for k in self.robot.near(pieces) for c in known(chart, k) if _is_long(c)]
+        if not (self.robot.may_lie_west(obstacle, self.x) and chart.is_incomplete(obstacle)):
+            return []
+        curves = known(chart, obstacle)
+        is_west = any(leftmost(curve).compare(self.x) < 0 for curve in curves)
+        return curves if is_west and not self.robot.blocks_ahead(obstacle, chart) else []
+
+    def _sees(
+        self,
+        obstacle: int,
+        pieces: Sequence[Curve],
+        chart: Callable[[Set[int]], Map],
+        start: Real,
+        stop: Real,
+        including: bool = False,
+    ) -> bool:
+        """Whether by the map a point of an obstacle's known *pieces* is seen from between two ordinates.
+
+        *chart* gives the map of some obstacles.
+        """
         points = [curve.start for curve in pieces if not _is_long(curve)]
         targets = [curve for curve in pieces if _is_long(curve)]
+
+        def blockers(field: Sequence[float]) -> list[Curve]:
+            others = self.robot.meeting(field) - {obstacle}
+            around = chart(others)
+            return [*targets, *(c for k in sorted(others) for c in known(around, k) if _is_long(c))]
+
         return sees_later(self.x, start, stop, targets, blockers, self.robot.radius, points, including)
 
     # -- at a stop ---------------------------------------------------------------------------------
@@ -224,28 +238,28 @@ class Line:
         self._settle()
         found = []
         for k in sorted({*self._due(leave.y), *(robot.in_sight & robot.incomplete)}):
-            if not self._is_at_stake(k, chart):
+            curves = self._at_stake(k, chart)
+            if not curves:
                 continue
-            if self._goes_out_of_reach(k, chart, leave):
+            if self._goes_out_of_reach(curves, leave):
                 found.append(Loss(k, Reason.OUT_OF_REACH))
-            elif k in robot.in_sight and not self._is_visible_from(k, chart, leave):
+            elif k in robot.in_sight and not self._is_visible_from(k, curves, chart, leave):
                 found.append(Loss(k, Reason.OUT_OF_SIGHT))
         return found
 
-    def _goes_out_of_reach(self, obstacle: int, chart: Map, leave: Point) -> bool:
+    def _goes_out_of_reach(self, curves: Sequence[Curve], leave: Point) -> bool:
         """Whether it is in reach here, and not from a leave point on or, without a look ahead, from there."""
-        curves, robot = known(chart, obstacle), self.robot
+        robot = self.robot
         if not is_in_reach(robot.position, curves, robot.radius):
             return False
         if not self.lookahead:
             return not is_in_reach(leave, curves, robot.radius)
-        last = last_in_reach(self.x, self.upward, curves, robot.radius)
-        return last is None or self._order(last, leave.y) < 0
+        return self._horizon(curves).order(leave.y) < 0
 
-    def _is_visible_from(self, obstacle: int, chart: Map, leave: Point) -> bool:
+    def _is_visible_from(self, obstacle: int, curves: Sequence[Curve], chart: Map, leave: Point) -> bool:
         """Whether by the map an obstacle is seen from a leave point on or, without a look ahead, there."""
         stop = Real(self.last) if self.lookahead else leave.y
-        return self._sees(obstacle, chart, leave.y, stop, including=True)
+        return self._sees(obstacle, curves, lambda _: chart, leave.y, stop, including=True)
 
 
 def known(chart: Map, obstacle: int) -> list[Curve]:

@@ -10,12 +10,12 @@ from bisect import bisect_left
 from collections.abc import Callable, Iterator, Sequence, Set
 from typing import NamedTuple
 
+import numpy as np
 from flint import fmpq
 
-from exactacq.geometry.box_index import box
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Point
-from exactacq.numbers.real import Real
+from exactacq.numbers.real import Real, rational
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.scene import Scene
 from exactacq.scene.terrain_components import Component, Ground
@@ -55,6 +55,8 @@ class SeedSpreaderRobot(Robot):
         self._of: dict[int, list[int]] = {}
         for n, crossing in enumerate(self._crossings):
             self._of.setdefault(crossing.component.index, []).append(n)
+        # Around the whole obstacles: boxes that a component's boundary does not leave.
+        self._boxes = table.hulls[[component.obstacle.index for component in ground.components]]
         self._spots: dict[int, Spots] = {}
         self._next = self.piece = self._passed_by = 0
         self._gaps: list[Gap] = []
@@ -86,11 +88,14 @@ class SeedSpreaderRobot(Robot):
         """What will be known of some obstacles at a place of a way that was looked along."""
         return self._memory.map_ahead(ahead, u, place, obstacles)
 
-    def near(self, curves: Sequence[Curve]) -> set[int]:
-        """Obstacles that may be within the radius of some curves: to ask the map for no others."""
-        boxes = [box(curve) for curve in curves]
-        left, bottom, right, top = (f(b[k] for b in boxes) for k, f in enumerate((min, min, max, max)))
-        return self._memory.near((left, bottom, right, top))
+    def meeting(self, box: Sequence[float]) -> set[int]:
+        """Obstacles that may have points in a box: to ask the map for no others."""
+        apart = (self._boxes[:, :2] > box[2:]) | (self._boxes[:, 2:] < box[:2])
+        return set(np.flatnonzero(~apart.any(axis=1)).tolist())
+
+    def may_lie_west(self, obstacle: int, x: fmpq) -> bool:
+        """Whether an obstacle may have points west of a line: if not, no map shows any."""
+        return bool(rational(float(self._boxes[obstacle, 0])) < x)
 
     def visible(self, obstacle: int) -> list[Curve]:
         """The pieces of an obstacle in sight from here; a single point is a piece without length."""

@@ -15,7 +15,7 @@ there the lengths are bounded between neighbouring lines through two features, w
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -28,6 +28,7 @@ from exactacq.geometry.intersections import contacts, line_contacts
 from exactacq.geometry.points import Point, distance_sq
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real, rational
+from exactacq.strategies.seed_spreader.horizon import Horizon
 from exactacq.strategies.seed_spreader.prediction.pieces import (
     ANGLE,
     KnownFeature,
@@ -46,7 +47,7 @@ from exactacq.strategies.seed_spreader.prediction.sight import (
     overlap,
     unique,
 )
-from exactacq.strategies.seed_spreader.range_thresholds import last_in_reach, nearest_point, thresholds
+from exactacq.strategies.seed_spreader.range_thresholds import nearest_point, thresholds
 
 UP = Point(0, 1)
 GRID = 8
@@ -60,7 +61,7 @@ def sees_later(
     start: Real,
     stop: Real | fmpq,
     targets: Sequence[Curve],
-    blockers: Sequence[Curve],
+    blockers: Callable[[Sequence[float]], Sequence[Curve]],
     radius: fmpq,
     points: Sequence[Point] = (),
     including: bool = False,
@@ -69,17 +70,16 @@ def sees_later(
 
     The start is excluded, unless *including*; the stop belongs to the walk.
 
-    *blockers* are the known pieces of boundaries, the blocked side on their left; the targets are some of
-    them, *points* single known points of the same obstacle. A point is seen within the radius if the segment
-    to it nowhere enters the known blocked side; it may touch. Raises `Undecided` where a line of sight that
-    touches one feature and is exactly as long as the range can be neither found nor excluded.
+    *blockers* gives the known pieces of boundaries in a box, the blocked side on their left; the targets are
+    some of them, *points* single known points of the same obstacle. A point is seen within the radius if the
+    segment to it nowhere enters the known blocked side; it may touch. Raises `Undecided` where a line of
+    sight that touches one feature and is exactly as long as the range can be neither found nor excluded.
     """
     if not including and Real(stop).compare(start) == 0:
         return False
     walk = VerticalWay(x, start, stop, radius, including)
     pieces = [*targets, *(Segment(point, point) for point in points)]
-    last = last_in_reach(x, walk.sense > 0, pieces, radius)
-    if last is None or last.compare(start) == -walk.sense or (not including and last.compare(start) == 0):
+    if Horizon(x, walk.sense > 0, pieces, radius).order(start) < (0 if including else 1):
         # Whatever is in the way: nothing is in reach.
         return False
     goals = [curve for curve in targets if walk.may_reach(hull(curve))]
@@ -88,7 +88,7 @@ def sees_later(
         return False
     hulls = [hull(curve) for curve in goals] + [(*point.xy, *point.xy) for point in dots]
     field = walk.field(hulls)
-    known = list(unique([*goals, *(c for c in blockers if overlap(hull(c), field))]))
+    known = list(unique([*goals, *(c for c in blockers(field) if overlap(hull(c), field))]))
     return _Candidates(walk, known, len(list(unique(goals))), dots, field).run()
 
 
