@@ -68,6 +68,13 @@ class TestHalfCircles:
             assert boundary.edge_at(xa.Point(*(c + 0 for c in edge.start.rational))) == k
         assert boundary.edge_at(xa.Point(0, -1)) == 1
 
+    def test_what_a_boundary_remembers_of_points_is_true(self) -> None:
+        (obstacle,) = Scene([xa.Polygon([(0, 0), (4, 0), (4, 4), (0, 4)])]).obstacles
+        boundary = Boundary(obstacle.edges, obstacle.perimeter)
+        places = [xa.Point(1, 0), xa.Point(4, 4), xa.Point(4, 1), xa.Point(0, 3)]
+        for k in (0, 1, 0, 2, 1, 3, 0, 0, 2):
+            assert boundary.edge_at(places[k]) == (0, 2, 1, 3)[k]
+
 
 class TestLinesThroughCornersOnCircles:
     """A corner on the circle of an arc: the tangent there touches the circle in the corner itself.

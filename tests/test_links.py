@@ -8,6 +8,7 @@ from itertools import combinations
 from random import Random
 
 import networkx as nx
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from oracles import Disc, Room, free, shortest_visible, world
@@ -32,8 +33,12 @@ from strategies import (
 
 import exactacq as xa
 from exactacq.errors import InvalidScene
+from exactacq.files.octagons import random_octagons
 from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.visibility.features import features
+from exactacq.visibility.links import near_hull
 
 Q = Fraction
 LAW_EXAMPLES = 60 if settings.get_current_profile_name() == "long" else 3
@@ -387,3 +392,45 @@ class TestLaws:
             assert sum(value == 1 for value in found) == 12
             assert sum(value == diagonal for value in found) == 8
             assert len(found) == 20
+
+
+def in_hull(place: np.ndarray, points: np.ndarray) -> bool:
+    """Whether a place is an average of three of the points, to 1e-9."""
+    for some in combinations(points, 3):
+        a, b, c = some
+        area = np.linalg.det(np.stack((b - a, c - a)))
+        if abs(area) > 1e-9:
+            u, v = np.linalg.solve(np.stack((b - a, c - a), axis=1), place - a)
+            if u >= -1e-9 and v >= -1e-9 and u + v <= 1 + 1e-9:
+                return True
+    return False
+
+
+def test_circles_beside_a_hull_are_told() -> None:
+    rng = np.random.default_rng(4)
+    beside = 0
+    for _ in range(60):
+        points = rng.integers(-5, 6, (6, 2)).astype(float)
+        places, sizes = rng.integers(-9, 10, (20, 2)) / 2, rng.integers(0, 3, 20) / 2 + 1e-9
+        for place, size, near in zip(places, sizes, near_hull(places, points, sizes), strict=True):
+            turns = np.exp(1j * np.linspace(0, 2 * np.pi, 24))
+            rim = place + (size - 2e-9) * np.stack((turns.real, turns.imag), axis=1)
+            meets = in_hull(place, points) or any(in_hull(p, points) for p in rim)
+            assert near or not meets
+            beside += not near
+    assert beside > 300
+
+
+@pytest.mark.parametrize("points", [[(2, 3)] * 8, [(0, 0)] * 4 + [(4, 4)] * 4])
+def test_a_hull_without_an_inside(points: list[tuple[int, int]]) -> None:
+    """All points are one, or on one line: what is on it is near."""
+    hull = np.array(points, dtype=float)
+    assert near_hull(hull, hull, np.full(len(hull), 1e-9)).all()
+    aside = np.array([[9.0, 2.0]])
+    assert near_hull(aside, hull, np.array([1.0]))[0] == (len(set(points)) == 1)
+
+
+def test_features_are_made_once_for_a_table() -> None:
+    table = EdgeTable(random_octagons(3, 1).obstacles)
+    assert features(table) is features(table)
+    assert features(EdgeTable(random_octagons(3, 1).obstacles)) is not features(table)

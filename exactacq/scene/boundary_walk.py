@@ -20,6 +20,7 @@ class Boundary:
 
     def __init__(self, edges: Sequence[Curve], perimeter: Length, closed: bool = True) -> None:
         self.edges, self.perimeter, self.closed = edges, perimeter, closed
+        self._found: tuple[tuple[Point, int], ...] = ()
 
     @cached_property
     def _starts(self) -> list[Length]:
@@ -33,8 +34,16 @@ class Boundary:
         """Index of the edge that contains the point; at a vertex the edge that starts there.
 
         The promise that the point lies on the boundary spares a proof: where balls leave one edge, it is
-        that one. ValueError if they leave none.
+        that one. ValueError if they leave none. The last two points, the ends of a way, are remembered.
         """
+        for known, k in self._found:
+            if known is point:
+                return k
+        k = self._edge_at(point)
+        self._found = (*self._found[-1:], (point, k))
+        return k
+
+    def _edge_at(self, point: Point) -> int:
         for k, edge in enumerate(self.edges):
             if edge.start is point:
                 return k

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from weakref import WeakKeyDictionary
 
 from flint import fmpq
 
@@ -35,8 +36,17 @@ class Feature:
     sectors: tuple[Sector, ...]
 
 
+_kept: WeakKeyDictionary[EdgeTable, list[Feature]] = WeakKeyDictionary()
+
+
 def features(table: EdgeTable) -> list[Feature]:
-    """All features of a scene, in the order of the edges they start with."""
+    """All features of a scene, in the order of the edges they start with: made once for a table."""
+    if table not in _kept:
+        _kept[table] = _features(table)
+    return _kept[table]
+
+
+def _features(table: EdgeTable) -> list[Feature]:
     found: list[Feature] = []
     for e, curve in enumerate(table.curves):
         if isinstance(curve, Arc) and curve.ccw:

@@ -240,7 +240,11 @@ class Links:
         order = count()
         heap: list[tuple[float, int, tuple[int, Pencil, Cell, bool]]] = []
         mirrors: dict[tuple[Hashable, ...], Mirrors] = {}
-        for k in np.flatnonzero(bounds <= best.guess):
+        close = np.flatnonzero(bounds <= best.guess)
+        # A chord lies in the convex hull of what it joins, and with it the place where a feature holds it.
+        margins = sizes[close] + 4 * self.table.roundoff
+        between = near_hull(centers[close], _corners(self.table.hulls[[i, j]]), margins)
+        for k in close[between]:
             owner = self.features[k].owner
             if owner in (i, j):
                 continue
@@ -497,6 +501,33 @@ def box_gaps(points: Floats, box: Floats, sizes: Floats) -> Floats:
     """Lower bounds of the distances from circles to a box."""
     apart = np.maximum(np.maximum(box[:2] - points, points - box[2:]), 0.0)
     return np.maximum(np.hypot(apart[:, 0], apart[:, 1]) * (1 - 1e-13) - sizes * (1 + 1e-13), 0.0)
+
+
+def _corners(boxes: Floats) -> Floats:
+    """The corners of boxes."""
+    return boxes[:, [[0, 1], [2, 1], [2, 3], [0, 3]]].reshape(-1, 2)
+
+
+def near_hull(places: Floats, points: Floats, sizes: Floats) -> NDArray[np.bool_]:
+    """Which circles may meet the convex hull of some points; False is certain for radii less a margin.
+
+    A circle does not if it lies on one side of a line and all the points on the other. Directions of lines
+    through two of the points are tried; any would do, so their rounding takes nothing from the truth. The
+    margin is for heights over the lines: with coordinates up to M and u = 2^-53, a scalar product is off by 3
+    u M, the difference to that of the line by 8 u M, and two of them are compared: 16 u M. The normal is a
+    unit vector but for 4 u, so a radius up to M counts for 4 u M more or less. `EdgeTable.roundoff` is at
+    least 8 u M, so three of it are enough.
+    """
+    one, other = (points[k] for k in np.triu_indices(len(points), 1))
+    along = other - one
+    long = np.hypot(along[:, 0], along[:, 1])
+    one, along = one[long > 0], along[long > 0] / long[long > 0, None]
+    normal = np.stack((-along[:, 1], along[:, 0]), axis=1)
+    level = (normal * one).sum(axis=1)
+    heights, rims = normal @ points.T - level[:, None], places @ normal.T - level
+    beyond = (rims - sizes[:, None] > heights.max(axis=1)) | (rims + sizes[:, None] < heights.min(axis=1))
+    near: NDArray[np.bool_] = ~beyond.any(axis=1)
+    return near
 
 
 def _flipped(item: Shortest) -> Shortest:
