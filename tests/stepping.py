@@ -72,9 +72,7 @@ class Stepper:
 
     def __init__(self, scene: Scene, radius: object, look: str = "polygon") -> None:
         self.radius, self.look = float(radius), look
-        loops = [_flat(obstacle.edges) for obstacle in scene.obstacles]
-        self.a = np.concatenate(loops)
-        self.b = np.concatenate([np.roll(loop, -1, axis=0) for loop in loops])
+        self.a, self.b, loops = chords(scene)
         self.owner = np.repeat(np.arange(len(loops)), [len(loop) for loop in loops])
         self.first = np.concatenate([[0], np.cumsum([len(loop) for loop in loops])])
         self.lengths = np.hypot(*(self.b - self.a).T)
@@ -90,7 +88,7 @@ class Stepper:
 
     def walk(self, curves: Iterable[Curve], limit: int | None = None) -> StepMap:
         """Walk the curves (at most *limit* steps of R / 100) and look around at every step."""
-        for count, (point, length) in enumerate(_steps(curves, self.radius / 100)):
+        for count, (point, length) in enumerate(steps(curves, self.radius / 100)):
             if limit is not None and count >= limit:
                 break
             self._see(point, length)
@@ -256,6 +254,12 @@ def _cross(a: Floats, b: Floats) -> Floats:
     return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
 
 
+def chords(scene: Scene) -> tuple[Floats, Floats, list[Floats]]:
+    """Starts and ends of the chords of all boundaries, and the starts by obstacle."""
+    loops = [_flat(obstacle.edges) for obstacle in scene.obstacles]
+    return np.concatenate(loops), np.concatenate([np.roll(loop, -1, axis=0) for loop in loops]), loops
+
+
 def _flat(curves: Sequence[Curve]) -> Floats:
     """The starts of the chords of a loop."""
     return np.concatenate([_chain(curve)[:-1] for curve in curves])
@@ -277,7 +281,7 @@ def _chain(curve: Curve) -> Floats:
     return chain
 
 
-def _steps(curves: Iterable[Curve], step: float) -> Iterator[tuple[Floats, float]]:
+def steps(curves: Iterable[Curve], step: float) -> Iterator[tuple[Floats, float]]:
     """The start and every further *step* along the path, and its end."""
     behind, into = 0.0, 0.0
     here = None

@@ -2,7 +2,8 @@
 
 ``pytest tests/benchmarks/test_engine_speed.py --benchmark-enable -s`` prints one line for each work. Each is
 done in a process of its own, which takes the time of the loop before and after it. Without that option only
-the smallest is done.
+the smallest is done. The run among 10,000 octagons is stopped after `MINUTES` of its processor's time: it
+prints how far it came, and how fast.
 """
 
 from __future__ import annotations
@@ -10,7 +11,8 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-from os import environ
+from os import environ, pathsep
+from pathlib import Path
 
 import pytest
 
@@ -54,6 +56,72 @@ def corner(k):
     return [Fraction(round(1000 * size * f(2 * pi * k / 1000)), 1000) for f in (cos, sin)]
 scene = xa.Scene([xa.Polygon([corner(k) for k in range(1000)])], start=(-112, 0), radius=20)
 """
+GRID = """
+from pathlib import Path
+from grids import grid_scene
+scene = grid_scene(Path({data!r}, "turtlebot3.pgm"), (199, 230), 25)
+def audited(run):
+    xa.audit(run)
+    return run
+"""
+CAMPAIGN = """
+from collections import Counter
+from exactacq.study.campaign.judging import judge
+from exactacq.study.campaign.settings import Task
+def judged(strategy, count):
+    begin = time.process_time()
+    results = Counter(judge(Task(strategy, seed), (), audited=True).result for seed in range(count))
+    return f"{count / (time.process_time() - begin):.1f} scenes a second, {dict(results)}"
+"""
+SWEEPS = """
+from flint import fmpq
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.sensing.sensor import Sensor
+from exactacq.sensing.view_events import Sweep
+from exactacq.visibility.sensor_range import Range
+run = xa.sightseer(random_octagons({n}, 1), 10)
+def swept():
+    begin = time.process_time()
+    senses = Sensor(EdgeTable(run.scene.obstacles), Range(run.radius))
+    events = sum(len(Sweep(run.scene, piece, senses).events) for piece in run.path)
+    middle = time.process_time()
+    places = [piece.curve.point(fmpq(1, 2)) for piece in run.path]
+    views = [xa.isovist(run.scene, place, run.radius).pieces for place in places]
+    one, other = (middle - begin) / events, (time.process_time() - middle) / len(views)
+    times = f"{{1e3 * one:.2f}} ms each, a view {{1e3 * other:.2f}} ms"
+    return f"{{events}} events, {{times}}: {{one / other:.2f}} views for an event"
+"""
+FAR = """
+import resource, time
+import exactacq as xa
+from exactacq.files.octagons import random_octagons
+from exactacq.strategies.sightseer.robot import SightseerRobot
+from exactacq.strategies.sightseer.strategy import explored_by
+
+class Over(Exception):
+    pass
+
+scene = random_octagons({n}, 1)
+robot = SightseerRobot(scene, scene.radius, scene.start)
+begin, told = time.process_time(), [0.0]
+
+def progress(visited, total):
+    spent = time.process_time() - begin
+    if spent > told[0] + {seconds} / 10 or visited == total or spent > {seconds}:
+        most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+        print(f"{{visited}} of {{total}} visited, {{robot.count}} legs in {{spent:.0f}} s, "
+              f"{{robot.count / spent:.1f}} a second, {{most:.0f}} MB", flush=True)
+        told[0] = spent
+    if spent > {seconds}:
+        raise Over
+
+try:
+    explored_by(robot, scene, progress)
+except Over:
+    pass
+"""
+MINUTES = 10
+DATA = Path(__file__).resolve().parents[1] / "data"
 WORKS = {
     "Sightseer, 10 octagons": (OCTAGONS.format(n=10), "xa.sightseer(scene, 10)"),
     "Sightseer, 100 octagons": (OCTAGONS.format(n=100), "xa.sightseer(scene, 10)"),
@@ -61,7 +129,13 @@ WORKS = {
     "Seed Spreader, 100 octagons": (TERRAIN.format(n=100), "xa.seed_spreader(scene)"),
     "a board with 93 holes": (BOARD, "xa.sightseer(scene)"),
     "a closed curve of 1000 edges": (CURVE, "xa.sightseer(scene)"),
+    "the TurtleBot3 map, R = 25, audited": (GRID.format(data=str(DATA)), "audited(xa.sightseer(scene))"),
+    "random scenes, Sightseer": (CAMPAIGN, "judged('sightseer', 40)"),
+    "random scenes, Seed Spreader": (CAMPAIGN, "judged('seed-spreader', 40)"),
+    "sweeps, 30 octagons": (SWEEPS.format(n=30), "swept()"),
 }
+HERE = {"PYTHONPATH": pathsep.join([str(Path(__file__).parent), environ.get("PYTHONPATH", "")])}
+"""The programs import modules beside this one."""
 
 
 @pytest.mark.parametrize("kernel", ["as it is", "python"])
@@ -76,9 +150,19 @@ def test_works(benchmark: object, name: str, kernel: str) -> None:
     answer = benchmark.pedantic(
         subprocess.run,
         (command,),
-        {"capture_output": True, "check": True, "env": {**environ, **wish}},
+        {"capture_output": True, "check": True, "env": {**environ, **HERE, **wish}},
         rounds=1,
     )
     loops, megabytes, run = json.loads(answer.stdout)
     print(f"\n{name} (kernel {kernel}): {loops:.1f} loops, {megabytes:.0f} MB; {run}")
     assert loops > 0
+
+
+def test_many_octagons(benchmark: object) -> None:
+    """10,000 of them, as far as the run comes in `MINUTES`; without timing, two octagons."""
+    size, seconds = (2, 60) if benchmark.disabled else (10_000, 60 * MINUTES)
+    command = [sys.executable, "-c", FAR.format(n=size, seconds=seconds)]
+    asked = {"capture_output": True, "check": True, "text": True}
+    answer = benchmark.pedantic(subprocess.run, (command,), asked, rounds=1)
+    print(f"\n{answer.stdout}")
+    assert f"of {size} visited" in answer.stdout

@@ -5,19 +5,25 @@ that option each small workload runs once, to see that it still runs. The peers:
 
 - pyvispoly (CGAL): the view of unlimited range within the scene's square, from coordinates as exact as ours;
 - the stepping simulator of `stepping`: approximate, and without loss and regain of sight. Its "polygon" makes
-  the view of limited range at every step, "lazy" only what the map still needs.
+  the view of limited range at every step, "lazy" only what the map still needs;
+- `float_views`, which steps too: a plain sweep in floats at every step, compiled by mypyc if it can be.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
-from math import isqrt
+from math import atan2, isqrt, pi
 from random import Random
+from types import ModuleType
+from typing import Any
 
+import float_views
+import numpy as np
 import pytest
+from compiling import compiled
 from flint import fmpq
-from stepping import Stepper
+from stepping import Stepper, chords, steps
 
 import exactacq as xa
 from exactacq.files.octagons import random_octagons
@@ -182,6 +188,68 @@ def test_stepping(benchmark: object, look: str) -> None:
     assert found.events
     if steps is None:
         assert found.done.all(), "the peer knows all in the end"
+
+
+@pytest.mark.benchmark(group="a run with its map, n = 100")
+def test_float_stepping(benchmark: object) -> None:
+    """The whole path in steps of R / 100; where the robot steps is worked out before."""
+    module, is_compiled = (float_views, False) if benchmark.disabled else compiled("float_views")
+    run = finished(FEW if benchmark.disabled else 100)
+    views, places = stepper(module, run.scene, run.radius), step_places(run)
+    left = benchmark.pedantic(views.walk, (places,), rounds=1)
+    benchmark.extra_info["compiled"] = is_compiled
+    assert left == 0, "the peer knows all in the end"
+    if not benchmark.disabled:
+        told(is_compiled, len(places), benchmark.stats.stats.median)
+
+
+@pytest.mark.benchmark(group="a run with its map, many obstacles")
+@pytest.mark.parametrize("n", [1000, 2000])
+def test_float_stepping_through_a_large_scene(benchmark: object, n: int) -> None:
+    """The whole path again."""
+    skip_unless_timed(benchmark, n)
+    module, is_compiled = compiled("float_views")
+    run = LARGE[n] if n in LARGE else finished(n)
+    views, places = stepper(module, run.scene, run.radius), step_places(run)
+    assert benchmark.pedantic(views.walk, (places,), rounds=1) == 0
+    told(is_compiled, len(places), benchmark.stats.stats.median)
+
+
+def stepper(module: ModuleType, scene: xa.Scene, radius: object) -> Any:
+    """The float robot in a scene."""
+    start, end, _ = chords(scene)
+    return module.FloatViews(*start.T.tolist(), *end.T.tolist(), float(radius))
+
+
+def step_places(run: xa.Run) -> list[tuple[float, float]]:
+    """Where a run's path is looked around from."""
+    return [tuple(p.tolist()) for p, _ in steps([piece.curve for piece in run.path], float(run.radius) / 100)]
+
+
+def told(is_compiled: bool, count: int, seconds: float) -> None:
+    """Print what the float robot took."""
+    kind = "compiled" if is_compiled else "in Python"
+    print(f"\nfloats, {kind}: {count} steps in {seconds:.2f} s, {1e6 * seconds / count:.0f} us each")
+
+
+def test_the_float_robot_sees_what_isovists_show() -> None:
+    """The length of boundary in sight and the area, which the edges in sight cut off the disc."""
+    scene = octagons(100)
+    views = stepper(float_views, scene, 10)
+    for point in places(100)[:12]:
+        x, y = map(float, point)
+        views.look(x, y)
+        exact = xa.isovist(scene, point, 10)
+        area = turned = 0.0
+        for edge, low, high in zip(views.seen, views.low, views.high, strict=True):
+            base = np.array((views.ax[edge] - x, views.ay[edge] - y))
+            along = np.array((views.ex[edge], views.ey[edge]))
+            p, q = base + high * along, base + low * along
+            cross = p[0] * q[1] - p[1] * q[0]
+            area, turned = area + cross / 2, turned + atan2(cross, p @ q)
+        assert area + 50 * (2 * pi - turned) == pytest.approx(float(exact.area), abs=1e-6)
+        length = sum(float(piece.curve.length) for piece in exact.pieces if piece.obstacle is not None)
+        assert sum(views.high) - sum(views.low) == pytest.approx(length, abs=1e-6)
 
 
 @pytest.mark.benchmark(group="a run with its map, many obstacles")
