@@ -51,7 +51,7 @@ def _is_free_exactly(table: EdgeTable, start: Point, end: Point, edges: Ints) ->
             if tau.sign() > 0 and tau.compare(1) < 0:
                 cuts.setdefault(int(table.owner[e]), [Real(0), Real(1)]).append(tau)
     return not any(
-        table.obstacles[k].locate(start + direction * ((low + high) * HALF)) is Location.INSIDE
+        table.locate(k, start + direction * ((low + high) * HALF)) is Location.INSIDE
         for k, values in cuts.items()
         for low, high in pairwise(sorted(values))
         if low.compare(high) != 0
@@ -101,9 +101,10 @@ def walk_line(table: EdgeTable, sector: Sector, t: Real, reach: float) -> tuple[
     behind = _as_far([hit for hit in reversed(met) if hit[0].sign() < 0], table, far)
     # Beyond the last contact nothing changes within reach: a parameter just short of that tells of the rest.
     end = rational(reach * (1 - 1e-9) / size)
+    here = {table.owners[e] for tau, e in met if tau.sign() == 0}
     return (
-        _until_blocked(table, contact, direction, behind, Real(-end)),
-        _until_blocked(table, contact, direction, ahead, Real(end)),
+        _until_blocked(table, contact, direction, behind, here, Real(-end)),
+        _until_blocked(table, contact, direction, ahead, here, Real(end)),
     )
 
 
@@ -123,14 +124,25 @@ def _by_parameter(a: tuple[Real, int], b: tuple[Real, int]) -> int:
 
 
 def _until_blocked(
-    table: EdgeTable, contact: Point, direction: Point, hits: list[tuple[Real, int]], end: Real
+    table: EdgeTable,
+    contact: Point,
+    direction: Point,
+    hits: list[tuple[Real, int]],
+    here: set[int],
+    end: Real,
 ) -> LineWalk:
+    """What is met up to what blocks, from a contact with the obstacles *here*.
+
+    As nothing blocked so far, the line goes on inside an obstacle only if it meets it where it last met any.
+    """
     previous = Real(0)
-    owners = {int(table.owner[e]) for _, e in hits}
-    for k, tau in enumerate([*(tau for tau, _ in hits), end]):
+    met = here & {table.owners[e] for _, e in hits}
+    for k, (tau, e) in enumerate([*hits, (end, -1)]):
         if (tau - previous).sign() == end.sign():
             middle = contact + direction * ((previous + tau) * HALF)
-            if any(table.obstacles[i].locate(middle) is Location.INSIDE for i in owners):
+            if any(table.locate(i, middle) is Location.INSIDE for i in met):
                 return LineWalk(hits[:k], blocked=True)
-            previous = tau
+            previous, met = tau, set()
+        if e >= 0:
+            met.add(table.owners[e])
     return LineWalk(hits, blocked=False)
