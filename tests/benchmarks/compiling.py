@@ -8,7 +8,7 @@ from functools import cache
 from importlib import import_module
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
-from tempfile import mkdtemp
+from tempfile import TemporaryDirectory
 from types import ModuleType
 
 PROGRAM = """
@@ -28,19 +28,19 @@ command.run()
 def compiled(name: str) -> tuple[ModuleType, bool]:
     """A module beside this one, and whether it is compiled: into a folder for temporary files, anew."""
     source = Path(__file__).with_name(f"{name}.py")
-    folder = Path(mkdtemp(prefix="exactacq-benchmark-"))
-    (folder / source.name).write_text(source.read_text(encoding="utf-8"), encoding="utf-8")
-    command = [sys.executable, "-c", PROGRAM, source.name]
-    try:
-        done = subprocess.run(command, cwd=folder, capture_output=True, timeout=300, check=False)
-    except subprocess.TimeoutExpired:
-        return import_module(name), False
-    built = [path for path in folder.glob(f"lib/{name}.*") if path.suffix in (".so", ".pyd")]
-    if done.returncode or not built:
-        return import_module(name), False
-    spec = spec_from_file_location(name, built[0])
-    assert spec is not None
-    assert spec.loader is not None
-    module = module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module, True
+    with TemporaryDirectory(prefix="exactacq-benchmark-", ignore_cleanup_errors=True) as folder:
+        (Path(folder) / source.name).write_text(source.read_text(encoding="utf-8"), encoding="utf-8")
+        command = [sys.executable, "-c", PROGRAM, source.name]
+        try:
+            done = subprocess.run(command, cwd=folder, capture_output=True, timeout=300, check=False)
+        except subprocess.TimeoutExpired:
+            return import_module(name), False
+        built = [path for path in Path(folder, "lib").glob(f"{name}.*") if path.suffix in (".so", ".pyd")]
+        if done.returncode or not built:
+            return import_module(name), False
+        spec = spec_from_file_location(name, built[0])
+        assert spec is not None
+        assert spec.loader is not None
+        module = module_from_spec(spec)
+        spec.loader.exec_module(module)
+        return module, True
