@@ -102,8 +102,8 @@ class FamilySweeper:
     ) -> Pencil:
         """Sweep a sector and add its families."""
         lines = pencil(self.table, sector, own, self.range.above)
-        made = PencilFamilies(lines, self.images, contact, self._namer, self._numbers, feature, goes_back)
-        found.images += made.images
+        families = PencilFamilies(lines, contact, self._namer, feature, goes_back)
+        found.images += families.imaged(self.images, self._numbers)
         return lines
 
     # -- single lines ------------------------------------------------------------------------------

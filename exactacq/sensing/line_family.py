@@ -77,28 +77,30 @@ class LineFamily:
 class PencilFamilies:
     """The line families of one pencil of lines that all touch ``contact``; tangents go back from it too.
 
-    ``images`` are the families in floats. *feature* is the corner or the arc that is touched, if lines are
-    named by it.
+    *feature* is the corner or the arc that is touched, if lines are named by it.
     """
 
     def __init__(
         self,
         lines: Pencil,
-        images: LineImages,
         contact: Side,
         namer: Namer,
-        numbers: LineNumbers,
         feature: Feature | None,
         goes_back: bool,
     ) -> None:
         self.lines, self.contact, self.goes_back = lines, contact, goes_back
         self._namer, self._feature = namer, feature
         self._made: dict[int, LineFamily] = {}
-        own = NONE if feature is None or not goes_back else namer.number(feature)
+
+    def imaged(self, images: LineImages, numbers: LineNumbers) -> list[FamilyImage]:
+        """The families in floats, with *numbers* for their lines. They know this; it does not keep them."""
+        lines, feature, contact = self.lines, self._feature, self.contact
+        own = NONE if feature is None or not self.goes_back else self._namer.number(feature)
         is_round = feature is not None and feature.round
         frame, at = lines.sector.image, (contact.edge, contact.fixed)
-        self.images = pencil_images(lines.rows, frame, at, goes_back, (own, is_round), numbers, self)
-        images.locate(self.images, lines)
+        found = pencil_images(lines.rows, frame, at, self.goes_back, (own, is_round), numbers, self)
+        images.locate(found, lines)
+        return found
 
     def family(self, image: FamilyImage) -> LineFamily:
         """The family of an image, made when it is first asked for."""
@@ -174,7 +176,7 @@ class SingleLine:
         way = curve_image(Segment(start, end))
         frame = TURNING, way.x, way.y, way.wx, way.wy, 0.0, 1
         at = 0.0, 0.0, 0.0, 0.0
-        return FamilyImage(frame, at, (NONE, NONE, NONE), False, True, NONE, ([], []), ([], []), self, 0)
+        return FamilyImage(frame, at, (NONE, NONE, NONE), False, True, NONE, ([], []), ([], []), None, 0)
 
     def extent(self, images: LineImages, here: int = 0) -> Extent:
         """What is shown at most, and from where: of the run from the place, or if *here* of the place."""

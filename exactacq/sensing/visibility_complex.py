@@ -36,8 +36,12 @@ class VisibilityComplex:
         self.table, self.range = table, range_
         sweeper = FamilySweeper(table, range_)
         self.clipper, self.images = sweeper.clipper, sweeper.images
-        self._of = lru_cache(KEPT)(sweeper.of)
-        self._seen_from = lru_cache(SEEN_FROM_KEPT)(self._from)
+        self._around = Neighbourhood(sweeper)
+        self._seen_from = lru_cache(SEEN_FROM_KEPT)(self._around.extents)
+
+    def near(self, box: Floats) -> list[EdgeFamilies]:
+        """The families of the edges within reach of a box: all that may show anything to places in it."""
+        return self._around.near(box)
 
     def extents(self, edge: int) -> list[Extent]:
         """What the families at an edge show of others from it, in floats.
@@ -54,7 +58,23 @@ class VisibilityComplex:
         families, side = source.views(one.here, one.there, self.clipper)
         return ((family, side) for family in families)
 
-    def _from(self, edge: int) -> list[Extent]:
+
+class Neighbourhood:
+    """Finds the families near a place, and sweeps them where that was not done yet."""
+
+    def __init__(self, sweeper: FamilySweeper) -> None:
+        self.table, self.range, self.images = sweeper.table, sweeper.range, sweeper.images
+        self._of = lru_cache(KEPT)(sweeper.of)
+
+    def near(self, box: Floats) -> list[EdgeFamilies]:
+        """The families of the edges within reach of a box."""
+        left, bottom, right, top = box.tolist()
+        edges = self.table.near((left, bottom), (right, top), self.range.above)
+        gaps = _gaps(self.table.boxes[edges], box)
+        return [self._of(e) for e in edges[gaps <= self.range.above + 8 * self.table.roundoff].tolist()]
+
+    def extents(self, edge: int) -> list[Extent]:
+        """What families show of others from an edge, and single lines that meet it."""
         families: list[FamilyImage] = []
         single_lines: list[Extent] = []
         for near in self.near(self.table.boxes[edge]):
@@ -66,13 +86,6 @@ class VisibilityComplex:
                     single_lines.append(single.extent(self.images, here=1))
         images = self.images
         return extents_from(edge, families, images.curves, images.reach) + single_lines
-
-    def near(self, box: Floats) -> list[EdgeFamilies]:
-        """The families of the edges within reach of a box: all that may show anything to places in it."""
-        left, bottom, right, top = box.tolist()
-        edges = self.table.near((left, bottom), (right, top), self.range.above)
-        gaps = _gaps(self.table.boxes[edges], box)
-        return [self._of(e) for e in edges[gaps <= self.range.above + 8 * self.table.roundoff].tolist()]
 
 
 def _gaps(boxes: Floats, box: Floats) -> Floats:

@@ -11,8 +11,9 @@ from flint import fmpq
 from exactacq import kernel
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.kernel import bounded
+from exactacq.kernel.extents import Span
 from exactacq.numbers.real import Real
-from exactacq.sensing.line_images import Span, float_ball
+from exactacq.sensing.line_images import float_ball
 from exactacq.strategies.seed_spreader.range_thresholds import last_in_reach
 
 Held = tuple[float, float]
