@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 import exactacq as xa
+from exactacq.study.random_scenes import Subject, arc_scene
 
 DATA = Path(__file__).parent / "data" / "undecided"
 WALKED = {5: "656.353119540", 14: "656.353119540", 20: "656.353119540", 30: "656.897193", 100: "656.897193"}
@@ -31,3 +32,14 @@ def test_bulged_arcs_about_a_start(name: str) -> None:
     run = xa.sightseer(xa.load(DATA / f"{name}.json"))
     assert run.complete
     xa.audit(run, samples=32)
+
+
+@pytest.mark.parametrize("seed", [426, 748, 1346, 1973, 4001])
+def test_a_known_end_that_is_found_again_at_an_event(seed: int) -> None:
+    """An end of what is known, and the same end seen from the place of the event that it caused.
+
+    The expressions of both are made of up to five radicals, nested, and of inverses of their sums. The fields
+    of the numbers have degree 4 all the same, or 2 over the field of a root: the other radicals are in the
+    field that these make, for a line through a known point of a circle meets it there.
+    """
+    xa.audit(xa.sightseer(arc_scene(Subject.SIGHTSEER, seed)), samples=4)

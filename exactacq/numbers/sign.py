@@ -9,8 +9,8 @@ from flint import arb
 
 from exactacq.errors import Undecided
 from exactacq.numbers.linear_forms import field_of, is_surd, merged
-from exactacq.numbers.norm_test import vanishes
 from exactacq.numbers.rationals import ball_sign, decimal_string
+from exactacq.numbers.tower import vanishes
 from exactacq.numbers.transcendental import generic_in, sign_at
 
 FILTER_BITS = (64, 128, 256)
@@ -20,7 +20,7 @@ ZERO_TEST_BITS = 1 << 23
 TRIAL_BITS = 1 << 16
 """Precision that is tried where the zero test would be too long: what is not zero shows long before."""
 TOWER_BITS = 1 << 12
-"""Zero tests that would take more bits go by norms first (see `exactacq.numbers.norm_test`)."""
+"""Zero tests that would take more bits compute in the number's field first (see `exactacq.numbers.tower`)."""
 
 
 def decided_sign(value: Any) -> int:

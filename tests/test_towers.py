@@ -1,0 +1,144 @@
+"""The field of a real: numbers in towers of square roots, over the rationals or the field of one root.
+
+Ties are planted: a number is taken apart and put together in another way, and told from itself plus a hair.
+"""
+
+from __future__ import annotations
+
+import mpmath
+import pytest
+from flint import fmpq, fmpq_poly
+from hypothesis import given
+from hypothesis import strategies as st
+
+from exactacq.numbers.number_field import NumberField
+from exactacq.numbers.real import Real, roots
+from exactacq.numbers.tower import Tower, vanishes
+
+HAIR = Real(fmpq(1, 10**400))
+SMALL = st.integers(-9, 9)
+FIELDS = {
+    "x^3 - 2": (-2, 0, 0, 1),
+    "2x^3 - 4x + 1, three real roots": (1, -4, 0, 2),
+    "x^4 - 10x^2 + 1, which holds sqrt(2)": (1, 0, -10, 0, 1),
+    "3x^6 - x - 5": (-5, -1, 0, 0, 0, 0, 3),
+}
+HIGH = (-1, -1, *[0] * 8, 1)
+"""x^10 - x - 1: no square roots are looked for in its field."""
+
+
+def first_root(coefficients: tuple[int, ...]) -> Real:
+    return roots(coefficients)[-1]
+
+
+def is_tie(a: Real, b: Real) -> bool:
+    """Whether two numbers are proved to be one, and to be apart once a hair is added."""
+    assert vanishes(a - b + HAIR) is False
+    return bool(vanishes(a - b))
+
+
+# -- ties ------------------------------------------------------------------------------------------
+
+
+@given(st.lists(st.tuples(SMALL, SMALL), min_size=1, max_size=3), st.sampled_from([2, 3, 7, 12]))
+def test_the_root_of_a_square_is_found(parts: list[tuple[int, int]], base: int) -> None:
+    """sqrt(x^2) = |x| for x = a + b t with t in ever higher fields: the radical adds nothing to the field."""
+    x = Real(base).sqrt()
+    for a, b in parts:
+        x = a + b * (x * x + 1).sqrt()
+    root = (x * x).sqrt()
+    tower = Tower(root - abs(x))
+    assert not tower.element(root - abs(x))
+    assert len(tower.squares) <= 1 + len(parts)
+
+
+@given(st.tuples(SMALL, SMALL, SMALL), st.tuples(SMALL, SMALL))
+def test_inverses_are_canonical(a: tuple[int, int, int], b: tuple[int, int]) -> None:
+    """1 / x - 1 / y = (y - x) / (x y) in two forms, with nested roots in both denominators."""
+    root, nested = Real(2).sqrt(), (3 + Real(2).sqrt()).sqrt()
+    x, y = 30 + a[0] + a[1] * root + a[2] * nested, 30 + b[0] * root + b[1] * nested
+    assert is_tie(1 / x - 1 / y, (y - x) / (x * y))
+
+
+def test_radicands_that_depend_on_each_other() -> None:
+    """Of sqrt(6), sqrt(10), sqrt(15) and sqrt(30) three determine the fourth, without any factoring."""
+    values = [Real(d).sqrt() + (Real(d).sqrt() + 7).sqrt() for d in (6, 10, 15)]
+    total = (values[0] * values[1] * values[2]).sqrt()
+    again = (values[2] * values[0]).sqrt() * values[1].sqrt()
+    tower = Tower(total - again + Real(30).sqrt())
+    assert is_tie(total, again)
+    tower.element(total - again + Real(30).sqrt())
+    assert len([s for s in tower.radicals if isinstance(s, int)]) <= 3
+
+
+@pytest.mark.parametrize("d", [5, 6, 7])
+def test_a_line_meets_a_circle_in_a_point_known_before(d: int) -> None:
+    """The line through (3, 1) and a point of the unit circle meets the circle there again."""
+    x = (Real(d).sqrt() - 1) / 3
+    y = (1 - x * x).sqrt()
+    u, v = x - 3, y - 1
+    square, along, off = u * u + v * v, 3 * u + v, Real(10 - 1)
+    ends = [(sign * (along * along - square * off).sqrt() - along) / square for sign in (-1, 1)]
+    hits = [(3 + s * u, 1 + s * v) for s in ends]
+    assert [vanishes(p - x) and vanishes(q - y) for p, q in hits].count(True) == 1
+
+
+@given(st.lists(st.integers(2, 40), min_size=2, max_size=4, unique=True))
+def test_sums_of_independent_radicals_do_not_vanish(numbers: list[int]) -> None:
+    value = Real.sum((Real(n) + Real(n + 1).sqrt()).sqrt() for n in numbers) - 40
+    with mpmath.workdps(50):
+        oracle = mpmath.fsum(mpmath.sqrt(n + mpmath.sqrt(n + 1)) for n in numbers) - 40
+    assert abs(oracle) > 1e-30
+    assert vanishes(value) is False
+
+
+# -- over the field of a root ----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("coefficients", FIELDS.values(), ids=FIELDS)
+@given(st.data())
+def test_square_roots_in_the_field_of_a_root(coefficients: tuple[int, ...], data: st.DataObject) -> None:
+    field = NumberField(coefficients, 0)
+    parts = data.draw(st.lists(SMALL, min_size=field.degree, max_size=field.degree))
+    s = fmpq_poly(parts) / data.draw(st.integers(1, 9))
+    square = field.times(s, s)
+    assert field.square_root(square) in (s, -s)
+    if s != 0:
+        # -1 is no square in a field of reals, and norms of negatives are squares where the degree is even.
+        assert field.square_root(-square) is None
+        assert field.square_root(7 * square) is None
+
+
+def test_a_root_of_an_integer_in_the_field_of_a_root() -> None:
+    """a = sqrt(2) + sqrt(3): the field of its polynomial holds both, and 2 sqrt(2) = a^3 - 9 a."""
+    a = first_root((1, 0, -10, 0, 1))
+    assert is_tie(a**3 - 9 * a, Real(8).sqrt())
+    assert is_tie((a + 5).sqrt() * (Real(2).sqrt() - 1), ((a + 5) * (3 - Real(8).sqrt())).sqrt())
+
+
+@pytest.mark.parametrize("coefficients", [*FIELDS.values(), HIGH], ids=[*FIELDS, "x^10 - x - 1"])
+def test_nested_roots_over_the_field_of_a_root(coefficients: tuple[int, ...]) -> None:
+    a = first_root(coefficients)
+    x = (a * a + 1).sqrt()
+    y = (3 + a + x).sqrt()
+    again = (9 + a * a + x * x + 6 * a + 6 * x + 2 * a * x).sqrt().sqrt()
+    assert is_tie(y, again)
+    assert is_tie(1 / (x + y), (x - y) / (x * x - y * y))
+    assert is_tie(1 / (y + again), 1 / (2 * y))
+
+
+# -- limits ----------------------------------------------------------------------------------------
+
+
+def test_roots_of_several_polynomials_are_left_open() -> None:
+    assert vanishes(first_root((-2, 0, 0, 1)) - first_root((-3, 0, 0, 1)) * 2) is None
+
+
+def test_independent_radicals_without_end_are_left_open() -> None:
+    """Ten independent radicals have degree 2^10: the test gives up in time, and balls tell the sign."""
+    values = [(Real(n) + Real(n + 1).sqrt()).sqrt() for n in range(2, 16)]
+    product = values[0]
+    for value in values[1:]:
+        product = product * value + 1
+    assert vanishes(product) is None
+    assert product > 0
