@@ -7,6 +7,7 @@ blocked side is on the right (east), so that it is seen from the walk.
 from __future__ import annotations
 
 from collections import Counter
+from itertools import pairwise
 from math import acos, asin, atan2, cos, hypot, pi, sin
 from random import Random
 
@@ -454,3 +455,18 @@ def test_a_corner_on_the_line_of_the_walk_bounds_one_line_of_sight(start: object
     assert (
         sees_later(fmpq(5), Real(start), fmpq(0), targets, lambda _: [*targets, *corner], fmpq(5)) is is_seen
     )
+
+
+@pytest.mark.parametrize(("start", "is_seen"), [(4, False), (fmpq(41, 10), True), (1, False)])
+def test_a_circle_that_the_line_of_the_walk_touches(start: object, is_seen: bool) -> None:
+    """A block below (6, 4) leaves only that line, a tangent of the circle, and the side that begins there.
+
+    It comes into reach at (6, 4), as far as floats can tell a little later.
+    """
+    round_part = Arc(Point(4, 6), Point(6, 6), Point(5, 6), fmpq(1), ccw=True)
+    corners = [Point(6, 6), Point(6, 7), Point(4, 7), Point(4, 6)]
+    targets = [round_part, *(Segment(a, b) for a, b in pairwise(corners))]
+    known = [*targets, *block(4, 6, 3, 4)]
+    for x in (6, -6):
+        assert sees_later(fmpq(x), Real(start), fmpq(0), targets, lambda _: known, fmpq(2)) is is_seen
+        targets, known = ([_mirrored(curve, -1, 1) for curve in curves] for curves in (targets, known))

@@ -43,3 +43,10 @@ def test_a_known_end_that_is_found_again_at_an_event(seed: int) -> None:
     field that these make, for a line through a known point of a circle meets it there.
     """
     xa.audit(xa.sightseer(arc_scene(Subject.SIGHTSEER, seed)), samples=4)
+
+
+def test_a_line_of_the_sweep_that_touches_a_circle() -> None:
+    """Whether an obstacle is seen again: from (6, 4) it is as far as the range, along the line itself."""
+    run = xa.seed_spreader(arc_scene(Subject.SEED_SPREADER, 229))
+    assert run.complete
+    xa.audit(run, samples=4)

@@ -354,9 +354,13 @@ class _LineBatch:
     # -- lines that touch one feature ------------------------------------------------------------------
 
     def _sees_in_cells(self, lines: Lines) -> bool:
-        undecided = None
-        for cell in self.proposals.cells(lines):
-            answer = self._sees_on_line(cell) if self._is_on_line(cell.touch) else self._sees_in(cell, lines)
+        undecided, looked_at = None, set()
+        for cell in self.proposals.cells(lines, self._is_point_of_line):
+            if cell.target not in looked_at and self._is_on_line(cell.touch):
+                looked_at.add(cell.target)
+                if self._sees_on_line(cell.target):
+                    return True
+            answer = self._sees_in(cell, lines)
             if answer:
                 return True
             undecided = cell if answer is None else undecided
@@ -368,16 +372,20 @@ class _LineBatch:
         return False
 
     def _is_on_line(self, g: int) -> bool:
-        """Whether a feature is a point of the walk's own line."""
+        """Whether a feature is a point of the walk's own line, or a circle that the line touches."""
         center, turn = self._shape(g)
-        return turn.rational == 0 and center.x.compare(self.walk.x) == 0
+        return bool(abs(center.x - self.walk.x) == abs(turn))
 
-    def _sees_on_line(self, cell: LineCell) -> bool:
-        """Whether the walk's own line, the only one past such a feature, is free where it is a range long."""
+    def _is_point_of_line(self, g: int) -> bool:
+        """Whether a feature is a point of the walk's line: from its places no other line goes past it."""
+        return self._shape(g)[1].rational == 0 and self._is_on_line(g)
+
+    def _sees_on_line(self, target: int) -> bool:
+        """Whether the walk's own line is free where it is a range long."""
         x, reach = self.walk.x, self.walk.radius
         return any(
             self.search._is_seen(Point(x, y + offset), Point(x, y))
-            for y in line_contacts(Point(x, 0), UP, self.search.known[cell.target])
+            for y in line_contacts(Point(x, 0), UP, self.search.known[target])
             for offset in (reach, -reach)
         )
 
@@ -395,10 +403,13 @@ class _LineBatch:
         return True if True in answers else None if None in answers else False
 
     def _about(self, cell: LineCell, y: Real) -> tuple[Point, Point] | None:
-        """The line of sight of a cell from an ordinate."""
+        """The line of sight of a cell from an ordinate; None for the walk's own line.
+
+        That is the only line past a point of it, and one of two tangents of a circle that it touches.
+        """
         p = Point(self.walk.x, y)
         way = _way(p, Real(0), *self._shape(cell.touch))
-        if way is None:
+        if way is None or way.x.sign() == 0:
             return None
         found = line_contacts(p, way, self.search.known[cell.target])
         if not found:

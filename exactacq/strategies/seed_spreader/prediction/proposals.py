@@ -9,8 +9,9 @@ left to exact arithmetic.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from itertools import compress
 from typing import Any
 
 import numpy as np
@@ -303,10 +304,11 @@ class Proposals:
 
     # -- lines that touch one feature ------------------------------------------------------------------
 
-    def cells(self, lines: Lines) -> list[LineCell]:
+    def cells(self, lines: Lines, is_point_of_line: Callable[[int], bool]) -> list[LineCell]:
         """What is left of the lines of sight that touch one feature, where the range may hold them.
 
         Between two neighbouring lines through two features all lines about a feature are blocked or none is.
+        Past a point of the walk's line goes only that line: of such cells the range is not asked.
         """
         gaps = self._gaps(lines)
         touch, low, high = gaps.touch, gaps.low, gaps.high
@@ -338,7 +340,9 @@ class Proposals:
             gaps.cell(r, int(k), int(b))
             for r, k, b in zip(row[free], target[free], branch[free], strict=True)
         ]
-        return [c for c in found if not c.above] + self._by_range([c for c in found if c.above])
+        decided = [not cell.above or is_point_of_line(cell.touch) for cell in found]
+        others = [cell for cell, is_decided in zip(found, decided, strict=True) if not is_decided]
+        return [*compress(found, decided), *self._by_range(others)]
 
     def _gaps(self, lines: Lines) -> Gaps:
         """The stretches of the walk between neighbouring lines about each feature."""
