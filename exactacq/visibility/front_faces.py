@@ -7,7 +7,8 @@ of a convex arc is a face, the far part of a concave one, and all of a concave o
 the circle.
 
 The ends of faces are *events*, numbered: below the number of edges they are vertices, from there on *marks*,
-points that are no vertices (tangent points, the point itself). Floats decide what their margins prove.
+points that are no vertices (tangent points, the point itself). Floats decide what they can (see
+`exactacq.kernel.radial_faces`).
 """
 
 from __future__ import annotations
@@ -15,55 +16,52 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from math import hypot, sqrt
+from math import hypot, inf
 from typing import Any
 
-import numpy as np
-from flint import arb
+from flint import arb, fmpq
 
+from exactacq import kernel
 from exactacq.geometry.coordinates import Vector, advance, cross, dot, minus, raw, sign, square_root
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import spans
 from exactacq.geometry.late import Balls, ball_of, balls, clearly_between, from_to, late_point
 from exactacq.geometry.points import Point
+from exactacq.kernel.bounded import TINY, UNIT, WIDEN
+from exactacq.kernel.radial_faces import RadialFaces
 from exactacq.numbers.rationals import ball_sign
-from exactacq.scene.edge_table import STRAIGHT, EdgeTable, Floats, Ints
+from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import STRAIGHT, EdgeTable
 from exactacq.visibility.features import is_spike, parallel
+from exactacq.visibility.line_families import BITS, held
+from exactacq.visibility.sensor_range import Range
 
 SLACK = 8.0
 """Margin of float differences of coordinates, in units of the table's round-off; the larger, the more is
 decided exactly."""
-VAGUE = 10.0
-"""Margin of an angle that floats do not know at all."""
-EXACT = 64 * 2.0**-52
-"""Margin of the direction of a vector whose coordinates are correctly rounded."""
-SURE_GAP = 1e-3
-"""A circle at least so many radii away has float tangents that are good to the margin."""
 NOWHERE = -1
 """The event where a full circle about the point begins and ends: there is none."""
 
 
 class SweepEnd:
-    """An event that is no vertex: its point, the direction to it, and that direction as floats with a margin.
+    """An event that is no vertex: its point, and the direction to it.
 
     It lies on arc ``edge``, to whose circle the direction is tangent; ``side`` is 1 if the circle is to the
     left, else -1. ``around`` are balls around the direction that `vector` gives exactly.
     """
 
-    __slots__ = ("around", "edge", "margin", "point", "side", "vector", "xy")
+    __slots__ = ("around", "edge", "point", "side", "vector")
 
     def __init__(
         self,
         point: Point,
         vector: Callable[[], Vector],
         around: Balls,
-        xy: tuple[float, float],
-        margin: float,
         edge: int,
         side: int,
     ) -> None:
         self.point, self.vector, self.around = point, vector, around
-        self.xy, self.margin, self.edge, self.side = xy, margin, edge, side
+        self.edge, self.side = edge, side
 
 
 class _Touch:
@@ -117,51 +115,53 @@ class Cone:
 
 
 class FrontFaces:
-    """The faces within reach of one free point, as parallel arrays, with their events.
+    """The faces within reach of one free point, with their events.
 
-    ``edge``, ``low`` and ``high``: edge number and events of each face; it covers the directions
+    ``edges``, ``ends_low`` and ``ends_high``: edge number and events of each face; it covers the directions
     counterclockwise from low to high, and runs from high to low. ``own`` are the edges through the point, at
-    a vertex the incoming one first; ``on_ray`` the other straight edges that the point sees edge-on.
+    a vertex the incoming one first; ``on_ray`` the other straight edges that the point sees edge-on;
+    ``floats`` are the faces as the sweep takes them.
     """
 
-    def __init__(self, table: EdgeTable, point: Point, reach: float, own: tuple[int, ...]) -> None:
+    def __init__(self, table: EdgeTable, point: Point, range_: Range, own: tuple[int, ...]) -> None:
         self.table, self.point, self.own = table, point, own
         self.origin, self.around = raw(point), balls(point)
         self.xy = point.xy
-        self.reach = reach
+        self.reach = range_.above
         self.slack = SLACK * table.roundoff_at(self.xy)
         self.marks: list[SweepEnd] = []
         self.on_ray: list[int] = []
         self.special: list[int] = []
         self._offsets: dict[int, Vector] = {}
-        near = table.near(self.xy, self.xy, reach)
+        self.floats = faces = RadialFaces(table.images, _image(self.origin), held(range_.square), list(own))
+        near = table.near(self.xy, self.xy, self.reach).tolist()
+        for e in faces.add_straight(near):
+            side = sign(cross(self.offset(e), self.offset(int(table.next[e]))))
+            if side < 0:
+                faces.add_open(e)
+            elif side == 0:
+                self.on_ray.append(e)
         arcs: list[tuple[int, int, int]] = []
         if table.curved:
-            straight = table.kind[near] == STRAIGHT
-            edges, low, high = self._straight(near[straight])
-            for e in near[~straight].tolist():
-                if e not in own:
+            kinds = table.images.kind
+            for e in near:
+                if kinds[e] != STRAIGHT and e not in own:
                     arcs += self._arc(e)
-        else:
-            edges, low, high = self._straight(near)
         self.cone = self._cone(arcs) if own else None
         for e in self.on_ray:
             self.special += (e, int(table.next[e]))
-        self.curved = bool(arcs)
-        if arcs:
-            more = np.array(arcs, dtype=np.intp)
-            self.rows = np.concatenate((self.rows, np.zeros((6, len(more)))), axis=1)
-            edges, low, high = (
-                np.concatenate((a, b)) for a, b in zip((edges, low, high), more.T, strict=True)
-            )
-        self.edge, self.low, self.high = edges, low, high
-
-    rows: Floats
-    """Six rows, zeros for arcs: from the point to a face's start (x, y), from there to its end (x, y), the
-    vector product of these two, and its margin."""
+        for event in self.special:
+            if event < len(table.vertices):
+                faces.vertex(event, *faces.offset(event))
+        for e, low, high in arcs:
+            faces.add_arc(e, low, high)
+        self.edges: list[int] = faces.edge
+        events = faces.events
+        self.ends_low = [events[k] if k >= 0 else NOWHERE for k in faces.low]
+        self.ends_high = [events[k] if k >= 0 else NOWHERE for k in faces.high]
 
     def __len__(self) -> int:
-        return len(self.edge)
+        return len(self.edges)
 
     # -- events ------------------------------------------------------------------------------------
 
@@ -194,43 +194,11 @@ class FrontFaces:
         count = len(self.table.vertices)
         return self.table.curves[event].start if event < count else self.marks[event - count].point
 
-    def _mark(self, mark: SweepEnd) -> int:
+    def _mark(self, mark: SweepEnd, image: tuple[float, float, float]) -> int:
+        event = len(self.table.vertices) + len(self.marks)
         self.marks.append(mark)
-        return len(self.table.vertices) + len(self.marks) - 1
-
-    # -- straight edges ----------------------------------------------------------------------------
-
-    def _straight(self, edges: Ints) -> tuple[Ints, Ints, Ints]:
-        table, slack = self.table, self.slack
-        for e in self.own:
-            edges = edges[edges != e]
-        rows = table.rows[:, edges]
-        rows[0] -= self.xy[0]
-        rows[1] -= self.xy[1]
-        sx, sy, ax, ay = rows
-        margin = np.abs(rows).sum(axis=0)
-        margin *= 4 * slack
-        turn = sx * ay
-        turn -= sy * ax
-        front = turn < -margin
-        vague = np.abs(turn) <= margin
-        share = sx * ax
-        share += sy * ay
-        share /= -np.maximum(ax * ax + ay * ay, 1e-300)
-        share = np.minimum(np.maximum(share, 0.0), 1.0)
-        gap = np.hypot(sx + share * ax, sy + share * ay)
-        near = ~(gap > self.reach + 4 * slack)
-        if vague.any():
-            for k in np.flatnonzero(vague & near).tolist():
-                e = int(edges[k])
-                side = sign(cross(self.offset(e), self.offset(int(table.next[e]))))
-                front[k] = side < 0
-                if side == 0:
-                    self.on_ray.append(e)
-        front &= near
-        chosen = edges[front]
-        self.rows = np.concatenate((rows, (turn, margin)))[:, front]
-        return chosen, table.next[chosen], chosen
+        self.floats.add_event(event, *image)
+        return event
 
     # -- arcs --------------------------------------------------------------------------------------
 
@@ -291,21 +259,10 @@ class FrontFaces:
         """The event of the left (1) or right (-1) tangent from the point to the circle of an arc."""
         arc = self.table.curves[e]
         assert isinstance(arc, Arc)
-        (wx, wy), radius = self.table.center[e] - self.xy, float(self.table.radius[e])
-        gap, margin = hypot(wx, wy) - radius, EXACT
-        if gap > radius * SURE_GAP:
-            reach = sqrt(gap * (gap + 2 * radius))
-            margin += 16 * self.slack / reach
-        else:
-            # Correctly rounded exact values: no cancellation is left.
-            wx, wy = float(w[0]), float(w[1])
-            radius, reach = float(arc.radius), sqrt(float(dot(w, w) - arc.radius_sq))
-        xy = wx * reach - wy * radius * side, wy * reach + wx * radius * side
         touch = _Touch(self.origin, arc, w, side)
         vector, point = touch.around(self.around)
-        return self._mark(
-            SweepEnd(late_point(point, touch.point), touch.vector, vector, xy, margin, e, -side)
-        )
+        mark = SweepEnd(late_point(point, touch.point), touch.vector, vector, e, -side)
+        return self._mark(mark, self.floats.tangent(e, side))
 
     # -- the point's own edges ---------------------------------------------------------------------
 
@@ -332,10 +289,36 @@ class FrontFaces:
         """The event of the direction in which an own edge leaves the point, forward (1) or back (-1)."""
         if isinstance(curve, Segment):
             x, y = raw(curve.direction)
-            self._offsets[vertex] = x * sense, y * sense
+            self._offsets[vertex] = vector = x * sense, y * sense
+            self.floats.add_event(vertex, *_held(vector))
             return vertex
         x, y = raw(curve.tangent(self.point))
         vector = x * sense, y * sense
-        around, xy = (ball_of(vector[0]), ball_of(vector[1])), (float(vector[0]), float(vector[1]))
+        around = ball_of(vector[0]), ball_of(vector[1])
         side = sense if curve.ccw else -sense
-        return self._mark(SweepEnd(self.point, lambda: vector, around, xy, EXACT, e, side))
+        return self._mark(SweepEnd(self.point, lambda: vector, around, e, side), _held(vector))
+
+
+def _held(vector: Vector) -> tuple[float, float, float]:
+    """A vector in floats, with one bound for both components."""
+    (x, p), (y, q) = map(held, vector)
+    return x, y, max(p, q)
+
+
+def _image(place: Vector) -> tuple[float, float, float, float, float]:
+    """A place in floats: each coordinate and what it leaves, and a bound of what is left then."""
+    if kernel.EXACT_ONLY:
+        return 0.0, 0.0, 0.0, 0.0, inf
+    (x, u, p), (y, v, q) = (_with_rest(c) for c in place)
+    return x, u, y, v, max(p, q)
+
+
+def _with_rest(value: fmpq | Real) -> tuple[float, float, float]:
+    if not isinstance(value, Real):
+        x = float(value)
+        return x, float(value - fmpq(*x.as_integer_ratio())), 0.0
+    ball = value.ball(BITS)
+    x = float(ball.mid())
+    rest = ball - arb(x)
+    near = float(rest.mid())
+    return x, near, (2 * float(rest.rad()) + 2 * UNIT * abs(near) + TINY) * WIDEN

@@ -2,37 +2,35 @@
 
 Rays from the point meet front faces of obstacles (faces, see `exactacq.visibility.front_faces`). The
 ends of the faces within reach, sorted by direction, divide the full turn into cells; in a cell the order
-of the faces along all rays is the same, since boundaries do not cross. So for each cell the nearest of
-the faces that cover it is found on one ray. Floats propose the order of the events and the nearest
-faces; where their proven margins overlap, the exact values decide.
-Cost for n edges within reach: O(n log n + k), k the number of pairs of a cell and a face covering it.
+of the faces along all rays is the same, since boundaries do not cross. Floats tell the order of the ends and
+the first face of every cell (`exactacq.kernel.radial_sweep`); what they leave open, exact values decide.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from functools import partial
-from itertools import pairwise
-from math import inf, pi
 from typing import NamedTuple
 
-import numpy as np
 from flint import arb, fmpq
 
 from exactacq.geometry.coordinates import Vector, advance, cross, minus, raw, sign
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.late import Balls, balls, late_point
 from exactacq.geometry.points import Point
+from exactacq.kernel import radial_sweep as floats
 from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import Real
-from exactacq.scene.edge_table import STRAIGHT, EdgeTable, Floats, Ints, quotient
+from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.chords import meet
 from exactacq.visibility.features import enters, leaving
-from exactacq.visibility.front_faces import NOWHERE, VAGUE, FrontFaces
+from exactacq.visibility.front_faces import NOWHERE, FrontFaces
+from exactacq.visibility.sensor_range import Range
 
-NOTHING, BLOCKED = -1, -2
+NOTHING, BLOCKED = floats.NOTHING, floats.BLOCKED
 """First faces of cells without one: nothing within reach, and inside the point's own obstacle."""
-SEAM = 2 * pi
+SEAM = 4.0
+"""The key of directions that lie just below the east."""
 
 
 class FirstFace(NamedTuple):
@@ -49,21 +47,19 @@ class FirstFace(NamedTuple):
 class RadialSweep:
     """The sights of a free point, counterclockwise, and the exact points where they begin and end.
 
-    *own* are the edges through the point (see `FrontFaces`). Faces beyond *reach* are left out, and what lies
+    *own* are the edges through the point (see `FrontFaces`). Faces beyond the range are left out, and what lies
     beyond it may be reported wrongly or as NOTHING.
     """
 
-    def __init__(self, table: EdgeTable, point: Point, reach: float, own: tuple[int, ...]) -> None:
+    def __init__(self, table: EdgeTable, point: Point, range_: Range, own: tuple[int, ...]) -> None:
         self.table = table
-        self.faces = FrontFaces(table, point, reach, own)
-        self.edges: list[int] = self.faces.edge.tolist()
-        """The edge of every face, and the events that end it, as plain numbers."""
-        self.ends_low: list[int] = self.faces.low.tolist()
-        self.ends_high: list[int] = self.faces.high.tolist()
-        self.groups: list[list[int]] = []
+        self.faces = faces = FrontFaces(table, point, range_, own)
+        self.edges, self.ends_low, self.ends_high = faces.edges, faces.ends_low, faces.ends_high
+        """The edge of every face, and the events that end it."""
+        self._floats = floats.RadialSweep(faces.floats)
         self._order_events()
-        self.count = len(self.groups)
-        self._covers()
+        self.count = len(self._floats.groups)
+        self.low, self.high = self._floats.low, self._floats.high
         self.first = self._first()
         self.sights = self._sights()
 
@@ -71,103 +67,48 @@ class RadialSweep:
 
     def _order_events(self) -> None:
         """Group the events by direction, counterclockwise from the east: exact where floats leave doubt."""
-        faces = self.faces
-        count = len(faces.edge)
-        parts = (faces.low, faces.high, np.array(faces.special, dtype=np.intp))
-        ids = np.concatenate(parts if faces.special else parts[:2])
-        angle, margin = self._angles(ids)
-        below, above = angle - margin, angle + margin
-        seam = (below < 0) | (above > SEAM)
-        if seam.any():
-            for k in np.flatnonzero(seam).tolist():
-                if ids[k] != NOWHERE:
-                    x, y = faces.offset(int(ids[k]))
-                    upper = (sign(y) or (0 if sign(x) > 0 else -1)) >= 0
-                    if upper != (angle[k] < pi) and margin[k] < VAGUE:
-                        angle[k] = 0.0 if upper else SEAM
-            below, above = angle - margin, angle + margin
-        order = np.argsort(below, kind="stable")
-        if faces.curved and (ids == NOWHERE).any():
-            order = order[ids[order] != NOWHERE]
-        # Most events end two faces, and come twice: with the same angle and margin, so without a gap between.
-        events = ids[order]
-        gap = np.ones(len(order), dtype=bool)
-        gap[1:] = below[order[1:]] > np.maximum.accumulate(above[order[:-1]])
-        starts = np.flatnonzero(gap)
-        rank = np.full(len(ids), NOWHERE)
-        if len(starts) == min(len(order), 1) + np.count_nonzero(events[1:] != events[:-1]):
-            self.groups = [[event] for event in events[starts].tolist()]
-            rank[order] = np.cumsum(gap) - 1
-            chosen = order[starts]
-            self.angle, self.margin = angle[chosen], margin[chosen]
-        else:
-            self._separate(events.tolist(), below[order].tolist(), starts.tolist())
-            where = {event: k for k, group in enumerate(self.groups) for event in group}
-            rank[order] = [where[event] for event in events.tolist()]
-            self.angle, self.margin = np.zeros(len(self.groups)), np.zeros(len(self.groups))
-            self.angle[rank[order]] = angle[order]
-            np.maximum.at(self.margin, rank[order], margin[order])
-        self._low, self._high = rank[:count], rank[count : 2 * count]
-        self.low: list[int] = self._low.tolist()
-        self.high: list[int] = self._high.tolist()
-        self.rank = dict(zip(ids.tolist(), rank.tolist(), strict=True)) if faces.special else {}
-        self.special = sorted(
-            {self.rank[e] for e in faces.special} | {r for r, g in enumerate(self.groups) if len(g) > 1}
-        )
+        faces, sweep = self.faces, self._floats
+        events = faces.floats.events
+        for slot in sweep.look_up():
+            x, y = faces.offset(events[slot])
+            upper = (sign(y) or (0 if sign(x) > 0 else -1)) >= 0
+            sweep.key[slot] = 0.0 if upper else SEAM
+        sweep.group()
+        for k in reversed(sweep.open_groups):
+            sweep.groups[k : k + 1] = self._sorted(sweep.groups[k])
+        sweep.rank()
+        self.rank: dict[int, int] = {}
+        """Of the events that matter by themselves."""
+        several = sweep.several() if sweep.open_groups else []
+        if faces.special:
+            self.rank = {event: sweep.ranks[faces.floats.slots[event]] for event in events}
+        self.special = sorted({*several, *(self.rank[event] for event in faces.special)})
 
-    def _separate(self, events: list[int], below: list[float], starts: list[int]) -> None:
-        """Group sorted events; only within runs, which begin at *starts*, margins leave the order open."""
-        key = dict(zip(events, below, strict=True))
-        for a, b in pairwise((*starts, len(events))):
-            some = set(events[a:b])
-            self.groups += self._sorted(sorted(some, key=lambda event: (key[event], event)))
+    def events(self, rank: int) -> list[int]:
+        """The events in a direction."""
+        events = self.faces.floats.events
+        return [events[slot] for slot in self._floats.groups[rank]]
 
-    def _angles(self, ids: Ints) -> tuple[Floats, Floats]:
-        """Directions of events as angles in [0, 2 pi], with their margins."""
-        faces, table = self.faces, self.table
-        count, slack = len(table.vertices), faces.slack
-        plain = not (faces.marks or faces.curved)
-        vertices = ids if plain else np.where((ids >= 0) & (ids < count), ids, 0)
-        x, y = table.rows[:2, vertices] if len(ids) else np.zeros((2, 0))
-        x -= faces.xy[0]
-        y -= faces.xy[1]
-        size = np.hypot(x, y)
-        margin = 2 * slack / np.maximum(size, 16 * slack) + 2e-15
-        margin[size <= 16 * slack] = VAGUE
-        if not plain:
-            for k in np.flatnonzero((ids < 0) | (ids >= count)).tolist():
-                x[k], y[k], margin[k] = 0.0, 0.0, VAGUE
-                if ids[k] >= 0:
-                    mark = faces.marks[int(ids[k]) - count]
-                    (x[k], y[k]), margin[k] = mark.xy, mark.margin
-        for e in faces.special:
-            if e < count:
-                u, v = faces.offset(e)
-                some = ids == e
-                x[some], y[some], margin[some] = float(u), float(v), 2e-15
-        angle = np.arctan2(y, x)
-        return np.where(angle < 0, angle + SEAM, angle), margin
-
-    def _sorted(self, events: list[int]) -> list[list[int]]:
-        """Events grouped by exact direction, counterclockwise."""
-        groups: list[list[int]] = []
-        for event in events:
-            vector = self.faces.offset(event)
+    def _sorted(self, slots: list[int]) -> list[list[int]]:
+        """Slots grouped by exact direction, counterclockwise."""
+        events, groups = self.faces.floats.events, list[list[int]]()
+        for slot in sorted(slots, key=events.__getitem__):
+            vector = self.faces.offset(events[slot])
             low, high = 0, len(groups)
             while low < high:
                 middle = (low + high) // 2
-                order = _turn(self.faces.offset(groups[middle][0]), vector)
+                order = _turn(self.faces.offset(events[groups[middle][0]]), vector)
                 if order == 0:
-                    groups[middle].append(event)
+                    groups[middle].append(slot)
                     break
                 low, high = (middle + 1, high) if order > 0 else (low, middle)
             else:
-                groups.insert(low, [event])
+                groups.insert(low, [slot])
         return groups
 
     def direction(self, rank: int) -> Vector:
         """The exact direction of a rank, rational where one of its events shows it."""
-        group = self.groups[rank]
+        group = self.events(rank)
         if len(group) == 1:
             return self.faces.offset(group[0])
         vectors = [self.faces.offset(event) for event in group]
@@ -175,75 +116,14 @@ class RadialSweep:
 
     # -- cells -------------------------------------------------------------------------------------
 
-    def _covers(self) -> None:
-        """All pairs of a face and a cell that it covers; cell k lies counterclockwise of rank k."""
-        cells = max(self.count, 1)
-        spans = (self._high - self._low) % cells
-        spans[self._low == NOWHERE] = cells
-        self._facet = np.repeat(np.arange(len(spans)), spans)
-        before = np.cumsum(spans) - spans
-        self._cell = (np.arange(len(self._facet)) - before[self._facet] + self._low[self._facet]) % cells
-
     def _first(self) -> list[int]:
         """The first face of every cell."""
-        cells = max(self.count, 1)
-        first = np.full(cells, NOTHING)
-        if len(self._facet):
-            tau, error = self._distances()
-            limit = np.full(cells, inf)
-            np.minimum.at(limit, self._cell, tau + error)
-            close = np.flatnonzero(~((tau - error) > limit[self._cell]))
-            cell = self._cell[close]
-            first[cell] = self._facet[close]
-            if len(cell) > 1:
-                rivals = np.bincount(cell, minlength=cells) > 1
-                for k in np.flatnonzero(rivals).tolist():
-                    some = self._facet[close[cell == k]].tolist()
-                    first[k] = self.nearest(self._inner_direction(k), some)
-        cone = self.faces.cone
-        if cone is not None:
-            low, high = self.rank[cone.low], self.rank[cone.high]
-            span = (high - low) % cells or cells
-            first[(np.arange(span) + low) % cells] = BLOCKED
-        found: list[int] = first.tolist()
-        return found
-
-    def _distances(self) -> tuple[Floats, Floats]:
-        """Float distances of the pairs' faces along the middle rays of their cells, with error bounds."""
-        faces, table, slack = self.faces, self.table, self.faces.slack
-        if self.count:
-            angle = np.append(self.angle, self.angle[0] + SEAM)
-            middle = (angle[1:] + angle[:-1]) / 2
-            rough = np.maximum(self.margin, np.append(self.margin[1:], self.margin[0])) + 2e-15
-        else:
-            middle, rough = np.zeros(1), np.full(1, 2e-15)
-        face, cell = self._facet, self._cell
-        ux, uy, rough = np.array((np.cos(middle), np.sin(middle), rough))[:, cell]
-        _, _, ax, ay, above, spread = faces.rows[:, face]
-        size = np.abs(ax) + np.abs(ay)
-        spread += 4 * slack * slack
-        below = ux * ay
-        below -= uy * ax
-        clear = np.abs(below)
-        doubt = size * rough
-        doubt += 4 * slack
-        sure = clear > 8 * doubt
-        if not sure.all():
-            # Where the face runs along the ray, nothing is known.
-            below[~sure], clear[~sure], spread[~sure] = 1.0, 1.0, inf
-        tau = above / below
-        error = 2 * (spread + np.abs(tau) * doubt) / clear
-        if faces.curved:
-            edge = faces.edge[face]
-            curved = np.flatnonzero(table.kind[edge] != STRAIGHT)
-            e, ux, uy, rough = edge[curved], ux[curved], uy[curved], rough[curved]
-            w, radius = table.center[e] - faces.xy, table.radius[e]
-            along, across = w[:, 0] * ux + w[:, 1] * uy, w[:, 1] * ux - w[:, 0] * uy
-            off = 4 * slack + (np.abs(w).sum(axis=1) + radius) * rough
-            half = np.sqrt(np.maximum((radius - np.abs(across)) * (radius + np.abs(across)), 0.0))
-            tau[curved] = along - table.kind[e] * half
-            error[curved] = np.where(half > 8 * off, off * (2 + quotient(4 * radius, half)), inf)
-        return tau, error
+        sweep, cone = self._floats, self.faces.cone
+        low, high = (-1, -1) if cone is None else (self.rank[cone.low], self.rank[cone.high])
+        sweep.look(low, high)
+        for cell, some in zip(sweep.doubts, sweep.rivals, strict=True):
+            sweep.first[cell] = self.nearest(self._inner_direction(cell), some)
+        return sweep.first
 
     def nearest(self, direction: Vector, faces: Iterable[int]) -> int:
         """The nearest of faces that all cover a direction; exact."""
@@ -280,16 +160,14 @@ class RadialSweep:
 
     def _sights(self) -> list[FirstFace]:
         """Cells with the same first face joined, the first sight starting at a change."""
-        first = self.first
-        changes = [k for k, face in enumerate(first) if face != first[k - 1]]
-        if not changes:
-            face = first[0]
+        found = self._floats.sights()
+        if not found:
+            face = self.first[0]
             rank = NOWHERE if not self.count else 0
             if face >= 0 and self.low[face] != NOWHERE:
                 rank = self.low[face]
-            return [FirstFace(face, rank, rank)]
-        ends = [*changes[1:], changes[0]]
-        return list(map(FirstFace._make, zip([first[k] for k in changes], changes, ends, strict=True)))
+            found = [(face, rank, rank)]
+        return list(map(FirstFace._make, found))
 
     # -- points ------------------------------------------------------------------------------------
 
@@ -313,7 +191,7 @@ class RadialSweep:
         """The point of a face in the direction of a rank that it covers, made when it is looked into."""
         faces, e = self.faces, self.edges[face]
         curve, own = self.table.curves[e], e in faces.own
-        group = self.groups[rank]
+        group = self.events(rank)
         if len(group) > 1:
             return self.hit(face, self.direction(rank))
         vector, make = faces.late_offset(group[0])
@@ -322,10 +200,7 @@ class RadialSweep:
 
     def covering(self, rank: int) -> list[int]:
         """The faces that cover a rank's direction and do not end there."""
-        if not len(self._facet):
-            return []
-        some = self._facet[self._cell == rank]
-        return [f for f in some.tolist() if self.low[f] != rank]
+        return self._floats.covering(rank)
 
     def blocks(self, event: int, direction: Vector) -> bool:
         """Whether a ray from the point in the direction of a vertex leads into the obstacle there."""

@@ -13,8 +13,6 @@ from dataclasses import dataclass
 from functools import cached_property, cmp_to_key
 from typing import Any, TypeAlias
 
-import numpy as np
-
 from exactacq.errors import Undecided
 from exactacq.geometry.coordinates import Vector, advance, dot, minus, raw, sign, square_root
 from exactacq.geometry.curves import Arc, Segment
@@ -71,7 +69,7 @@ class BoundaryView:
     ) -> None:
         self.table, self.point, self.range = table, point, range_
         self.own = table.edges_at(point) if own is None else own
-        self.sweep = RadialSweep(table, point, range_.above, self.own)
+        self.sweep = RadialSweep(table, point, range_, self.own)
         self.origin = self.sweep.faces.origin
         self.disc = Disc(point, range_.square)
         self._at_range: dict[int, Point] = {}
@@ -79,20 +77,10 @@ class BoundaryView:
         """What holds the ends of sights that are known, by who asks, to be as far away as the range."""
         self._held: dict[int, tuple[Point, int]] = {}
 
-    @cached_property
+    @property
     def near(self) -> list[bool]:
         """For each face whether floats prove that all of it is within range."""
-        faces, table = self.sweep.faces, self.table
-        sx, sy, ax, ay = faces.rows[:4]
-        square = np.maximum(sx * sx + sy * sy, (sx + ax) ** 2 + (sy + ay) ** 2)
-        limit = self.range.below - 9 * faces.slack
-        if faces.curved:
-            edge, (x, y) = faces.edge, faces.xy
-            curved = table.kind[edge] != 0
-            spoke = np.hypot(table.center[edge, 0] - x, table.center[edge, 1] - y) + table.radius[edge]
-            square = np.where(curved, spoke * spoke, square)
-        found: list[bool] = (square < limit * limit).tolist() if limit > 0 else [False] * len(faces)
-        return found
+        return self.sweep.faces.floats.within
 
     def seen(self) -> dict[int, list[Span]]:
         """See `seen_from`."""
@@ -192,7 +180,7 @@ class BoundaryView:
         count, marks = len(self.table.vertices), self.sweep.faces.marks
         return [
             (event, 0) if event < count else (marks[event - count].edge, marks[event - count].side)
-            for event in self.sweep.groups[rank]
+            for event in self.sweep.events(rank)
         ]
 
     def clipped(self, sight: FirstFace, ends: Span) -> list[Span]:
@@ -300,7 +288,7 @@ class BoundaryView:
         """The events on a ray with their products with its vector, nearest first; not the point itself."""
         sweep = self.sweep
         found: list[tuple[Any, int]] = []
-        for event in sweep.groups[rank]:
+        for event in sweep.events(rank):
             place = sweep.faces.place(event)
             if place is not self.point:
                 found.append((dot(minus(raw(place), self.origin), direction), event))
@@ -352,7 +340,9 @@ class BoundaryView:
             if event < len(table.vertices):
                 found.setdefault(event, []).append(((-2, 0), (place, place)))
                 continue
-            for face in np.flatnonzero((faces.low == event) | (faces.high == event)).tolist():
+            for face, ends in enumerate(zip(sweep.ends_low, sweep.ends_high, strict=True)):
+                if event not in ends:
+                    continue
                 order = LAST if sweep.ends_low[face] == event else -1
                 found.setdefault(sweep.edges[face], []).append(((face, order), (place, place)))
         if ray.struck is not None:
