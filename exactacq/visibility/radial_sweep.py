@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from functools import partial
-from typing import NamedTuple
+from typing import TypeAlias
 
 from flint import arb, fmpq
 
@@ -19,6 +19,7 @@ from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.late import Balls, balls, late_point
 from exactacq.geometry.points import Point
 from exactacq.kernel import radial_sweep as floats
+from exactacq.kernel.view_parts import ViewParts
 from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
@@ -33,15 +34,11 @@ SEAM = 4.0
 """The key of directions that lie just below the east."""
 
 
-class FirstFace(NamedTuple):
-    """Directions, counterclockwise from rank ``low`` to rank ``high``, in which one face comes first.
+FirstFace: TypeAlias = "tuple[int, int, int]"
+"""A face that comes first in the directions counterclockwise from one rank to another.
 
-    ``face`` may be NOTHING or BLOCKED. All around if ``low == high``; without events both are NOWHERE.
-    """
-
-    face: int
-    low: int
-    high: int
+The face may be NOTHING or BLOCKED. All around if the ranks are equal; without events both are NOWHERE.
+"""
 
 
 class RadialSweep:
@@ -166,8 +163,18 @@ class RadialSweep:
             rank = NOWHERE if not self.count else 0
             if face >= 0 and self.low[face] != NOWHERE:
                 rank = self.low[face]
-            found = [(face, rank, rank)]
-        return list(map(FirstFace._make, found))
+            return [(face, rank, rank)]
+        return found
+
+    def parts(self) -> ViewParts:
+        """What the range leaves of the sights, as far as floats tell."""
+        faces, count = self.faces, len(self.table.vertices)
+        here = [count + k for k, mark in enumerate(faces.marks) if mark.point is faces.point]
+        return ViewParts(self._floats, self.sights, count + len(faces.marks), here)
+
+    def rank_of(self, event: int) -> int:
+        """The rank of an event's direction."""
+        return self._floats.ranks[self.faces.floats.slots[event]]
 
     # -- points ------------------------------------------------------------------------------------
 

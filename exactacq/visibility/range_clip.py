@@ -76,6 +76,11 @@ def of_circle(circle: Arc, disc: Disc) -> list[Span] | None:
     return [part] if circle.ccw else [part[::-1]]
 
 
+def crossing(line: Segment, disc: Disc, side: int) -> Point:
+    """Where a segment that certainly does so enters (-1) or leaves (1) a disc; a late point."""
+    return _Secant(line, disc).crossing(side)
+
+
 # -- segments --------------------------------------------------------------------------------------
 
 

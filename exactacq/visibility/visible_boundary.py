@@ -17,17 +17,19 @@ from exactacq.errors import Undecided
 from exactacq.geometry.coordinates import Vector, advance, dot, minus, raw, sign, square_root
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.points import Point
+from exactacq.kernel.view_parts import Part, ViewParts
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.features import enters
-from exactacq.visibility.radial_sweep import BLOCKED, NOTHING, FirstFace, RadialSweep
+from exactacq.visibility.radial_sweep import BLOCKED, NOTHING, RadialSweep
 from exactacq.visibility.range_clip import Disc, Span, of_circle, within
 from exactacq.visibility.sensor_range import Range
+from exactacq.visibility.view_ends import AT_RANGE, ViewEnds
 
 LAST = 1 << 60
-AT_RANGE = -1
-"""In place of the rank of a point's direction."""
 Hold: TypeAlias = "tuple[int, Hashable, int]"
 """An edge, the name of what the line to its point touches (see `line_names`) or of the range, and a side."""
+Placed: TypeAlias = "tuple[int, int, Part]"
+"""A part with its face and the position on it."""
 
 
 def seen_from(
@@ -71,103 +73,117 @@ class BoundaryView:
         self.own = table.edges_at(point) if own is None else own
         self.sweep = RadialSweep(table, point, range_, self.own)
         self.origin = self.sweep.faces.origin
-        self.disc = Disc(point, range_.square)
         self._at_range: dict[int, Point] = {}
         self.tight: set[Hold] = set()
         """What holds the ends of sights that are known, by who asks, to be as far away as the range."""
-        self._held: dict[int, tuple[Point, int]] = {}
 
-    @property
-    def near(self) -> list[bool]:
-        """For each face whether floats prove that all of it is within range."""
-        return self.sweep.faces.floats.within
+    @cached_property
+    def disc(self) -> Disc:
+        """What is within range."""
+        return Disc(self.point, self.range.square)
+
+    @cached_property
+    def parts(self) -> ViewParts:
+        """What the range leaves of every sight."""
+        return self._decided.parts
+
+    @cached_property
+    def ends(self) -> ViewEnds:
+        """The points where parts end."""
+        return self._decided
+
+    @cached_property
+    def _decided(self) -> ViewEnds:
+        sweep = self.sweep
+        parts = sweep.parts()
+        ends = ViewEnds(sweep, parts, self.disc)
+        for n in parts.doubts:
+            face, low, high = sweep.sights[n]
+            e, (start, end) = sweep.edges[face], parts.ends[n]
+            whole = ends.point(start), ends.point(end)
+            spans = self._clipped(e, whole, (high, low))
+            parts.parts[n] = [self._known(e, span, whole, (start, end), ends) for span in spans]
+        return ends
+
+    def _known(self, e: int, span: Span, whole: Span, numbers: Part, ends: ViewEnds) -> Part:
+        """The ends of a clipped span by their numbers, the first and the last one by those of the whole."""
+        found = []
+        for point in span:
+            if point is whole[0] or point is whole[1]:
+                found.append(numbers[0 if point is whole[0] else 1])
+            else:
+                found.append(ends.number(e, point, at_range=whole[0] is not whole[1]))
+        return found[0], found[0] if span[0] is span[1] else found[1]
 
     def seen(self) -> dict[int, list[Span]]:
         """See `seen_from`."""
-        found: dict[int, list[tuple[tuple[int, int], Span]]] = {}
-        sweep, near = self.sweep, self.near
-        edges, top, cells = sweep.edges, sweep.high, max(sweep.count, 1)
-        for sight in sweep.sights:
-            face, low, high = sight
-            if face < 0:
-                continue
-            if low == high:
-                spans = self.spans(sight)
-            else:
-                ends = self.ends(sight)
-                spans = [ends] if near[face] and ends[0] is not ends[1] else self.clipped(sight, ends)
-            # The position on the face, in the boundary's direction.
-            key = face, (top[face] - high) % cells
-            for span in spans:
-                found.setdefault(edges[face], []).append((key, span))
+        span = self.ends.span
+        return {e: [span(part) for part in parts] for e, parts in self.seen_parts.items()}
+
+    @cached_property
+    def seen_parts(self) -> dict[int, list[Part]]:
+        """The same by the numbers of the ends, for `ends`."""
+        found: dict[int, list[Placed]] = {}
+        for e, face, order, part in self.parts.rows():
+            found.setdefault(e, []).append((face, order, part))
+        face, low, high = self.sweep.sights[0]
+        if face >= 0 and low == high:
+            e = self.sweep.edges[face]
+            found[e] = [(face, 0, self._numbered(e, span)) for span in self.all_around(face)]
         for ray in self.rays:
             self._add_ray(ray, found)
         self._add_own(found)
         pieces = {
-            e: [spans[0][1]] if len(spans) == 1 else _joined([span for _, span in sorted(spans, key=_key)])
-            for e, spans in found.items()
+            e: [placed[0][2]] if len(placed) == 1 else _joined([one[2] for one in sorted(placed, key=_key)])
+            for e, placed in found.items()
         }
         return self._tidied(pieces)
 
-    def _tidied(self, pieces: dict[int, list[Span]]) -> dict[int, list[Span]]:
+    def _numbered(self, e: int, span: Span) -> Part:
+        start, end = span
+        first = self.ends.number(e, start)
+        return first, first if end is start else self.ends.number(e, end)
+
+    def _tidied(self, pieces: dict[int, list[Part]]) -> dict[int, list[Part]]:
         """Vertices that the range leaves alone on an edge moved to the edge that starts there, or dropped
         where a piece has them."""
-        for e in [e for e, spans in pieces.items() if spans and spans[-1][0] is spans[-1][1]]:
-            (vertex, _), following = pieces[e][-1], int(self.table.next[e])
-            if vertex is not self.table.curves[e].end or following == e:
+        following = self.table.images.following
+        for e in [e for e, parts in pieces.items() if parts and parts[-1][0] == parts[-1][1]]:
+            vertex = pieces[e][-1][0]
+            if vertex != following[e] or vertex == e:
                 continue
-            onward = pieces.setdefault(following, [])
-            if not onward or onward[0][0] is not vertex:
+            onward = pieces.setdefault(vertex, [])
+            if not onward or onward[0][0] != vertex:
                 onward.insert(0, pieces[e][-1])
             pieces[e].pop()
-        for e in [e for e, spans in pieces.items() if spans and spans[0][0] is spans[0][1]]:
-            vertex, before = pieces[e][0][0], int(self.table.previous[e])
-            if vertex is self.table.curves[e].start and before != e:
+        for e in [e for e, parts in pieces.items() if parts and parts[0][0] == parts[0][1]]:
+            vertex, before = pieces[e][0][0], self.table.images.previous[e]
+            if vertex == e and before != e:
                 ends = pieces.get(before, ())
-                if ends and ends[-1][1] is vertex:
+                if ends and ends[-1][1] == vertex:
                     pieces[e].pop(0)
-        return {e: spans for e, spans in pieces.items() if spans}
+        return {e: parts for e, parts in pieces.items() if parts}
 
-    def spans(self, sight: FirstFace) -> list[Span]:
-        """The parts within range of what is seen of a face, in the boundary's direction."""
-        face = sight.face
-        if sight.low == sight.high:
-            curve = self.table.curves[self.sweep.edges[face]]
-            # All around is seen only a full circle: from inside a circle a ray meets it once, so that a part
-            # of it covers less; from outside, and so of straight edges, a face covers less than half a turn.
-            assert isinstance(curve, Arc)
-            some = of_circle(curve, self.disc)
-            if some is None:
-                opposite = curve.center + (curve.center - curve.start)
-                return [(curve.start, opposite), (opposite, curve.start)]
-            return some
-        return self.clipped(sight, self.ends(sight))
-
-    def ends(self, sight: FirstFace) -> Span:
-        """What a sight sees of a face, in the boundary's direction and whatever the range."""
-        face, low, high = sight
-        sweep, curves = self.sweep, self.table.curves
-        event = sweep.ends_high[face] if high == sweep.high[face] else LAST
-        start = curves[event].start if event < len(curves) else self._end(face, event, high)
-        event = sweep.ends_low[face] if low == sweep.low[face] else LAST
-        end = curves[event].start if event < len(curves) else self._end(face, event, low)
-        return start, end
-
-    def _end(self, face: int, event: int, rank: int) -> Point:
-        """An end of what is seen of a face that is no vertex."""
-        sweep = self.sweep
-        point = sweep.late_hit(face, rank) if event == LAST else sweep.faces.place(event)
-        self._held[id(point)] = point, rank
-        return point
+    def all_around(self, face: int) -> list[Span]:
+        """The parts within range of a face that is seen all around."""
+        curve = self.table.curves[self.sweep.edges[face]]
+        # All around is seen only a full circle: from inside a circle a ray meets it once, so that a part
+        # of it covers less; from outside, and so of straight edges, a face covers less than half a turn.
+        assert isinstance(curve, Arc)
+        some = of_circle(curve, self.disc)
+        if some is None:
+            opposite = curve.center + (curve.center - curve.start)
+            return [(curve.start, opposite), (opposite, curve.start)]
+        return some
 
     def is_at_range(self, point: Point) -> bool:
         """Whether an end of what is seen was made as a point as far away as the range."""
-        return self._held.get(id(point), (point, LAST))[1] == AT_RANGE
+        return self.ends.rank(point) == AT_RANGE
 
     def holds(self, e: int, point: Point) -> list[Hold]:
         """What holds an end of what is seen that is no vertex and ends a sight, by what the ray touches."""
-        rank = self._held.get(id(point), (point, LAST))[1]
-        return [] if rank in (AT_RANGE, LAST) else self._holds(e, rank)
+        rank = self.ends.rank(point)
+        return [] if rank is None or rank == AT_RANGE else self._holds(e, rank)
 
     def _holds(self, e: int, rank: int) -> list[Hold]:
         return [
@@ -183,33 +199,20 @@ class BoundaryView:
             for event in self.sweep.events(rank)
         ]
 
-    def clipped(self, sight: FirstFace, ends: Span) -> list[Span]:
+    def _clipped(self, e: int, ends: Span, ranks: tuple[int, int]) -> list[Span]:
         """The parts within range of what a sight sees; ends within range stay the same objects."""
-        face, (start, end) = sight.face, ends
-        if self.near[face] and start is not end:
-            return [ends]
-        curve = self.table.curves[self.sweep.edges[face]]
-        if start is not end:
-            try:
-                spans = within(curve, start, end, self.disc)
-            except Undecided:
-                e = self.sweep.edges[face]
-                ranks = zip(ends, (sight.high, sight.low), strict=True)
-                known = [id(p) for p, rank in ranks if not self.tight.isdisjoint(self._holds(e, rank))]
-                spans = within(curve, start, end, self.disc, known)
-            for point in (p for span in spans for p in span if p is not start and p is not end):
-                self._held[id(point)] = point, AT_RANGE
-            return spans
-        # All of a full circle that passes through the point itself: the ends of other faces are distinct.
-        assert isinstance(curve, Arc)
-        opposite = curve.center + (curve.center - start)
-        first = within(curve, start, opposite, self.disc)
-        return first + within(curve, opposite, end, self.disc)
-
-    def _order(self, face: int, rank: int) -> int:
-        """Position of a rank on a face, in the boundary's direction."""
-        sweep = self.sweep
-        return (sweep.high[face] - rank) % max(sweep.count, 1)
+        curve, (start, end) = self.table.curves[e], ends
+        if start is end:
+            # All of a full circle that passes through the point itself: the ends of other faces are distinct.
+            assert isinstance(curve, Arc)
+            opposite = curve.center + (curve.center - start)
+            return within(curve, start, opposite, self.disc) + within(curve, opposite, end, self.disc)
+        try:
+            return within(curve, start, end, self.disc)
+        except Undecided:
+            sides = zip(ends, ranks, strict=True)
+            known = [id(p) for p, rank in sides if not self.tight.isdisjoint(self._holds(e, rank))]
+            return within(curve, start, end, self.disc, known)
 
     def _in_range(self, point: Point) -> bool:
         return self.disc.excess(point) <= 0
@@ -320,9 +323,8 @@ class BoundaryView:
 
     # -- points beside the sights ------------------------------------------------------------------
 
-    def _add_ray(self, ray: SingleRay, found: dict[int, list[tuple[tuple[int, int], Span]]]) -> None:
+    def _add_ray(self, ray: SingleRay, found: dict[int, list[Placed]]) -> None:
         sweep, table = self.sweep, self.table
-        faces = sweep.faces
         covered = {e for edge in ray.along for e in (edge, int(table.next[edge]))}
         for face, high in ((sweep.first[ray.rank - 1], True), (sweep.first[ray.rank], False)):
             if face >= 0 and (sweep.high if high else sweep.low)[face] == ray.rank:
@@ -331,25 +333,24 @@ class BoundaryView:
             if e not in self.own:
                 curve = table.curves[e]
                 for span in within(curve, curve.start, curve.end, self.disc):
-                    found.setdefault(e, []).append(((-1, 0), span))
+                    found.setdefault(e, []).append((-1, 0, self._numbered(e, span)))
         for event in ray.events:
             if event in covered:
                 continue
-            place = faces.place(event)
-            self._held[id(place)] = place, ray.rank
             if event < len(table.vertices):
-                found.setdefault(event, []).append(((-2, 0), (place, place)))
+                found.setdefault(event, []).append((-2, 0, (event, event)))
                 continue
             for face, ends in enumerate(zip(sweep.ends_low, sweep.ends_high, strict=True)):
                 if event not in ends:
                     continue
                 order = LAST if sweep.ends_low[face] == event else -1
-                found.setdefault(sweep.edges[face], []).append(((face, order), (place, place)))
+                found.setdefault(sweep.edges[face], []).append((face, order, (event, event)))
         if ray.struck is not None:
-            key = ray.struck, self._order(ray.struck, ray.rank)
-            found.setdefault(sweep.edges[ray.struck], []).append((key, (ray.end, ray.end)))
+            order = (sweep.high[ray.struck] - ray.rank) % max(sweep.count, 1)
+            end = self.ends.number(sweep.edges[ray.struck], ray.end)
+            found.setdefault(sweep.edges[ray.struck], []).append((ray.struck, order, (end, end)))
 
-    def _add_own(self, found: dict[int, list[tuple[tuple[int, int], Span]]]) -> None:
+    def _add_own(self, found: dict[int, list[Placed]]) -> None:
         """The straight edges through the point, or the point alone."""
         alone = True
         for e in self.own:
@@ -357,28 +358,29 @@ class BoundaryView:
             if isinstance(curve, Segment):
                 alone = False
                 spans = within(curve, curve.start, curve.end, self.disc)
-                found[e] = [((0, 0), span) for span in spans]
+                found[e] = [(0, 0, self._numbered(e, span)) for span in spans]
             elif not curve.ccw:
                 alone &= e not in found
         if alone and self.own:
-            found.setdefault(self.own[-1], []).insert(0, ((-1, 0), (self.point, self.point)))
+            end = self.ends.number(self.own[-1], self.point)
+            found.setdefault(self.own[-1], []).insert(0, (-1, 0, (end, end)))
 
 
 def _by_way(a: tuple[Any, int], b: tuple[Any, int]) -> int:
     return sign(a[0] - b[0])
 
 
-def _key(item: tuple[tuple[int, int], Span]) -> tuple[int, int]:
-    return item[0]
+def _key(placed: Placed) -> tuple[int, int]:
+    return placed[:2]
 
 
-def _joined(spans: list[Span]) -> list[Span]:
+def _joined(parts: list[Part]) -> list[Part]:
     """Pieces that share an end joined."""
-    if len(spans) < 2:
-        return spans
-    joined = spans[:1]
-    for start, end in spans[1:]:
-        if start is joined[-1][1] and end is not joined[-1][0]:
+    if len(parts) < 2:
+        return parts
+    joined = parts[:1]
+    for start, end in parts[1:]:
+        if start == joined[-1][1] and end != joined[-1][0]:
             joined[-1] = joined[-1][0], end
         else:
             joined.append((start, end))

@@ -1,0 +1,75 @@
+"""The ends of what a place sees, by their numbers: points that are made when somebody asks for them.
+
+Vertices and the other events of the sweep keep their numbers. Those above are of `ViewParts`: where a ray past
+an event meets a face behind it, where an edge leaves the range, and points that exact arithmetic found.
+"""
+
+from __future__ import annotations
+
+from exactacq.geometry.curves import Segment
+from exactacq.geometry.points import Point
+from exactacq.kernel.view_parts import CROSSING, GIVEN, HERE, HIT, ViewParts
+from exactacq.visibility.radial_sweep import RadialSweep
+from exactacq.visibility.range_clip import Disc, Span, crossing
+
+AT_RANGE = -1
+"""In place of the rank of a point's direction."""
+
+
+class ViewEnds:
+    """The points of one view's ends; each is made once, and known again by identity."""
+
+    def __init__(self, sweep: RadialSweep, parts: ViewParts, disc: Disc) -> None:
+        self.sweep, self.parts, self.disc = sweep, parts, disc
+        self._points: dict[int, Point] = {}
+        self._ranks: dict[int, tuple[Point, int]] = {}
+
+    def point(self, end: int, read: bool = False) -> Point:
+        """The point of an end; one that is to be *read* is not made late."""
+        faces = self.sweep.faces
+        if end < len(faces.table.vertices):
+            return faces.point if end == HERE else faces.place(end)
+        point = self._points.get(end)
+        if point is None:
+            point = self._points[end] = self._made(end, read)
+        return point
+
+    def _made(self, end: int, read: bool) -> Point:
+        sweep, parts = self.sweep, self.parts
+        if end < parts.base:
+            point, rank = sweep.faces.place(end), sweep.rank_of(end)
+        else:
+            kind, face, rank = parts.made[end - parts.base]
+            if kind == HIT:
+                point = sweep.hit(face, sweep.direction(rank)) if read else sweep.late_hit(face, rank)
+            else:
+                assert kind == CROSSING, "points that were given are known"
+                line = sweep.table.curves[sweep.edges[face]]
+                assert isinstance(line, Segment)
+                point, rank = crossing(line, self.disc, rank), AT_RANGE
+        self._ranks[id(point)] = point, rank
+        return point
+
+    def rank(self, point: Point) -> int | None:
+        """The rank of the direction in which a point of an end lies, or `AT_RANGE`; None for vertices."""
+        known = self._ranks.get(id(point))
+        return None if known is None else known[1]
+
+    def number(self, e: int, point: Point, at_range: bool = False) -> int:
+        """The number of a point of an edge that was made elsewhere, perhaps for the distance of the range."""
+        table = self.sweep.table
+        curve = table.curves[e]
+        if point is curve.start:
+            return e
+        if point is curve.end:
+            return int(table.next[e])
+        end = self.parts.add(GIVEN, HERE, HERE)
+        self._points[end] = point
+        if at_range:
+            self._ranks[id(point)] = point, AT_RANGE
+        return end
+
+    def span(self, part: tuple[int, int]) -> Span:
+        """Both points of a part."""
+        start = self.point(part[0])
+        return start, start if part[1] == part[0] else self.point(part[1])
