@@ -89,8 +89,7 @@ class Isovist:
         {(0, 3): [(Point(2, 1), Point(2, -1))]}
         """
         table = self._view.table
-        owner, first = table.owner.tolist(), table.first.tolist()
-        return {(owner[e], e - first[owner[e]]): spans for e, spans in self._view.seen().items()}
+        return {(table.owners[e], table.numbers[e]): spans for e, spans in self._view.seen().items()}
 
     @cached_property
     def area(self) -> Length:

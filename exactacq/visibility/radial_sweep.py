@@ -19,6 +19,7 @@ from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.late import Balls, balls, late_point
 from exactacq.geometry.points import Point
 from exactacq.kernel import radial_sweep as floats
+from exactacq.kernel import single_rays
 from exactacq.kernel.view_parts import ViewParts
 from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import Real
@@ -53,6 +54,9 @@ class RadialSweep:
         self.faces = faces = FrontFaces(table, point, range_, own)
         self.edges, self.ends_low, self.ends_high = faces.edges, faces.ends_low, faces.ends_high
         """The edge of every face, and the events that end it."""
+        count = len(table.vertices)
+        self.here = [count + k for k, mark in enumerate(faces.marks) if mark.point is point]
+        """Events that are the point itself."""
         self._floats = floats.RadialSweep(faces.floats)
         self._order_events()
         self.count = len(self._floats.groups)
@@ -169,8 +173,7 @@ class RadialSweep:
     def parts(self) -> ViewParts:
         """What the range leaves of the sights, as far as floats tell."""
         faces, count = self.faces, len(self.table.vertices)
-        here = [count + k for k, mark in enumerate(faces.marks) if mark.point is faces.point]
-        return ViewParts(self._floats, self.sights, count + len(faces.marks), here)
+        return ViewParts(self._floats, self.sights, count + len(faces.marks), self.here)
 
     def rank_of(self, event: int) -> int:
         """The rank of an event's direction."""
@@ -209,18 +212,26 @@ class RadialSweep:
         """The faces that cover a rank's direction and do not end there."""
         return self._floats.covering(rank)
 
-    def blocks(self, event: int, direction: Vector) -> bool:
-        """Whether a ray from the point in the direction of a vertex leads into the obstacle there."""
-        table = self.table
+    def met(self, rank: int) -> tuple[int, list[int], int] | None:
+        """What a ray in the direction of events meets (see `exactacq.kernel.single_rays`); None if that is
+        open."""
+        count = len(self.table.vertices)
+        sure, struck, events, inside = single_rays.met(self._floats, rank, self.here, count)
+        return (struck, events, inside) if sure else None
+
+    def blocks(self, event: int, rank: int, own: tuple[int, ...]) -> bool:
+        """Whether a ray from the point in the direction of a vertex on it leads into the obstacle there."""
+        table, floats_ = self.table, self.faces.floats
         if event >= len(table.vertices):
             return False
-        owner = int(table.owner[event])
-        first = int(table.first[owner])
-        last = first + len(table.obstacles[owner].edges) - 1
-        incoming = table.curves[event - 1 if event > first else last]
-        outgoing = table.curves[event]
-        before, after = leaving(incoming, at_end=True), leaving(outgoing, at_end=False)
-        return enters(incoming, outgoing, before, after, direction)
+        slot = self._floats.groups[rank][0]
+        before = table.images.previous[event]
+        vector = floats_.x[slot], floats_.y[slot], floats_.bound[slot]
+        if clear := single_rays.blocks(floats_, event, *vector, event in own or before in own):
+            return clear > 0
+        incoming, outgoing = table.curves[before], table.curves[event]
+        ways = leaving(incoming, at_end=True), leaving(outgoing, at_end=False)
+        return enters(incoming, outgoing, *ways, self.direction(rank))
 
 
 def _hit(curve: Curve, point: Point, own: bool, vector: Vector) -> Point:

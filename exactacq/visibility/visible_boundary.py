@@ -9,7 +9,6 @@ through the point itself, and corners touched on the way.
 from __future__ import annotations
 
 from collections.abc import Hashable
-from dataclasses import dataclass
 from functools import cached_property, cmp_to_key
 from typing import Any, TypeAlias
 
@@ -18,7 +17,7 @@ from exactacq.geometry.coordinates import Vector, advance, dot, minus, raw, sign
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.points import Point
 from exactacq.kernel.view_parts import Part, ViewParts
-from exactacq.scene.edge_table import EdgeTable
+from exactacq.scene.edge_table import CONCAVE, EdgeTable
 from exactacq.visibility.features import enters
 from exactacq.visibility.radial_sweep import BLOCKED, NOTHING, RadialSweep
 from exactacq.visibility.range_clip import Disc, Span, of_circle, within
@@ -46,21 +45,52 @@ def seen_from(
     return BoundaryView(table, point, range_, own).seen()
 
 
-@dataclass(frozen=True, slots=True)
 class SingleRay:
     """What is seen exactly along one direction, where neighbouring rays may not go.
 
-    ``end`` is where the free run or the range ends, ``events`` lie on the way, ``along`` are straight edges
-    seen along their length, ``beyond`` tells that no neighbouring ray is free as far, ``struck`` is the face
-    that only this ray reaches, if any.
+    ``events`` lie on the way, ``along`` are straight edges seen along their length, ``struck`` is the face that
+    only this ray reaches, if any.
     """
 
-    rank: int
-    end: Point
-    events: tuple[int, ...]
-    along: tuple[int, ...]
-    beyond: bool
-    struck: int | None
+    def __init__(
+        self,
+        view: BoundaryView,
+        rank: int,
+        events: tuple[int, ...],
+        along: tuple[int, ...],
+        blocker: int | None,
+        face: int | None,
+    ) -> None:
+        self.view, self.rank, self.events, self.along = view, rank, events, along
+        self._blocker, self._face = blocker, face
+        beside = view.sweep.first[rank - 1], view.sweep.first[rank]
+        self.struck = None if blocker is not None or face in beside else face
+
+    @cached_property
+    def end(self) -> Point:
+        """Where the free run or the range ends."""
+        sweep = self.view.sweep
+        if self._blocker is not None:
+            return sweep.faces.place(self._blocker)
+        if self._face is not None:
+            return sweep.hit(self._face, sweep.direction(self.rank))
+        return self.view.at_range(self.rank)
+
+    @cached_property
+    def beyond(self) -> bool:
+        """Whether no neighbouring ray is free as far."""
+        sweep, rank, blocker = self.view.sweep, self.rank, self._blocker
+        reached = False
+        for face, high in ((sweep.first[rank - 1], True), (sweep.first[rank], False)):
+            if face == NOTHING:
+                reached = True
+            elif face != BLOCKED and (blocker is not None or self._face is not None):
+                ends_here = (sweep.high if high else sweep.low)[face] == rank
+                event = (sweep.ends_high if high else sweep.ends_low)[face]
+                reached |= (ends_here and event == blocker) or (face == self._face and blocker is None)
+            elif face != BLOCKED:
+                reached |= self.view.disc.excess(sweep.at(face, rank, not high)) >= 0
+        return not reached
 
 
 class BoundaryView:
@@ -214,9 +244,6 @@ class BoundaryView:
             known = [id(p) for p, rank in sides if not self.tight.isdisjoint(self._holds(e, rank))]
             return within(curve, start, end, self.disc, known)
 
-    def _in_range(self, point: Point) -> bool:
-        return self.disc.excess(point) <= 0
-
     # -- single rays -------------------------------------------------------------------------------
 
     @cached_property
@@ -226,57 +253,57 @@ class BoundaryView:
 
     def _ray(self, rank: int) -> SingleRay | None:
         sweep = self.sweep
-        faces = sweep.faces
         before, after = sweep.first[rank - 1], sweep.first[rank]
         if before == after >= 0 and sweep.low[before] != rank:
             return None
-        direction = sweep.direction(rank)
-        if self._is_buried(direction, rank):
+        if self._is_buried(rank):
             return None
-        square = dot(direction, direction)
-        struck = sweep.nearest(direction, covering) if (covering := sweep.covering(rank)) else None
-        limit = None if struck is None else sweep.parameter(Point(*direction), struck) * square
+        known = sweep.met(rank)
+        struck, events, inside = self._met(rank) if known is None else known
         met: list[int] = []
         blocker = None
-        for way, event in self._on_ray(rank, direction):
-            place = faces.place(event)
-            if (limit is not None and sign(limit - way) < 0) or not self._in_range(place):
-                break
+        for event in events:
             met.append(event)
-            if sweep.blocks(event, direction):
+            if sweep.blocks(event, rank, self.own):
                 blocker = event
                 break
-        end = None
-        if blocker is not None:
-            end = faces.place(blocker)
-        elif struck is not None:
-            place = sweep.hit(struck, direction)
-            end = place if self._in_range(place) else None
-        limited = end is not None
-        if end is None:
-            end = self.at_range(rank)
-        along = tuple(e for e in (*faces.on_ray, *self.own) if self._runs_along(e, rank, met, blocker))
-        reached = False
-        for face, high in ((before, True), (after, False)):
-            if face == NOTHING:
-                reached = True
-            elif face != BLOCKED and limited:
-                ends_here = (sweep.high if high else sweep.low)[face] == rank
-                event = (sweep.ends_high if high else sweep.ends_low)[face]
-                reached |= (ends_here and event == blocker) or (face == struck and blocker is None)
-            elif face != BLOCKED:
-                place = sweep.at(face, rank, not high)
-                reached |= self.disc.excess(place) >= 0
-        alone = struck if limited and blocker is None and struck not in (before, after) else None
-        return SingleRay(rank, end, tuple(met), along, not reached, alone)
+        face = None
+        if blocker is None and struck != NOTHING:
+            place = None if inside else sweep.hit(struck, sweep.direction(rank))
+            if inside > 0 or (place is not None and self.disc.excess(place) <= 0):
+                face = struck
+        along = tuple(e for e in (*sweep.faces.on_ray, *self.own) if self._runs_along(e, rank, met, blocker))
+        return SingleRay(self, rank, tuple(met), along, blocker, face)
 
-    def _is_buried(self, direction: Vector, rank: int) -> bool:
+    def _met(self, rank: int) -> tuple[int, list[int], int]:
+        """The first face that a ray does not pass at an end, and the events before that and within range, nearest
+        first; exact, and whether the face is within range is left open (0)."""
+        sweep = self.sweep
+        direction = sweep.direction(rank)
+        struck, limit = sweep.nearest(direction, sweep.covering(rank)), None
+        if struck != NOTHING:
+            limit = sweep.parameter(Point(*direction), struck) * dot(direction, direction)
+        events = []
+        for way, event in self._on_ray(rank, direction):
+            if limit is not None and sign(limit - way) < 0:
+                break
+            if self.disc.excess(sweep.faces.place(event)) > 0:
+                break
+            events.append(event)
+        return struck, events, 0
+
+    def _is_buried(self, rank: int) -> bool:
         """Whether a ray leads from the point straight into its own obstacle."""
         if not self.own:
             return False
-        cone = self.sweep.faces.cone
-        if cone is None or self.sweep.rank[cone.low] == rank or self.sweep.rank[cone.high] == rank:
-            return self.buries(direction)
+        cone, ranks = self.sweep.faces.cone, self.sweep.rank
+        if cone is None:
+            return self.buries(self.sweep.direction(rank))
+        if ranks[cone.low] == rank or ranks[cone.high] == rank:
+            # Along a single edge, or along straight ones.
+            if len(self.own) == 1 or not any(self.table.images.kind[e] for e in self.own):
+                return bool(self.table.images.kind[self.own[0]] == CONCAVE)
+            return self.buries(self.sweep.direction(rank))
         return self.sweep.first[rank - 1] == self.sweep.first[rank] == BLOCKED
 
     def buries(self, direction: Vector) -> bool:

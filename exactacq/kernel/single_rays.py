@@ -1,0 +1,101 @@
+"""What a ray from a place meets in the very direction of events, in floats with bounds."""
+
+from __future__ import annotations
+
+from math import inf
+
+from exactacq.kernel.bounded import UNIT, WIDEN, cross, dot, product, quotient, verdict
+from exactacq.kernel.images import STRAIGHT
+from exactacq.kernel.radial_faces import RadialFaces
+from exactacq.kernel.radial_sweep import NOTHING, RadialSweep
+
+
+def met(sweep: RadialSweep, rank: int, here: list[int], vertices: int) -> tuple[bool, int, list[int], int]:
+    """What the ray in a direction meets: whether that is certain, the first face that it does not pass at an
+    end, the events before that and within range, nearest first, and whether the face is within range (1), beyond
+    (-1) or that is open.
+
+    *here* are events that are the place itself; of others that are no vertices nothing is known.
+    """
+    faces = sweep.faces
+    slots = sweep.groups[rank]
+    x, y, b = faces.x[slots[0]], faces.y[slots[0]], faces.bound[slots[0]]
+    struck, low, high = NOTHING, inf, inf
+    rest = inf
+    for f in sweep.covering(rank):
+        m, e = faces.way(f, x, y, b)
+        if not e < inf:
+            return False, NOTHING, [], 0
+        e = e * WIDEN + UNIT * abs(m)
+        if m + e < high:
+            rest = min(rest, low)
+            struck, low, high = f, m - e, m + e
+        elif m - e < rest:
+            rest = m - e
+    if struck != NOTHING and not rest > high:
+        return False, NOTHING, [], 0
+    square, square_bound = dot(x, y, b, x, y, b)
+    reached = -inf
+    found: list[int] = []
+    ways: list[tuple[float, float, int]] = []
+    for k in slots:
+        event = faces.events[k]
+        if event in here:
+            continue
+        if event >= vertices:
+            return False, NOTHING, [], 0
+        u, v, e = faces.offset(event)
+        m, e = quotient(*dot(u, v, e, x, y, b), square, square_bound)
+        e = e * WIDEN + UNIT * abs(m)
+        ways.append((m - e, m + e, event))
+    ways.sort()
+    for first, last, event in ways:
+        if not first > reached:
+            return False, NOTHING, [], 0
+        reached = last
+        if first > high:
+            break
+        inside = faces.reach(*faces.offset(event))
+        if inside < 0:
+            break
+        if inside == 0 or not last < low:
+            return False, NOTHING, [], 0
+        found.append(event)
+    inside = 0
+    if struck != NOTHING:
+        m, e = faces.way(struck, x, y, b)
+        px, p = product(m, e, x, b)
+        py, q = product(m, e, y, b)
+        inside = faces.reach(px, py, max(p, q))
+    return True, struck, found, inside
+
+
+def blocks(faces: RadialFaces, vertex: int, x: float, y: float, b: float, along: bool) -> int:
+    """Whether a ray along (x, y) leads into the obstacle at a vertex between two straight edges; 0 if open.
+
+    With *along* it comes along one of these edges: then it does if the corner is reflex. Otherwise it does if it
+    leaves between the way on and the way back.
+    """
+    images = faces.images
+    before, following = images.previous[vertex], images.following[vertex]
+    if images.kind[vertex] != STRAIGHT or images.kind[before] != STRAIGHT:
+        return 0
+    u, v, p = difference(faces, before, vertex)
+    s, t, q = difference(faces, vertex, following)
+    turn = verdict(*cross(u, v, p, s, t, q))
+    if along:
+        return -turn
+    left, right = verdict(*cross(s, t, q, x, y, b)), verdict(*cross(x, y, b, -u, -v, p))
+    if turn > 0:
+        return min(left, right) if left and right else -1 if left < 0 or right < 0 else 0
+    if turn < 0:
+        return max(left, right) if left and right else 1 if left > 0 or right > 0 else 0
+    return 0
+
+
+def difference(faces: RadialFaces, a: int, b: int) -> tuple[float, float, float]:
+    """The vector between two vertices, with a bound for both components."""
+    x, y, p = faces.offset(a)
+    u, v, q = faces.offset(b)
+    s, t = u - x, v - y
+    return s, t, (p + q + UNIT * (abs(s) + abs(t))) * WIDEN
