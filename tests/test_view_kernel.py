@@ -1,4 +1,4 @@
-"""Views by floats are the views of exact arithmetic alone, part by part, most of all where data are degenerate."""
+"""Views by floats are those of exact arithmetic alone, part by part, most of all where data are degenerate."""
 
 from __future__ import annotations
 
@@ -7,14 +7,11 @@ from fractions import Fraction
 from random import Random
 
 import pytest
-from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import degenerate_terrain, random_terrain
 
-import exactacq as xa
-from exactacq import Circle, Outline, Point, Polygon, Real, Scene, isovist, kernel
-from exactacq.files import gallery
+from exactacq import Point, Real, Scene, isovist, kernel
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.points import Location
@@ -65,8 +62,6 @@ def places(scene: Scene, rng: Random) -> Iterator[Point]:
     for place in found:
         if all(obstacle.locate(place) is not Location.INSIDE for obstacle in scene.obstacles):
             yield place
-
-
 
 
 MAKERS = [

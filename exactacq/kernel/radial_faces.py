@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from typing import Final, final
 
-from exactacq.kernel.bounded import TINY, UNIT, WIDEN, product, quotient, root, total
+from exactacq.kernel.bounded import TINY, UNIT, WIDEN, cross, dot, product, quotient, root, total
 from exactacq.kernel.images import REST, STRAIGHT, EdgeImages
 
 NONE: Final = -1
@@ -34,9 +34,10 @@ class RadialFaces:
         images: EdgeImages,
         place: tuple[float, float, float, float, float],
         square: tuple[float, float],
-        own: list[int],
     ) -> None:
-        self.images, self.own = images, own
+        self.images = images
+        self.own: list[int] = []
+        """The edges through the place, once they are known."""
         self.px, self.px_rest, self.py, self.py_rest, self.blur = place
         self.square, self.square_bound = square
         self.slots: dict[int, int] = {}
@@ -79,37 +80,46 @@ class RadialFaces:
         return 1 if rest > bound else -1 if -rest > bound else 0
 
     def add_straight(self, edges: list[int]) -> list[int]:
-        """Add the faces that straight edges are, but the place's own; those whose side is open are returned.
+        """Add the faces that straight edges are; those whose side is open are returned.
 
         Left out is what certainly lies beyond the range.
         """
-        images, own = self.images, self.own
+        images = self.images
         following, kinds = images.following, images.kind
+        xs, x_rests, ys, y_rests = images.x, images.x_rest, images.y, images.y_rest
+        px, px_rest, py, py_rest, blur = self.px, self.px_rest, self.py, self.py_rest, self.blur + TINY
+        here = abs(px) + abs(py)
         open_: list[int] = []
         last = -1
         sx = sy = s = tx = ty = t = 0.0
         for e in edges:
-            if kinds[e] != STRAIGHT or e in own:
+            if kinds[e] != STRAIGHT:
                 continue
             v = following[e]
+            # As `offset`.
             if e == last:
                 sx, sy, s = tx, ty, t
             else:
-                sx, sy, s = self.offset(e)
-            tx, ty, t = self.offset(v)
+                x, y = xs[e], ys[e]
+                sx, sy = (x - px) + (x_rests[e] - px_rest), (y - py) + (y_rests[e] - py_rest)
+                s = (UNIT * (abs(sx) + abs(sy)) + REST * (abs(x) + abs(y) + here) + blur) * WIDEN
+            x, y = xs[v], ys[v]
+            tx, ty = (x - px) + (x_rests[v] - px_rest), (y - py) + (y_rests[v] - py_rest)
+            t = (UNIT * (abs(tx) + abs(ty)) + REST * (abs(x) + abs(y) + here) + blur) * WIDEN
             last = v
             left, right = sx * ty, sy * tx
             turn = left - right
+            # As `cross`.
             sizes = (abs(sx) + abs(sy)) * t + (abs(tx) + abs(ty) + 2.0 * t) * s
             bound = (sizes + UNIT * (abs(left) + abs(right) + abs(turn)) + TINY) * WIDEN
             if turn > bound:
                 continue
-            ax, ay, a, near = self._extent(sx, sy, s, tx, ty, t, turn, bound)
+            near = self._extent(sx, sy, s, tx, ty, t, turn, bound)
             if near < 0:
                 continue
             if -turn > bound:
-                self._add(e, self.vertex(v, tx, ty, t), self.vertex(e, sx, sy, s), near > 0)
-                self._add_line(ax, ay, a, turn, bound)
+                self._add(e, self.slot(v, tx, ty, t), self.slot(e, sx, sy, s), near > 0)
+                self._add_line(sx, sy, s, tx, ty, t, turn, bound)
             else:
                 open_.append(e)
         return open_
@@ -119,36 +129,44 @@ class RadialFaces:
         v = self.images.following[e]
         sx, sy, s = self.offset(e)
         tx, ty, t = self.offset(v)
-        left, right = sx * ty, sy * tx
-        turn = left - right
-        sizes = (abs(sx) + abs(sy)) * t + (abs(tx) + abs(ty) + 2.0 * t) * s
-        bound = (sizes + UNIT * (abs(left) + abs(right) + abs(turn)) + TINY) * WIDEN
-        ax, ay, a, near = self._extent(sx, sy, s, tx, ty, t, turn, bound)
-        self._add(e, self.vertex(v, tx, ty, t), self.vertex(e, sx, sy, s), near > 0)
-        self._add_line(ax, ay, a, turn, bound)
+        turn, bound = cross(sx, sy, s, tx, ty, t)
+        near = self._extent(sx, sy, s, tx, ty, t, turn, bound)
+        self._add(e, self.slot(v, tx, ty, t), self.slot(e, sx, sy, s), near > 0)
+        self._add_line(sx, sy, s, tx, ty, t, turn, bound)
+
+    def arcs(self, edges: list[int]) -> list[int]:
+        """The arcs among some edges."""
+        kinds = self.images.kind
+        return [e for e in edges if kinds[e] != STRAIGHT]
+
+    def may_be_on(self, e: int) -> bool:
+        """Whether the place may be on the circle of an arc."""
+        wx, wy, w = self.center(e)
+        r = self.images.radius[e]
+        far, far_bound = root(*dot(wx, wy, w, wx, wy, w))
+        gap, gap_bound = total(far, far_bound, -r, UNIT * r)
+        return not abs(gap) > gap_bound
 
     def add_arc(self, e: int, low: int, high: int) -> None:
         """Add a face of an arc between two events (`NONE` for none): vertices, or events that are added."""
-        ends = [NONE, NONE]
-        for k, event in enumerate((low, high)):
-            if event >= 0:
-                ends[k] = self.slots[event] if event in self.slots else self.vertex(event, *self.offset(event))
-        w, wy, e_bound = self.center(e)
-        far, far_bound = root(*total(*product(w, e_bound, w, e_bound), *product(wy, e_bound, wy, e_bound)))
+        first = self.slot(low, *self.offset(low)) if 0 <= low < len(self.images.x) else self._known(low)
+        last = self.slot(high, *self.offset(high)) if 0 <= high < len(self.images.x) else self._known(high)
+        wx, wy, w = self.center(e)
+        far, far_bound = root(*dot(wx, wy, w, wx, wy, w))
         r = self.images.radius[e]
         far, far_bound = total(far, far_bound, r, UNIT * r)
-        self._add(e, ends[0], ends[1], self.reach(far, 0.0, far_bound) > 0)
-        self._add_line(0.0, 0.0, 0.0, 0.0, 0.0)
+        self._add(e, first, last, self.reach(far, 0.0, far_bound) > 0)
+        self._add_line(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+    def _known(self, event: int) -> int:
+        return self.slots[event] if event >= 0 else NONE
 
     def add_event(self, event: int, x: float, y: float, e: float) -> None:
         """Add an event with its vector; that of a vertex which is known already is replaced."""
-        k = self.slots.get(event, -1)
-        if k < 0:
-            self.vertex(event, x, y, e)
-        else:
-            self.x[k], self.y[k], self.bound[k] = x, y, e
+        k = self.slot(event, x, y, e)
+        self.x[k], self.y[k], self.bound[k] = x, y, e
 
-    def vertex(self, event: int, x: float, y: float, e: float) -> int:
+    def slot(self, event: int, x: float, y: float, e: float) -> int:
         """The slot of an event; its vector is taken if it is new."""
         k = self.slots.get(event, -1)
         if k < 0:
@@ -175,7 +193,7 @@ class RadialFaces:
         """
         wx, wy, w = self.center(e)
         r = self.images.radius[e]
-        far, far_bound = root(*total(*product(wx, w, wx, w), *product(wy, w, wy, w)))
+        far, far_bound = root(*dot(wx, wy, w, wx, wy, w))
         gap, gap_bound = total(far, far_bound, -r, UNIT * r)
         h, h_bound = root(*product(gap, gap_bound, *total(far, far_bound, r, UNIT * r)))
         across, across_bound = side * r, UNIT * r
@@ -184,27 +202,22 @@ class RadialFaces:
         return x, y, max(x_bound, y_bound)
 
     def way(self, f: int, dx: float, dy: float, d: float) -> tuple[float, float]:
-        """How many times a vector leads from the place to a face that covers it; its components are held
-        with d.
+        """How many times a vector, its components held with d, leads from the place to a face that covers it.
 
-        On the line through s along a it is s x a / (d x a), and s x a = s x t. On a circle about w it is (d . w
-        -+ sqrt(|d|^2 r^2 - (d x w)^2)) / |d|^2, and twice d . w / |d|^2 if the place is on it.
+        On the line through s along a it is s x a / (d x a), and s x a = s x t. On a circle about w it is
+        (d . w -+ sqrt(|d|^2 r^2 - (d x w)^2)) / |d|^2, and 2 d . w / |d|^2 if the place is on it.
         """
         e = self.edge[f]
         images = self.images
         if images.kind[e] == STRAIGHT:
-            ax, ay, a = self.ax[f], self.ay[f], self.a_bound[f]
-            left, right = dx * ay, dy * ax
-            below = left - right
-            sizes = (abs(dx) + abs(dy)) * a + (abs(ax) + abs(ay) + 2.0 * a) * d
-            bound = (sizes + UNIT * (abs(left) + abs(right) + abs(below)) + TINY) * WIDEN
+            below, bound = cross(dx, dy, d, self.ax[f], self.ay[f], self.a_bound[f])
             return quotient(self.turn[f], self.turn_bound[f], below, bound)
         wx, wy, w = self.center(e)
-        square, square_bound = total(*product(dx, d, dx, d), *product(dy, d, dy, d))
-        h, h_bound = total(*product(dx, d, wx, w), *product(dy, d, wy, w))
+        square, square_bound = dot(dx, dy, d, dx, dy, d)
+        h, h_bound = dot(dx, dy, d, wx, wy, w)
         if e in self.own:
             return quotient(2.0 * h, 2.0 * h_bound, square, square_bound)
-        g, g_bound = total(*product(dx, d, wy, w), *product(-dy, d, wx, w))
+        g, g_bound = cross(dx, dy, d, wx, wy, w)
         r = images.radius[e]
         size, size_bound = root(square, square_bound)
         across, across_bound = product(size, size_bound, r, UNIT * r)
@@ -224,31 +237,27 @@ class RadialFaces:
         t: float,
         turn: float,
         turn_bound: float,
-    ) -> tuple[float, float, float, int]:
-        """The vector a from s to t with its bound, and 1 or -1 if all or none of that is within range.
+    ) -> int:
+        """1 or -1 if all or none of the segment from s to t is certainly within range, else 0.
 
-        None is if both ends are beyond and the foot of the place is not between them, or if the line is too
-        far: its distance is |s x t| / |a| >= |s x t| / |a|_1.
+        With a from s to t, none of it is if both ends are beyond and the foot of the place is not between
+        them, or the line is too far: its distance is |s x t| / |a| >= |s x t| / |a|_1.
         """
+        first = self.reach(sx, sy, s)
+        last = self.reach(tx, ty, t)
+        if first > 0 and last > 0:
+            return 1
+        if not (first < 0 and last < 0):
+            return 0
         ax, ay = tx - sx, ty - sy
         size = abs(ax) + abs(ay)
         a = (s + t + UNIT * size) * WIDEN
-        at_start, at_end = self.reach(sx, sy, s), self.reach(tx, ty, t)
-        if at_start > 0 and at_end > 0:
-            return ax, ay, a, 1
-        if at_start < 0 and at_end < 0:
-            over, over_bound = quotient(turn, turn_bound, size, 2.0 * a)
-            if self.reach(over, 0.0, over_bound) < 0:
-                return ax, ay, a, -1
-            ahead = sx * ax + sy * ay
-            sizes = (abs(sx) + abs(sy)) * a + (size + 2.0 * a) * s
-            if ahead > (sizes + 2.0 * UNIT * (abs(sx * ax) + abs(sy * ay)) + TINY) * WIDEN:
-                return ax, ay, a, -1
-            behind = tx * ax + ty * ay
-            sizes = (abs(tx) + abs(ty)) * a + (size + 2.0 * a) * t
-            if -behind > (sizes + 2.0 * UNIT * (abs(tx * ax) + abs(ty * ay)) + TINY) * WIDEN:
-                return ax, ay, a, -1
-        return ax, ay, a, 0
+        far, far_bound = quotient(turn, turn_bound, size, 2.0 * a)
+        if self.reach(far, 0.0, far_bound) < 0:
+            return -1
+        ahead, ahead_bound = dot(sx, sy, s, ax, ay, a)
+        behind, behind_bound = dot(tx, ty, t, ax, ay, a)
+        return -1 if ahead > ahead_bound or -behind > behind_bound else 0
 
     def _add(self, e: int, low: int, high: int, within: bool) -> None:
         self.edge.append(e)
@@ -256,9 +265,20 @@ class RadialFaces:
         self.high.append(high)
         self.within.append(within)
 
-    def _add_line(self, ax: float, ay: float, a: float, turn: float, bound: float) -> None:
+    def _add_line(
+        self,
+        sx: float,
+        sy: float,
+        s: float,
+        tx: float,
+        ty: float,
+        t: float,
+        turn: float,
+        bound: float,
+    ) -> None:
+        ax, ay = tx - sx, ty - sy
         self.ax.append(ax)
         self.ay.append(ay)
-        self.a_bound.append(a)
+        self.a_bound.append((s + t + UNIT * (abs(ax) + abs(ay))) * WIDEN)
         self.turn.append(turn)
         self.turn_bound.append(bound)

@@ -1,10 +1,10 @@
 """The order of directions about a place, and the face that comes first in each, in floats with bounds.
 
-The directions in which faces end divide the full turn into *cells*: cell k lies counterclockwise of direction
-k. Boundaries have no point in common, so in a cell faces have the same order along all rays, and faces that go
-on together keep it. So the first face of a cell stays the first one until it ends, unless one that begins lies
-before it. Where it ends in a vertex in which another one begins, that is the next: all others are farther away
-than the vertex.
+The directions in which faces end divide the full turn into *cells*: cell k lies counterclockwise of
+direction k. Boundaries have no point in common, so in a cell faces have the same order along all rays, and
+faces that go on together keep it. So the first face of a cell stays the first one until it ends, unless one
+that begins lies before it. Where it ends in a vertex in which another one begins, that is the next: all
+others are farther away than the vertex.
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ class RadialSweep:
     Between them whoever asks decides what the floats leave open: on which side of the east a direction is
     (`look_up`), which directions of a group are one (``open_groups``), which face comes first (``doubts``).
 
-    The order is that of *keys*: (x, y) has the key y / (|x| + |y|) in the first quarter, and every quarter turn
-    adds 1. Let both components be held with b, and n = |x| + |y|. On the way from what is held to what holds
+    The order is that of *keys*: (x, y) has the key y / (|x| + |y|) in the first quarter, and every quarter
+    turn adds 1. Let both components be held with b, and n = |x| + |y|. On the way from what is held to what holds
     it the size is at least n - 2 b, and the key grows by at most b divided by that, as its derivatives are y
     and x divided by the size's square. So the key is held with b / (n - 2 b), and 4 UNIT for four roundings,
     unless the way leads over the east, where keys jump from 4 to 0.

@@ -12,8 +12,8 @@ from exactacq.kernel.radial_sweep import NOTHING, RadialSweep
 
 def met(sweep: RadialSweep, rank: int, here: list[int], vertices: int) -> tuple[bool, int, list[int], int]:
     """What the ray in a direction meets: whether that is certain, the first face that it does not pass at an
-    end, the events before that and within range, nearest first, and whether the face is within range (1), beyond
-    (-1) or that is open.
+    end, the events before that and within range, nearest first, and whether the face is within range (1),
+    beyond (-1) or that is open.
 
     *here* are events that are the place itself; of others that are no vertices nothing is known.
     """
@@ -73,8 +73,8 @@ def met(sweep: RadialSweep, rank: int, here: list[int], vertices: int) -> tuple[
 def blocks(faces: RadialFaces, vertex: int, x: float, y: float, b: float, along: bool) -> int:
     """Whether a ray along (x, y) leads into the obstacle at a vertex between two straight edges; 0 if open.
 
-    With *along* it comes along one of these edges: then it does if the corner is reflex. Otherwise it does if it
-    leaves between the way on and the way back.
+    With *along* it comes along one of these edges: then it does if the corner is reflex. Otherwise it does if
+    it leaves between the way on and the way back.
     """
     images = faces.images
     before, following = images.previous[vertex], images.following[vertex]

@@ -147,8 +147,8 @@ class ViewParts:
     def bracket(self, end: int) -> tuple[float, float]:
         """Bounds of the parameter of a hit or a crossing on a straight edge, (-inf, inf) on an arc.
 
-        With s to the edge's start, a hit along d is at u = -(d x s) / (d x a), a crossing at u = (-s . a +- h)
-        / |a|^2, h^2 = |a|^2 R^2 - (s x a)^2.
+        With s to the edge's start, a hit along d is at u = -(d x s) / (d x a), a crossing at
+        u = (-s . a +- h) / |a|^2, h^2 = |a|^2 R^2 - (s x a)^2.
         """
         kind, face, which = self.made[end - self.base]
         faces = self.faces
@@ -178,8 +178,8 @@ class ViewParts:
     def outline(self, at_range: list[int]) -> list[Piece]:
         """The closed outline from the east on, joined; for more than one sight.
 
-        *at_range* are ends that are exactly as far away as the range. A single piece that is an arc of the range
-        is all of its circle.
+        *at_range* are ends that are exactly as far away as the range. A single piece that is an arc of the
+        range is all of its circle.
         """
         count = len(self.sights)
         edges: list[int] = []

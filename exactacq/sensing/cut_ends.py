@@ -71,5 +71,5 @@ class CutEnd:
     @cached_property
     def _outline(self) -> list[Curve]:
         """The view's outline, and the single rays that see more than their neighbours."""
-        rays = [Segment(self.point, ray.end) for ray in self._view.rays if ray.beyond or ray.along]
+        rays = [Segment(self.point, end) for end in self._view.lone_ends()]
         return [piece.curve for piece in outline(self._view)] + [*rays]

@@ -31,7 +31,7 @@ from exactacq.kernel.bounded import TINY, UNIT, WIDEN
 from exactacq.kernel.radial_faces import RadialFaces
 from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
-from exactacq.scene.edge_table import STRAIGHT, EdgeTable
+from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.features import is_spike, parallel
 from exactacq.visibility.line_families import BITS, held
 from exactacq.visibility.sensor_range import Range
@@ -119,12 +119,12 @@ class FrontFaces:
 
     ``edges``, ``ends_low`` and ``ends_high``: edge number and events of each face; it covers the directions
     counterclockwise from low to high, and runs from high to low. ``own`` are the edges through the point, at
-    a vertex the incoming one first; ``on_ray`` the other straight edges that the point sees edge-on;
-    ``floats`` are the faces as the sweep takes them.
+    a vertex the incoming one first, found if not given; ``on_ray`` the other straight edges that the point
+    sees edge-on; ``floats`` are the faces as the sweep takes them.
     """
 
-    def __init__(self, table: EdgeTable, point: Point, range_: Range, own: tuple[int, ...]) -> None:
-        self.table, self.point, self.own = table, point, own
+    def __init__(self, table: EdgeTable, point: Point, range_: Range, own: tuple[int, ...] | None) -> None:
+        self.table, self.point = table, point
         self.origin, self.around = raw(point), balls(point)
         self.xy = point.xy
         self.reach = range_.above
@@ -133,26 +133,32 @@ class FrontFaces:
         self.on_ray: list[int] = []
         self.special: list[int] = []
         self._offsets: dict[int, Vector] = {}
-        self.floats = faces = RadialFaces(table.images, _image(self.origin), held(range_.square), list(own))
+        self.floats = faces = RadialFaces(table.images, _image(self.origin), held(range_.square))
         near = table.near(self.xy, self.xy, self.reach).tolist()
-        for e in faces.add_straight(near):
+        open_ = faces.add_straight(near)
+        round_ = faces.arcs(near) if table.curved else []
+        if own is None:
+            own = self._edges_at_point(open_, round_)
+        self.own = own
+        faces.own = list(own)
+        for e in open_:
+            if e in own:
+                continue
             side = sign(cross(self.offset(e), self.offset(int(table.next[e]))))
             if side < 0:
                 faces.add_open(e)
             elif side == 0:
                 self.on_ray.append(e)
         arcs: list[tuple[int, int, int]] = []
-        if table.curved:
-            kinds = table.images.kind
-            for e in near:
-                if kinds[e] != STRAIGHT and e not in own:
-                    arcs += self._arc(e)
+        for e in round_:
+            if e not in own:
+                arcs += self._arc(e)
         self.cone = self._cone(arcs) if own else None
         for e in self.on_ray:
             self.special += (e, int(table.next[e]))
         for event in self.special:
             if event < len(table.vertices):
-                faces.vertex(event, *faces.offset(event))
+                faces.slot(event, *faces.offset(event))
         for e, low, high in arcs:
             faces.add_arc(e, low, high)
         self.edges: list[int] = faces.edge
@@ -162,6 +168,19 @@ class FrontFaces:
 
     def __len__(self) -> int:
         return len(self.edges)
+
+    def _edges_at_point(self, open_: list[int], round_: list[int]) -> tuple[int, ...]:
+        """The edges through the point, at a vertex the incoming one first.
+
+        They are among the straight ones on whose line the point may be, and the arcs on whose circle it may
+        be.
+        """
+        curves, point, faces = self.table.curves, self.point, self.floats
+        some = open_ + [e for e in round_ if faces.may_be_on(e)]
+        found = [e for e in some if curves[e].may_pass(point, BITS) and curves[e].passes(point)]
+        if len(found) == 2 and curves[found[0]].start == point:
+            found.reverse()
+        return tuple(found)
 
     # -- events ------------------------------------------------------------------------------------
 

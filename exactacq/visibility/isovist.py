@@ -73,8 +73,7 @@ class Isovist:
 
         These go on where the rays to both sides are blocked, or run along a straight edge.
         """
-        rays = (ray for ray in self._view.rays if ray.beyond or ray.along)
-        return tuple(Segment(self.point, ray.end) for ray in rays)
+        return tuple(Segment(self.point, end) for end in self._view.lone_ends())
 
     def seen(self) -> dict[tuple[int, int], list[Span]]:
         """All boundary points seen: by obstacle and edge, closed pieces (start, end) in the edge's direction.

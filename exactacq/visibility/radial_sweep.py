@@ -45,11 +45,11 @@ The face may be NOTHING or BLOCKED. All around if the ranks are equal; without e
 class RadialSweep:
     """The sights of a free point, counterclockwise, and the exact points where they begin and end.
 
-    *own* are the edges through the point (see `FrontFaces`). Faces beyond the range are left out, and what lies
-    beyond it may be reported wrongly or as NOTHING.
+    *own* are the edges through the point, None if they are not known (see `FrontFaces`). Faces beyond the
+    range are left out, and what lies beyond it may be reported wrongly or as NOTHING.
     """
 
-    def __init__(self, table: EdgeTable, point: Point, range_: Range, own: tuple[int, ...]) -> None:
+    def __init__(self, table: EdgeTable, point: Point, range_: Range, own: tuple[int, ...] | None) -> None:
         self.table = table
         self.faces = faces = FrontFaces(table, point, range_, own)
         self.edges, self.ends_low, self.ends_high = faces.edges, faces.ends_low, faces.ends_high

@@ -1,7 +1,7 @@
 """The ends of what a place sees, by their numbers: points that are made when somebody asks for them.
 
-Vertices and the other events of the sweep keep their numbers. Those above are of `ViewParts`: where a ray past
-an event meets a face behind it, where an edge leaves the range, and points that exact arithmetic found.
+Vertices and the other events of the sweep keep their numbers. Those above are of `ViewParts`: where a ray
+past an event meets a face behind it, where an edge leaves the range, and points that exact arithmetic found.
 """
 
 from __future__ import annotations

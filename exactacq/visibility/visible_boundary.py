@@ -9,6 +9,7 @@ through the point itself, and corners touched on the way.
 from __future__ import annotations
 
 from collections.abc import Hashable
+from dataclasses import dataclass
 from functools import cached_property, cmp_to_key
 from typing import Any, TypeAlias
 
@@ -45,52 +46,19 @@ def seen_from(
     return BoundaryView(table, point, range_, own).seen()
 
 
+@dataclass(frozen=True, slots=True)
 class SingleRay:
     """What is seen exactly along one direction, where neighbouring rays may not go.
 
-    ``events`` lie on the way, ``along`` are straight edges seen along their length, ``struck`` is the face that
-    only this ray reaches, if any.
+    ``events`` lie on the way, ``along`` are straight edges seen along their length. The last event may end
+    the free run (``blocker``), or a ``face`` within range; else the range ends it.
     """
 
-    def __init__(
-        self,
-        view: BoundaryView,
-        rank: int,
-        events: tuple[int, ...],
-        along: tuple[int, ...],
-        blocker: int | None,
-        face: int | None,
-    ) -> None:
-        self.view, self.rank, self.events, self.along = view, rank, events, along
-        self._blocker, self._face = blocker, face
-        beside = view.sweep.first[rank - 1], view.sweep.first[rank]
-        self.struck = None if blocker is not None or face in beside else face
-
-    @cached_property
-    def end(self) -> Point:
-        """Where the free run or the range ends."""
-        sweep = self.view.sweep
-        if self._blocker is not None:
-            return sweep.faces.place(self._blocker)
-        if self._face is not None:
-            return sweep.hit(self._face, sweep.direction(self.rank))
-        return self.view.at_range(self.rank)
-
-    @cached_property
-    def beyond(self) -> bool:
-        """Whether no neighbouring ray is free as far."""
-        sweep, rank, blocker = self.view.sweep, self.rank, self._blocker
-        reached = False
-        for face, high in ((sweep.first[rank - 1], True), (sweep.first[rank], False)):
-            if face == NOTHING:
-                reached = True
-            elif face != BLOCKED and (blocker is not None or self._face is not None):
-                ends_here = (sweep.high if high else sweep.low)[face] == rank
-                event = (sweep.ends_high if high else sweep.ends_low)[face]
-                reached |= (ends_here and event == blocker) or (face == self._face and blocker is None)
-            elif face != BLOCKED:
-                reached |= self.view.disc.excess(sweep.at(face, rank, not high)) >= 0
-        return not reached
+    rank: int
+    events: tuple[int, ...]
+    along: tuple[int, ...]
+    blocker: int | None
+    face: int | None
 
 
 class BoundaryView:
@@ -100,8 +68,8 @@ class BoundaryView:
         self, table: EdgeTable, point: Point, range_: Range, own: tuple[int, ...] | None = None
     ) -> None:
         self.table, self.point, self.range = table, point, range_
-        self.own = table.edges_at(point) if own is None else own
-        self.sweep = RadialSweep(table, point, range_, self.own)
+        self.sweep = RadialSweep(table, point, range_, own)
+        self.own = self.sweep.faces.own
         self.origin = self.sweep.faces.origin
         self._at_range: dict[int, Point] = {}
         self.tight: set[Hold] = set()
@@ -251,6 +219,37 @@ class BoundaryView:
         """The directions in which several events lie, an edge is seen edge-on, or an own edge leaves."""
         return [ray for rank in self.sweep.special if (ray := self._ray(rank)) is not None]
 
+    def lone_ends(self) -> list[Point]:
+        """The ends of the free runs of rays that see more than their neighbours, or along an edge."""
+        return [self._end(ray) for ray in self.rays if ray.along or self._is_beyond(ray)]
+
+    def _end(self, ray: SingleRay) -> Point:
+        """Where the free run or the range ends."""
+        if ray.blocker is not None:
+            return self.sweep.faces.place(ray.blocker)
+        if ray.face is not None:
+            return self.sweep.hit(ray.face, self.sweep.direction(ray.rank))
+        return self.at_range(ray.rank)
+
+    def _is_beyond(self, ray: SingleRay) -> bool:
+        """Whether no neighbouring ray is free as far."""
+        sweep, rank = self.sweep, ray.rank
+        for face, high in ((sweep.first[rank - 1], True), (sweep.first[rank], False)):
+            if face == NOTHING:
+                return False
+            if face == BLOCKED:
+                continue
+            if ray.blocker is not None:
+                ends_here = (sweep.high if high else sweep.low)[face] == rank
+                reached = ends_here and (sweep.ends_high if high else sweep.ends_low)[face] == ray.blocker
+            elif ray.face is not None:
+                reached = face == ray.face
+            else:
+                reached = self.disc.excess(sweep.at(face, rank, not high)) >= 0
+            if reached:
+                return False
+        return True
+
     def _ray(self, rank: int) -> SingleRay | None:
         sweep = self.sweep
         before, after = sweep.first[rank - 1], sweep.first[rank]
@@ -273,11 +272,11 @@ class BoundaryView:
             if inside > 0 or (place is not None and self.disc.excess(place) <= 0):
                 face = struck
         along = tuple(e for e in (*sweep.faces.on_ray, *self.own) if self._runs_along(e, rank, met, blocker))
-        return SingleRay(self, rank, tuple(met), along, blocker, face)
+        return SingleRay(rank, tuple(met), along, blocker, face)
 
     def _met(self, rank: int) -> tuple[int, list[int], int]:
-        """The first face that a ray does not pass at an end, and the events before that and within range, nearest
-        first; exact, and whether the face is within range is left open (0)."""
+        """The first face that a ray does not pass at an end, and the events before that and within range,
+        nearest first; exact, and whether the face is within range is left open (0)."""
         sweep = self.sweep
         direction = sweep.direction(rank)
         struck, limit = sweep.nearest(direction, sweep.covering(rank)), None
@@ -372,10 +371,12 @@ class BoundaryView:
                     continue
                 order = LAST if sweep.ends_low[face] == event else -1
                 found.setdefault(sweep.edges[face], []).append((face, order, (event, event)))
-        if ray.struck is not None:
-            order = (sweep.high[ray.struck] - ray.rank) % max(sweep.count, 1)
-            end = self.ends.number(sweep.edges[ray.struck], ray.end)
-            found.setdefault(sweep.edges[ray.struck], []).append((ray.struck, order, (end, end)))
+        struck = ray.face
+        if struck is not None and struck not in (sweep.first[ray.rank - 1], sweep.first[ray.rank]):
+            # Only this ray reaches it.
+            order = (sweep.high[struck] - ray.rank) % max(sweep.count, 1)
+            end = self.ends.number(sweep.edges[struck], self._end(ray))
+            found.setdefault(sweep.edges[struck], []).append((struck, order, (end, end)))
 
     def _add_own(self, found: dict[int, list[Placed]]) -> None:
         """The straight edges through the point, or the point alone."""
