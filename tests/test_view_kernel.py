@@ -1,4 +1,4 @@
-"""Views by floats are those of exact arithmetic alone, part by part, most of all where data are degenerate."""
+"""Views by floats are those of exact arithmetic alone, part by part, also where data are degenerate."""
 
 from __future__ import annotations
 

@@ -42,20 +42,13 @@ class RadialFaces:
         self.square, self.square_bound = square
         self.slots: dict[int, int] = {}
         self.events: list[int] = []
-        self.x: list[float] = []
-        self.y: list[float] = []
-        self.bound: list[float] = []
+        self.given: dict[int, tuple[float, float, float]] = {}
+        """Vectors of events, by slot, where they are not the offsets of vertices."""
         # Of the faces: edge, slots of both ends, and whether all of it certainly lies within range.
         self.edge: list[int] = []
         self.low: list[int] = []
         self.high: list[int] = []
         self.within: list[bool] = []
-        # Of straight faces: the vector from start to end, and the product of both offsets.
-        self.ax: list[float] = []
-        self.ay: list[float] = []
-        self.a_bound: list[float] = []
-        self.turn: list[float] = []
-        self.turn_bound: list[float] = []
 
     def offset(self, v: int) -> tuple[float, float, float]:
         """The vector from the place to a vertex, with a bound for both components: see `images`."""
@@ -118,8 +111,7 @@ class RadialFaces:
             if near < 0:
                 continue
             if -turn > bound:
-                self._add(e, self.slot(v, tx, ty, t), self.slot(e, sx, sy, s), near > 0)
-                self._add_line(sx, sy, s, tx, ty, t, turn, bound)
+                self._add(e, self.slot(v), self.slot(e), near > 0)
             else:
                 open_.append(e)
         return open_
@@ -131,8 +123,7 @@ class RadialFaces:
         tx, ty, t = self.offset(v)
         turn, bound = cross(sx, sy, s, tx, ty, t)
         near = self._extent(sx, sy, s, tx, ty, t, turn, bound)
-        self._add(e, self.slot(v, tx, ty, t), self.slot(e, sx, sy, s), near > 0)
-        self._add_line(sx, sy, s, tx, ty, t, turn, bound)
+        self._add(e, self.slot(v), self.slot(e), near > 0)
 
     def arcs(self, edges: list[int]) -> list[int]:
         """The arcs among some edges."""
@@ -149,33 +140,39 @@ class RadialFaces:
 
     def add_arc(self, e: int, low: int, high: int) -> None:
         """Add a face of an arc between two events (`NONE` for none): vertices, or events that are added."""
-        first = self.slot(low, *self.offset(low)) if 0 <= low < len(self.images.x) else self._known(low)
-        last = self.slot(high, *self.offset(high)) if 0 <= high < len(self.images.x) else self._known(high)
+        first = self.slot(low) if low >= 0 else NONE
+        last = self.slot(high) if high >= 0 else NONE
         wx, wy, w = self.center(e)
         far, far_bound = root(*dot(wx, wy, w, wx, wy, w))
         r = self.images.radius[e]
         far, far_bound = total(far, far_bound, r, UNIT * r)
         self._add(e, first, last, self.reach(far, 0.0, far_bound) > 0)
-        self._add_line(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-
-    def _known(self, event: int) -> int:
-        return self.slots[event] if event >= 0 else NONE
 
     def add_event(self, event: int, x: float, y: float, e: float) -> None:
-        """Add an event with its vector; that of a vertex which is known already is replaced."""
-        k = self.slot(event, x, y, e)
-        self.x[k], self.y[k], self.bound[k] = x, y, e
+        """Add an event with its vector; for a vertex too it is taken instead of the offset."""
+        self.given[self.slot(event)] = x, y, e
 
-    def slot(self, event: int, x: float, y: float, e: float) -> int:
-        """The slot of an event; its vector is taken if it is new."""
+    def slot(self, event: int) -> int:
+        """The slot of an event, a new one if it has none."""
         k = self.slots.get(event, -1)
         if k < 0:
             k = self.slots[event] = len(self.events)
             self.events.append(event)
-            self.x.append(x)
-            self.y.append(y)
-            self.bound.append(e)
         return k
+
+    def vector(self, k: int) -> tuple[float, float, float]:
+        """The vector of a slot's event, with a bound for both components."""
+        if self.given and k in self.given:
+            return self.given[k]
+        return self.offset(self.events[k])
+
+    def line(self, e: int) -> tuple[float, float, float, float, float]:
+        """Of a straight edge from s to t: the vector a from s to t with a bound, and s x t with its own."""
+        sx, sy, s = self.offset(e)
+        tx, ty, t = self.offset(self.images.following[e])
+        ax, ay = tx - sx, ty - sy
+        turn, bound = cross(sx, sy, s, tx, ty, t)
+        return ax, ay, (s + t + UNIT * (abs(ax) + abs(ay))) * WIDEN, turn, bound
 
     def center(self, e: int) -> tuple[float, float, float]:
         """The vector from the place to an arc's centre, as `offset`."""
@@ -210,8 +207,9 @@ class RadialFaces:
         e = self.edge[f]
         images = self.images
         if images.kind[e] == STRAIGHT:
-            below, bound = cross(dx, dy, d, self.ax[f], self.ay[f], self.a_bound[f])
-            return quotient(self.turn[f], self.turn_bound[f], below, bound)
+            ax, ay, a, turn, turn_bound = self.line(e)
+            below, bound = cross(dx, dy, d, ax, ay, a)
+            return quotient(turn, turn_bound, below, bound)
         wx, wy, w = self.center(e)
         square, square_bound = dot(dx, dy, d, dx, dy, d)
         h, h_bound = dot(dx, dy, d, wx, wy, w)
@@ -264,21 +262,3 @@ class RadialFaces:
         self.low.append(low)
         self.high.append(high)
         self.within.append(within)
-
-    def _add_line(
-        self,
-        sx: float,
-        sy: float,
-        s: float,
-        tx: float,
-        ty: float,
-        t: float,
-        turn: float,
-        bound: float,
-    ) -> None:
-        ax, ay = tx - sx, ty - sy
-        self.ax.append(ax)
-        self.ay.append(ay)
-        self.a_bound.append((s + t + UNIT * (abs(ax) + abs(ay))) * WIDEN)
-        self.turn.append(turn)
-        self.turn_bound.append(bound)

@@ -33,16 +33,17 @@ class RadialSweep:
     (`look_up`), which directions of a group are one (``open_groups``), which face comes first (``doubts``).
 
     The order is that of *keys*: (x, y) has the key y / (|x| + |y|) in the first quarter, and every quarter
-    turn adds 1. Let both components be held with b, and n = |x| + |y|. On the way from what is held to what holds
-    it the size is at least n - 2 b, and the key grows by at most b divided by that, as its derivatives are y
+    turn adds 1. Let both components be held with b, and n = |x| + |y|. On the way from what is held to what
+    holds it the size is at least n - 2 b, and the key grows by at most b divided by that, as its derivatives are y
     and x divided by the size's square. So the key is held with b / (n - 2 b), and 4 UNIT for four roundings,
-    unless the way leads over the east, where keys jump from 4 to 0.
+    unless the way leads over the east, where keys jump from 4 to 0; 8 UNIT make up for those of its bounds too.
     """
 
     def __init__(self, faces: RadialFaces) -> None:
         self.faces = faces
-        self.key: list[float] = []
-        self.key_bound: list[float] = []
+        # Bounds of the keys, by slot.
+        self.least: list[float] = []
+        self.most: list[float] = []
         # Slots by direction, counterclockwise from the east, and the numbers of groups that may be several.
         self.groups: list[list[int]] = []
         self.open_groups: list[int] = []
@@ -59,38 +60,46 @@ class RadialSweep:
 
     def look_up(self) -> list[int]:
         """Compute the keys; returns the slots whose direction may be on either side of the east."""
-        faces = self.faces
+        faces, least, most = self.faces, self.least, self.most
         found: list[int] = []
         for k in range(len(faces.events)):
-            x, y, b = faces.x[k], faces.y[k], faces.bound[k]
+            x, y, b = faces.vector(k)
             size = abs(x) + abs(y)
             room = size - 2.0 * b
             if not room > TINY:
-                self.key.append(0.0)
-                self.key_bound.append(inf)
+                least.append(-inf)
+                most.append(inf)
                 continue
             if y >= 0.0:
-                self.key.append(y / size if x >= 0.0 else 1.0 - x / size)
+                key = y / size if x >= 0.0 else 1.0 - x / size
             else:
-                self.key.append(2.0 - y / size if x < 0.0 else 3.0 + x / size)
-            self.key_bound.append((b / room + 4.0 * UNIT) * WIDEN)
+                key = 2.0 - y / size if x < 0.0 else 3.0 + x / size
+            bound = (b / room + 8.0 * UNIT) * WIDEN
+            least.append(key - bound)
+            most.append(key + bound)
             if x > 0.0 and abs(y) <= b:
                 found.append(k)
         return found
 
+    def put(self, k: int, upper: bool) -> None:
+        """Tell on which side of the east a direction next to it is; the east itself is on the upper one."""
+        bound = self.most[k] - self.least[k]
+        self.least[k] = 0.0 if upper else 4.0 - bound
+        self.most[k] = bound if upper else 4.0
+
     def group(self) -> None:
         """Group the slots by direction: those in a group may be one."""
-        key, bound = self.key, self.key_bound
-        least = [key[k] - bound[k] for k in range(len(key))]
+        least, most, groups = self.least, self.most, self.groups
         reached = -inf
-        for k in sorted(range(len(key)), key=least.__getitem__):
-            if not self.groups or least[k] > reached:
-                self.groups.append([k])
+        for k in sorted(range(len(least)), key=least.__getitem__):
+            if least[k] > reached or not groups:
+                groups.append([k])
+                reached = most[k]
             else:
-                if len(self.groups[-1]) == 1:
-                    self.open_groups.append(len(self.groups) - 1)
-                self.groups[-1].append(k)
-            reached = max(reached, key[k] + bound[k])
+                if len(groups[-1]) == 1:
+                    self.open_groups.append(len(groups) - 1)
+                groups[-1].append(k)
+                reached = max(reached, most[k])
 
     def rank(self) -> None:
         """Number the directions, after every group is one."""
@@ -198,11 +207,11 @@ class RadialSweep:
         if count == 0:
             return 1.0, 0.0, True
         a, b = groups[cell][0], groups[(cell + 1) % count][0]
-        ax, ay, p = faces.x[a], faces.y[a], faces.bound[a]
-        bx, by, q = faces.x[b], faces.y[b], faces.bound[b]
-        gap = self.key[b] - self.key[a] if cell + 1 < count else self.key[b] - self.key[a] + 4.0
+        ax, ay, p = faces.vector(a)
+        bx, by, q = faces.vector(b)
+        gap = self.least[b] - self.most[a] if cell + 1 < count else self.least[b] - self.most[a] + 4.0
         if gap > WIDE:
-            return -ay, ax, gap - 1.0 > 2.0 * (self.key_bound[a] + self.key_bound[b]) + 16.0 * UNIT
+            return -ay, ax, self.most[a] - self.least[a] < 1.0
         n, m = abs(ax) + abs(ay), abs(bx) + abs(by)
         if not (n > TINY and m > TINY):
             return 1.0, 0.0, False

@@ -19,7 +19,7 @@ def met(sweep: RadialSweep, rank: int, here: list[int], vertices: int) -> tuple[
     """
     faces = sweep.faces
     slots = sweep.groups[rank]
-    x, y, b = faces.x[slots[0]], faces.y[slots[0]], faces.bound[slots[0]]
+    x, y, b = faces.vector(slots[0])
     struck, low, high = NOTHING, inf, inf
     rest = inf
     for f in sweep.covering(rank):

@@ -117,13 +117,13 @@ class ViewParts:
         if first < 0 and last > 0:
             return [(self.add(CROSSING, face, -1), end)]
         if first < 0 and last < 0:
-            ax, ay, a = faces.ax[face], faces.ay[face], faces.a_bound[face]
+            ax, ay, a, turn, turn_bound = faces.line(faces.edge[face])
             before, before_bound = dot(sx, sy, s, ax, ay, a)
             after, after_bound = dot(tx, ty, t, ax, ay, a)
             if before > before_bound or -after > after_bound:
                 return []
             length, length_bound = root(*dot(ax, ay, a, ax, ay, a))
-            far, far_bound = quotient(faces.turn[face], faces.turn_bound[face], length, length_bound)
+            far, far_bound = quotient(turn, turn_bound, length, length_bound)
             near = faces.reach(far, 0.0, far_bound)
             if near < 0:
                 return []
@@ -138,32 +138,33 @@ class ViewParts:
         if end < self.base:
             return faces.offset(end)
         slot = self.sweep.groups[self.made[end - self.base][2]][0]
-        x, y, b = faces.x[slot], faces.y[slot], faces.bound[slot]
+        x, y, b = faces.vector(slot)
         m, e = faces.way(face, x, y, b)
         px, p = product(m, e, x, b)
         py, q = product(m, e, y, b)
         return px, py, max(p, q)
 
     def bracket(self, end: int) -> tuple[float, float]:
-        """Bounds of the parameter of a hit or a crossing on a straight edge, (-inf, inf) on an arc.
+        """Bounds of the parameter of a hit or a crossing on a straight edge, (-inf, inf) of other ends.
 
         With s to the edge's start, a hit along d is at u = -(d x s) / (d x a), a crossing at
         u = (-s . a +- h) / |a|^2, h^2 = |a|^2 R^2 - (s x a)^2.
         """
-        kind, face, which = self.made[end - self.base]
         faces = self.faces
+        if end < self.base:
+            return -inf, inf
+        kind, face, which = self.made[end - self.base]
         e = faces.edge[face] if kind != GIVEN else -1
         if kind == GIVEN or faces.images.kind[e] != STRAIGHT:
             return -inf, inf
-        ax, ay, a = faces.ax[face], faces.ay[face], faces.a_bound[face]
+        ax, ay, a, turn, turn_bound = faces.line(e)
         sx, sy, s = faces.offset(e)
         if kind == HIT:
             slot = self.sweep.groups[which][0]
-            x, y, b = faces.x[slot], faces.y[slot], faces.bound[slot]
+            x, y, b = faces.vector(slot)
             m, bound = quotient(*cross(sx, sy, s, x, y, b), *cross(x, y, b, ax, ay, a))
         else:
             square, square_bound = dot(ax, ay, a, ax, ay, a)
-            turn, turn_bound = faces.turn[face], faces.turn_bound[face]
             reach, reach_bound = product(square, square_bound, faces.square, faces.square_bound)
             height, height_bound = product(turn, turn_bound, turn, turn_bound)
             half, half_bound = root(*total(reach, reach_bound, -height, height_bound))

@@ -158,7 +158,7 @@ class FrontFaces:
             self.special += (e, int(table.next[e]))
         for event in self.special:
             if event < len(table.vertices):
-                faces.slot(event, *faces.offset(event))
+                faces.slot(event)
         for e, low, high in arcs:
             faces.add_arc(e, low, high)
         self.edges: list[int] = faces.edge

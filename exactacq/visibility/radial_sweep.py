@@ -31,8 +31,6 @@ from exactacq.visibility.sensor_range import Range
 
 NOTHING, BLOCKED = floats.NOTHING, floats.BLOCKED
 """First faces of cells without one: nothing within reach, and inside the point's own obstacle."""
-SEAM = 4.0
-"""The key of directions that lie just below the east."""
 
 
 FirstFace: TypeAlias = "tuple[int, int, int]"
@@ -73,7 +71,7 @@ class RadialSweep:
         for slot in sweep.look_up():
             x, y = faces.offset(events[slot])
             upper = (sign(y) or (0 if sign(x) > 0 else -1)) >= 0
-            sweep.key[slot] = 0.0 if upper else SEAM
+            sweep.put(slot, upper)
         sweep.group()
         for k in reversed(sweep.open_groups):
             sweep.groups[k : k + 1] = self._sorted(sweep.groups[k])
@@ -226,7 +224,7 @@ class RadialSweep:
             return False
         slot = self._floats.groups[rank][0]
         before = table.images.previous[event]
-        vector = floats_.x[slot], floats_.y[slot], floats_.bound[slot]
+        vector = floats_.vector(slot)
         if clear := single_rays.blocks(floats_, event, *vector, event in own or before in own):
             return clear > 0
         incoming, outgoing = table.curves[before], table.curves[event]

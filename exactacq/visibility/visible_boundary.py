@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Hashable
 from dataclasses import dataclass
 from functools import cached_property, cmp_to_key
+from math import inf
 from typing import Any, TypeAlias
 
 from exactacq.errors import Undecided
@@ -117,6 +118,14 @@ class BoundaryView:
         """See `seen_from`."""
         span = self.ends.span
         return {e: [span(part) for part in parts] for e, parts in self.seen_parts.items()}
+
+    def bracket(self, e: int, part: Part) -> tuple[float, float]:
+        """Bounds of the parameters of a part of an edge that is no full circle; infinite at the edge's ends."""
+        start, end = part
+        following, parts = self.table.images.following[e], self.parts
+        low = -inf if start == e else inf if start == following else parts.bracket(start)[0]
+        high = inf if end == following else -inf if end == e else parts.bracket(end)[1]
+        return low, high
 
     @cached_property
     def seen_parts(self) -> dict[int, list[Part]]:
