@@ -34,9 +34,9 @@ class RadialSweep:
 
     The order is that of *keys*: (x, y) has the key y / (|x| + |y|) in the first quarter, and every quarter
     turn adds 1. Let both components be held with b, and n = |x| + |y|. On the way from what is held to what
-    holds it the size is at least n - 2 b, and the key grows by at most b divided by that, as its derivatives are y
-    and x divided by the size's square. So the key is held with b / (n - 2 b), and 4 UNIT for four roundings,
-    unless the way leads over the east, where keys jump from 4 to 0; 8 UNIT make up for those of its bounds too.
+    holds it the size is at least n - 2 b, and the key grows by at most b divided by that, as its derivatives
+    are y and x divided by the size's square. So the key is held with b / (n - 2 b), and 8 UNIT for the
+    roundings, those of its bounds too, unless the way leads over the east, where keys jump from 4 to 0.
     """
 
     def __init__(self, faces: RadialFaces) -> None:
@@ -61,9 +61,10 @@ class RadialSweep:
     def look_up(self) -> list[int]:
         """Compute the keys; returns the slots whose direction may be on either side of the east."""
         faces, least, most = self.faces, self.least, self.most
+        events, given = faces.events, faces.given
         found: list[int] = []
-        for k in range(len(faces.events)):
-            x, y, b = faces.vector(k)
+        for k in range(len(events)):
+            x, y, b = faces.vector(k) if given else faces.offset(events[k])
             size = abs(x) + abs(y)
             room = size - 2.0 * b
             if not room > TINY:

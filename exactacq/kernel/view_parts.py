@@ -64,10 +64,11 @@ class ViewParts:
                 self.ends.append((HERE, HERE))
                 self.parts.append([])
                 continue
-            start, end = self._end(face, high, False), self._end(face, low, True)
-            self.ends.append((start, end))
-            if within[face] and not (start in here and end in here):
-                self.parts.append([(start, end)])
+            part = self._end(face, high, False), self._end(face, low, True)
+            self.ends.append(part)
+            start, end = part
+            if within[face] and not (here and start in here and end in here):
+                self.parts.append([part])
             elif self.faces.images.kind[self.faces.edge[face]] == STRAIGHT:
                 self.parts.append(self._clipped(n, face, start, end))
             else:
@@ -224,6 +225,8 @@ class ViewParts:
 
     def _placed(self, part: Part) -> Part:
         """The ends of a part, the place itself by its own number."""
+        if not self.here:
+            return part
         start, end = part
         return HERE if start in self.here else start, HERE if end in self.here else end
 
@@ -238,24 +241,25 @@ class ViewParts:
         lead, leads = 0, False
         before = len(edges) - 1
         for k in range(len(edges)):
-            windows = pending
+            begin = len(found)
+            if pending:
+                found += pending
+                pending = []
             if ends[before] != starts[k] and of[before] != of[k]:
-                windows = windows + self._window(ends[before], starts[k], of[before], of[k], at_range)
-            before, pending = k, []
+                self._add_window(found, ends[before], starts[k], of[before], of[k], at_range)
+            has_windows = len(found) > begin
+            before = k
             if edges[k] == OWN:
-                pending = windows
-            elif last >= 0 and not windows and edges[last] == edges[k]:
+                pending = found[begin:]
+                del found[begin:]
+            elif last >= 0 and not has_windows and edges[last] == edges[k]:
                 # The piece goes on: it was the last one found.
-                edge, start, _, _ = found[-1]
-                found[-1] = edge, start, ends[k], HERE
-                ends[last] = ends[k]
+                found[-1] = edges[k], found[-1][1], ends[k], HERE
             else:
-                lead = len(found)
-                found += windows
+                lead, last = begin, k
                 found.append((edges[k], starts[k], ends[k], HERE))
-                last = k
                 if first < 0:
-                    first, leads = k, len(windows) > 0
+                    first, leads = k, has_windows
         if pending:
             return pending + found
         if first != last and not leads and edges[last] == edges[first]:
@@ -264,18 +268,20 @@ class ViewParts:
             return found[lead:] + found[1:lead]
         return found
 
-    def _window(self, end: int, start: int, before: int, after: int, at_range: list[int]) -> list[Piece]:
-        """What joins the end of one sight to the start of the next: nothing, a window, or from the place."""
+    def _add_window(
+        self, found: list[Piece], end: int, start: int, before: int, after: int, at_range: list[int]
+    ) -> None:
+        """Add what joins the end of a sight to the start of the next: nothing, a window, or from the place."""
         if end < HERE and start < HERE:
-            return []
+            return
         rank = self.sights[after][1]
         if end == HERE or start == HERE:
-            return [(FROM_HERE, end, start, rank)]
-        if end < HERE or start < HERE:
+            found.append((FROM_HERE, end, start, rank))
+        elif end < HERE or start < HERE:
             near = start if end < HERE else end
-            return [] if near in at_range else [(WINDOW, end, start, near)]
-        stops = self.sweep.high[self.sights[before][0]] == rank
-        begins = self.sweep.low[self.sights[after][0]] == rank
-        if stops == begins:
-            return [(WINDOW, end, start, HERE)]
-        return [(WINDOW, end, start, end if stops else start)]
+            if near not in at_range:
+                found.append((WINDOW, end, start, near))
+        else:
+            stops = self.sweep.high[self.sights[before][0]] == rank
+            begins = self.sweep.low[self.sights[after][0]] == rank
+            found.append((WINDOW, end, start, HERE if stops == begins else end if stops else start))

@@ -57,9 +57,8 @@ class Seen:
     def beyond(self, known: Mapping[int, Sequence[Span]]) -> dict[int, list[Interval]]:
         """Of `spans` those that *known* does not surely contain; an edge may be missing or empty.
 
-        *known* has intervals of edges, rounded inward (see `family_filter.KnownSpans`), whose ends are infinite
-        where they are those of the edge. Floats decide, and only what is returned is made. Cost: some tenths of
-        a microsecond for each part that is known.
+        *known* has intervals of edges, rounded inward (see `family_filter.KnownSpans`), whose ends are
+        infinite where they are those of the edge. Floats decide, and only what is returned is made.
         """
         if "spans" in self.__dict__ or kernel.EXACT_ONLY:
             return self.spans

@@ -120,7 +120,7 @@ class BoundaryView:
         return {e: [span(part) for part in parts] for e, parts in self.seen_parts.items()}
 
     def bracket(self, e: int, part: Part) -> tuple[float, float]:
-        """Bounds of the parameters of a part of an edge that is no full circle; infinite at the edge's ends."""
+        """Bounds of the parameters of a part of an edge, no full circle; infinite at the edge's ends."""
         start, end = part
         following, parts = self.table.images.following[e], self.parts
         low = -inf if start == e else inf if start == following else parts.bracket(start)[0]
