@@ -271,7 +271,7 @@ class ViewParts:
     def _add_window(
         self, found: list[Piece], end: int, start: int, before: int, after: int, at_range: list[int]
     ) -> None:
-        """Add what joins the end of a sight to the start of the next: nothing, a window, or from the place."""
+        """Add what joins the end of a sight to the start of the next: perhaps nothing, or a window."""
         if end < HERE and start < HERE:
             return
         rank = self.sights[after][1]
