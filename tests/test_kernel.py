@@ -319,13 +319,18 @@ def test_neighbouring_cells_share_a_bound() -> None:
 
 
 SCRIPT = """
+from fractions import Fraction as Q
 from hashlib import sha256
 import exactacq as xa
 from exactacq import kernel
 from exactacq.files.octagons import random_octagons
 from exactacq.kernel.first_edges import first_edges
 from exactacq.kernel.line_events import line_events
+from exactacq.kernel.radial_faces import RadialFaces
+from exactacq.kernel.radial_sweep import FaceSweep
+from exactacq.kernel.single_rays import met as met_on
 from exactacq.kernel.surroundings import Surroundings
+from exactacq.kernel.view_parts import ViewParts
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.complex_edges import normals
 from exactacq.visibility.features import features
@@ -343,6 +348,22 @@ for scene in (random_octagons(12, 3), xa.load("circles"), xa.load("plate"), xa.l
         middles = [0.5 * (a[1] + b[0]) for a, b in zip(ends, ends[1:]) if a[1] < b[0]]
         met = first_edges(around, middles, [0.0] * len(middles), [every] * len(middles), True)
         total.update(repr((middles, met)).encode())
+    for obstacle in scene.obstacles:
+        for place in ((e.start + e.end) / 2 + e.start * Q(1, 97) for e in obstacle.edges[:4]):
+            faces = RadialFaces(table.images, (place.xy[0], 0.0, place.xy[1], 0.0, 0.0), (100.0, 0.0))
+            faces.add_straight(every)
+            for n, e in enumerate(faces.arcs(every)):
+                faces.add_event(10**6 + n, *faces.tangent(e, 1))
+            sweep = FaceSweep(faces)
+            total.update(repr((sweep.look_up(), sweep.least, sweep.most)).encode())
+            sweep.group()
+            sweep.rank()
+            sweep.look(-1, -1)
+            parts = ViewParts(sweep, sweep.sights(), 10**7, [])
+            total.update(repr((sweep.groups, sweep.first, parts.parts, parts.outline([]))).encode())
+            brackets = [parts.bracket(parts.base + n) for n in range(len(parts.made))]
+            rays = [met_on(sweep, rank, [], 10**6) for rank in range(len(sweep.groups))]
+            total.update(repr((brackets, rays)).encode())
 print(kernel.DESCRIPTION, total.hexdigest())
 """
 

@@ -26,7 +26,7 @@ WIDE: Final = 1.9
 
 
 @final
-class RadialSweep:
+class FaceSweep:
     """The sweep about a place, in the steps `look_up`, `group`, `rank`, `look` and `sights`.
 
     Between them whoever asks decides what the floats leave open: on which side of the east a direction is

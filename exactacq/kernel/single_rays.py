@@ -7,10 +7,10 @@ from math import inf
 from exactacq.kernel.bounded import UNIT, WIDEN, cross, dot, product, quotient, verdict
 from exactacq.kernel.images import STRAIGHT
 from exactacq.kernel.radial_faces import RadialFaces
-from exactacq.kernel.radial_sweep import NOTHING, RadialSweep
+from exactacq.kernel.radial_sweep import NOTHING, FaceSweep
 
 
-def met(sweep: RadialSweep, rank: int, here: list[int], vertices: int) -> tuple[bool, int, list[int], int]:
+def met(sweep: FaceSweep, rank: int, here: list[int], vertices: int) -> tuple[bool, int, list[int], int]:
     """What the ray in a direction meets: whether that is certain, the first face that it does not pass at an
     end, the events before that and within range, nearest first, and whether the face is within range (1),
     beyond (-1) or that is open.

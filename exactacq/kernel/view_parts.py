@@ -13,7 +13,7 @@ from typing import Final, final
 
 from exactacq.kernel.bounded import UNIT, WIDEN, cross, dot, product, quotient, root, total
 from exactacq.kernel.images import STRAIGHT
-from exactacq.kernel.radial_sweep import BLOCKED, RadialSweep
+from exactacq.kernel.radial_sweep import BLOCKED, FaceSweep
 
 HIT: Final = 0
 """An end (HIT, face, rank of the direction)."""
@@ -49,7 +49,7 @@ class ViewParts:
     """
 
     def __init__(
-        self, sweep: RadialSweep, sights: list[tuple[int, int, int]], base: int, here: list[int]
+        self, sweep: FaceSweep, sights: list[tuple[int, int, int]], base: int, here: list[int]
     ) -> None:
         self.sweep, self.faces = sweep, sweep.faces
         self.sights, self.base, self.here = sights, base, here

@@ -55,7 +55,7 @@ class RadialSweep:
         count = len(table.vertices)
         self.here = [count + k for k, mark in enumerate(faces.marks) if mark.point is point]
         """Events that are the point itself."""
-        self._floats = floats.RadialSweep(faces.floats)
+        self._floats = floats.FaceSweep(faces.floats)
         self._order_events()
         self.count = len(self._floats.groups)
         self.low, self.high = self._floats.low, self._floats.high

@@ -129,7 +129,7 @@ class BoundaryView:
 
     @cached_property
     def seen_parts(self) -> dict[int, list[Part]]:
-        """The same by the numbers of the ends, for `ends`."""
+        """What is seen, by the numbers of its ends (see `ViewEnds`)."""
         found: dict[int, list[Placed]] = {}
         for e, face, order, part in self.parts.rows():
             found.setdefault(e, []).append((face, order, part))
