@@ -108,7 +108,7 @@ def test_ends_that_are_not_read_are_not_made(made: list[Point], shift: object) -
     for place in free_places(scene, 12, shift):
         assert isovist(scene, place, 10).pieces and isovist(scene, place, 10).seen()
         seen = Seen(table, rails, place, range_, ())
-        assert seen._held
+        assert any(seen.held(e) for e in seen.spans)
         for e, intervals in seen.spans.items():
             assert all(0 <= i.low <= i.high <= rails[e].top for i in intervals)
             lates += sum(u.is_late for i in intervals for u in (i.low, i.high))
@@ -126,7 +126,7 @@ def test_an_end_keeps_little_alive() -> None:
     table = EdgeTable(scene.obstacles)
     rails = [Rail(curve) for curve in table.curves]
     seen = Seen(table, rails, next(free_places(scene, 1)), Range(fmpq(10)), ())
-    spans = seen.spans
+    spans = dict(seen.spans)
     assert any(i.low.is_late for some in spans.values() for i in some)
     parts = [ref(part) for part in (seen._view, seen._view.sweep, seen._view.sweep.faces)]
     del seen
@@ -150,8 +150,8 @@ def looks(scene: Scene, place: Point, radius: object) -> tuple[object, ...]:
     pieces = [(p.kind, p.obstacle, p.edge, p.near, p.curve) for p in view.pieces]
     table = EdgeTable(scene.obstacles)
     seen = Seen(table, [Rail(c) for c in table.curves], place, Range(rational(radius)), None)
-    held = {hold: [point.x, point.y, u] for hold, (point, u) in seen._held.items()}
-    return pieces, list(view.rays), view.seen(), seen.spans, held
+    held = {hold: [p.x, p.y, u] for e in seen.spans for hold, (p, u) in seen.held(e).items()}
+    return pieces, list(view.rays), view.seen(), dict(seen.spans), held
 
 
 def check(scene: Scene, place: Point, radius: object, monkeypatch: pytest.MonkeyPatch) -> None:

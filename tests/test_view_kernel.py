@@ -38,8 +38,8 @@ def looks(scene: Scene, place: Point, radius: object) -> list[object]:
     pieces = [(p.kind, p.obstacle, p.edge, p.near, p.curve) for p in view.pieces]
     table = EdgeTable(scene.obstacles)
     seen = Seen(table, [Rail(c) for c in table.curves], place, Range(rational(radius)), None)
-    held = {hold: [point.x, point.y, u] for hold, (point, u) in seen._held.items()}
-    return [pieces, list(view.rays), view.seen(), seen.spans, held]
+    held = {hold: [p.x, p.y, u] for e in seen.spans for hold, (p, u) in seen.held(e).items()}
+    return [pieces, list(view.rays), view.seen(), dict(seen.spans), held]
 
 
 def compare(scene: Scene, place: Point, radius: object) -> None:
@@ -159,6 +159,7 @@ def test_beyond_what_is_known(seed: int) -> None:
         known = KnownSpans(covers, rails)
         some = Seen(table, rails, place, range_, None).beyond(known)
         every = Seen(table, rails, place, range_, None).spans
+        assert set(some) <= set(every)
         for e in every:
             for interval in some.get(e, ()):
                 assert any(i.low == interval.low and i.high == interval.high for i in every[e])

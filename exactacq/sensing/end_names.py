@@ -7,7 +7,7 @@ the point of an edge at the distance of the range, in either direction along the
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from math import inf
 
@@ -18,6 +18,7 @@ from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.late import BITS as LATE_BITS
 from exactacq.geometry.late import Pin, balls
 from exactacq.geometry.points import Point
+from exactacq.kernel.view_parts import Part
 from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
@@ -29,6 +30,34 @@ from exactacq.visibility.visible_boundary import BoundaryView, Hold
 RANGE = "range"
 BITS = 128
 """Signs are read from balls of this precision, or not at all."""
+
+
+class SeenSpans(Mapping[int, "list[Interval]"]):
+    """The closed intervals that are seen of each edge, by its number; those of an edge are made when it is
+    asked for."""
+
+    def __init__(self, view: BoundaryView, rails: Sequence[Rail]) -> None:
+        self._parts, self._ends, self._rails = view.seen_parts, view.ends, rails
+        self._made: dict[int, list[Interval]] = {}
+
+    def __getitem__(self, e: int) -> list[Interval]:
+        found = self._made.get(e)
+        if found is None:
+            found = self._made[e] = self.intervals(e, self._parts[e])
+        return found
+
+    def __contains__(self, e: object) -> bool:
+        return e in self._parts
+
+    def __iter__(self) -> Iterator[int]:
+        return iter(self._parts)
+
+    def __len__(self) -> int:
+        return len(self._parts)
+
+    def intervals(self, e: int, parts: Iterable[Part]) -> list[Interval]:
+        """Some parts of an edge, by the numbers of their ends, as intervals."""
+        return [i for part in parts for i in Interval.between(self._rails[e], *self._ends.span(part))]
 
 
 class Seen:
@@ -45,39 +74,29 @@ class Seen:
         self.table, self.place = table, place
         self._view = BoundaryView(table, place, range_, own)
         self._rails = rails
+        self._held: dict[int, dict[Hold, Pin]] = {}
 
     @cached_property
-    def spans(self) -> dict[int, list[Interval]]:
-        """The closed intervals that are seen of each edge, by its number."""
-        return {
-            e: [i for a, b in parts for i in Interval.between(self._rails[e], a, b)]
-            for e, parts in self._view.seen().items()
-        }
+    def spans(self) -> SeenSpans:
+        """What is seen of each edge."""
+        return SeenSpans(self._view, self._rails)
 
     def beyond(self, known: Mapping[int, Sequence[Span]]) -> dict[int, list[Interval]]:
-        """Of `spans` those that *known* does not surely contain; an edge may be missing or empty.
+        """Of `spans` those that *known* does not surely contain, by edge.
 
         *known* has intervals of edges, rounded inward (see `family_filter.KnownSpans`), whose ends are
         infinite where they are those of the edge. Floats decide, and only what is returned is made.
         """
-        if "spans" in self.__dict__ or kernel.EXACT_ONLY:
-            return self.spans
         view, found = self._view, dict[int, list[Interval]]()
         for e, parts in view.seen_parts.items():
-            spans, rail = known.get(e, ()), self._rails[e]
+            spans = () if kernel.EXACT_ONLY else known.get(e, ())
             new = parts
-            if spans and not rail.is_closed:
-                brackets = [view.bracket(e, part) for part in parts]
-                new = [
-                    part
-                    for part, (low, high) in zip(parts, brackets, strict=True)
-                    if not any(a <= low and high <= b for a, b in spans)
-                ]
+            if spans and not self._rails[e].is_closed:
+                new = [part for part in parts if not _is_in(view.bracket(e, part), spans)]
             elif (-inf, inf) in spans:
                 new = []
             if new:
-                points = map(view.ends.span, new)
-                found[e] = [i for a, b in points for i in Interval.between(rail, a, b)]
+                found[e] = self.spans.intervals(e, new)
         return found
 
     def tell(self, end: End, family: ViewFamily, side: int) -> None:
@@ -92,7 +111,7 @@ class Seen:
         """An extreme view of a family from this place, its other end the view's own point if it is one."""
         e, point = family.edges[1 - side], end.points[1 - side]
         for hold in self._holds(e, point, end.tight, family.free_views):
-            pin = self._held.get(hold)
+            pin = self.held(e).get(hold)
             # A full circle's start has two parameters: a family over it keeps the one on its side.
             if pin is not None and not _apart(pin[1], end.places[1 - side]):
                 here = end.points[side], end.places[side]
@@ -100,20 +119,23 @@ class Seen:
                 return End(end.t, (p, q), (u, v), end.tight)
         return end
 
-    @cached_property
-    def _held(self) -> dict[Hold, Pin]:
-        """The ends of what is seen, by what holds them."""
+    def held(self, e: int) -> dict[Hold, Pin]:
+        """The ends of what is seen of an edge, by what holds them."""
+        if e not in self._held:
+            self._held[e] = self._held_on(e)
+        return self._held[e]
+
+    def _held_on(self, e: int) -> dict[Hold, Pin]:
         found: dict[Hold, Pin] = {}
-        for e, intervals in self.spans.items():
-            curve = self.table.curves[e]
-            for i in intervals:
-                for point, u in ((i.start, i.low), (i.end, i.high)):
-                    if point is curve.start or point is curve.end:
-                        # A line through the corner may meet the edge again: there its name is another's.
-                        continue
-                    if self._view.is_at_range(point):
-                        found[e, RANGE, self._onward(e, point)] = point, u
-                    found.update((hold, (point, u)) for hold in self._view.holds(e, point))
+        curve = self.table.curves[e]
+        for i in self.spans.get(e, ()):
+            for point, u in ((i.start, i.low), (i.end, i.high)):
+                if point is curve.start or point is curve.end:
+                    # A line through the corner may meet the edge again: there its name is another's.
+                    continue
+                if self._view.is_at_range(point):
+                    found[e, RANGE, self._onward(e, point)] = point, u
+                found.update((hold, (point, u)) for hold in self._view.holds(e, point))
         return {hold: pin for hold, pin in found.items() if hold[1] != RANGE or hold[2]}
 
     def _holds(self, e: int, point: Point, tight: bool, free_views: FreeViews | None) -> Iterator[Hold]:
@@ -144,6 +166,11 @@ class Seen:
         (x, y), (a, b), (u, v) = balls(point), balls(self.place), balls(curve.center)
         clear = ball_sign((x - a) * (v - b) - (y - b) * (u - a))
         return clear or (point - self.place).cross(curve.center - self.place).clear_sign(BITS)
+
+
+def _is_in(bracket: Span, spans: Iterable[Span]) -> bool:
+    """Whether a bracket lies in one of some intervals."""
+    return any(a <= bracket[0] and bracket[1] <= b for a, b in spans)
 
 
 def _apart(a: Real, b: Real) -> bool:

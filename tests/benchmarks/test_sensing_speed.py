@@ -95,7 +95,7 @@ def unread(scene: xa.Scene, point: object, radius: int) -> tuple[object, ...]:
 def boundary(scene: xa.Scene, point: object, radius: int) -> object:
     """The boundary seen, of whose ends nobody asks more than their order on the edges."""
     table, rails = sensed(scene)
-    return Seen(table, rails, xa.Point.of(point), Range(fmpq(radius)), ()).spans
+    return dict(Seen(table, rails, xa.Point.of(point), Range(fmpq(radius)), ()).spans)
 
 
 @cache
