@@ -468,5 +468,6 @@ def test_a_circle_that_the_line_of_the_walk_touches(start: object, is_seen: bool
     targets = [round_part, *(Segment(a, b) for a, b in pairwise(corners))]
     known = [*targets, *block(4, 6, 3, 4)]
     for x in (6, -6):
-        assert sees_later(fmpq(x), Real(start), fmpq(0), targets, lambda _, known=known: known, fmpq(2)) is is_seen
+        seen = sees_later(fmpq(x), Real(start), fmpq(0), targets, lambda _, known=known: known, fmpq(2))
+        assert seen is is_seen
         targets, known = ([_mirrored(curve, -1, 1) for curve in curves] for curves in (targets, known))
