@@ -74,6 +74,17 @@ def test_parameters_on_an_arc(ccw: bool) -> None:
         assert u == rail.parameter(Point(x, y))
 
 
+def test_the_parameter_of_an_irrational_place_on_an_arc_is_late() -> None:
+    """It is what exact arithmetic makes of it: the tangent of half the angle beyond the quarter turn."""
+    root = Real(3).sqrt()
+    for ccw in (True, False):
+        rail = Rail(Arc(Point(2, 0), Point(2, 0), Point(0, 0), fmpq(4), ccw=ccw, full=True))
+        for x, y, turn in ((1, root, 0), (-1, root, 1), (-1, -root, 2), (1, -root, 3)):
+            u = rail.parameter(Point(x, y if ccw else -y))
+            assert u.is_late and turn < u < turn + 1
+            assert u == turn + (1 / root if turn % 2 == 0 else 2 - root)
+
+
 def test_copies_are_made() -> None:
     """A late point, its parameter and a rail that was asked for it survive a copy."""
     rail = Rail(Segment((0, 0), (3, 4)))

@@ -42,7 +42,8 @@ class Rail:
     def parameter(self, point: Point) -> Real:
         """Where a point of the curve lies: its ends by identity; a full circle's start is at 0.
 
-        The parameter of a late point is late, and made with it.
+        The parameter of a late point is late, and made with it; on an arc that of every irrational point is
+        late, for it is a quotient of such numbers, and order is most often clear without it.
         """
         if point is self.curve.start:
             return ZERO
@@ -50,7 +51,8 @@ class Rail:
             return self.top
         if isinstance(self.curve, Segment):
             return self._late_fraction(point) if point.x.is_late else self._fraction(point)
-        return self._late_turned(point) if point.x.is_late else self._turned(point)
+        is_plain = not point.is_late and point.rational is not None
+        return self._turned(point) if is_plain else self._late_turned(point)
 
     def point(self, u: fmpq) -> Point:
         """The point at a rational parameter."""
@@ -105,7 +107,7 @@ class Rail:
         return bases
 
     def _late_turned(self, point: Point) -> Real:
-        """That of a late point, as late if balls tell the quarter turn."""
+        """That of an irrational or late point, as late if balls tell the quarter turn."""
         assert isinstance(self.curve, Arc)
         (x, y), (cx, cy) = balls(point), balls(self.curve.center)
         radius, radius_sq = (x - cx, y - cy), arb(self.curve.radius_sq)

@@ -25,7 +25,7 @@ from exactacq.sensing.end_names import Seen
 from exactacq.sensing.family_filter import FamilyFilter
 from exactacq.sensing.free_way import WayViews
 from exactacq.sensing.legs import Leg
-from exactacq.sensing.targets import Targets
+from exactacq.sensing.targets import Part, Targets
 from exactacq.sensing.view_families import End, FamilyClipper, ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
 
@@ -202,18 +202,15 @@ class Shares:
         for shares in self.of.values():
             for share in sorted(shares, key=lambda share: size(share.shown), reverse=True):
                 add(learned, covers, share.edge, _called(share.shown, same))
-        for u, place in ((leg.first, leg.start), (leg.last, leg.end)):
-            view = self.view(place, leg.own(u))
+        for sight in self._from_ends:
             for k in self.obstacles:
-                for e, interval in self.targets.within(k, view.spans):
+                for e, interval in sight.get(k, ()):
                     add(learned, covers, e, _called(interval, same))
         for seen in self.ends.values():
             for end, _ in seen:
                 add(learned, covers, end.edge, end.pin)
-        for k in self.obstacles:
-            if self._is_along(k):
-                assert leg.edge is not None
-                add(learned, covers, leg.edge, leg.span)
+        if leg.edge is not None and self._along:
+            add(learned, covers, leg.edge, leg.span)
         return learned
 
     def _recognised(self, share: Share, cover: Cover) -> Iterator[tuple[int, Pin]]:
@@ -232,25 +229,46 @@ class Shares:
 
     def _is_along(self, k: int) -> bool:
         """Whether the leg is on the boundary of an obstacle."""
-        return self.leg.edge is not None and any(
-            owner == k and target.contains(self.leg.span) for owner, target in self.targets.on(self.leg.edge)
+        return k in self._along
+
+    @cached_property
+    def _along(self) -> frozenset[int]:
+        """The obstacles on whose boundaries the leg is."""
+        leg = self.leg
+        if leg.edge is None:
+            return frozenset()
+        owners = self.targets.on(leg.edge)
+        return frozenset(k for k, target in owners if k in self.obstacles and target.contains(leg.span))
+
+    @cached_property
+    def _from_ends(self) -> tuple[Mapping[int, Sequence[Part]], Mapping[int, Sequence[Part]]]:
+        """What is seen of every obstacle from the first and from the last place of the leg."""
+        leg = self.leg
+        first, last = (
+            self.targets.by_obstacle(self.view(place, leg.own(u)).spans)
+            for u, place in ((leg.first, leg.start), (leg.last, leg.end))
         )
+        return first, last
+
+    def is_in_sight(self, k: int, edge: int | None = None) -> bool:
+        """Whether an obstacle, or an edge of it, is surely in sight all along: no exact number is read."""
+        span = self.leg.span
+        if self._is_along(k) and edge in (None, self.leg.edge):
+            return True
+        return any(i.low is span.low and i.high is span.high for i in self.in_sight.get(k, ()))
 
     def times(self, k: int, edge: int | None = None) -> Cover:
         """When an obstacle, or only one edge of it, is in sight, as a cover of the leg's rail."""
-        span = self.leg.span
-        if self._is_along(k) and edge in (None, self.leg.edge):
-            return Cover((span,))
-        surely = self.in_sight.get(k, ())
-        if any(interval.low is span.low and interval.high is span.high for interval in surely):
-            return Cover((span,))
-        times = Cover()
-        for u, place in ((span.low, span.start), (span.high, span.end)):
-            seen = self.targets.within(k, self.view(place, self.leg.own(u)).spans)
-            if any(edge in (None, e) for e, _ in seen):
+        leg = self.leg
+        if self.is_in_sight(k, edge):
+            return Cover((leg.span,))
+        times = EMPTY
+        places = (leg.first, leg.start), (leg.last, leg.end)
+        for (u, place), sight in zip(places, self._from_ends, strict=True):
+            if any(edge in (None, e) for e, _ in sight.get(k, ())):
                 times = times.added(Interval(u, place, u, place))
         sources = [share.source for share in self.of[k] if edge in (None, share.edge)]
-        sources += surely
+        sources += self.in_sight.get(k, ())
         sources += [part for end, part in self.ends.get(k, ()) if edge in (None, end.edge)]
         for interval in sorted(sources, key=size, reverse=True):
             times = times.added(interval)
@@ -285,10 +303,10 @@ class Shares:
         leg = self.leg
         if u is not leg.first and u is not leg.last:
             return False
-        place = leg.start if u is leg.first else leg.end
+        place, sight = (leg.start, self._from_ends[0]) if u is leg.first else (leg.end, self._from_ends[1])
         return any(
             edge in (None, e) and self.complex.range.order(place, point) < 0
-            for e, interval in self.targets.within(k, self.view(place, leg.own(u)).spans)
+            for e, interval in sight.get(k, ())
             for point in self._samples(e, interval)
         )
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Hashable, Iterable, Sequence
+from collections.abc import Collection, Hashable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -63,7 +63,7 @@ class Leg:
         whole = self.span.low.sign() == 0 and self.span.high.compare(self.rail.top) == 0
         return self.rail.curve if whole else self.rail.curve.part(self.span.start, self.span.end)
 
-    @property
+    @cached_property
     def box(self) -> tuple[float, float, float, float]:
         """A box that contains the leg."""
         return box(self.curve)
@@ -72,9 +72,11 @@ class Leg:
         """The edges through a place of the leg if they are known: inside its edge there is no other."""
         if self.edge is None:
             return None
-        full = isinstance(self.rail.curve, Arc) and self.rail.curve.full
-        inside = u.clear_sign(BITS) > 0 and (self.rail.top - u).clear_sign(BITS) > 0
-        return (self.edge,) if full or inside else None
+        if self.rail.is_closed:
+            return (self.edge,)
+        top = self.rail.top
+        inside = u is not top and u.clear_sign(BITS) > 0 and (top - u).clear_sign(BITS) > 0
+        return (self.edge,) if inside else None
 
     def upto(self, u: Real, place: Point) -> Leg:
         """The leg as far as a place on it."""
@@ -112,7 +114,7 @@ def legs_of(
             _through_space(part, touches) if e is None else _on_edge(rails[e], e, part)
             for e, part in parts_of(table, curve, touches)
         ]
-    e = _edge_of(table.curves, table.edges_of(obstacle), curve)
+    e = _edge_of(table, obstacle, curve)
     rail = rails[e]
     if isinstance(curve, Segment):
         return [_on_edge(rail, e, curve)]
@@ -207,16 +209,36 @@ def _through_space(piece: Segment, touches: tuple[Hashable, ...]) -> Leg:
     return Leg(rail, None, Interval(low, piece.start, high, piece.end), True, touches)
 
 
-def _edge_of(curves: Sequence[Curve], edges: Iterable[int], piece: Curve) -> int:
-    """The edge, of those of one boundary, that carries a piece of it; balls leave one or a few.
+def _edge_of(table: EdgeTable, obstacle: int, piece: Curve) -> int:
+    """The edge of an obstacle that carries a piece of its boundary.
 
-    ValueError if none does.
+    A whole edge is known by its ends; else balls leave one or a few. ValueError if none does. Cost: that of
+    finding the edges near one place, however many the boundary has.
     """
-    near = [e for e in edges if _may_carry(curves[e], piece)]
-    found = near if len(near) == 1 else [e for e in near if _carries(curves[e], piece)]
+    start, edges = piece.start.xy, table.edges_of(obstacle)
+    near: list[int] = [e for e in table.near(start, start, 0.0).tolist() if e in edges]
+    for e in near:
+        if _is_whole(table.curves[e], piece):
+            return e
+    near = [e for e in near if _may_carry(table.curves[e], piece)]
+    found = near if len(near) == 1 else [e for e in near if _carries(table.curves[e], piece)]
     if not found:
         raise ValueError(f"no edge of the boundary carries {piece}")
     return found[0]
+
+
+def _is_whole(edge: Curve, piece: Curve) -> bool:
+    """Whether a piece is all of an edge, in one direction or the other, by the identity of its ends."""
+    if edge is piece:
+        return True
+    ahead = piece.start is edge.start and piece.end is edge.end
+    if not ahead and not (piece.start is edge.end and piece.end is edge.start):
+        return False
+    if isinstance(edge, Arc) and isinstance(piece, Arc):
+        # On a full circle both directions have the same ends.
+        alike = edge.full or (edge.ccw == piece.ccw) == ahead
+        return alike and edge.full == piece.full and _is_same_circle(edge, piece)
+    return isinstance(edge, Segment) and isinstance(piece, Segment)
 
 
 def _may_carry(edge: Curve, piece: Curve) -> bool:

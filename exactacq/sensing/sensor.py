@@ -91,7 +91,7 @@ class Sensor:
     def visible(self, place: Point, k: int) -> list[tuple[int, Interval]]:
         """What is seen of an obstacle from a place: edges and intervals."""
         ends = [(end.edge, end.pin) for end in self.targets.lookouts.get(k, ()) if end.sees(place)]
-        return [*self.targets.within(k, self._view(place).spans), *ends]
+        return [*self.targets.by_obstacle(self._view(place).spans).get(k, ()), *ends]
 
     def look_around(self, place: Point) -> tuple[list[Notice], dict[int, Cover]]:
         """Take in the view from the start of the path; as `follow`."""
@@ -124,9 +124,13 @@ class Sensor:
         leg = shares.leg
         learned = {} if retraced else shares.taught(self.covers)
         now = ChainMap(learned, self.covers)
+        # None of the obstacles was whole before: only one of which more is known now can be.
+        more = self.targets.near(learned)
         notices: list[Notice] = []
         for k in sorted(shares.obstacles):
-            whole = self._acquired(shares, k) if self.targets.is_whole(k, now) else None
+            whole = self._acquired(shares, k) if k in more and self.targets.is_whole(k, now) else None
+            if whole is None and k in self.in_sight and shares.is_in_sight(k):
+                continue
             for notice in self._changes(shares, k):
                 if whole is None or leg.order(notice.u, whole.u) < (
                     1 if notice.kind is EventKind.SIGHT else 0

@@ -6,9 +6,10 @@ that the robot can reach counts, and one edge may belong to several components.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
-from typing import NamedTuple
+from itertools import chain
+from typing import NamedTuple, TypeAlias
 
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.interval_union import EMPTY, Cover, Interval
@@ -16,6 +17,9 @@ from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.terrain_components import Component
 from exactacq.sensing.cut_ends import CutEnd
 from exactacq.visibility.sensor_range import Range
+
+Part: TypeAlias = "tuple[int, Interval]"
+"""An edge, by its number, and an interval of it."""
 
 
 class Target(NamedTuple):
@@ -53,6 +57,7 @@ class Targets:
         for k, targets in enumerate(self.of):
             for target in targets:
                 self._on.setdefault(target.edge, []).append((k, target))
+        self._owners = {e: tuple({k for k, _ in found}) for e, found in self._on.items()}
 
     @cached_property
     def owners(self) -> dict[int, list[tuple[int, bool]]]:
@@ -91,15 +96,22 @@ class Targets:
 
     def near(self, edges: Iterable[int]) -> set[int]:
         """The obstacles that some of the edges count for."""
-        return {k for e in edges for k, _ in self.on(e)}
+        owners = self._owners
+        return set(chain.from_iterable([owners[e] for e in edges if e in owners]))
 
-    def within(self, k: int, spans: Mapping[int, Iterable[Interval]]) -> Iterator[tuple[int, Interval]]:
-        """What intervals of edges, by their numbers, contain of an obstacle."""
-        for target in self.of[k]:
-            for interval in spans.get(target.edge, ()):
-                part = target.clip(interval)
-                if part is not None:
-                    yield target.edge, part
+    def by_obstacle(self, spans: Mapping[int, Iterable[Interval]]) -> dict[int, list[Part]]:
+        """What intervals of edges, by their numbers, contain of every obstacle; without empty entries.
+
+        Cost: linear in the intervals, however many edges the obstacles have.
+        """
+        found: dict[int, list[Part]] = {}
+        for e, intervals in spans.items():
+            for k, target in self.on(e):
+                for interval in intervals:
+                    part = target.clip(interval)
+                    if part is not None:
+                        found.setdefault(k, []).append((e, part))
+        return found
 
     def is_whole(self, k: int, covers: Mapping[int, Cover]) -> bool:
         """Whether covers of the edges contain all of an obstacle."""

@@ -1,0 +1,106 @@
+"""Legs: which edge carries a piece of a boundary, and what is known of a leg's places."""
+
+from __future__ import annotations
+
+from fractions import Fraction as Q
+from random import Random
+
+import pytest
+from flint import fmpq
+from strategies import arc_terrain, degenerate_terrain
+
+from exactacq import Circle, Outline, Point, Polygon, Scene
+from exactacq.geometry.curve_parameter import Rail
+from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.sensing.legs import Leg, legs_of
+
+LENS = Outline([(0, 0, "1/2"), (4, 0, "1/2")])
+"""Two arcs with the same two ends."""
+HALVES = Outline([(10, 0, 1), (14, 0, 1)])
+"""A circle in two halves."""
+CAP = Outline([(20, 0), (24, 0, 1)])
+"""A chord and a half circle with the same two ends."""
+SQUARE = Polygon([(30, 0), (34, 0), (34, 4), (30, 4)])
+RING = Circle((40, 0), 2)
+SHAPES = Scene([LENS, HALVES, CAP, SQUARE, RING])
+
+
+def legs(table: EdgeTable, obstacle: int, piece: Curve) -> list[Leg]:
+    return legs_of(table, [Rail(curve) for curve in table.curves], obstacle, piece)
+
+
+def carriers(table: EdgeTable, obstacle: int, piece: Curve) -> list[int]:
+    """The edges that contain three places of a piece, proved one by one."""
+    places = [piece.point(u) for u in (Q(1, 5), Q(1, 2), Q(4, 5))]
+    return [e for e in table.edges_of(obstacle) if all(table.curves[e].passes(p) for p in places)]
+
+
+@pytest.mark.parametrize(
+    "scene", [SHAPES, degenerate_terrain(Random(3)).scene(), arc_terrain(Random(5)).scene()]
+)
+def test_an_edge_carries_itself_and_its_parts(scene: Scene) -> None:
+    """In both directions, also where two edges have the same ends; copies are found as well."""
+    table = EdgeTable(scene.obstacles)
+    for obstacle in range(len(scene.obstacles)):
+        for e in table.edges_of(obstacle):
+            edge = table.curves[e]
+            pieces = [edge, edge.part(Point(*edge.start), Point(*edge.end))]
+            middle = edge.point(Q(1, 2))
+            pieces += [edge.part(edge.start, middle), edge.part(middle, edge.end)]
+            for ahead, some in ((True, pieces), (False, [piece.reversed() for piece in pieces])):
+                for piece in some:
+                    found = legs(table, obstacle, piece)
+                    assert [leg.edge for leg in found] == [e] == carriers(table, obstacle, piece)
+                    assert found[0].ahead == ahead
+                    assert (found[0].start, found[0].end) == (piece.start, piece.end)
+
+
+def test_the_ends_of_an_edge_tell_it_without_arithmetic(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No place is proved to be on an edge that a piece covers wholly."""
+
+    def refused(*_: object) -> bool:
+        raise AssertionError("a proof that nobody needs")
+
+    table = EdgeTable(SHAPES.obstacles)
+    for kind in (Segment, Arc):
+        monkeypatch.setattr(kind, "may_pass", refused)
+        monkeypatch.setattr(kind, "passes", refused)
+    for e, edge in enumerate(table.curves):
+        for piece in (edge, edge.reversed()):
+            (leg,) = legs(table, table.owners[e], piece)
+            assert leg.edge == e
+
+
+def test_ends_alone_do_not_tell_an_edge() -> None:
+    """The chord of an arc is no part of it, nor is an edge of one obstacle part of another."""
+    table = EdgeTable(SHAPES.obstacles)
+    arc = table.curves[table.edges_of(0).start]
+    for obstacle, piece in ((0, Segment(arc.start, arc.end)), (3, arc)):
+        with pytest.raises(ValueError, match="no edge of the boundary carries"):
+            legs(table, obstacle, piece)
+
+
+def test_a_walk_over_the_start_of_a_circle_has_two_legs() -> None:
+    table = EdgeTable(SHAPES.obstacles)
+    east, north, south = Point(42, 0), Point(40, 2), Point(40, -2)
+    over = Arc(south, north, Point(40, 0), fmpq(4), ccw=True)
+    for piece in (over, over.reversed()):
+        found = legs(table, 4, piece)
+        assert [leg.edge for leg in found] == [table.edges_of(4).start] * 2
+        assert found[0].end == east == found[1].start
+
+
+def test_inside_an_edge_there_is_no_other() -> None:
+    """At a corner the edges through a place are not known, inside an edge and on a circle they are."""
+    table = EdgeTable(SHAPES.obstacles)
+    first = table.edges_of(3).start
+    edge = table.curves[first]
+    (leg,) = legs(table, 3, edge.part(edge.start, edge.point(Q(1, 3))))
+    assert leg.own(leg.first) is None and leg.own(leg.last) == (first,)
+    (leg,) = legs(table, 3, edge)
+    assert leg.own(leg.first) is None and leg.own(leg.last) is None
+    copied = Leg(leg.rail, leg.edge, leg.span, leg.ahead)
+    assert copied.own(Rail(edge).parameter(edge.end)) is None
+    (leg,) = legs(table, 4, table.curves[table.edges_of(4).start])
+    assert leg.own(leg.first) == (leg.edge,) == leg.own(leg.last)
