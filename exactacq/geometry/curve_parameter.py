@@ -8,7 +8,6 @@ boundary edges are points with rational coordinates.
 from __future__ import annotations
 
 from functools import cached_property, partial
-from typing import Any
 
 from flint import arb, fmpq
 
@@ -27,6 +26,7 @@ class Rail:
     def __init__(self, curve: Curve) -> None:
         self.curve = curve
         self.is_closed = isinstance(curve, Arc) and curve.full
+        self._last: tuple[Point, Real] = curve.start, ZERO
 
     def __reduce__(self) -> tuple[type[Rail], tuple[Curve]]:
         # Balls cannot be pickled.
@@ -37,22 +37,26 @@ class Rail:
         """Parameter of the end: 1 for a segment, 4 for a full circle."""
         if isinstance(self.curve, Segment):
             return Real(1)
-        return Real(4) if self.curve.full else self._turned(self.curve.end)
+        return Real(4) if self.curve.full else self._turns.exact(self.curve.end)
 
     def parameter(self, point: Point) -> Real:
         """Where a point of the curve lies: its ends by identity; a full circle's start is at 0.
 
         The parameter of a late point is late, and made with it; on an arc that of every irrational point is
-        late, for it is a quotient of such numbers, and order is most often clear without it.
+        late, for it is a quotient of such numbers, and order is most often clear without it. The last point
+        that is not late has the same number when it is asked for again, as the one place of a line is.
         """
         if point is self.curve.start:
             return ZERO
         if point is self.curve.end:
             return self.top
-        if isinstance(self.curve, Segment):
-            return self._late_fraction(point) if point.x.is_late else self._fraction(point)
-        is_plain = not point.is_late and point.rational is not None
-        return self._turned(point) if is_plain else self._late_turned(point)
+        last, u = self._last
+        if point is not last:
+            u = self._fractions.of(point) if isinstance(self.curve, Segment) else self._turns.of(point)
+            if not point.is_late:
+                # A late one may know the rail.
+                self._last = point, u
+        return u
 
     def point(self, u: fmpq) -> Point:
         """The point at a rational parameter."""
@@ -61,73 +65,87 @@ class Rail:
             offset: Point = curve.direction * u
             return curve.start + offset
         k = min(int(u.floor()), 3)
-        x, y = self._bases[k]
+        x, y = self._turns.bases[k]
         t = u - k
-        cosine, sine = (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t) * self._sense
+        cosine, sine = (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t) * self._turns.sense
         return curve.center + Point(x * cosine - y * sine, y * cosine + x * sine)
 
+    # Late numbers keep these and not the rail, which keeps a number: so none of them is in a cycle.
+
     @cached_property
-    def _axis(self) -> tuple[int, Any, Any]:
-        """The coordinate that grows faster along a segment, its value at the start and its growth."""
-        start, end = raw(self.curve.start), raw(self.curve.end)
+    def _fractions(self) -> _Along:
+        assert isinstance(self.curve, Segment)
+        return _Along(self.curve)
+
+    @cached_property
+    def _turns(self) -> _Turns:
+        assert isinstance(self.curve, Arc)
+        return _Turns(self.curve)
+
+
+class _Along:
+    """Fractions of the way along a segment, read off the coordinate that grows faster."""
+
+    def __init__(self, segment: Segment) -> None:
+        start, end = raw(segment.start), raw(segment.end)
         x, y = minus(end, start)
-        k = 0 if abs(float(x)) >= abs(float(y)) else 1
-        return k, start[k], (x, y)[k]
+        self.steep = abs(float(x)) < abs(float(y))
+        self.start, self.growth = (start[1], y) if self.steep else (start[0], x)
 
-    def _fraction(self, point: Point) -> Real:
-        k, start, growth = self._axis
-        place = point.y if k else point.x
-        return Real(((place if place.rational is None else place.rational) - start) / growth)
+    def of(self, point: Point) -> Real:
+        """That of a point, as late if the point is."""
+        if not point.x.is_late:
+            return self.exact(point)
+        start, growth = self._balls
+        around = ((point.y if self.steep else point.x).ball(BITS) - start) / growth
+        return Real.late(around, partial(self.exact, point))
 
-    def _late_fraction(self, point: Point) -> Real:
-        """That of a late point, as late: it shares the point's maker."""
-        k, start, growth = self._ball_axis
-        around = ((point.y if k else point.x).ball(BITS) - start) / growth
-        return Real.late(around, partial(self._fraction, point))
-
-    @cached_property
-    def _ball_axis(self) -> tuple[int, arb, arb]:
-        k, start, growth = self._axis
-        return k, ball_of(start), ball_of(growth)
+    def exact(self, point: Point) -> Real:
+        """That of a point, which is made."""
+        place = point.y if self.steep else point.x
+        return Real(((place if place.rational is None else place.rational) - self.start) / self.growth)
 
     @cached_property
-    def _sense(self) -> int:
-        assert isinstance(self.curve, Arc)
-        return 1 if self.curve.ccw else -1
+    def _balls(self) -> Balls:
+        return ball_of(self.start), ball_of(self.growth)
 
-    @cached_property
-    def _bases(self) -> list[Vector]:
+
+class _Turns:
+    """Quarter turns along an arc, and tangents of half the angle beyond them."""
+
+    def __init__(self, arc: Arc) -> None:
+        self.center, self.radius_sq, self.sense = arc.center, arc.radius_sq, 1 if arc.ccw else -1
+        x, y = minus(raw(arc.start), raw(arc.center))
+        self.bases: list[Vector] = [(x, y)]
         """Radii of the arc's start and of the quarter turns after it."""
-        assert isinstance(self.curve, Arc)
-        x, y = minus(raw(self.curve.start), raw(self.curve.center))
-        bases = [(x, y)]
         for _ in range(3):
-            x, y = -y * self._sense, x * self._sense
-            bases.append((x, y))
-        return bases
+            x, y = -y * self.sense, x * self.sense
+            self.bases.append((x, y))
 
-    def _late_turned(self, point: Point) -> Real:
-        """That of an irrational or late point, as late if balls tell the quarter turn."""
-        assert isinstance(self.curve, Arc)
-        (x, y), (cx, cy) = balls(point), balls(self.curve.center)
-        radius, radius_sq = (x - cx, y - cy), arb(self.curve.radius_sq)
-        for k, base in enumerate(self._ball_bases):
-            along, across = dot(base, radius), cross(base, radius) * self._sense
+    def of(self, point: Point) -> Real:
+        """That of a point, as late if it is irrational or late and balls tell the quarter turn."""
+        if not point.is_late and point.rational is not None:
+            return self.exact(point)
+        (x, y), (cx, cy) = balls(point), balls(self.center)
+        radius, (radius_sq, bases) = (x - cx, y - cy), self._balls
+        for k, base in enumerate(bases):
+            along, across = dot(base, radius), cross(base, radius) * self.sense
             if along > 0 and across > 0:
-                return Real.late(k + across / (radius_sq + along), partial(self._turned, point))
-        return self._turned(point)
+                return Real.late(k + across / (radius_sq + along), partial(self.exact, point))
+        return self.exact(point)
 
-    @cached_property
-    def _ball_bases(self) -> list[Balls]:
-        return [(ball_of(x), ball_of(y)) for x, y in self._bases]
-
-    def _turned(self, point: Point) -> Real:
-        assert isinstance(self.curve, Arc)
-        radius = minus(raw(point), raw(self.curve.center))
-        for k, base in enumerate(self._bases):
-            along, across = dot(base, radius), cross(base, radius) * self._sense
+    def exact(self, point: Point) -> Real:
+        """That of a point, which is made."""
+        radius = minus(raw(point), raw(self.center))
+        for k, base in enumerate(self.bases):
+            along, across = dot(base, radius), cross(base, radius) * self.sense
             if sign(along) > 0 and sign(across) >= 0:
-                return Real(k + across / (self.curve.radius_sq + along))
+                return Real(k + across / (self.radius_sq + along))
         # The four half-open quarters are disjoint and cover the plane but for its origin, the centre, which
         # is not on the circle.
         raise AssertionError("one of four quarter turns contains every direction")
+
+    @cached_property
+    def _balls(self) -> tuple[arb, list[Balls]]:
+        """Balls around the squared radius and the radii."""
+        return arb(self.radius_sq), [(ball_of(x), ball_of(y)) for x, y in self.bases]

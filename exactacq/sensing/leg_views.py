@@ -166,11 +166,18 @@ class Shares:
     def cut(self, leg: Leg, obstacles: Collection[int] | None = None) -> Shares:
         """What a part of the leg shows, of some of the obstacles if these are given."""
         obstacles = self.obstacles if obstacles is None else obstacles
-        of = self._shares(
-            ((k, share.family, share.side, share) for k in obstacles for share in self.of[k]),
-            leg,
-            obstacles,
-        )
+        kept: dict[int, list[Share]] = {}
+        parts: list[tuple[int, ViewFamily, int, Share]] = []
+        for k in obstacles:
+            for share in self.of[k]:
+                inside = self._is_inside(share.source, leg.span)
+                if inside:
+                    kept.setdefault(k, []).append(share)
+                elif inside is None:
+                    parts.append((k, share.family, share.side, share))
+        of = self._shares(parts, leg, obstacles)
+        for k, shares in kept.items():
+            of[k] += shares
         ends = {
             k: [(end, part) for end, whole in self.ends[k] if (part := whole.within(leg.span)) is not None]
             for k in obstacles
@@ -178,31 +185,50 @@ class Shares:
         }
         return Shares(self.complex, self.targets, leg, obstacles, self.view, of=of, ends=ends)
 
+    def _is_inside(self, source: Interval, part: Interval) -> bool | None:
+        """Whether a part of the leg contains the source of a share: True, False if it contains nothing of it.
+
+        None if the source is to be cut, or if it ends where the part does but the leg does not.
+        """
+        span, inside = self.leg.span, True
+        if part.low is not span.low:
+            if source.high.compare(part.low) < 0:
+                return False
+            inside = source.low.compare(part.low) > 0
+        if part.high is not span.high:
+            if source.low.compare(part.high) > 0:
+                return False
+            inside = inside and source.high.compare(part.high) < 0
+        return inside or None
+
     def at(self, share: Share, u: Real, place: Point) -> Share | None:
         """The one view of a share from a place of the leg, if it has one."""
         cut = self._clipper.clipped(share.family, share.side, Interval(u, place, u, place))
         return None if cut is None else share.cut(cut)
 
-    def taught(self, covers: Covers) -> dict[int, Cover]:
-        """The covers that grow along the leg, if *covers* are known before it."""
+    def taught(self, covers: Covers, *, from_ends: bool = True) -> dict[int, Cover]:
+        """The covers that grow along the leg, if *covers* are known before it.
+
+        Perhaps by less, where the views *from_ends* of the leg are left out.
+        """
         try:
-            return self._taught(covers, {})
+            return self._taught(covers, from_ends, {})
         except Undecided:
             shares = (share for shares in self.of.values() for share in shares)
             pins = (self._recognised(share, covers.get(share.edge, EMPTY)) for share in shares)
             same = dict(pin for found in pins for pin in found)
             if not same:
                 raise
-            return self._taught(covers, same)
+            return self._taught(covers, from_ends, same)
 
-    def _taught(self, covers: Covers, same: Mapping[int, Pin]) -> dict[int, Cover]:
+    def _taught(self, covers: Covers, from_ends: bool, same: Mapping[int, Pin]) -> dict[int, Cover]:
         """The covers of `taught`; *same* maps ends, by identity of their parameters, to equal known ends."""
         learned: dict[int, Cover] = {}
         leg = self.leg
         for shares in self.of.values():
             for share in sorted(shares, key=lambda share: size(share.shown), reverse=True):
                 add(learned, covers, share.edge, _called(share.shown, same))
-        for sight in self._from_ends:
+        for sight in self._from_ends if from_ends else ():
             for k in self.obstacles:
                 for e, interval in sight.get(k, ()):
                     add(learned, covers, e, _called(interval, same))

@@ -8,21 +8,16 @@ its two ends (see `view_families`). Only obstacles that are not acquired yet are
 from __future__ import annotations
 
 from collections import ChainMap
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cmp_to_key
-from typing import TypeAlias
 
-from flint import fmpq
-
-from exactacq.geometry.curves import Arc
-from exactacq.geometry.intersections import contacts
-from exactacq.geometry.interval_union import EMPTY, Cover, Interval
+from exactacq.geometry.interval_union import Cover, Interval
 from exactacq.geometry.points import Point
 from exactacq.kernel.extents import Span
-from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
+from exactacq.sensing.acquisition import Acquisition
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.event import SENSED, EventKind, Reason
 from exactacq.sensing.family_filter import KnownSpans, inside
@@ -35,14 +30,7 @@ from exactacq.visibility.sensor_range import Range
 VIEWS_KEPT = 64
 """Views from ends of legs that are remembered: enough for a walk along one boundary and back."""
 
-
-BITS = 256
-"""Precision of the enclosures that part places."""
-
 ORDER = {kind: k for k, kind in enumerate(SENSED)}
-
-Place: TypeAlias = "tuple[Real, Point]"
-"""A place of a leg: its parameter on the rail, and the point."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -227,113 +215,7 @@ class Sensor:
                 )
 
     def _acquired(self, shares: Shares, k: int) -> Notice:
-        """When an obstacle that is wholly known after a leg became so.
-
-        What is known grows with closed sets, so the moment is one of finitely many candidates; between two of
-        them a place with a rational parameter tells. The gaps at the start of the leg give a first guess;
-        their ends may have moved meanwhile, so the gaps just before it are looked at again.
-        """
+        """When an obstacle that is wholly known after a leg became so."""
         leg = shares.leg
-        before = ChainMap(self._with_view(self._view(leg.start, leg.own(leg.first)), [k]), self.covers)
-        if self.targets.is_whole(k, before):
-            return Notice(EventKind.ACQUIRE, k, leg.first, leg.start)
-        _, around = self._closing(shares, self._moments(shares, leg, k, before), leg, k, before)
-        late = self._until(shares, leg.upto(around.first, around.start), k, before)
-        cluster, around = self._closing(shares, self._moments(shares, around, k, late), around, k, before)
-        # What balls cannot part is compared here, and only here; with an end of the leg too if it is close.
-        here = [u for u, _ in cluster]
-        for bound, side in ((leg.first, 1), (leg.last, -1)):
-            if any(u is bound for u in here):
-                cluster = [m for m in cluster if leg.order(m[0], bound) in (0, side)]
-        cluster.sort(key=lambda moment: moment[0], reverse=not leg.ahead)
-        distinct = [m for n, m in enumerate(cluster) if n == 0 or leg.order(m[0], cluster[n - 1][0]) > 0]
-        (moment,), _ = self._closing(shares, [[m] for m in distinct], around, k, before)
-        return Notice(EventKind.ACQUIRE, k, *moment)
-
-    def _closing(
-        self, shares: Shares, clusters: list[list[Place]], around: Leg, k: int, before: ChainMap[int, Cover]
-    ) -> tuple[list[Place], Leg]:
-        """The first cluster of places on a part of a leg after which an obstacle is whole; the way around it.
-
-        The clusters are in the order of the leg. *before* is what is known at its start.
-        """
-        leg = shares.leg
-        low, high = 0, len(clusters) - 1
-        begin, end = (around.first, around.start), (around.last, around.end)
-        while low < high:
-            middle = (low + high) // 2
-            u = _between(clusters[middle], clusters[middle + 1])
-            place = leg.rail.point(u)
-            if self.targets.is_whole(k, self._until(shares, leg.upto(Real(u), place), k, before)):
-                high, end = middle, (Real(u), place)
-            else:
-                low, begin = middle + 1, (Real(u), place)
-        return clusters[low], leg.between(begin, end)
-
-    def _until(self, shares: Shares, leg: Leg, k: int, before: ChainMap[int, Cover]) -> ChainMap[int, Cover]:
-        return ChainMap(shares.cut(leg, {k}).taught(before), *before.maps)
-
-    def _moments(self, shares: Shares, leg: Leg, k: int, known: Covers) -> list[list[Place]]:
-        """The places of a part of a leg, in its order, at one of which the last gap closes; in clusters.
-
-        There a family begins or ends, or what it shows reaches the end of a gap, or the end of a gap comes
-        into range, or the leg itself reaches it. *known* is what is known at the start of the part. Places
-        that balls cannot part form a cluster: most are one place, found in several ways. The ends of the part
-        are in the first and in the last cluster.
-        """
-        found: list[Place] = [(leg.first, leg.start), (leg.last, leg.end)]
-        for share in shares.of[k]:
-            for end in (share.family.first, share.family.last):
-                found.append((end.places[share.side], end.points[share.side]))
-        for _, part in shares.ends.get(k, ()):
-            found += [(part.low, part.start), (part.high, part.end)]
-        for e, span, _ in self.targets.of[k]:
-            for gap in known.get(e, EMPTY).gaps(span):
-                for u, point in ((gap.low, gap.start), (gap.high, gap.end)):
-                    found += shares.reaching(k, e, u, point)
-                    found += self._in_range(leg, point)
-                    if e == leg.edge:
-                        found.append((u, point))
-        clusters = _clusters(found)
-        first, last = (
-            next(n for n, cluster in enumerate(clusters) if any(u is bound for u, _ in cluster))
-            for bound in (leg.span.low, leg.span.high)
-        )
-        inside = clusters[first : last + 1]
-        return inside if leg.ahead else inside[::-1]
-
-    def _in_range(self, leg: Leg, point: Point) -> Iterator[tuple[Real, Point]]:
-        """The places of a leg that are as far from a point as the range."""
-        east = Point(point.x + self.range.radius, point.y)
-        for contact in contacts(leg.curve, Arc(east, east, point, self.range.square, ccw=True, full=True)):
-            yield leg.rail.parameter(contact.start), contact.start
-
-
-def _clusters(places: Iterable[Place]) -> list[list[Place]]:
-    """Places of a rail from low to high; those whose parameters balls do not part are together.
-
-    Within a cluster they are in the order in which they are given; a parameter that comes again is left out.
-    """
-    unique = {id(u): (u, place) for u, place in reversed(list(places))}
-    enclosed = [(u.enclosure(BITS), (u, place)) for u, place in reversed(unique.values())]
-    enclosed.sort(key=lambda item: item[0][0])
-    found: list[list[Place]] = []
-    reached: fmpq | None = None
-    for (low, high), place in enclosed:
-        if reached is not None and low <= reached:
-            found[-1].append(place)
-            reached = max(reached, high)
-        else:
-            found.append([place])
-            reached = high
-    return found
-
-
-def _between(one: Sequence[Place], other: Sequence[Place]) -> fmpq:
-    """A rational between two clusters; single places may be closer than balls part."""
-    if len(one) == len(other) == 1:
-        (low, _), (high, _) = sorted((*one, *other), key=lambda place: place[0])
-        return rational_between(low, high)
-    a, b = ([u.enclosure(BITS) for u, _ in cluster] for cluster in (one, other))
-    a, b = (a, b) if a[0] < b[0] else (b, a)
-    return rational_between(Real(max(high for _, high in a)), Real(min(low for low, _ in b)))
+        seen = self._with_view(self._view(leg.start, leg.own(leg.first)), [k])
+        return Notice(EventKind.ACQUIRE, k, *Acquisition(shares, k, ChainMap(seen, self.covers)).place())

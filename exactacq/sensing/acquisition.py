@@ -1,0 +1,204 @@
+"""When an obstacle becomes whole: the place of a leg where the last gap in what is known of it closes.
+
+What is known grows with closed sets, so the moment is one of finitely many candidates; between two of them a
+place with a rational parameter tells. The gaps at the start of the leg give a first guess; their ends may
+have moved meanwhile, so the gaps just before it are looked at again.
+"""
+
+from __future__ import annotations
+
+from collections import ChainMap
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from math import hypot
+from typing import TypeAlias
+
+from flint import fmpq
+
+from exactacq.geometry.curves import Arc
+from exactacq.geometry.intersections import contacts
+from exactacq.geometry.interval_union import EMPTY, Cover
+from exactacq.geometry.points import Point
+from exactacq.numbers.between import rational_between
+from exactacq.numbers.rationals import ends
+from exactacq.numbers.real import Real
+from exactacq.sensing.leg_views import Shares
+from exactacq.sensing.legs import Leg
+from exactacq.sensing.line_images import float_ball
+
+BITS = 64
+"""Precision of the balls that part places: that of late numbers, so none is made."""
+
+Place: TypeAlias = "tuple[Real, Point]"
+"""A place of a leg: its parameter on the rail, and the point."""
+
+
+@dataclass(frozen=True, slots=True)
+class Meanwhile:
+    """A part of a leg with what is known at its start: there the obstacle is not whole, at its end it is."""
+
+    leg: Leg
+    known: ChainMap[int, Cover]
+
+
+class Acquisition:
+    """Obstacle *k*, which is whole after a leg; *before* is known at its start, with the view from there."""
+
+    def __init__(self, shares: Shares, k: int, before: ChainMap[int, Cover]) -> None:
+        self.shares, self.k, self.before = shares, k, before
+
+    def place(self) -> Place:
+        """The first place at which the obstacle is whole."""
+        leg = self.shares.leg
+        if self._is_whole(self.before):
+            return leg.first, leg.start
+        stretch = Meanwhile(leg, self.before)
+        for _ in range(2):
+            groups = self._moments(stretch)
+            cluster, stretch = self._closing(groups, stretch)
+            if len(groups) == 1:
+                break
+        # What balls cannot part is compared here, and only here; with an end of the leg too if it is close.
+        here = [u for u, _ in cluster]
+        for bound, side in ((leg.first, 1), (leg.last, -1)):
+            if any(u is bound for u in here):
+                cluster = [m for m in cluster if leg.order(m[0], bound) in (0, side)]
+        cluster.sort(key=lambda moment: moment[0], reverse=not leg.ahead)
+        distinct = [m for n, m in enumerate(cluster) if n == 0 or leg.order(m[0], cluster[n - 1][0]) > 0]
+        (moment,), _ = self._closing([[m] for m in distinct], stretch)
+        return moment
+
+    def _closing(self, clusters: list[list[Place]], stretch: Meanwhile) -> tuple[list[Place], Meanwhile]:
+        """The first cluster of places of a stretch after which the obstacle is whole; the stretch around it.
+
+        The clusters are in the order of the leg.
+        """
+        leg = self.shares.leg
+        low, high, known = 0, len(clusters) - 1, stretch.known
+        begin, end = (stretch.leg.first, stretch.leg.start), (stretch.leg.last, stretch.leg.end)
+        while low < high:
+            middle = (low + high) // 2
+            u = between(clusters[middle], clusters[middle + 1])
+            here = Real(u), leg.rail.point(u)
+            partly = self._partly_known(leg.upto(*here))
+            if partly is None:
+                high, end = middle, here
+            else:
+                low, begin, known = middle + 1, here, partly
+        return clusters[low], Meanwhile(leg.between(begin, end), known)
+
+    def _partly_known(self, part: Leg) -> ChainMap[int, Cover] | None:
+        """What is known after the beginning of the leg; None if the obstacle is whole there.
+
+        The view from its end is taken only if the families leave a gap.
+        """
+        shares = self.shares.cut(part, {self.k})
+        for from_ends in (False, True):
+            known = ChainMap(shares.taught(self.before, from_ends=from_ends), *self.before.maps)
+            if self._is_whole(known):
+                return None
+        return known
+
+    def _is_whole(self, covers: ChainMap[int, Cover]) -> bool:
+        return self.shares.targets.is_whole(self.k, covers)
+
+    def _moments(self, stretch: Meanwhile) -> list[list[Place]]:
+        """The places of a stretch, in its order, at one of which the last gap closes; in clusters.
+
+        There a family begins or ends, or what it shows reaches the end of a gap, or the end of a gap comes
+        into range, or the leg itself reaches it; or the robot is at the end of the leg. Places that balls
+        cannot part form a cluster: most are one place, found in several ways.
+        """
+        shares, k, leg = self.shares, self.k, stretch.leg
+        found: list[Place] = [(leg.first, leg.start), (leg.last, leg.end)]
+        for share in shares.of[k]:
+            for end in (share.family.first, share.family.last):
+                found.append((end.places[share.side], end.points[share.side]))
+        for _, part in shares.ends.get(k, ()):
+            found += [(part.low, part.start), (part.high, part.end)]
+        circled: dict[int, Point] = {}
+        for e, span, _ in shares.targets.of[k]:
+            for gap in stretch.known.get(e, EMPTY).gaps(span):
+                for u, point in ((gap.low, gap.start), (gap.high, gap.end)):
+                    found += shares.reaching(k, e, u, point)
+                    if id(point) not in circled:
+                        # A corner may end the gaps of two edges. It is kept: no other takes its identity.
+                        circled[id(point)] = point
+                        found += self._in_range(leg, point)
+                    if e == leg.edge:
+                        found.append((u, point))
+        groups = clusters(found)
+        first, last = (
+            next(n for n, cluster in enumerate(groups) if any(u is bound for u, _ in cluster))
+            for bound in (leg.span.low, leg.span.high)
+        )
+        inside = groups[first : last + 1] if leg.ahead else groups[first : last + 1][::-1]
+        # At its start the obstacle is not whole; its end is no moment if it was put between two of them.
+        if len(inside) > 1 and len(inside[0]) == 1:
+            inside = inside[1:]
+        if len(inside) > 1 and len(inside[-1]) == 1 and leg.last is not shares.leg.last:
+            inside = inside[:-1]
+        return inside
+
+    def _in_range(self, leg: Leg, point: Point) -> Iterator[Place]:
+        """The places of a leg that are as far from a point as the range."""
+        range_ = self.shares.complex.range
+        least, most = distance_bounds(leg.box, point)
+        if most < range_.below or least > range_.above:
+            return
+        east = Point(point.x + range_.radius, point.y)
+        for contact in contacts(leg.curve, Arc(east, east, point, range_.square, ccw=True, full=True)):
+            yield leg.rail.parameter(contact.start), contact.start
+
+
+def distance_bounds(box: tuple[float, float, float, float], point: Point) -> tuple[float, float]:
+    """Bounds of the distances from a point to the places of a box; nothing late is made.
+
+    A difference of coordinates of size m has an error of 2^-53 times 2 m beside that of the coordinates
+    themselves; the hypotenuse of two adds less than 2^-52 of itself, which is at most 3 m. All that is less
+    than 2^-48 m and the coordinates' errors.
+    """
+    (x, off_x), (y, off_y) = float_ball(point.x), float_ball(point.y)
+    left, low, right, high = box
+    size = max(abs(x), abs(y), *map(abs, box))
+    slack = off_x + off_y + 2.0**-48 * size
+    least = hypot(max(left - x, x - right, 0.0), max(low - y, y - high, 0.0))
+    most = hypot(max(x - left, right - x), max(y - low, high - y))
+    return least - slack, most + slack
+
+
+def clusters(places: Iterable[Place]) -> list[list[Place]]:
+    """Places of a rail from low to high; those whose parameters balls do not part are together.
+
+    Within a cluster they are in no order; a parameter that comes again is left out.
+    """
+    unique = {id(u): (u, place) for u, place in reversed(list(places))}
+    enclosed = [(_enclosure(u), (u, place)) for u, place in reversed(unique.values())]
+    enclosed.sort(key=lambda item: item[0][0])
+    found: list[list[Place]] = []
+    reached: fmpq | None = None
+    for (low, high), place in enclosed:
+        if reached is not None and low <= reached:
+            found[-1].append(place)
+            reached = max(reached, high)
+        else:
+            found.append([place])
+            reached = high
+    return found
+
+
+def between(one: Sequence[Place], other: Sequence[Place]) -> fmpq:
+    """A rational between two clusters; single places may be closer than balls part."""
+    if len(one) == len(other) == 1:
+        (low, _), (high, _) = sorted((*one, *other), key=lambda place: place[0])
+        return rational_between(low, high)
+    a, b = ([_enclosure(u) for u, _ in cluster] for cluster in (one, other))
+    a, b = (a, b) if a[0] < b[0] else (b, a)
+    return rational_between(Real(max(high for _, high in a)), Real(min(low for low, _ in b)))
+
+
+def _enclosure(u: Real) -> tuple[fmpq, fmpq]:
+    """Rational bounds, equal for what is seen to be rational."""
+    if not u.is_late and u.rational is not None:
+        return u.rational, u.rational
+    return ends(u.ball(BITS))
