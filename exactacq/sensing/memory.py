@@ -42,7 +42,7 @@ class Report:
 
 
 class History:
-    """The covers of all edges after the look around at the start and after each piece, the latest included.
+    """The covers of all edges after the look around at the start and after each leg, the latest included.
 
     An edge has an entry for every time that it changed. To learn costs time proportional to what changed.
     """
@@ -52,7 +52,7 @@ class History:
         self._of: dict[int, tuple[list[int], list[Cover]]] = {}
 
     def learn(self, learned: Mapping[int, Cover]) -> None:
-        """Take in the covers that one more piece made grow."""
+        """Take in the covers that one more leg made grow."""
         for e, cover in learned.items():
             moments, covers = self._of.setdefault(e, ([], []))
             moments.append(self.moments)
@@ -60,7 +60,7 @@ class History:
         self.moments += 1
 
     def cover(self, edge: int, count: int) -> Cover | None:
-        """What was known of an edge after *count* pieces. Cost: a binary search among its changes."""
+        """What was known of an edge after *count* legs. Cost: a binary search among its changes."""
         entry = self._of.get(edge)
         if entry is None:
             return None
@@ -69,12 +69,12 @@ class History:
         return covers[k - 1] if k else None
 
     def edges(self, count: int) -> Iterator[int]:
-        """The edges of which something was known after *count* pieces."""
+        """The edges of which something was known after *count* legs."""
         return (e for e, (moments, _) in self._of.items() if moments[0] <= count)
 
 
 class Moment(Mapping[int, Cover]):
-    """The covers as they were after *count* pieces, but for those in *newer*. Made in constant time.
+    """The covers as they were after *count* legs, but for those in *newer*. Made in constant time.
 
     What is learned later does not change it.
     """
@@ -130,6 +130,8 @@ class Memory:
         self._history = History()
         self._news: set[int] = set()
         self._legs: list[list[Leg]] = []
+        # The number of legs before every piece, and of all.
+        self._before = [0]
 
     @classmethod
     def of(
@@ -158,11 +160,10 @@ class Memory:
         known, ahead = self._looked
         legs = [ahead.leg] if ahead is not None and known is piece else self._legs_of(piece)
         count, reports, retraced = len(self._legs), [], self._is_retraced(piece)
-        learned: dict[int, Cover] = {}
         for k, leg in enumerate(legs):
             took = ahead if ahead is not None and leg is ahead.leg else self._sensor.ahead(leg, retraced)
-            notices, more = self._sensor.follow(took)
-            learned.update(more)
+            notices, learned = self._sensor.follow(took)
+            self._learn(learned)
             for n in notices:
                 self._parameters[count, id(n.place)] = n.place, n.u, k
                 at_start = k == 0 and leg.order(n.u, leg.first) == 0
@@ -170,8 +171,8 @@ class Memory:
                 after = count + 1 if at_end and not at_start else count
                 inside = not (at_start or at_end)
                 reports.append(Report(n.kind, n.obstacle, n.place, n.reason, after, inside))
-        self._learn(learned)
         self._legs.append(legs)
+        self._before.append(self._before[-1] + len(legs))
         if retraced:
             self._retraced.add(count)
         return self._reported(reports)
@@ -261,26 +262,26 @@ class Memory:
 
     def after(self, count: int) -> Map:
         """The map after the first *count* pieces."""
-        return self._map(Moment(self._history, count, {}))
+        return self._map(Moment(self._history, self._before[count], {}))
 
     def within(self, count: int, place: Point) -> Map:
         """The map when the robot is at a place inside piece number *count*."""
-        covers = Moment(self._history, count, {})
+        legs, before = self._legs[count], self._before[count]
         if count in self._retraced:
             # What it shows is known, in other forms of the same numbers.
-            return self._map(covers)
+            return self._map(Moment(self._history, before, {}))
         reported = self._parameters.get((count, id(place)))
-        for k, leg in enumerate(self._legs[count]):
+        for k, leg in enumerate(legs):
             if reported is not None and k < reported[2]:
-                covers = covers.grown(self._sensor.known_after(leg, covers))
                 continue
             u = leg.rail.parameter(place) if reported is None else reported[1]
             if leg.span.low.compare(u) <= 0 and leg.span.high.compare(u) >= 0:
+                known = Moment(self._history, before + k, {})
                 if leg.order(u, leg.first) > 0:
-                    covers = covers.grown(self._sensor.known_within(leg, leg.upto(u, place), covers))
-                break
-            covers = covers.grown(self._sensor.known_after(leg, covers))
-        return self._map(covers)
+                    newer = self._sensor.known_within(leg, u, place, known)
+                    known = Moment(self._history, before + k, newer)
+                return self._map(known)
+        return self._map(Moment(self._history, before + len(legs), {}))
 
     def _reported(self, reports: list[Report]) -> list[Report]:
         self.reports += reports

@@ -24,6 +24,7 @@ from exactacq.sensing.family_filter import KnownSpans, inside
 from exactacq.sensing.leg_views import Covers, Shares, add
 from exactacq.sensing.legs import Leg
 from exactacq.sensing.targets import Targets
+from exactacq.sensing.underway import LegNews, Underway
 from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.visibility.sensor_range import Range
 
@@ -72,7 +73,7 @@ class Sensor:
         self.incomplete: set[int] = set()
         self.in_sight: set[int] = set()
         self._views: dict[int, Seen] = {}
-        self._last: Shares | None = None
+        self._last: LegNews | None = None
 
     # -- moving ------------------------------------------------------------------------------------
 
@@ -129,24 +130,16 @@ class Sensor:
         notices.sort(key=cmp_to_key(lambda a, b: leg.order(a.u, b.u) or ORDER[a.kind] - ORDER[b.kind]))
         return notices, learned
 
-    def known_after(self, leg: Leg, covers: Covers) -> dict[int, Cover]:
-        """The covers that grow along a leg, if *covers* are known before it."""
-        return self._told_by(leg, covers).taught(covers)
+    def known_within(self, leg: Leg, u: Real, place: Point, covers: Covers) -> Underway:
+        """The covers that grow up to a place of a leg, if *covers* are known before it; see `Underway`.
 
-    def known_within(self, leg: Leg, part: Leg, covers: Covers) -> dict[int, Cover]:
-        """The covers that grow along *part*, the beginning of a leg, if *covers* are known before it.
-
-        They are restricted from what the whole leg shows. Sensing *part* by itself would be harder, since its
-        end often has complicated coordinates.
+        What the last leg shows is kept.
         """
-        return self._told_by(leg, covers).cut(part).taught(covers)
-
-    def _told_by(self, leg: Leg, covers: Covers) -> Shares:
-        """What a leg may show beyond *covers*, which are known before it; that of the last leg is kept."""
-        if self._last is None or self._last.leg is not leg:
+        if self._last is None or self._last.shares.leg is not leg:
             known = KnownSpans(covers, self.rails)
-            self._last = Shares(self.complex, self.targets, leg, self._near(leg), self._view, known)
-        return self._last
+            shares = Shares(self.complex, self.targets, leg, self._near(leg), self._view, known)
+            self._last = LegNews(shares, covers)
+        return self._last.upto(u, place)
 
     def shares(self, leg: Leg) -> Shares:
         """All that a leg shows, also of acquired obstacles."""

@@ -129,7 +129,7 @@ class Run:
         Where the place has transcendental coordinates, as most places on an arc have, the map is exact too,
         but what depends on the place has no closed form. ValueError if the path has no such place, or if it
         lies inside an arc after a sum of angles that are no simple fractions (see `near`). Cost: that of
-        sensing one piece.
+        sensing one piece, once for all moments of it that are asked for together.
 
         >>> import exactacq as xa
         >>> print(xa.sightseer(xa.load("circles")).map_at(2).known_length())

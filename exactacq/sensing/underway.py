@@ -1,0 +1,134 @@
+"""What is known when the robot is inside a leg, edge by edge, when somebody asks.
+
+It is restricted from what the whole leg shows. Sensing the part up to the robot by itself would be harder,
+since its end often has complicated coordinates. Only edges within reach of the place are looked at for it:
+what is known of another one is the same at all places that have passed the same views of it, and is kept.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from functools import cached_property
+
+from exactacq.geometry.interval_union import Cover
+from exactacq.geometry.points import Point
+from exactacq.numbers.real import Real
+from exactacq.sensing.leg_views import Covers, Share, Shares
+from exactacq.sensing.line_images import float_ball
+
+
+class LegNews:
+    """What a leg adds to *covers*, which are known before it, on the way to any place of it."""
+
+    def __init__(self, shares: Shares, covers: Covers) -> None:
+        self.shares, self.covers = shares, covers
+        self._on: dict[int, EdgeNews] = {}
+
+    def upto(self, u: Real, place: Point) -> Underway:
+        """The covers that have grown when the robot is at a place. Made in constant time."""
+        return Underway(self, u, place)
+
+    def on(self, edge: int) -> EdgeNews:
+        """What the leg adds to the cover of one edge."""
+        if edge not in self._on:
+            shares = self.shares
+            obstacles = [k for k, _ in shares.targets.on(edge) if k in shares.obstacles]
+            of: dict[int, list[Share]] = {k: [] for k in obstacles}
+            for k, share in self._by_edge.get(edge, ()):
+                of[k].append(share)
+            ends = {
+                k: [(end, part) for end, part in shares.ends[k] if end.edge == edge]
+                for k in obstacles
+                if k in shares.ends
+            }
+            some = Shares(
+                shares.complex, shares.targets, shares.leg, obstacles, shares.view, of=of, ends=ends
+            )
+            self._on[edge] = EdgeNews(edge, some, self.covers)
+        return self._on[edge]
+
+    @cached_property
+    def _by_edge(self) -> dict[int, list[tuple[int, Share]]]:
+        found: dict[int, list[tuple[int, Share]]] = {}
+        for k, shares in self.shares.of.items():
+            for share in shares:
+                found.setdefault(share.edge, []).append((k, share))
+        return found
+
+
+class EdgeNews:
+    """What a leg adds to the cover of one edge; *shares* are of the edge alone."""
+
+    def __init__(self, edge: int, shares: Shares, covers: Covers) -> None:
+        self.edge, self.shares, self.covers = edge, shares, covers
+        self._passed: dict[int, Cover | None] = {}
+        ahead = shares.leg.ahead
+        sources = [share.source for found in shares.of.values() for share in found]
+        sources += [part for found in shares.ends.values() for _, part in found]
+        self._lasts = [source.high if ahead else source.low for source in sources]
+        self._brackets = [float_ball(last) for last in self._lasts]
+
+    def upto(self, u: Real, place: Point) -> Cover | None:
+        """The cover on the way to a place; None if it has not grown."""
+        return self.shares.cut(self.shares.leg.upto(u, place)).taught(self.covers).get(self.edge)
+
+    def beyond(self, u: Real, place: Point) -> Cover | None:
+        """That for a place from which nothing of the edge is in sight, so that no view of it is under way."""
+        passed = self._count(u)
+        if passed not in self._passed:
+            self._passed[passed] = self.upto(u, place)
+        return self._passed[passed]
+
+    def _count(self, u: Real) -> int:
+        """How many of the families and of the views of a border's ends are passed; floats tell most.
+
+        A difference of floats is off by far less than half of itself, so one of more than twice the sum of
+        both errors has the sign of the difference of the numbers.
+        """
+        leg, (at, error) = self.shares.leg, float_ball(u)
+        count = 0
+        for last, (middle, other) in zip(self._lasts, self._brackets, strict=True):
+            if abs(at - middle) > 2.0 * (error + other):
+                count += (at > middle) == leg.ahead
+            else:
+                count += leg.order(last, u) < 0
+        return count
+
+
+class Underway(Mapping[int, Cover]):
+    """The covers that have grown along a leg when the robot is at a place; each is made when it is read."""
+
+    def __init__(self, news: LegNews, u: Real, place: Point) -> None:
+        self._news, self._u, self._place = news, u, place
+        self._found: dict[int, Cover | None] = {}
+
+    @cached_property
+    def _near(self) -> frozenset[int]:
+        """The edges within reach of the place, and perhaps a few more."""
+        complex_, at = self._news.shares.complex, self._place.xy
+        return frozenset(complex_.table.near(at, at, complex_.range.above).tolist())
+
+    def _cover(self, edge: int) -> Cover | None:
+        if edge not in self._found:
+            news = self._news.on(edge)
+            grown = news.upto if edge in self._near else news.beyond
+            self._found[edge] = grown(self._u, self._place)
+        return self._found[edge]
+
+    def __getitem__(self, edge: int) -> Cover:
+        found = self._cover(edge)
+        if found is None:
+            raise KeyError(edge)
+        return found
+
+    def __reduce__(self) -> tuple[type[dict[int, Cover]], tuple[dict[int, Cover]]]:
+        # Balls cannot be pickled.
+        return dict, (dict(self),)
+
+    def __iter__(self) -> Iterator[int]:
+        shares = self._news.shares
+        edges = dict.fromkeys(e for k in sorted(shares.obstacles) for e in sorted(shares.targets.edges[k]))
+        return (e for e in edges if self._cover(e) is not None)
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
