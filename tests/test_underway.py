@@ -27,7 +27,7 @@ def ends(cover: Cover | None) -> list[tuple[Real, Real]]:
 
 
 def check(run: Run) -> int:
-    """Compare all edges at places inside all pieces with what the cut leg shows; how many places there were."""
+    """Compare all edges, at places inside all pieces, with what the cut leg shows; the number of places."""
     memory, count = run.memory, 0
     for number, legs in enumerate(memory._legs):
         for k, leg in enumerate(legs):
