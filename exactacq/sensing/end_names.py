@@ -18,11 +18,11 @@ from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.late import BITS as LATE_BITS
 from exactacq.geometry.late import Pin, balls
 from exactacq.geometry.points import Point
+from exactacq.kernel.extents import Span
 from exactacq.kernel.view_parts import Part
 from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.sensing.line_images import Span
 from exactacq.sensing.view_families import End, FreeViews, ViewFamily
 from exactacq.visibility.sensor_range import Range
 from exactacq.visibility.visible_boundary import BoundaryView, Hold
