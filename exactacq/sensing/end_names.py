@@ -99,14 +99,6 @@ class Seen:
                 found[e] = self.spans.intervals(e, new)
         return found
 
-    def tell(self, end: End, family: ViewFamily, side: int) -> None:
-        """Take note of an extreme view of a family from this place that is as long as the range.
-
-        Told before anything is asked, it spares the proof that the same end of what is seen is at the range.
-        """
-        e, point = family.edges[1 - side], end.points[1 - side]
-        self._view.tight.update(self._holds(e, point, False, family.free_views))
-
     def pinned(self, end: End, family: ViewFamily, side: int) -> End:
         """An extreme view of a family from this place, its other end the view's own point if it is one."""
         e, point = family.edges[1 - side], end.points[1 - side]

@@ -13,9 +13,7 @@ from functools import cached_property
 from itertools import chain
 from typing import TypeAlias
 
-from exactacq.errors import Undecided
 from exactacq.geometry.interval_union import EMPTY, Cover, Interval
-from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
 from exactacq.kernel.extents import Span
 from exactacq.numbers.between import rational_between
@@ -104,17 +102,11 @@ class Shares:
         obstacles: Collection[int],
     ) -> dict[int, list[Share]]:
         """What of some families, or of their shares, is seen from a leg; views from its ends share points."""
-        cuts: list[tuple[int, ViewFamily, int, Share | None]] = []
+        found: dict[int, list[Share]] = {k: [] for k in obstacles}
         for k, family, side, whole in parts:
             cut = self._clipper.clipped(family, side, leg.span)
-            if cut is not None:
-                cuts.append((k, cut, side, whole))
-                for end in (cut.first, cut.last):
-                    view = self._view_from(end, side, leg) if end.tight else None
-                    if view is not None:
-                        view.tell(end, cut, side)
-        found: dict[int, list[Share]] = {k: [] for k in obstacles}
-        for k, cut, side, whole in cuts:
+            if cut is None:
+                continue
             first, last = (self._pinned(end, cut, side, leg) for end in (cut.first, cut.last))
             part = ViewFamily(cut.edges, first, last, cut.free_views)
             found[k].append(Share.of(part, side) if whole is None else whole.cut(part))
@@ -211,47 +203,21 @@ class Shares:
 
         Perhaps by less, where the views *from_ends* of the leg are left out.
         """
-        try:
-            return self._taught(covers, from_ends, {})
-        except Undecided:
-            shares = (share for shares in self.of.values() for share in shares)
-            pins = (self._recognised(share, covers.get(share.edge, EMPTY)) for share in shares)
-            same = dict(pin for found in pins for pin in found)
-            if not same:
-                raise
-            return self._taught(covers, from_ends, same)
-
-    def _taught(self, covers: Covers, from_ends: bool, same: Mapping[int, Pin]) -> dict[int, Cover]:
-        """The covers of `taught`; *same* maps ends, by identity of their parameters, to equal known ends."""
         learned: dict[int, Cover] = {}
         leg = self.leg
         for shares in self.of.values():
             for share in sorted(shares, key=lambda share: size(share.shown), reverse=True):
-                add(learned, covers, share.edge, _called(share.shown, same))
+                add(learned, covers, share.edge, share.shown)
         for sight in self._from_ends if from_ends else ():
             for k in self.obstacles:
                 for e, interval in sight.get(k, ()):
-                    add(learned, covers, e, _called(interval, same))
+                    add(learned, covers, e, interval)
         for seen in self.ends.values():
             for end, _ in seen:
                 add(learned, covers, end.edge, end.pin)
         if leg.edge is not None and self._along:
             add(learned, covers, leg.edge, leg.span)
         return learned
-
-    def _recognised(self, share: Share, cover: Cover) -> Iterator[tuple[int, Pin]]:
-        """Ends of what a share shows that are ends of a cover, by the identity of their parameters.
-
-        A leg often ends where an end of what is known comes in sight: found again from there, it is a number
-        that is hard to compare with itself.
-        """
-        family, side = share.family, 1 - share.side
-        for end in (family.first, family.last):
-            u = end.places[side]
-            for old in cover.intervals:
-                for pin in ((old.start, old.low), (old.end, old.high)):
-                    if self._clipper.is_again(family, end, side, *pin):
-                        yield id(u), pin
 
     def _is_along(self, k: int) -> bool:
         """Whether the leg is on the boundary of an obstacle."""
@@ -355,15 +321,6 @@ class Shares:
 def size(interval: Interval) -> float:
     """Rough size. Large intervals are added first: equal ends inside them need not be compared."""
     return interval.high.rough() - interval.low.rough()
-
-
-def _called(interval: Interval, same: Mapping[int, Pin]) -> Interval:
-    """An interval whose ends are replaced by what they are the same as, by identity of their parameters."""
-    if not same:
-        return interval
-    start, low = same.get(id(interval.low), (interval.start, interval.low))
-    end, high = same.get(id(interval.high), (interval.end, interval.high))
-    return Interval(low, start, high, end)
 
 
 def add(learned: dict[int, Cover], covers: Covers, e: int, interval: Interval) -> None:

@@ -21,7 +21,6 @@ from typing import Any
 
 from flint import arb, fmpq
 
-from exactacq.errors import Undecided
 from exactacq.geometry.coordinates import dot, raw
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve, Segment
@@ -273,13 +272,7 @@ class FamilyClipper:
     def _moved(self, family: ViewFamily, end: End, other: End, side: int, span: Interval) -> End:
         """An extreme view, moved to the end of an interval if it lies outside; *other* is the other one."""
         place = end.places[side]
-        try:
-            at_low, at_high = place.compare(span.low), place.compare(span.high)
-        except Undecided:
-            for bound, point in ((span.low, span.start), (span.high, span.end)):
-                if self.is_again(family, end, side, point, bound):
-                    return _shared(end, side, point, bound)
-            raise
+        at_low, at_high = place.compare(span.low), place.compare(span.high)
         if at_low == 0:
             return _shared(end, side, span.start, span.low)
         if at_high == 0:
@@ -293,33 +286,6 @@ class FamilyClipper:
             points = (point, end.points[1]) if side == 0 else (end.points[0], point)
             return _placed(End(end.t, points, end.places), side, place)
         return _placed(self.view_from(family, side, point), side, place)
-
-    def is_again(self, family: ViewFamily, end: End, side: int, point: Point, u: Real) -> bool:
-        """Whether an extreme view certainly ends at another point of its side, whose parameter is *u*.
-
-        Where that point is the simpler one, it is easier to prove that its line of the family has the same
-        other end than that the two points are one: asked where the latter was Undecided.
-        """
-        place, free_views = end.places[side], family.free_views
-        if free_views is None or place is u or not place.overlaps(u):
-            return False
-        sector, sides = free_views.sector, free_views.sides
-        if sides[side].role is not Role.CONTACT:
-            lines = sector.through(point)
-        elif isinstance(sector, Rolling):
-            lines = [sector.touching(point)]
-        else:
-            return False
-        here, far = end.points[1 - side], self.curve(sides[1 - side].edge)
-        try:
-            for contact, direction in (sector.touch(t) for t in lines if t.overlaps(end.t)):
-                if isinstance(far, Segment) and direction.cross(far.direction).sign() == 0:
-                    continue
-                if self._points.at(sector, sides[1 - side], contact, direction) == here:
-                    return True
-        except Undecided:
-            pass
-        return False
 
     def view_from(self, family: ViewFamily, side: int, point: Point) -> End:
         """The view of a family from a point of one of its sides, strictly between its extreme views."""

@@ -7,7 +7,6 @@ Balls decide what they can, and the roots are late points: made when they are lo
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from functools import partial
 from typing import Any, TypeAlias
 
@@ -43,13 +42,13 @@ class Disc:
         return sign(dot(offset, offset) - self.square)
 
 
-def within(curve: Curve, start: Point, end: Point, disc: Disc, at_range: Collection[int] = ()) -> list[Span]:
+def within(curve: Curve, start: Point, end: Point, disc: Disc) -> list[Span]:
     """The parts of the piece of a curve from *start* to *end* in a disc, in order.
 
     At most two parts, each perhaps a single point. *start* and *end* may be one point of a segment, but on an
-    arc they are distinct. *at_range* are identities of ends that are known to be as far away as the radius.
+    arc they are distinct.
     """
-    excess = tuple(0 if id(p) in at_range else disc.excess(p) for p in (start, end))
+    excess = disc.excess(start), disc.excess(end)
     if isinstance(curve, Segment):
         return _of_segment(curve, (start, end), excess, disc)
     ends, flipped = ((start, end), excess), not curve.ccw

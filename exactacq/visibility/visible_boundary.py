@@ -14,7 +14,6 @@ from functools import cached_property, cmp_to_key
 from math import inf
 from typing import Any, TypeAlias
 
-from exactacq.errors import Undecided
 from exactacq.geometry.coordinates import Vector, advance, dot, minus, raw, sign, square_root
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.points import Point
@@ -73,7 +72,6 @@ class BoundaryView:
         self.own = self.sweep.faces.own
         self.origin = self.sweep.faces.origin
         self._at_range: dict[int, Point] = {}
-        self.tight: set[Hold] = set()
         """What holds the ends of sights that are known, by who asks, to be as far away as the range."""
 
     @cached_property
@@ -97,10 +95,10 @@ class BoundaryView:
         parts = sweep.parts()
         ends = ViewEnds(sweep, parts, self.disc)
         for n in parts.doubts:
-            face, low, high = sweep.sights[n]
+            face = sweep.sights[n][0]
             e, (start, end) = sweep.edges[face], parts.ends[n]
             whole = ends.point(start), ends.point(end)
-            spans = self._clipped(e, whole, (high, low))
+            spans = self._clipped(e, whole)
             parts.parts[n] = [self._known(e, span, whole, (start, end), ends) for span in spans]
         return ends
 
@@ -206,7 +204,7 @@ class BoundaryView:
             for event in self.sweep.events(rank)
         ]
 
-    def _clipped(self, e: int, ends: Span, ranks: tuple[int, int]) -> list[Span]:
+    def _clipped(self, e: int, ends: Span) -> list[Span]:
         """The parts within range of what a sight sees; ends within range stay the same objects."""
         curve, (start, end) = self.table.curves[e], ends
         if start is end:
@@ -214,12 +212,7 @@ class BoundaryView:
             assert isinstance(curve, Arc)
             opposite = curve.center + (curve.center - start)
             return within(curve, start, opposite, self.disc) + within(curve, opposite, end, self.disc)
-        try:
-            return within(curve, start, end, self.disc)
-        except Undecided:
-            sides = zip(ends, ranks, strict=True)
-            known = [id(p) for p, rank in sides if not self.tight.isdisjoint(self._holds(e, rank))]
-            return within(curve, start, end, self.disc, known)
+        return within(curve, start, end, self.disc)
 
     # -- single rays -------------------------------------------------------------------------------
 
