@@ -55,12 +55,11 @@ def some_spans(table: EdgeTable, rng: Random) -> dict[int, list[Interval]]:
 
 
 @pytest.mark.parametrize("name", ["whole", "cut"])
-def test_intervals_by_obstacle(name: str) -> None:
+def test_intervals_of_an_obstacle(name: str) -> None:
     """Those of every obstacle are what its own targets leave of the intervals, one target at a time."""
     table, some = targets(name)
     for seed in range(10):
         spans = some_spans(table, Random(seed))
-        found = some.by_obstacle(spans)
         for k, own in enumerate(some.of):
             expected = [
                 (t.edge, part.low, part.high)
@@ -69,9 +68,9 @@ def test_intervals_by_obstacle(name: str) -> None:
                 for part in [interval.within(t.span)]
                 if part is not None
             ]
-            got = [(e, part.low, part.high) for e, part in found.get(k, ())]
+            got = [(e, part.low, part.high) for _, (e, part) in some.within({k}, spans)]
             assert sorted(got) == sorted(expected)
-            assert (k in found) == bool(expected) and (k in some.near(spans)) >= bool(expected)
+            assert (k in some.near(spans)) >= bool(expected)
 
 
 @pytest.mark.parametrize("name", ["whole", "cut"])

@@ -23,7 +23,7 @@ from exactacq.sensing.end_names import Seen
 from exactacq.sensing.family_filter import FamilyFilter
 from exactacq.sensing.free_way import WayViews
 from exactacq.sensing.legs import Leg
-from exactacq.sensing.targets import Part, Targets
+from exactacq.sensing.targets import Targets
 from exactacq.sensing.view_families import End, FamilyClipper, ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
 
@@ -198,20 +198,23 @@ class Shares:
         cut = self._clipper.clipped(share.family, share.side, Interval(u, place, u, place))
         return None if cut is None else share.cut(cut)
 
-    def taught(self, covers: Covers, *, from_ends: bool = True) -> dict[int, Cover]:
+    def taught(
+        self, covers: Covers, known: Mapping[int, Sequence[Span]] | None = None, *, from_ends: bool = True
+    ) -> dict[int, Cover]:
         """The covers that grow along the leg, if *covers* are known before it.
 
-        Perhaps by less, where the views *from_ends* of the leg are left out.
+        *known* has them in floats, rounded inward: then less is to be made. They grow perhaps by less where
+        the views *from_ends* of the leg are left out.
         """
         learned: dict[int, Cover] = {}
         leg = self.leg
         for shares in self.of.values():
             for share in sorted(shares, key=lambda share: size(share.shown), reverse=True):
                 add(learned, covers, share.edge, share.shown)
-        for sight in self._from_ends if from_ends else ():
-            for k in self.obstacles:
-                for e, interval in sight.get(k, ()):
-                    add(learned, covers, e, interval)
+        for view in self._end_views if from_ends else ():
+            spans = view.spans if known is None else view.beyond(known)
+            for _, (e, interval) in self.targets.within(self.obstacles, spans):
+                add(learned, covers, e, interval)
         for seen in self.ends.values():
             for end, _ in seen:
                 add(learned, covers, end.edge, end.pin)
@@ -233,14 +236,10 @@ class Shares:
         return frozenset(k for k, target in owners if k in self.obstacles and target.contains(leg.span))
 
     @cached_property
-    def _from_ends(self) -> tuple[Mapping[int, Sequence[Part]], Mapping[int, Sequence[Part]]]:
-        """What is seen of every obstacle from the first and from the last place of the leg."""
+    def _end_views(self) -> tuple[Seen, Seen]:
+        """What is seen from the first and from the last place of the leg."""
         leg = self.leg
-        first, last = (
-            self.targets.by_obstacle(self.view(place, leg.own(u)).spans)
-            for u, place in ((leg.first, leg.start), (leg.last, leg.end))
-        )
-        return first, last
+        return self.view(leg.start, leg.own(leg.first)), self.view(leg.end, leg.own(leg.last))
 
     def is_in_sight(self, k: int, edge: int | None = None) -> bool:
         """Whether an obstacle, or an edge of it, is surely in sight all along: no exact number is read."""
@@ -256,8 +255,8 @@ class Shares:
             return Cover((leg.span,))
         times = EMPTY
         places = (leg.first, leg.start), (leg.last, leg.end)
-        for (u, place), sight in zip(places, self._from_ends, strict=True):
-            if any(edge in (None, e) for e, _ in sight.get(k, ())):
+        for (u, place), view in zip(places, self._end_views, strict=True):
+            if any(edge in (None, e) for _, (e, _) in self.targets.within({k}, view.spans)):
                 times = times.added(Interval(u, place, u, place))
         sources = [share.source for share in self.of[k] if edge in (None, share.edge)]
         sources += self.in_sight.get(k, ())
@@ -295,10 +294,10 @@ class Shares:
         leg = self.leg
         if u is not leg.first and u is not leg.last:
             return False
-        place, sight = (leg.start, self._from_ends[0]) if u is leg.first else (leg.end, self._from_ends[1])
+        place, view = (leg.start, self._end_views[0]) if u is leg.first else (leg.end, self._end_views[1])
         return any(
             edge in (None, e) and self.complex.range.order(place, point) < 0
-            for e, interval in sight.get(k, ())
+            for _, (e, interval) in self.targets.within({k}, view.spans)
             for point in self._samples(e, interval)
         )
 

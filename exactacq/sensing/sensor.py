@@ -80,7 +80,7 @@ class Sensor:
     def visible(self, place: Point, k: int) -> list[tuple[int, Interval]]:
         """What is seen of an obstacle from a place: edges and intervals."""
         ends = [(end.edge, end.pin) for end in self.targets.lookouts.get(k, ()) if end.sees(place)]
-        return [*self.targets.by_obstacle(self._view(place).spans).get(k, ()), *ends]
+        return [*(part for _, part in self.targets.within({k}, self._view(place).spans)), *ends]
 
     def look_around(self, place: Point) -> tuple[list[Notice], dict[int, Cover]]:
         """Take in the view from the start of the path; as `follow`."""
@@ -111,7 +111,7 @@ class Sensor:
 
     def _told(self, shares: Shares, retraced: bool) -> tuple[list[Notice], dict[int, Cover]]:
         leg = shares.leg
-        learned = {} if retraced else shares.taught(self.covers)
+        learned = {} if retraced else shares.taught(self.covers, self._known)
         now = ChainMap(learned, self.covers)
         # None of the obstacles was whole before: only one of which more is known now can be.
         more = self.targets.near(learned)

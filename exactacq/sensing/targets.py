@@ -6,7 +6,7 @@ that the robot can reach counts, and one edge may belong to several components.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import chain
 from typing import NamedTuple, TypeAlias
@@ -99,19 +99,24 @@ class Targets:
         owners = self._owners
         return set(chain.from_iterable([owners[e] for e in edges if e in owners]))
 
-    def by_obstacle(self, spans: Mapping[int, Iterable[Interval]]) -> dict[int, list[Part]]:
-        """What intervals of edges, by their numbers, contain of every obstacle; without empty entries.
+    def within(
+        self, obstacles: Collection[int], spans: Mapping[int, Iterable[Interval]]
+    ) -> Iterator[tuple[int, Part]]:
+        """What intervals of edges, by their numbers, contain of some obstacles, with the obstacle of each.
 
-        Cost: linear in the intervals, however many edges the obstacles have.
+        Only intervals of their edges are looked up. Cost: linear in the edges with intervals, or in those of
+        the obstacles if these are fewer.
         """
-        found: dict[int, list[Part]] = {}
-        for e, intervals in spans.items():
+        edges: Iterable[int] = spans
+        if sum(len(self.edges[k]) for k in obstacles) < len(spans):
+            edges = {e for k in obstacles for e in self.edges[k] if e in spans}
+        for e in edges:
             for k, target in self.on(e):
-                for interval in intervals:
-                    part = target.clip(interval)
-                    if part is not None:
-                        found.setdefault(k, []).append((e, part))
-        return found
+                if k in obstacles:
+                    for interval in spans[e]:
+                        part = target.clip(interval)
+                        if part is not None:
+                            yield k, (e, part)
 
     def is_whole(self, k: int, covers: Mapping[int, Cover]) -> bool:
         """Whether covers of the edges contain all of an obstacle."""
