@@ -33,12 +33,12 @@ class LineCells:
         self.first, self.last, self.behind, self.ahead = first, last, behind, ahead
 
 
-def sure_bounds(events: list[Event]) -> list[BoundLine]:
-    """The lines of those events that certainly are there."""
+def sure_bounds(events: list[Event], first: int, last: int) -> list[BoundLine]:
+    """The lines of those events that certainly are there, but for two vertices that others stand for."""
     return [
         BoundLine(low, high, [(number, side, sign)], None)
         for low, high, number, side, sign, sure in events
-        if sure
+        if sure and (side or (number != first and number != last))
     ]
 
 

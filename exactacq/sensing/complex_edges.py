@@ -18,7 +18,7 @@ from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.late import late_point
 from exactacq.geometry.points import Point, distance_sq
-from exactacq.kernel.family_images import FamilyImage
+from exactacq.kernel.family_images import NONE, FamilyImage
 from exactacq.kernel.line_keys import LineNumbers
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import CONVEX, EdgeTable
@@ -35,6 +35,8 @@ from exactacq.visibility.line_names import Namer
 from exactacq.visibility.pinched_lines import may_be_pinched
 from exactacq.visibility.rotational_sweep import Pencil, pencil
 from exactacq.visibility.sensor_range import Range
+
+NO_ENDS = (NONE, NONE)
 
 
 class EdgeFamilies:
@@ -70,10 +72,22 @@ class FamilySweeper:
         """
         found = EdgeFamilies()
         for sector in normals(self.table.curves[e]):
-            self._add(found, sector, (e,), Side(e, Role.CONTACT), None, goes_back=False)
+            ends = (e, int(self.table.next[e])) if isinstance(sector, Sliding) else NO_ENDS
+            self._add(found, sector, (e,), Side(e, Role.CONTACT), None, ends, goes_back=False)
         for feature in self._features.get(e, ()):
             contact = Side(e, Role.CONTACT, fixed=not feature.round)
-            sweeps = [self._add(found, s, feature.edges, contact, feature) for s in feature.sectors]
+            first, last = self._corners_beside(feature)
+            sweeps = [
+                self._add(
+                    found,
+                    s,
+                    feature.edges,
+                    contact,
+                    feature,
+                    (first if k == 0 else NONE, last if k == len(feature.sectors) - 1 else NONE),
+                )
+                for k, s in enumerate(feature.sectors)
+            ]
             for s in sweeps:
                 for t, passed in s.pinches:
                     if may_be_pinched(self.table, feature, s.sector, t, passed):
@@ -83,6 +97,15 @@ class FamilySweeper:
                 for sector in self._corner_normals(feature):
                     self._add(found, sector, feature.edges, contact, feature, goes_back=False)
         return found
+
+    def _corners_beside(self, feature: Feature) -> tuple[int, int]:
+        """The other ends of the straight edges at a corner: its first and its last tangent pass them."""
+        if feature.round:
+            return NO_ENDS
+        incoming, outgoing = feature.edges
+        curves = self.table.curves
+        first = incoming if isinstance(curves[incoming], Segment) else NONE
+        return first, int(self.table.next[outgoing]) if isinstance(curves[outgoing], Segment) else NONE
 
     def _corner_normals(self, feature: Feature) -> Iterator[Sector]:
         """The normals of the boundary at a convex corner."""
@@ -98,10 +121,11 @@ class FamilySweeper:
         own: tuple[int, ...],
         contact: Side,
         feature: Feature | None,
+        ends: tuple[int, int] = NO_ENDS,
         goes_back: bool = True,
     ) -> Pencil:
-        """Sweep a sector and add its families."""
-        lines = pencil(self.table, sector, own, self.range.above)
+        """Sweep a sector, of which the first and the last line pass vertices *ends*, and add its families."""
+        lines = pencil(self.table, sector, own, self.range.above, ends=ends)
         families = PencilFamilies(lines, contact, self._namer, feature, goes_back)
         found.images += families.imaged(self.images, self._numbers)
         return lines

@@ -109,15 +109,17 @@ def pencil(
     own: tuple[int, ...],
     reach: float,
     breaks: tuple[Vector, ...] = (),
+    ends: tuple[int, int] = (NOTHING, NOTHING),
 ) -> Pencil:
     """Sweep one sector; only edges within *reach* of the contact are considered.
 
-    *own* are the edges through the contact, *breaks* further directions (at a corner) that end cells. What
-    lies beyond *reach* may be reported wrongly or as None, so a chord is to be trusted only if both its
+    *own* are the edges through the contact, *breaks* further directions (at a corner) that end cells, *ends*
+    vertices that the first and the last line of the sector pass: to find that out would take exact numbers.
+    What lies beyond *reach* may be reported wrongly or as None, so a chord is to be trusted only if both its
     halves are no longer than *reach*.
     """
     edges = table.near(*_box(sector), reach).tolist()
-    return _SectorSweep(table, sector, own, edges, breaks).run()
+    return _SectorSweep(table, sector, own, edges, breaks, ends).run()
 
 
 def _box(sector: Sector) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -133,6 +135,7 @@ class _SectorSweep:
         own: tuple[int, ...],
         edges: list[int],
         breaks: tuple[Vector, ...],
+        ends: tuple[int, int],
     ) -> None:
         self.table, self.sector, self.own, self.breaks = table, sector, own, breaks
         self.pencil = Pencil(table, sector)
@@ -140,6 +143,8 @@ class _SectorSweep:
         left_out = [e for e in own if sector.round or images.kind[e] == STRAIGHT]
         self.edges = [e for e in edges if e not in left_out] if left_out else edges
         self.around = Surroundings(images, sector.frame(), self.edges, list(own))
+        vertices = self.around.vertices
+        self.ends = [vertex if vertex in vertices else NOTHING for vertex in ends]
         # The edges through the centre of an arc whose normals go there: all of these pass that point.
         self.through: tuple[int, ...] = ()
         if isinstance(sector, Spokes) and not sector.outward:
@@ -177,7 +182,11 @@ class _SectorSweep:
     def _bounds(self) -> list[BoundLine]:
         """The distinct lines at which there are events, from low to high."""
         low, high = _known(Real(self.sector.low)), _known(Real(self.sector.high))
-        events = [low, high, *self._break_events(), *self._edge_events(low.low, high.high)]
+        events = [*self._break_events(), *self._edge_events(low.low, high.high)]
+        for bound, vertex in zip((low, high), self.ends, strict=True):
+            if vertex != NOTHING:
+                bound.passed = [(vertex, 0, 0)]
+        events += [low, high]
         found: list[BoundLine] = []
         for cluster in clusters(events, low, high):
             if len(cluster) == 1:
@@ -220,10 +229,10 @@ class _SectorSweep:
         if low == -inf or high == inf:
             low, high = -1.0, 1.0
         events = line_events(self.around, corner, low, high)
-        found = sure_bounds(events)
+        found = sure_bounds(events, *self.ends)
         if len(found) < len(events):
             for _, _, number, side, sign, sure in events:
-                if not sure:
+                if not sure and (side or number not in self.ends):
                     value = self.sector.exact(*target(self.table, number, side), side, sign)
                     if value is not None:
                         found.append(_known(value, [(number, side, sign)]))
