@@ -27,11 +27,15 @@ def pencil_images(
     (contact, fixed), (own, is_round) = at, name
     found: list[FamilyImage] = []
     corner = contact if frame[0] == TURNING else NONE
+    # Neighbouring cells share a bound, so they share what is told of it.
     last_keys: list[int] = []
+    last_corners: list[int] = []
     for k in range(len(rows)):
         row = rows[k]
         first_keys = last_keys if k else _keys(row.first, own, is_round, numbers)
         last_keys = _keys(row.last, own, is_round, numbers)
+        first_corners = last_corners if k else _vertices(row.first)
+        last_corners = _vertices(row.last)
         image = FamilyImage(
             frame,
             (*_parameter(row.first), *_parameter(row.last)),
@@ -39,7 +43,7 @@ def pencil_images(
             fixed,
             goes_back,
             corner,
-            (_vertices(row.first), _vertices(row.last)),
+            (first_corners, last_corners),
             (first_keys, last_keys),
             origin,
             k,

@@ -22,7 +22,7 @@ from exactacq.sensing.line_family import LineFamily, SingleLine, family_of
 from exactacq.sensing.view_families import ViewFamily
 from exactacq.visibility.sensor_range import Range
 
-KEPT = 1024
+KEPT = 1536
 """Edges whose families are remembered, the last used: enough for a wide neighbourhood, and a bound of the
 memory."""
 SEEN_FROM_KEPT = 256
