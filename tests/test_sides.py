@@ -15,9 +15,9 @@ import pytest
 from exactacq.geometry.points import Point
 from exactacq.kernel.bounded import UNIT
 from exactacq.kernel.family_images import NONE, FamilyImage
+from exactacq.numbers.float_bounds import float_ball, rough
 from exactacq.numbers.real import Real, fmpq, rational
 from exactacq.sensing.line_family import SingleLine
-from exactacq.sensing.line_images import float_ball, rough
 from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes, Turning
 
 Q = Fraction

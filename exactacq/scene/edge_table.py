@@ -16,10 +16,12 @@ from numpy.typing import NDArray
 
 from exactacq.geometry.box_index import BoxIndex, bounds, circles, united
 from exactacq.geometry.coordinates import raw
+from exactacq.geometry.curve_images import curve_image
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import locate
 from exactacq.geometry.points import Location, Point
 from exactacq.kernel import images
+from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.images import EdgeImages
 from exactacq.numbers.real import Real
 from exactacq.scene.scene import Obstacle
@@ -105,6 +107,11 @@ class EdgeTable:
             self.next.tolist(),
             self.previous.tolist(),
         )
+
+    @cached_property
+    def curve_images(self) -> list[CurveImage]:
+        """The edges one by one, as the compiled loops take them."""
+        return [curve_image(curve) for curve in self.curves]
 
     def edges_of(self, obstacle: int) -> range:
         """The edges of one obstacle."""

@@ -20,11 +20,11 @@ from exactacq.geometry.intersections import contacts
 from exactacq.geometry.interval_union import EMPTY, Cover
 from exactacq.geometry.points import Point
 from exactacq.numbers.between import rational_between
+from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.rationals import ends
 from exactacq.numbers.real import Real
 from exactacq.sensing.leg_views import Shares
 from exactacq.sensing.legs import Leg
-from exactacq.sensing.line_images import float_ball
 
 BITS = 64
 """Precision of the balls that part places: that of late numbers, so none is made."""

@@ -259,4 +259,4 @@ def _continues(a: Vector, b: Vector) -> bool:
 
 
 def _nearer(place: Point, a: Point, b: Point) -> bool:
-    return distance_sq(place, a).compare(distance_sq(place, b)) <= 0
+    return a is b or distance_sq(place, a).compare(distance_sq(place, b)) <= 0

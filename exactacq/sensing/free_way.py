@@ -20,6 +20,7 @@ from flint import fmpq
 from exactacq import kernel
 from exactacq.geometry.box_index import box
 from exactacq.geometry.coordinates import dot, minus, raw
+from exactacq.geometry.curve_images import curve_image
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.interval_union import Cover
@@ -31,13 +32,14 @@ from exactacq.kernel.family_images import NONE, FamilyImage
 from exactacq.kernel.lines import meets_straight
 from exactacq.kernel.ways import Crossing, WayImage, crossings, extents_from_way
 from exactacq.numbers.between import rational_between
+from exactacq.numbers.float_bounds import rough
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.complex_edges import EdgeFamilies
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.legs import Leg
 from exactacq.sensing.line_family import LineFamily, SingleLine, family_of
-from exactacq.sensing.line_images import bounds, curve_image, rough
+from exactacq.sensing.line_images import bounds
 from exactacq.sensing.line_points import Role, Side
 from exactacq.sensing.view_families import End, FreeViews, ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
@@ -115,9 +117,8 @@ class WayViews:
 
     def extents(self) -> list[Extent]:
         """What the line families in `crossing` show, in floats; the origins are their places there."""
-        images = self.complex.images
-        wanted = set(self.wanted)
-        return extents_from_way(self._families, self._found, wanted, self._image, images.curves, images.reach)
+        curves, reach = self.complex.table.curve_images, self.complex.images.reach
+        return extents_from_way(self._families, self._found, set(self.wanted), self._image, curves, reach)
 
     @cached_property
     def _near(self) -> list[EdgeFamilies]:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from exactacq import kernel
+from exactacq.geometry.curve_images import curve_image
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.points import Point
 from exactacq.kernel.cells import LineCells
@@ -19,7 +20,7 @@ from exactacq.kernel.images import TURNING
 from exactacq.kernel.line_keys import LineNumbers
 from exactacq.kernel.pencil_images import pencil_images
 from exactacq.numbers.real import Real
-from exactacq.sensing.line_images import LineImages, curve_image
+from exactacq.sensing.line_images import LineImages
 from exactacq.sensing.line_points import Role, Side
 from exactacq.sensing.view_families import FamilyClipper, FreeViews, ViewFamily
 from exactacq.visibility.features import Feature

@@ -8,14 +8,11 @@ from math import inf
 
 from exactacq import kernel
 from exactacq.geometry.curve_parameter import Rail
-from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Point
-from exactacq.kernel.bounded import TINY, UNIT
-from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import EVERYTHING, SURE, Span
 from exactacq.kernel.family_images import EdgePlace, FamilyImage, locate
 from exactacq.kernel.lines import parameter
-from exactacq.numbers.rationals import nearest_float
+from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.line_points import Role
@@ -29,11 +26,6 @@ class LineImages:
     def __init__(self, table: EdgeTable, range_: Range) -> None:
         self.table = table
         self.reach = range_.below, range_.above
-
-    @cached_property
-    def curves(self) -> list[CurveImage]:
-        """The edges."""
-        return [curve_image(curve) for curve in self.table.curves]
 
     @cached_property
     def circles(self) -> list[int]:
@@ -52,7 +44,7 @@ class LineImages:
                     places.append((inf, inf))
                     continue
             (x, p), (y, q) = float_ball(point.x), float_ball(point.y)
-            u, error = parameter(self.curves[e], x, y, max(p, q))
+            u, error = parameter(self.table.curve_images[e], x, y, max(p, q))
             if self.table.full[e] and not error < u < 4 - error:
                 return EVERYTHING
             places.append((u - error, u + error))
@@ -62,7 +54,7 @@ class LineImages:
         """Find where the first and the last lines of a pencil's families meet their edges."""
         if kernel.EXACT_ONLY:
             return
-        locate(families, self.curves, self.table.images.following)
+        locate(families, self.table.curve_images, self.table.images.following)
         if self.table.curved:
             for image in families:
                 for role in Role:
@@ -95,33 +87,6 @@ class LineImages:
         image.move(role, (found[0], found[1]))
 
 
-def curve_image(curve: Curve) -> CurveImage:
-    """A boundary edge or a straight way in floats."""
-    if isinstance(curve, Segment):
-        return CurveImage(*_pair(curve.start), *_pair(curve.end - curve.start), 0.0, 0, False)
-    radius = nearest_float(curve.radius_sq) ** 0.5
-    sense = 1 if curve.ccw else -1
-    return CurveImage(*_pair(curve.center), *_pair(curve.start - curve.center), radius, sense, curve.full)
-
-
-def _pair(point: Point) -> tuple[float, float]:
-    """The coordinates in floats (see `rough`)."""
-    return rough(point.x), rough(point.y)
-
-
-def rough(value: Real) -> float:
-    """A float that is off by at most `UNIT` times a number, or times `TINY` if that is more."""
-    if not value.is_late and value.rational is not None:
-        return nearest_float(value.rational)
-    bits = 64
-    while True:
-        ball = value.ball(bits)
-        middle = nearest_float(ball.mid().fmpq())
-        if float(ball.rad()) <= 2.0**-55 * max(abs(middle), TINY):
-            return middle
-        bits *= 2
-
-
 def bounds(u: Real, rail: Rail | None) -> Span:
     """Bounds of a parameter; in extended numbers if it is that of an edge, with its *rail*."""
     if rail is not None and u is rail.top:
@@ -133,17 +98,3 @@ def bounds(u: Real, rail: Rail | None) -> Span:
             return inf, inf
     middle, error = float_ball(u)
     return middle - error, middle + error
-
-
-def float_ball(t: Real) -> tuple[float, float]:
-    """A float near a parameter, with a bound of its error: of a late one what its ball tells."""
-    if t.is_late or t.rational is None:
-        bits = 64
-        ball = t.ball(bits)
-        while not t.is_late and ball.rad() > 2.0**-52 * max(abs(float(ball.mid())), 1.0):
-            bits *= 2
-            ball = t.ball(bits)
-        middle = float(ball.mid())
-        return middle, 2.0 * float(ball.rad()) + UNIT * abs(middle) + TINY
-    middle = nearest_float(t.rational)
-    return middle, UNIT * abs(middle)

@@ -12,9 +12,9 @@ from functools import cached_property
 
 from exactacq.geometry.interval_union import Cover
 from exactacq.geometry.points import Point
+from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real
 from exactacq.sensing.leg_views import Covers, Share, Shares
-from exactacq.sensing.line_images import float_ball
 
 
 class LegNews:

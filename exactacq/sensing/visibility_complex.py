@@ -84,8 +84,8 @@ class Neighbourhood:
                     single_lines.append(single.extent(self.images))
                 if single.edge is not None and single.shown == edge:
                     single_lines.append(single.extent(self.images, here=1))
-        images = self.images
-        return extents_from(edge, families, images.curves, images.reach) + single_lines
+        curves, reach = self.table.curve_images, self.images.reach
+        return extents_from(edge, families, curves, reach) + single_lines
 
 
 def _gaps(boxes: Floats, box: Floats) -> Floats:

@@ -9,13 +9,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cmp_to_key
 from itertools import pairwise
+from math import inf
 
 import numpy as np
 from flint import fmpq
 
+from exactacq import kernel
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.points import Location, Point
+from exactacq.kernel.lines import line_at, meets
+from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real, rational
 from exactacq.scene.edge_table import EdgeTable, Ints
 from exactacq.visibility.line_families import Sector
@@ -92,9 +96,8 @@ def walk_line(table: EdgeTable, sector: Sector, t: Real, reach: float) -> tuple[
     slack = 64 * table.roundoff
     line = np.array([direction.xy]) / size
     found = Crossings(table, edges, (), np.array((x, y)), np.zeros((1, 2)), line, slack)
-    met = [
-        (tau, int(e)) for e in found.possible(0) for tau in line_contacts(contact, direction, table.curves[e])
-    ]
+    edges_met, walls = _as_far_as_walls(table, sector, t, found.possible(0).tolist())
+    met = [(tau, e) for e in edges_met for tau in line_contacts(contact, direction, table.curves[e])]
     met.sort(key=cmp_to_key(_by_parameter))
     far = reach * (1 + 1e-9) / size
     ahead = _as_far([hit for hit in met if hit[0].sign() > 0], table, far)
@@ -103,9 +106,42 @@ def walk_line(table: EdgeTable, sector: Sector, t: Real, reach: float) -> tuple[
     end = rational(reach * (1 - 1e-9) / size)
     here = {table.owners[e] for tau, e in met if tau.sign() == 0}
     return (
-        _until_blocked(table, contact, direction, behind, here, Real(-end)),
-        _until_blocked(table, contact, direction, ahead, here, Real(end)),
+        _until_blocked(table, contact, direction, behind, here, walls, Real(-end)),
+        _until_blocked(table, contact, direction, ahead, here, walls, Real(end)),
     )
+
+
+def _as_far_as_walls(
+    table: EdgeTable, sector: Sector, t: Real, edges: list[int]
+) -> tuple[list[int], set[int]]:
+    """Those of some edges that a line may meet up to where it surely is blocked, and those that block it.
+
+    It is where it crosses a straight edge between its ends: the contact, where it begins, is not inside.
+    """
+    if kernel.EXACT_ONLY or any(isinstance(c, Real) for c in (*sector.center, *sector.base)):
+        return edges, set()
+    walls: set[int] = set()
+    at = line_at(sector.image, *float_ball(t))
+    met: list[tuple[float, float]] = []
+    behind, ahead = -inf, inf
+    for e in edges:
+        curve = table.curve_images[e]
+        far, bound, u, error, *_ = meets(at, curve, 1)
+        low, high = far - bound, far + bound
+        if curve.sense:
+            other, bound, *_ = meets(at, curve, -1)
+            low, high = min(low, other - bound), max(high, other + bound)
+        elif error < u < 1 - error:
+            if low > 0:
+                ahead = min(ahead, high)
+                walls.add(e)
+            elif high < 0:
+                behind = max(behind, low)
+                walls.add(e)
+        met.append((low, high))
+    # Where nothing is known the interval is infinite, so such an edge stays.
+    kept = [e for e, (low, high) in zip(edges, met, strict=True) if high >= behind and low <= ahead]
+    return kept, walls
 
 
 def _as_far(hits: list[tuple[Real, int]], table: EdgeTable, far: float) -> list[tuple[Real, int]]:
@@ -129,9 +165,10 @@ def _until_blocked(
     direction: Point,
     hits: list[tuple[Real, int]],
     here: set[int],
+    walls: set[int],
     end: Real,
 ) -> LineWalk:
-    """What is met up to what blocks, from a contact with the obstacles *here*.
+    """What is met up to what blocks, from a contact with the obstacles *here*; *walls* surely do.
 
     As nothing blocked so far, the line goes on inside an obstacle only if it meets it where it last met any.
     """
@@ -143,6 +180,8 @@ def _until_blocked(
             if any(table.locate(i, middle) is Location.INSIDE for i in met):
                 return LineWalk(hits[:k], blocked=True)
             previous, met = tau, set()
+        if e in walls:
+            return LineWalk(hits[: k + 1], blocked=True)
         if e >= 0:
             met.add(table.owners[e])
     return LineWalk(hits, blocked=False)

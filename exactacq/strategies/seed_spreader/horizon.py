@@ -12,8 +12,8 @@ from exactacq import kernel
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.kernel import bounded
 from exactacq.kernel.extents import Span
+from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real
-from exactacq.sensing.line_images import float_ball
 from exactacq.strategies.seed_spreader.range_thresholds import last_in_reach
 
 Held = tuple[float, float]
