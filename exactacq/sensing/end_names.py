@@ -7,7 +7,7 @@ the point of an edge at the distance of the range, in either direction along the
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from math import inf
 
@@ -81,14 +81,22 @@ class Seen:
         """What is seen of each edge."""
         return SeenSpans(self._view, self._rails)
 
-    def beyond(self, known: Mapping[int, Sequence[Span]]) -> dict[int, list[Interval]]:
-        """Of `spans` those that *known* does not surely contain, by edge.
+    @property
+    def edges(self) -> Collection[int]:
+        """The edges of which something is seen."""
+        return self._view.seen_parts
+
+    def beyond(self, known: Mapping[int, Sequence[Span]], edges: Iterable[int]) -> dict[int, list[Interval]]:
+        """Of `spans` of some edges those that *known* does not surely contain, by edge.
 
         *known* has intervals of edges, rounded inward (see `family_filter.KnownSpans`), whose ends are
         infinite where they are those of the edge. Floats decide, and only what is returned is made.
         """
         view, found = self._view, dict[int, list[Interval]]()
-        for e, parts in view.seen_parts.items():
+        for e in edges:
+            parts = view.seen_parts.get(e)
+            if parts is None:
+                continue
             spans = () if kernel.EXACT_ONLY else known.get(e, ())
             new = parts
             if spans and not self._rails[e].is_closed:
@@ -162,7 +170,8 @@ class Seen:
 
 def _is_in(bracket: Span, spans: Iterable[Span]) -> bool:
     """Whether a bracket lies in one of some intervals."""
-    return any(a <= bracket[0] and bracket[1] <= b for a, b in spans)
+    low, high = bracket
+    return any(a <= low and high <= b for a, b in spans)
 
 
 def _apart(a: Real, b: Real) -> bool:

@@ -212,7 +212,9 @@ class Shares:
             for share in sorted(shares, key=lambda share: size(share.shown), reverse=True):
                 add(learned, covers, share.edge, share.shown)
         for view in self._end_views if from_ends else ():
-            spans = view.spans if known is None else view.beyond(known)
+            spans: Mapping[int, Sequence[Interval]] = view.spans
+            if known is not None:
+                spans = view.beyond(known, self.targets.counting(view.edges, self.obstacles))
             for _, (e, interval) in self.targets.within(self.obstacles, spans):
                 add(learned, covers, e, interval)
         for seen in self.ends.values():

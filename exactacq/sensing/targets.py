@@ -99,6 +99,11 @@ class Targets:
         owners = self._owners
         return set(chain.from_iterable([owners[e] for e in edges if e in owners]))
 
+    def counting(self, edges: Iterable[int], obstacles: Collection[int]) -> list[int]:
+        """Those of some edges that count for some of the obstacles."""
+        owners = self._owners
+        return [e for e in edges if e in owners and any(k in obstacles for k in owners[e])]
+
     def within(
         self, obstacles: Collection[int], spans: Mapping[int, Iterable[Interval]]
     ) -> Iterator[tuple[int, Part]]:
