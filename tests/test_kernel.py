@@ -333,7 +333,9 @@ from exactacq.kernel.surroundings import Surroundings
 from exactacq.kernel.view_parts import ViewParts
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.complex_edges import normals
+from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.visibility.features import features
+from exactacq.visibility.sensor_range import Range
 total = sha256()
 for scene in (random_octagons(12, 3), xa.load("circles"), xa.load("plate"), xa.load("figure2")):
     table = EdgeTable(scene.obstacles)
@@ -348,6 +350,10 @@ for scene in (random_octagons(12, 3), xa.load("circles"), xa.load("plate"), xa.l
         middles = [0.5 * (a[1] + b[0]) for a, b in zip(ends, ends[1:]) if a[1] < b[0]]
         met = first_edges(around, middles, [0.0] * len(middles), [every] * len(middles), True)
         total.update(repr((middles, met)).encode())
+    complex_ = VisibilityComplex(table, Range(xa.Real(10).rational))
+    for one in (one for e in every for one in complex_.extents(e)):
+        spans = one.edge, one.shown, one.source, one.surely, one.here, one.there, one.is_known
+        total.update(repr((spans, one.first_keys, one.last_keys)).encode())
     for obstacle in scene.obstacles:
         for place in ((e.start + e.end) / 2 + e.start * Q(1, 97) for e in obstacle.edges[:4]):
             faces = RadialFaces(table.images, (place.xy[0], 0.0, place.xy[1], 0.0, 0.0), (100.0, 0.0))
