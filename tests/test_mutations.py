@@ -60,8 +60,8 @@ def lost_interval(patch: Patch) -> None:
     """What is seen of the third edge is forgotten."""
     original = Shares.taught
 
-    def forgetful(self: Shares, covers: Any) -> Any:
-        return {e: cover for e, cover in original(self, covers).items() if e != 2}
+    def forgetful(self: Shares, *known: Any, **options: Any) -> Any:
+        return {e: cover for e, cover in original(self, *known, **options).items() if e != 2}
 
     patch.setattr(Shares, "taught", forgetful)
 
@@ -70,9 +70,9 @@ def lost_on_the_way(patch: Patch) -> None:
     """What is seen of the third edge from straight ways is forgotten."""
     original = Shares.taught
 
-    def forgetful(self: Shares, covers: Any) -> Any:
+    def forgetful(self: Shares, *known: Any, **options: Any) -> Any:
         lost = {2} if self.leg.edge is None else set()
-        return {e: cover for e, cover in original(self, covers).items() if e not in lost}
+        return {e: cover for e, cover in original(self, *known, **options).items() if e not in lost}
 
     patch.setattr(Shares, "taught", forgetful)
 

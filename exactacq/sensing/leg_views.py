@@ -128,6 +128,10 @@ class Shares:
     def _view_from(self, end: End, side: int, leg: Leg) -> Seen | None:
         """What is seen from where an extreme view begins, if that is an end of the leg."""
         u = end.places[side]
+        if u is leg.first and leg.first is self.leg.first:
+            return self._end_views[0]
+        if u is leg.last and leg.last is self.leg.last:
+            return self._end_views[1]
         place = leg.start if u is leg.first else leg.end if u is leg.last else None
         return None if place is None else self.view(place, leg.own(u))
 

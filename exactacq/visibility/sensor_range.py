@@ -30,6 +30,6 @@ class Range:
         return distance_sq(a, b).compare(self.square)
 
     def clear_order(self, a: Balls, b: Balls) -> int:
-        """The same of points in balls; 0 where these leave it open too."""
+        """-1, 0 or 1 as `order` says of two points in balls; 0 also where these leave it open."""
         x, y = a[0] - b[0], a[1] - b[1]
         return ball_sign(x * x + y * y - arb(self.square))
