@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from math import inf, sqrt
+from math import inf
 from typing import Final, final
 
+from exactacq.kernel.bounded import TINY, UNIT, cross, dot, product, root, total
 from exactacq.kernel.curve_images import CurveImage
-from exactacq.kernel.extents import SURE, Extent, Span, bent, extent, unknown
+from exactacq.kernel.extents import Extent, Span, bent, extent, unknown
 from exactacq.kernel.family_images import AHEAD, BEHIND, CONTACT, EdgePlace, FamilyImage
 from exactacq.kernel.images import ROLLING, SLIDING, SPOKES
 from exactacq.kernel.lines import Line, Meeting, line_at, meets, meets_straight
@@ -26,8 +27,7 @@ Crossing = tuple[int, bool]
 class WayImage:
     """A way: a stretch of a segment's line, from parameter ``low`` to ``high``, each with bounds.
 
-    Its ends are given with an error each; the vertices there by their numbers. ``slack`` bounds how far
-    round-off may move any place of the scene.
+    Its ends are held with one bound; the vertices there are given by their numbers.
     """
 
     def __init__(
@@ -38,10 +38,9 @@ class WayImage:
         ends: tuple[float, float, float, float, float],
         starts: list[int],
         stops: list[int],
-        slack: float,
     ) -> None:
         self.line, self.low, self.high = line, low, high
-        self.ends, self.starts, self.stops, self.slack = ends, starts, stops, slack
+        self.ends, self.starts, self.stops = ends, starts, stops
 
 
 def crossings(families: list[FamilyImage], wanted: set[int], way: WayImage) -> list[Crossing]:
@@ -168,15 +167,25 @@ def _crossed(family: FamilyImage, way: WayImage, curves: list[CurveImage]) -> Cr
 
 
 def _may_touch(family: FamilyImage, way: WayImage) -> bool:
-    """Whether the circle that a family rolls on, or whose normals go inward, may meet the way's line."""
+    """Whether the circle that a family rolls on, or whose normals it is, may meet the way's line.
+
+    Or whether the normals go inward: they leave the circle on the other side too.
+    """
     kind, cx, cy, ex, ey, radius, sense = family.frame
     if kind not in (ROLLING, SPOKES):
         return False
+    line = way.line
+    bound = UNIT * radius
     if kind == ROLLING:
-        radius = sqrt(ex * ex + ey * ey)
-    wx, wy = way.line.wx, way.line.wy
-    height = abs((cx - way.line.x) * wy - (cy - way.line.y) * wx) / sqrt(wx * wx + wy * wy)
-    return sense < 0 or height < radius * (1.0 + SURE) + way.slack
+        error = UNIT * max(abs(ex), abs(ey)) + TINY
+        radius, bound = root(*dot(ex, ey, error, ex, ey, error))
+    ox, p = total(cx, UNIT * abs(cx), -line.x, UNIT * abs(line.x))
+    oy, q = total(cy, UNIT * abs(cy), -line.y, UNIT * abs(line.y))
+    error = UNIT * max(abs(line.wx), abs(line.wy)) + TINY
+    height, height_bound = cross(ox, oy, max(p, q) + TINY, line.wx, line.wy, error)
+    size, size_bound = root(*dot(line.wx, line.wy, error, line.wx, line.wy, error))
+    reach, reach_bound = product(radius, bound, size, size_bound)
+    return sense < 0 or not abs(height) - height_bound > reach + reach_bound
 
 
 def _role(met: Meeting, family: FamilyImage, passed: list[int], way: WayImage) -> int:

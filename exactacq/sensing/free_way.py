@@ -139,7 +139,7 @@ class WayViews:
         error = inf if kernel.EXACT_ONLY else UNIT * (abs(ax) + abs(ay) + abs(bx) + abs(by)) + TINY
         starts, stops = (self._vertices_at(end) for end in (self.span.start, self.span.end))
         low, high = bounds(self.span.low, None), bounds(self.span.high, None)
-        return WayImage(curve_image(self.line), low, high, (ax, ay, bx, by, error), starts, stops, self.slack)
+        return WayImage(curve_image(self.line), low, high, (ax, ay, bx, by, error), starts, stops)
 
     def _vertices_at(self, point: Point) -> list[int]:
         """The vertices at a point."""
