@@ -115,14 +115,20 @@ def _crossed(family: FamilyImage, way: WayImage, curves: list[CurveImage]) -> Cr
     """How a family crosses a way.
 
     While lines of a family turn or slide, and the contact stays on one side of the way's line, the crossing
-    moves along that line without turning back, from a to b. If a line between is parallel to the way, the
-    crossing leaves over infinity and comes back from the other side, and the contact is behind it before and
-    ahead after, or the other way round. Then the way may be met by one of the two parts only.
+    moves along that line without turning back, from a to b. A contact that rolls on a circle comes nearer to
+    that line, or moves away from it, until a line is parallel to it: so if none is, both ends tell.
+
+    If a line between is parallel to the way, the crossing leaves over infinity and comes back from the other
+    side, and the contact is behind it before and ahead after, or the other way round. Then the way may be met
+    by one of the two parts only.
     """
     one, other = family.first, family.last
     wx, wy = way.line.wx, way.line.wy
     a, b = meets_straight(one, way.line), meets_straight(other, way.line)
-    if not (a[3] < inf and b[3] < inf) or _may_touch(family, way):
+    is_parallel = (wx * one[3] - wy * one[2] > 0.0) != (wx * other[3] - wy * other[2] > 0.0)
+    if not (a[3] < inf and b[3] < inf):
+        return _unknown()
+    if (is_parallel or family.frame[0] == SPOKES) and _may_touch(family, way):
         return _unknown()
     role, last_role = _role(a, family, family.first_corners, way), _role(b, family, family.last_corners, way)
     role, last_role = role if role else last_role, last_role if last_role else role
@@ -132,7 +138,7 @@ def _crossed(family: FamilyImage, way: WayImage, curves: list[CurveImage]) -> Cr
     turn = wx * one[3] - wy * one[2]
     is_rising = a[2] < b[2]
     part = 0
-    if (turn > 0.0) != (wx * other[3] - wy * other[2] > 0.0):
+    if is_parallel:
         part = _part(a[2] - a[3], a[2] + a[3], b[2] - b[3], b[2] + b[3], low, high)
         if role != -last_role or part == OPEN:
             return _unknown()

@@ -63,27 +63,29 @@ class LineImages:
                         self._unroll(image, role, lines, edge)
 
     def _unroll(self, image: FamilyImage, role: Role, lines: Pencil, edge: int) -> None:
-        """Two places on a full circle: known if the side does not pass its start, where parameters jump.
+        """Two places on a full circle: if the side may pass its start, where parameters jump, anywhere on it.
 
         While lines turn by a quarter at most, a contact moves by a quarter, another place by less than three
         quarters, for its direction from the circle's centre is off the line's by less than a quarter.
         """
         start = self.table.curves[edge].start
         row = lines.rows[image.number]
-        found: list[EdgePlace] = list(image.places(role))
+        whole: list[EdgePlace] = list(image.places(role))
+        found = list(whole)
         for k, bound in enumerate((row.first, row.last)):
             (low, high, *rest), other = found[k], found[1 - k]
             if low <= 0 or high >= 4:
                 contact, direction = lines.sector.touch(lines.value(bound))
                 # Where the line is nearly a tangent, both its crossings are within the error.
                 is_one = high - low < SURE and direction.cross(start - contact).sign() == 0
-                if not (is_one and 0 < other[0] <= other[1] < 4):
-                    image.is_known = False
-                    return
                 end = -inf if other[1] < 2 else inf
-                found[k] = (end, end, rest[0], rest[1], rest[2])
+                if is_one and 0 < other[0] <= other[1] < 4:
+                    found[k] = (end, end, rest[0], rest[1], rest[2])
+                else:
+                    found[k] = (-inf, inf, rest[0], rest[1], rest[2])
         bounds = [(max(low, 0.0), min(high, 4.0)) for low, high, *_ in found]
-        image.is_known = max(b for _, b in bounds) - min(a for a, _ in bounds) < 1
+        if max(b for _, b in bounds) - min(a for a, _ in bounds) >= 1:
+            found = [(-inf, inf, x, y, error) for _, _, x, y, error in whole]
         image.move(role, (found[0], found[1]))
 
 
