@@ -17,8 +17,13 @@ import pytest
 from flint import fmpq
 
 import exactacq as xa
+from exactacq.files.octagons import random_octagons
+from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.interval_union import Cover
+from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.memory import History, Moment
+from exactacq.sensing.visibility_complex import VisibilityComplex
+from exactacq.visibility.sensor_range import Range
 
 HALF, QUARTER = fmpq(1, 2), fmpq(1, 4)
 GROWTH = 2.4
@@ -139,3 +144,14 @@ def test_a_moment_lists_the_edges_that_were_known() -> None:
     assert dict(Moment(history, 2, {})) == {4: third, 2: second}
     moment = Moment(history, 1, {}).grown({7: third})
     assert (len(moment), moment[4], moment[7], moment.get(3)) == (3, first, third, None)
+
+
+def test_ways_share_the_rails_of_the_scene() -> None:
+    """A run keeps what its ways showed. A copy of all rails for every way would make that quadratic."""
+    table = EdgeTable(random_octagons(60, 1).obstacles)
+    clipper = VisibilityComplex(table, Range(fmpq(10))).clipper
+    way = Rail(xa.Segment((0, 0), (1, 1)))
+    rails, count = clipper.with_way(way).rails, len(clipper.rails)
+    assert rails[count] is rails[-1] is way and len(rails) == count + 1
+    assert all(rails[e] is clipper.rails[e] for e in range(count))
+    assert memory_for(lambda: [clipper.with_way(way) for _ in range(100)]) < 100 * 8 * count

@@ -66,7 +66,7 @@ class Seen:
     def __init__(
         self,
         table: EdgeTable,
-        rails: list[Rail],
+        rails: Sequence[Rail],
         place: Point,
         range_: Range,
         own: tuple[int, ...] | None,

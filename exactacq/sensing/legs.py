@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Hashable
+from collections.abc import Collection, Hashable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -96,7 +96,7 @@ class Leg:
 
 def legs_of(
     table: EdgeTable,
-    rails: list[Rail],
+    rails: Sequence[Rail],
     obstacle: int | None,
     curve: Curve,
     touches: tuple[Hashable, ...] = (),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 from typing import TypeGuard
@@ -41,7 +42,7 @@ class Side:
 class LinePoints:
     """Where lines meet edges, which are known by their rails."""
 
-    def __init__(self, rails: list[Rail]) -> None:
+    def __init__(self, rails: Sequence[Rail]) -> None:
         self._rails = rails
 
     def exact(self, sector: Sector, t: Real, side: Side, passed: Passed) -> Point:

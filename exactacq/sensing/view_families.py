@@ -12,12 +12,12 @@ to the range, and the results are `ViewFamily` objects.
 from __future__ import annotations
 
 from collections import ChainMap
-from collections.abc import Collection, Hashable, Iterator, Mapping, MutableMapping
+from collections.abc import Collection, Hashable, Iterator, Mapping, MutableMapping, Sequence
 from dataclasses import dataclass
 from functools import cmp_to_key, partial
 from itertools import pairwise
 from math import hypot
-from typing import Any
+from typing import Any, overload
 
 from flint import arb, fmpq
 
@@ -94,24 +94,47 @@ class ViewFamily:
     free_views: FreeViews | None = None
 
 
+class RailsAndWay(Sequence[Rail]):
+    """Rails by number and one more, that of a way: without a copy, as families of every way keep it."""
+
+    __slots__ = ("_rails", "_way")
+
+    def __init__(self, rails: Sequence[Rail], way: Rail) -> None:
+        self._rails, self._way = rails, way
+
+    @overload
+    def __getitem__(self, e: int) -> Rail: ...
+    @overload
+    def __getitem__(self, e: slice) -> Sequence[Rail]: ...
+    def __getitem__(self, e: int | slice) -> Rail | Sequence[Rail]:
+        if isinstance(e, slice):
+            return [*self._rails, self._way][e]
+        return self._way if e in (-1, len(self._rails)) else self._rails[e]
+
+    def __len__(self) -> int:
+        return len(self._rails) + 1
+
+
 class FamilyClipper:
     """Cuts free views to a range and finds their views; holds the rails of the scene's edges by number."""
 
-    def __init__(self, rails: list[Rail], range_: Range, roundoff: float, circles: Mapping[int, int]) -> None:
+    def __init__(
+        self, rails: Sequence[Rail], range_: Range, roundoff: float, circles: Mapping[int, int]
+    ) -> None:
         self.rails, self.range, self.roundoff, self.circles = rails, range_, roundoff, circles
         self._points = LinePoints(rails)
         self._pins: MutableMapping[tuple[Hashable, int, int], Pin] = {}
-        self._balls: dict[int, CurveBalls] = {}
+        self._balls: MutableMapping[int, CurveBalls] = {}
         self._touched: set[Hashable] = set()
 
     def with_way(self, way: Rail, touches: Collection[Any] = ()) -> FamilyClipper:
         """These and one more curve, a way through free space that touches what is named (`line_names`)."""
         extent = max(abs(v) for p in (way.curve.start, way.curve.end) for v in p.xy)
         clipper = FamilyClipper(
-            [*self.rails, way], self.range, max(self.roundoff, 2.0**-50 * extent), self.circles
+            RailsAndWay(self.rails, way), self.range, max(self.roundoff, 2.0**-50 * extent), self.circles
         )
         clipper._pins = ChainMap({}, self._pins)
-        clipper._balls = self._balls.copy()
+        clipper._balls = ChainMap({}, self._balls)
         arcs = [self.curve(name[1]) for name in touches if name[0] == "circle"]
         clipper._touched = {(*raw(arc.center), arc.radius_sq) for arc in arcs if isinstance(arc, Arc)}
         return clipper
