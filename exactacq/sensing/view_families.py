@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from functools import cmp_to_key, partial
 from itertools import pairwise
 from math import hypot
-from typing import Any, overload
+from typing import Any, TypeAlias, overload
 
 from flint import arb, fmpq
 
@@ -43,6 +43,10 @@ SURE = 1e-9
 """Relative margin beyond which floats decide on the range; round-off is far below."""
 BITS = 128
 """Precision of the balls that tell a short way from a long proof."""
+PINS_KEPT = 10_000
+"""Points of named lines that are remembered: those of a wide neighbourhood."""
+
+PinName: TypeAlias = "tuple[Hashable, int, int]"
 
 
 @dataclass(slots=True)
@@ -94,6 +98,31 @@ class ViewFamily:
     free_views: FreeViews | None = None
 
 
+class NamedPins:
+    """Points in which named lines meet edges, so that one that families share is made once.
+
+    What a way adds is its own. When there are `PINS_KEPT` all are forgotten: a point that is then made again
+    is recognised by its numbers.
+    """
+
+    __slots__ = ("_base", "_of")
+
+    def __init__(self, base: NamedPins | None = None) -> None:
+        self._of: dict[PinName, Pin] = {}
+        self._base = base
+
+    def get(self, name: PinName) -> Pin | None:
+        """The point of a name: of the line, the edge, and where on the line it is met."""
+        pin = self._of.get(name)
+        return pin if pin is not None or self._base is None else self._base.get(name)
+
+    def put(self, name: PinName, pin: Pin) -> None:
+        """Give a point a name."""
+        if len(self._of) >= PINS_KEPT:
+            self._of.clear()
+        self._of[name] = pin
+
+
 class RailsAndWay(Sequence[Rail]):
     """Rails by number and one more, that of a way: without a copy, as families of every way keep it."""
 
@@ -123,7 +152,7 @@ class FamilyClipper:
     ) -> None:
         self.rails, self.range, self.roundoff, self.circles = rails, range_, roundoff, circles
         self._points = LinePoints(rails)
-        self._pins: MutableMapping[tuple[Hashable, int, int], Pin] = {}
+        self._pins = NamedPins()
         self._balls: MutableMapping[int, CurveBalls] = {}
         self._touched: set[Hashable] = set()
 
@@ -133,7 +162,7 @@ class FamilyClipper:
         clipper = FamilyClipper(
             RailsAndWay(self.rails, way), self.range, max(self.roundoff, 2.0**-50 * extent), self.circles
         )
-        clipper._pins = ChainMap({}, self._pins)
+        clipper._pins = NamedPins(self._pins)
         clipper._balls = ChainMap({}, self._balls)
         arcs = [self.curve(name[1]) for name in touches if name[0] == "circle"]
         clipper._touched = {(*raw(arc.center), arc.radius_sq) for arc in arcs if isinstance(arc, Arc)}
@@ -227,10 +256,12 @@ class FamilyClipper:
             (name, side.edge, 0 if self._touches(name, side.edge) else role * sense) for name, sense in names
         ]
         for key in keys:
-            if key in self._pins:
-                return self._pins[key]
+            known = self._pins.get(key)
+            if known is not None:
+                return known
         pin = self._late_pin(sector, t, side, passed)
-        self._pins.update((key, pin) for key in keys)
+        for key in keys:
+            self._pins.put(key, pin)
         return pin
 
     def _late_pin(self, sector: Sector, t: Real, side: Side, passed: Passed) -> Pin:
