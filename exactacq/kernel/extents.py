@@ -10,7 +10,7 @@ from exactacq.kernel.family_images import CONTACT, EdgePlace, EdgePlaces, Family
 from exactacq.kernel.images import ROLLING, SLIDING
 
 SURE: Final = 1e-9
-"""Relative margin of distances; round-off is far below."""
+"""Relative margin of distances: of ten roundings at most, 2^-49 in all, in one and in its comparison."""
 
 Span = tuple[float, float]
 """Bounds of a parameter, or of an interval of parameters, in extended numbers."""

@@ -125,6 +125,7 @@ def _crossed(family: FamilyImage, way: WayImage, curves: list[CurveImage]) -> Cr
     one, other = family.first, family.last
     wx, wy = way.line.wx, way.line.wy
     a, b = meets_straight(one, way.line), meets_straight(other, way.line)
+    # Where these places are known the line is not parallel to the way, and the sign of its turn is sure.
     is_parallel = (wx * one[3] - wy * one[2] > 0.0) != (wx * other[3] - wy * other[2] > 0.0)
     if not (a[3] < inf and b[3] < inf):
         return _unknown()

@@ -14,7 +14,6 @@ from math import inf
 import numpy as np
 from flint import fmpq
 
-from exactacq import kernel
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.points import Location, Point
@@ -118,7 +117,7 @@ def _as_far_as_walls(
 
     It is where it crosses a straight edge between its ends: the contact, where it begins, is not inside.
     """
-    if kernel.EXACT_ONLY or any(isinstance(c, Real) for c in (*sector.center, *sector.base)):
+    if any(isinstance(c, Real) for c in (*sector.center, *sector.base)):
         return edges, set()
     walls: set[int] = set()
     at = line_at(sector.image, *float_ball(t))
