@@ -11,7 +11,7 @@ from strategies import build, circle_grid, square_grid
 
 import exactacq as xa
 from exactacq.files.octagons import random_octagons
-from exactacq.geometry.intersections import line_contacts
+from exactacq.geometry.intersections import line_contacts, locate
 from exactacq.geometry.points import Location, Point
 from exactacq.numbers.real import Real, fmpq
 from exactacq.scene.edge_table import EdgeTable
@@ -21,9 +21,13 @@ from exactacq.visibility.free_segment import walk_line
 HALF = fmpq(1, 2)
 COMB = [(0, 0), (9, 0), (9, 4), (8, 4), (8, 1), (6, 1), (6, 4), (4, 4), (4, 1), (2, 1), (2, 4), (0, 4)]
 MOON = xa.Outline([(12, 0, "1/2"), (16, 0, 0), (16, 3, "-3/10"), (12, 3, 0)])
+SAW = xa.Outline(
+    [(k // 2 * 2 + k % 2, -3 + k % 2, f"{(-1) ** (k // 3)}/{k % 4 + 3}" if k % 5 else 0) for k in range(16)]
+    + [(15, -4, 0), (0, -4, 0)]
+)
 ROOM = xa.Polygon([(-5, -5), (30, -5), (30, 20), (-5, 20)])
 SCENES = {
-    "comb": xa.Scene([xa.Polygon(COMB), MOON, xa.Circle((20, 2), 2)], enclosure=ROOM),
+    "comb": xa.Scene([xa.Polygon(COMB), MOON, SAW, xa.Circle((20, 2), 2)], enclosure=ROOM),
     "octagons": random_octagons(6, 3),
 }
 
@@ -45,9 +49,9 @@ def test_points_lie_where_all_edges_say(name: str) -> None:
     ]
     found = set()
     for point in [*corners, *middles, *level, *beside, *near, Point(10**30, 1), Point(1, -(10**30))]:
-        for k, obstacle in enumerate(scene.obstacles):
-            where = table.locate(k, point)
-            assert where is obstacle.locate(point)
+        for obstacle in scene.obstacles:
+            where = obstacle.locate(point)
+            assert where is locate(obstacle.edges, point)
             found.add(where)
     assert found == set(Location)
 
@@ -66,7 +70,8 @@ def test_a_walk_ends_where_the_line_enters_an_obstacle(name: str) -> None:
     table = EdgeTable(scene.obstacles)
     ended = grazed = 0
     for feature in features(table):
-        for sector, t in product(feature.sectors, (fmpq(0), HALF, fmpq(1))):
+        for sector, share in product(feature.sectors, (fmpq(0), HALF, fmpq(3, 4), fmpq(1))):
+            t = sector.low + share * (sector.high - sector.low)
             contact, direction = sector.touch(Real(t))
             for walk, sense in zip(walk_line(table, sector, Real(t), 50.0), (-1, 1), strict=True):
                 onward = direction * sense

@@ -199,11 +199,10 @@ class Knowledge:
             k, point = place
             states = self._states(k, point)
             for i in self.rng.sample(sorted(states), min(3, len(states))):
-                body = self.bodies[i]
-                lookout = lookouts.setdefault(
-                    i, Viewpoints(self.world, self.run.radius, body.curves, body.edges)
-                )
-                if (lookout.first(point) is not None) != states[i]:
+                if i not in lookouts:
+                    body = self.bodies[i]
+                    lookouts[i] = Viewpoints(self.world, self.run.radius, body.curves, body.edges)
+                if (lookouts[i].first(point) is not None) != states[i]:
                     claim = "in sight" if states[i] else "out of sight"
                     raise AuditError(
                         f"obstacle {i} is not {claim} from {place_text(point)} on piece {k}, as events say"

@@ -49,7 +49,7 @@ def check_pieces(run: Run, world: World, bodies: Sequence[AuditedBody], field: F
         elif i not in range(len(bodies)):
             raise AuditError(f"piece {k} is along obstacle {i}, which the scene does not have")
         else:
-            track = _track(bodies[i], piece.curve)
+            track = _track(world, bodies[i], piece.curve)
             if track is None:
                 raise AuditError(f"piece {k} does not lie on an edge of obstacle {i}")
         if field is not None and not (field.contains(piece.start) and field.contains(piece.end)):
@@ -69,11 +69,12 @@ def _check_straight(world: World, k: int, curve: Curve) -> None:
         raise AuditError(f"piece {k} passes through the interior of obstacle {inside} at {place_text(point)}")
 
 
-def _track(body: AuditedBody, curve: Curve) -> Track | None:
+def _track(world: World, body: AuditedBody, curve: Curve) -> Track | None:
+    near = set(world.near(curve))
     for forward in (True, False):
         walked = curve if forward else curve.reversed()
         for number, edge in zip(body.edges, body.curves, strict=True):
-            if is_part(walked, edge):
+            if number in near and is_part(walked, edge):
                 return Track(number, forward)
     return None
 

@@ -18,12 +18,10 @@ from exactacq.geometry.box_index import BoxIndex, bounds, circles, united
 from exactacq.geometry.coordinates import raw
 from exactacq.geometry.curve_images import curve_image
 from exactacq.geometry.curves import Arc, Curve, Segment
-from exactacq.geometry.intersections import locate
-from exactacq.geometry.points import Location, Point
+from exactacq.geometry.points import Point
 from exactacq.kernel import images
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.images import EdgeImages
-from exactacq.numbers.real import Real
 from exactacq.scene.scene import Obstacle
 
 Floats = NDArray[np.float64]
@@ -130,19 +128,6 @@ class EdgeTable:
             found.reverse()
         return tuple(found)
 
-    def locate(self, obstacle: int, point: Point) -> Location:
-        """Where a point lies, as `Obstacle.locate`: exactly, by the edges that its ray to the east may meet.
-
-        All others lie on one side of the ray's line or west of the point. They add nothing to the number of
-        turns that `geometry.intersections.winding` counts, and do not pass the point.
-        """
-        body, (x, dx), (y, dy) = self.obstacles[obstacle], _float_ball(point.x), _float_ball(point.y)
-        first = int(self.first[obstacle])
-        boxes = self.boxes[first : first + len(body.edges)]
-        missed = (boxes[:, 1] > y + dy) | (boxes[:, 3] < y - dy) | (boxes[:, 2] < x - dx)
-        edges = [body.edges[k] for k in np.flatnonzero(~missed).tolist()]
-        return locate(edges, point, ccw=not body.is_enclosure)
-
     def roundoff_at(self, *places: tuple[float, float]) -> float:
         """The bound for differences of the table's coordinates and places, which may lie far outside."""
         return max(self.roundoff, *(2.0**-50 * max(abs(x), abs(y)) for x, y in places))
@@ -187,14 +172,6 @@ def quotient(top: Floats | float, bottom: Floats) -> Floats:
     """
     with np.errstate(over="ignore"):
         return top / np.maximum(bottom, 1e-300)
-
-
-def _float_ball(value: Real) -> tuple[float, float]:
-    """A float near a number and a bound of its error, which counts the rounding of sums with it too."""
-    ball = value.ball(BITS)
-    middle = float(ball.mid())
-    error = 2.0 * float(ball.rad()) + 2.0**-50 * abs(middle)
-    return (middle, error) if error < np.inf else (0.0, np.inf)
 
 
 def _kind(curve: Curve) -> int:

@@ -8,6 +8,7 @@ from functools import cached_property
 from flint import fmpq
 
 from exactacq.errors import FormatError, InvalidScene, about, shown
+from exactacq.geometry.boundary_index import BoundaryIndex
 from exactacq.geometry.box_index import DIRECTIONS
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.geo import Geo, collection, feature
@@ -74,8 +75,23 @@ class Obstacle:
         return feature(self.shape.__geo_interface__, kind=kind, index=self.index, name=self.label)
 
     def locate(self, point: Point) -> Location:
-        """INSIDE if the point is strictly on the blocked side."""
-        return locate(self.edges, point, ccw=not self.is_enclosure)
+        """INSIDE if the point is strictly on the blocked side. Linear in the edges, in floats but for few."""
+        near = [self.edges[k] for k in self._index.may_be_east(point)]
+        return locate(near, point, ccw=not self.is_enclosure)
+
+    def edges_at(self, point: Point) -> tuple[int, ...]:
+        """The numbers of the edges that pass a point: none, one, or the two that meet in a vertex.
+
+        >>> import exactacq as xa
+        >>> square = xa.Scene([[(0, 0), (2, 0), (2, 2), (0, 2)]]).obstacles[0]
+        >>> square.edges_at(xa.Point(1, 0)), square.edges_at(xa.Point(2, 0)), square.edges_at(xa.Point(1, 1))
+        ((0,), (0, 1), ())
+        """
+        return tuple(k for k in self._index.may_pass(point) if self.edges[k].passes(point))
+
+    @cached_property
+    def _index(self) -> BoundaryIndex:
+        return BoundaryIndex(self.edges)
 
     def __repr__(self) -> str:
         name = f" {self.name!r}" if self.name else ""

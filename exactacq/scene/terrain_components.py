@@ -17,6 +17,7 @@ from string import ascii_lowercase
 from typing import NamedTuple
 
 from exactacq.errors import InvalidScene
+from exactacq.geometry.boundary_index import BoundaryIndex
 from exactacq.geometry.box_index import box
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Curve, Segment
@@ -70,10 +71,18 @@ class Component:
         space = " " if self.letter and self.name else ""
         return f"{self.obstacle.label}{space}{self.letter}"
 
-    @property
+    @cached_property
     def edges(self) -> tuple[Curve, ...]:
         """The curves of the shore."""
         return tuple(part.curve for part in self.shore)
+
+    def edges_at(self, point: Point) -> tuple[int, ...]:
+        """The numbers of the shore's curves that pass a point."""
+        return tuple(k for k in self._index.may_pass(point) if self.edges[k].passes(point))
+
+    @cached_property
+    def _index(self) -> BoundaryIndex:
+        return BoundaryIndex(self.edges)
 
     @cached_property
     def perimeter(self) -> Length:

@@ -48,6 +48,7 @@ class Body(Protocol):
 
     @property
     def edges(self) -> Sequence[Curve]: ...
+    def edges_at(self, point: Point) -> tuple[int, ...]: ...
     @property
     def perimeter(self) -> Length: ...
     @property
@@ -131,7 +132,7 @@ class Map:
         >>> xa.sightseer(xa.load("squares")).map.spots(0, xa.Point(-9, -9))
         ()
         """
-        targets = (self._targets.of[i][k] for k, e in enumerate(self.obstacles[i].edges) if e.passes(point))
+        targets = (self._targets.of[i][k] for k in self.obstacles[i].edges_at(point))
         return tuple((target.edge, u) for target in targets for u in self._parameters(target, point))
 
     def _parameters(self, target: Target, point: Point) -> list[Real]:

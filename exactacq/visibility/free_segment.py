@@ -54,7 +54,7 @@ def _is_free_exactly(table: EdgeTable, start: Point, end: Point, edges: Ints) ->
             if tau.sign() > 0 and tau.compare(1) < 0:
                 cuts.setdefault(int(table.owner[e]), [Real(0), Real(1)]).append(tau)
     return not any(
-        table.locate(k, start + direction * ((low + high) * HALF)) is Location.INSIDE
+        table.obstacles[k].locate(start + direction * ((low + high) * HALF)) is Location.INSIDE
         for k, values in cuts.items()
         for low, high in pairwise(sorted(values))
         if low.compare(high) != 0
@@ -176,7 +176,7 @@ def _until_blocked(
     for k, (tau, e) in enumerate([*hits, (end, -1)]):
         if (tau - previous).sign() == end.sign():
             middle = contact + direction * ((previous + tau) * HALF)
-            if any(table.locate(i, middle) is Location.INSIDE for i in met):
+            if any(table.obstacles[i].locate(middle) is Location.INSIDE for i in met):
                 return LineWalk(hits[:k], blocked=True)
             previous, met = tau, set()
         if e in walls:
