@@ -13,7 +13,7 @@ from functools import cached_property, cmp_to_key
 from itertools import pairwise
 from typing import Any, NamedTuple
 
-from flint import arb, fmpq
+from flint import arb
 from networkx.utils import UnionFind
 
 from exactacq.auditing.comparisons import (
@@ -33,6 +33,7 @@ from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.points import Location, Point
 from exactacq.numbers.precision import workprec
+from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import Real
 from exactacq.scene.scene import Obstacle
 from exactacq.strategies.run import SeedSpreaderRun
@@ -70,10 +71,12 @@ class Field:
         assert run.scene.terrain is not None
         self.run, self.world = run, world
         self.width, self.height = run.scene.terrain.width, run.scene.terrain.height
-        self.lines = [fmpq(0)]
-        while self.lines[-1] < self.width:
-            self.lines.append(min(self.lines[-1] + run.radius, self.width))
-        ends = [(fmpq(0), self.height), (self.height, fmpq(0))]
+        self.west, self.south = run.scene.terrain.origin
+        self.east, self.north = self.west + self.width, self.south + self.height
+        self.lines = [self.west]
+        while self.lines[-1] < self.east:
+            self.lines.append(min(self.lines[-1] + run.radius, self.east))
+        ends = [(self.south, self.north), (self.north, self.south)]
         corners = [Point(x, y) for j, x in enumerate(self.lines) for y in ends[j % 2]]
         self.pieces = [Segment(p, q) for p, q in pairwise(corners)]
         self.bases = [Real(0)]
@@ -203,10 +206,10 @@ class Field:
     def inward(self, *points: Point) -> list[Point]:
         """The directions into the terrain from the sides of the border that hold all of some points."""
         sides = [
-            ((p.x for p in points), fmpq(0), Point(1, 0)),
-            ((p.y for p in points), fmpq(0), Point(0, 1)),
-            ((p.x for p in points), self.width, Point(-1, 0)),
-            ((p.y for p in points), self.height, Point(0, -1)),
+            ((p.x for p in points), self.west, Point(1, 0)),
+            ((p.y for p in points), self.south, Point(0, 1)),
+            ((p.x for p in points), self.east, Point(-1, 0)),
+            ((p.y for p in points), self.north, Point(0, -1)),
         ]
         return [inward for values, limit, inward in sides if all(v.compare(limit) == 0 for v in values)]
 
@@ -224,25 +227,27 @@ class Field:
 
     def contains(self, point: Point) -> bool:
         """Whether a point lies in the closed terrain."""
-        return all(0 <= value <= limit for value, limit in zip(point, (self.width, self.height), strict=True))
+        (x, y) = point
+        is_beside = x.compare(self.west) < 0 or x.compare(self.east) > 0
+        return not (is_beside or y.compare(self.south) < 0 or y.compare(self.north) > 0)
 
     def is_well_inside(self, x: arb, y: arb) -> bool:
         """Whether balls show that a point lies in the open terrain."""
-        return bool(x > 0) and bool(y > 0) and bool(x < arb(self.width)) and bool(y < arb(self.height))
+        return bool(arb(self.west) < x < arb(self.east)) and bool(arb(self.south) < y < arb(self.north))
 
     # -- the border --------------------------------------------------------------------------------
 
     @cached_property
     def _sides(self) -> list[Segment]:
         """The border, counterclockwise from the SW corner."""
-        b, a = self.width, self.height
-        corners = [Point(0, 0), Point(b, 0), Point(b, a), Point(0, a)]
+        south, north = ([Point(x, y) for x in (self.west, self.east)] for y in (self.south, self.north))
+        corners = [*south, *reversed(north)]
         return [Segment(p, q) for p, q in zip(corners, [*corners[1:], corners[0]], strict=True)]
 
     def border_contacts(self, edge: int) -> list[tuple[int, Real, Point]]:
         """Where an edge meets the lines of the border: side, share of the side, any number, and point."""
-        x0, y0, x1, y1 = self.world.boxes[edge]
-        if x0 > 0 and y0 > 0 and x1 < float(self.width) and y1 < float(self.height):
+        x0, y0, x1, y1 = map(rational, self.world.boxes[edge].tolist())
+        if self.west < x0 and self.south < y0 and x1 < self.east and y1 < self.north:
             return []
         return [
             (k, t, side.start + side.direction * t)
@@ -459,7 +464,7 @@ def _west_of(field: Field, parts: Sequence[_EdgePart], obstacle: Obstacle) -> Ha
             points += [west] if edge.contains(west) else []
     point = min(points, key=lambda p: p.x)
     met: int | None = None
-    far = point.x
+    far: Real = point.x - field.west
     for e, edge in enumerate(field.world.edges):
         for t in line_contacts(point, Point(-1, 0), edge):
             if 0 < t < far:

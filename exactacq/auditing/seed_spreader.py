@@ -78,7 +78,7 @@ class Replay:
 
     def check(self) -> None:
         """Follow the M-line to its end, or to where the run is trapped."""
-        if not same(self.here, Point(0, 0)):
+        if not same(self.here, self.field.pieces[0].start):
             raise AuditError(f"the run starts at {place_text(self.here)}, not in the SW corner")
         trapped = False
         while self.upcoming.kind is not EventKind.STOP:

@@ -120,7 +120,7 @@ def _document(
         "name": name,
         "start": None if start is None else list(start),
         "radius": radius,
-        "terrain": None if terrain is None else {"width": terrain.width, "height": terrain.height},
+        "terrain": None if terrain is None else _terrain(terrain),
         "enclosure": None if enclosure is None else _described(enclosure),
         "obstacles": [_described(shape) for shape in shapes],
         "notes": list(notes) or None,
@@ -128,6 +128,12 @@ def _document(
     if enclosure is not None and list(document["enclosure"]) == ["boundary"]:
         document["enclosure"] = document["enclosure"]["boundary"]
     return {key: value for key, value in document.items() if value is not None}
+
+
+def _terrain(terrain: Terrain) -> dict[str, Any]:
+    """Its sides, and the origin unless that is that of the coordinates."""
+    document: dict[str, Any] = {"width": terrain.width, "height": terrain.height}
+    return document | ({"origin": list(terrain.origin)} if any(terrain.origin) else {})
 
 
 def _described(shape: Shape) -> dict[str, Any]:
@@ -197,8 +203,10 @@ def _scene_parts(document: Any) -> dict[str, Any]:
     if (radius := document.get("radius")) is not None:
         parts["radius"] = _number(radius, "radius")
     if (terrain := document.get("terrain")) is not None:
-        _keys(terrain, "terrain", ("width", "height"), required=("width", "height"))
-        parts["terrain"] = Terrain(*(_number(terrain[k], f"terrain.{k}") for k in ("width", "height")))
+        _keys(terrain, "terrain", ("width", "height", "origin"), required=("width", "height"))
+        width, height = (_number(terrain[k], f"terrain.{k}") for k in ("width", "height"))
+        origin = (0, 0) if "origin" not in terrain else _numbers(terrain["origin"], "terrain.origin", (2,))
+        parts["terrain"] = Terrain(width, height, origin)
     if (wall := document.get("enclosure")) is not None:
         shape = {"boundary": wall} if isinstance(wall, list) else wall
         parts["enclosure"] = _shape(shape, "enclosure")

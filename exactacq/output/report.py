@@ -97,7 +97,9 @@ def scene_report(scene: Scene) -> RenderableType:
         "radius": _rational(scene.radius) if scene.radius is not None else "none: give one with --radius R",
     }
     if scene.terrain is not None:
-        rows["terrain"] = f"{_rational(scene.terrain.width)} x {_rational(scene.terrain.height)}"
+        terrain = scene.terrain
+        from_corner = f", from {_place(terrain.south_west)}" if any(terrain.origin) else ""
+        rows["terrain"] = f"{_rational(terrain.width)} x {_rational(terrain.height)}{from_corner}"
     for row in rows.items():
         table.add_row(*row)
     return Group(Text(f"{scene.name or 'scene'}: OK", style="bold"), table, *_notes(scene))

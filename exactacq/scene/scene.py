@@ -248,9 +248,8 @@ def _shape(part: str, value: Shape | Corners) -> Shape:
 
 
 def _strictly_inside(edge: Curve, terrain: Terrain) -> bool:
-    """Whether 0 < x < width and 0 < y < height on the whole edge."""
-    walls = (Real(0), Real(0), Real(terrain.width), Real(terrain.height))
-    for wall, (x, y) in zip(walls, DIRECTIONS, strict=True):
+    """Whether the whole edge lies strictly between the terrain's limits."""
+    for wall, (x, y) in zip(map(Real, terrain.limits), DIRECTIONS, strict=True):
         sign = x + y
         for point in (edge.start, edge.end):
             if sign * (point.x if x else point.y).compare(wall) >= 0:

@@ -135,32 +135,70 @@ class Circle:
 Shape: TypeAlias = "Loop | Circle"
 
 
-@dataclass(frozen=True, slots=True, init=False)
+@dataclass(frozen=True, slots=True, init=False, repr=False)
 class Terrain:
-    """The rectangle [0, width] x [0, height] that the Seed Spreader sweeps; both sides are positive.
+    """The rectangle that the Seed Spreader sweeps: *origin* is its SW corner, both sides are positive.
 
     Raises `FormatError` for what are no numbers; their signs are asked by `Scene`.
 
-    >>> Terrain(8, "13/2")
-    Terrain(width=8, height=13/2)
-    >>> Terrain(2, 1).__geo_interface__["coordinates"]
-    (((0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0), (0.0, 0.0)),)
+    >>> Terrain(8, "13/2"), Terrain(8, 5, origin=(-1, "1/2"))
+    (Terrain(width=8, height=13/2), Terrain(width=8, height=5, origin=(-1, 1/2)))
+    >>> Terrain(2, 1, (5, 5)).__geo_interface__["coordinates"]
+    (((5.0, 5.0), (7.0, 5.0), (7.0, 6.0), (5.0, 6.0), (5.0, 5.0)),)
     """
 
     width: fmpq
     height: fmpq
+    origin: tuple[fmpq, fmpq]
 
-    def __init__(self, width: object, height: object) -> None:
+    def __init__(self, width: object, height: object, origin: Point | Iterable[object] = (0, 0)) -> None:
         with about("width"):
             object.__setattr__(self, "width", rational(width))
         with about("height"):
             object.__setattr__(self, "height", rational(height))
+        with about("origin"):
+            pair = Point.of(origin).rational  # type: ignore[arg-type]
+            if pair is None:
+                raise FormatError(f"{shown(origin)} is not rational: give two rational numbers")
+            object.__setattr__(self, "origin", pair)
+
+    @property
+    def south_west(self) -> Point:
+        """The SW corner, where the Seed Spreader starts.
+
+        >>> Terrain(8, 5, origin=(-1, 2)).south_west
+        Point(-1, 2)
+        """
+        return Point(*self.origin)
+
+    @property
+    def limits(self) -> tuple[fmpq, fmpq, fmpq, fmpq]:
+        """The least and the greatest coordinates: west, south, east, north.
+
+        >>> print(*Terrain(8, 5, origin=(-1, 2)).limits)
+        -1 2 7 7
+        """
+        (x, y) = self.origin
+        return x, y, x + self.width, y + self.height
+
+    @property
+    def corners(self) -> tuple[Point, Point, Point, Point]:
+        """The corners, counterclockwise from the SW one.
+
+        >>> Terrain(8, 5).corners[2]
+        Point(8, 5)
+        """
+        west, south, east, north = self.limits
+        return Point(west, south), Point(east, south), Point(east, north), Point(west, north)
 
     @property
     def __geo_interface__(self) -> Geo:
         """A GeoJSON Polygon, counterclockwise from the SW corner."""
-        width, height = self.width, self.height
-        return Polygon([(0, 0), (width, 0), (width, height), (0, height)]).__geo_interface__
+        return Polygon(self.corners).__geo_interface__
+
+    def __repr__(self) -> str:
+        origin = f", origin=({self.origin[0]}, {self.origin[1]})" if any(self.origin) else ""
+        return f"Terrain(width={self.width}, height={self.height}{origin})"
 
 
 def rational_pair(pair: Iterable[object]) -> tuple[fmpq, fmpq]:

@@ -26,6 +26,7 @@ from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.points import Location, Point
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.length import Length
+from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import Real
 from exactacq.scene.scene import Obstacle, Scene
 from exactacq.scene.shapes import Terrain
@@ -152,10 +153,11 @@ def ground_of(scene: Scene) -> Ground:
     """
     if scene.terrain is None:
         raise InvalidScene(["the Seed Spreader needs a terrain: a rectangle with width and height"])
+    corner = scene.terrain.south_west
     flaws = [
-        f"obstacle {obstacle.index} covers the SW corner (0, 0), where the Seed Spreader starts"
+        f"obstacle {obstacle.index} covers the SW corner {corner}, where the Seed Spreader starts"
         for obstacle in scene.obstacles
-        if not obstacle.is_enclosure and obstacle.locate(Point(0, 0)) is not Location.OUTSIDE
+        if not obstacle.is_enclosure and obstacle.locate(corner) is not Location.OUTSIDE
     ]
     if scene.enclosure is not None:
         flaws.append("the Seed Spreader's terrain is a rectangle: an enclosure cannot be explored")
@@ -176,9 +178,18 @@ class _Where(Enum):
 
 def sides(terrain: Terrain) -> list[Segment]:
     """The border, counterclockwise from the SW corner: south, east, north, west."""
-    b, a = terrain.width, terrain.height
-    corners = [Point(0, 0), Point(b, 0), Point(b, a), Point(0, a)]
+    corners = terrain.corners
     return [Segment(p, q) for p, q in zip(corners, [*corners[1:], corners[0]], strict=True)]
+
+
+def lies_inside(edge: Curve, terrain: Terrain) -> bool:
+    """Whether floats show that an edge lies strictly inside the terrain.
+
+    Boxes are rounded outward, and compared with the exact limits.
+    """
+    left, bottom, right, top = map(rational, box(edge))
+    west, south, east, north = terrain.limits
+    return bool(west < left and south < bottom and right < east and top < north)
 
 
 def _letter(owners: Sequence[int], k: int) -> str:
@@ -210,8 +221,7 @@ def _shores(obstacle: Obstacle, terrain: Terrain) -> Iterator[tuple[Shore, bool]
 def _pieces(k: int, edge: Curve, terrain: Terrain) -> Iterator[Part | None]:
     """The parts of an edge inside the terrain in its direction, with None for what lies between them."""
     rail = Rail(edge)
-    left, bottom, right, top = box(edge)
-    if left > 0 and bottom > 0 and right < float(terrain.width) and top < float(terrain.height):
+    if lies_inside(edge, terrain):
         yield Part(k, Interval.whole(rail), edge, True)
         return
     cuts = [(Real(0), edge.start), (rail.top, edge.end)]
@@ -238,13 +248,10 @@ def _part(k: int, rail: Rail, begin: tuple[Real, Point], end: tuple[Real, Point]
 
 
 def _where(point: Point, terrain: Terrain) -> _Where:
-    sides_of = [
-        value.compare(limit) * sign
-        for value, limit, sign in (
-            (point.x, 0, 1), (point.y, 0, 1), (point.x, terrain.width, -1), (point.y, terrain.height, -1),
-        )
-    ]  # fmt: skip
-    return _Where(min(sides_of))
+    west, south, east, north = terrain.limits
+    return _Where(
+        min(point.x.compare(west), point.y.compare(south), -point.x.compare(east), -point.y.compare(north))
+    )
 
 
 class _BorderCircle:

@@ -32,6 +32,7 @@ from exactacq.numbers.length import Length
 from exactacq.output.figures.sweep import SweptTerrain, window
 from exactacq.output.regions import Region
 from exactacq.scene.scene import Scene
+from exactacq.scene.shapes import Terrain
 from exactacq.sensing.event import Event, EventKind
 from exactacq.strategies.run import Run, SightseerRun
 
@@ -200,7 +201,7 @@ def _data(run: Run, frames: Iterable[Frame]) -> dict[str, Any]:
         "left_out": [len(shown), count] if len(shown) < count else None,
         "scale": paper.scale,
         "box": paper.box,
-        "terrain": None if terrain is None else paper.rectangle(float(terrain.width), float(terrain.height)),
+        "terrain": None if terrain is None else paper.rectangle(terrain),
         "obstacles": [
             _obstacle(paper, run, number, region, acquired.get(number))
             for number, region in enumerate(_regions(run, sweep))
@@ -289,9 +290,14 @@ class Paper:
         """A length on the page."""
         return _rounded(value * self.scale)
 
-    def rectangle(self, width: float, height: float) -> list[float]:
-        """Left, top, width and height of a rectangle that stands on the origin."""
-        return [*self.point((0, height)), self.length(width), self.length(height)]
+    def rectangle(self, terrain: Terrain) -> list[float]:
+        """Left, top, width and height of a terrain."""
+        west, _, _, north = map(float, terrain.limits)
+        return [
+            *self.point((west, north)),
+            self.length(float(terrain.width)),
+            self.length(float(terrain.height)),
+        ]
 
     def line(self, curves: Iterable[Curve]) -> str:
         """SVG path data of curves; those that meet are drawn in one go."""

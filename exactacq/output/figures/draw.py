@@ -315,7 +315,8 @@ class _Canvas:
         axes.set_facecolor("#fdfdfc")
         if terrain is not None:
             size = float(terrain.width), float(terrain.height)
-            axes.add_patch(Rectangle((0, 0), *size, fill=False, edgecolor=SOFT, linewidth=0.8, zorder=0.6))
+            corner = terrain.south_west.xy
+            axes.add_patch(Rectangle(corner, *size, fill=False, edgecolor=SOFT, linewidth=0.8, zorder=0.6))
 
     def _obstacles(self) -> None:
         for obstacle, region in zip(self.scene.obstacles, self.regions, strict=True):

@@ -89,9 +89,10 @@ def window(scene: Scene, corners: Sequence[Floats], radius: float, swept: bool) 
     radius. Raises `FormatError` for a scene that is `FINEST` times its distance from the origin or less.
     """
     if scene.terrain is not None:
-        size = np.array([float(scene.terrain.width), float(scene.terrain.height)])
-        slack = BEYOND * size.max() if swept else np.inf
-        corners = [np.zeros(2), size, *(np.clip(corner, -slack, size + slack) for corner in corners)]
+        west, south, east, north = map(float, scene.terrain.limits)
+        first, last = np.array([west, south]), np.array([east, north])
+        slack = BEYOND * (last - first).max() if swept else np.inf
+        corners = [first, last, *(np.clip(corner, first - slack, last + slack) for corner in corners)]
     corners = corners or [np.zeros(2)]
     low, high = np.min(corners, axis=0), np.max(corners, axis=0)
     if not (high - low).any():
@@ -111,7 +112,7 @@ def _around(component: Component, terrain: Terrain) -> Iterator[Stroke]:
     if component.closed:
         yield from (curve.stroke() for shore in shores for curve in shore)
         return
-    border = _BorderLength(float(terrain.width), float(terrain.height))
+    border = _BorderLength(terrain)
     left, shore = shores[1:], shores[0]
     while True:
         yield from (curve.stroke() for curve in shore)
@@ -127,16 +128,20 @@ def _around(component: Component, terrain: Terrain) -> Iterator[Stroke]:
 class _BorderLength:
     """The border counterclockwise from the SW corner, by its length."""
 
-    def __init__(self, width: float, height: float) -> None:
-        self.corners: list[Spot] = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)]
+    def __init__(self, terrain: Terrain) -> None:
+        west, south, east, north = map(float, terrain.limits)
+        self.limits = west, south, east, north
+        self.corners: list[Spot] = [(west, south), (east, south), (east, north), (west, north)]
+        width, height = east - west, north - south
         self.marks = [0.0, width, width + height, 2 * width + height]
         self.length = 2 * (width + height)
 
     def at(self, spot: Spot) -> float:
         """The length of the border from the SW corner to a spot on it."""
-        (x, y), (width, height) = spot, self.corners[2]
-        gaps = [abs(y), abs(x - width), abs(y - height), abs(x)]
-        on = [x, width + y, 2 * width + height - x, self.length - y]
+        (x, y), (west, south, east, north) = spot, self.limits
+        gaps = [abs(y - south), abs(x - east), abs(y - north), abs(x - west)]
+        _, first, second, third = self.marks
+        on = [x - west, first + y - south, second + east - x, third + north - y]
         return on[int(np.argmin(gaps))]
 
     def ahead(self, spot: Spot, other: Spot) -> float:

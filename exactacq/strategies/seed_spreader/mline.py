@@ -3,8 +3,8 @@
 It consists of lines from south to north, joined along the terrain's border.
 
 The strips between them are w = min(R, B) wide, the last one perhaps narrower, where B is the terrain's
-width. The lines lie at x_j = min(j w, B), j = 0..r with r = ceil(B / R), and are walked north for even j
-and south for odd j.
+width. The lines lie at x_j = min(j w, B) from the terrain's west side, j = 0..r with r = ceil(B / R), and
+are walked north for even j and south for odd j.
 """
 
 from __future__ import annotations
@@ -47,13 +47,16 @@ class MLine:
     """
 
     def __init__(self, terrain: Terrain, radius: fmpq) -> None:
-        b, a = terrain.width, terrain.height
+        b = terrain.width
         if b / radius > MOST_STRIPS:
             raise InvalidScene([f"the terrain is more than {MOST_STRIPS} times as wide as the radius"])
         self.terrain, self.width = terrain, min(radius, b)
         self.strips = int((b / radius).ceil())
-        self.lines = [min(j * self.width, b) for j in range(self.strips + 1)]
-        corners = [Point(x, a if (j + k) % 2 else 0) for j, x in enumerate(self.lines) for k in (0, 1)]
+        west, south, _, north = terrain.limits
+        self.lines = [west + min(j * self.width, b) for j in range(self.strips + 1)]
+        corners = [
+            Point(x, north if (j + k) % 2 else south) for j, x in enumerate(self.lines) for k in (0, 1)
+        ]
         self.pieces = [Segment(p, q) for p, q in pairwise(corners)]
 
     @property
@@ -63,7 +66,7 @@ class MLine:
 
     def strip(self, component: Component) -> int:
         """The number j = 1..r of the strip that a component lies in that does not cross the M-line."""
-        left = min((leftmost(curve) for curve in component.edges), default=Real(0))
+        left = min((leftmost(curve) for curve in component.edges), default=Real(self.lines[0]))
         return sum(left.compare(x) >= 0 for x in self.lines[:-1])
 
     @staticmethod

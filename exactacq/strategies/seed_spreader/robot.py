@@ -60,8 +60,9 @@ class SeedSpreaderRobot(Robot):
         self._spots: dict[int, Spots] = {}
         self._next = self.piece = self._passed_by = 0
         self._gaps: list[Gap] = []
-        self._bases, self._passed = (Point(0, 0), Point(0, 0)), 0
-        super().__init__(Point(0, 0), Memory(scene, radius, table, ground))
+        start = ground.terrain.south_west
+        self._bases, self._passed = (start, start), 0
+        super().__init__(start, Memory(scene, radius, table, ground))
 
     # -- the map -----------------------------------------------------------------------------------
 

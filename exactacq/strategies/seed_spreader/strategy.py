@@ -61,9 +61,12 @@ def seed_spreader(
     6*pi + 36 (0, 1)
     """
     choice = TargetChoice(target)
-    reach = radius_of(scene, radius, Point(0, 0))
-    if scene.start is not None and scene.start != Point(0, 0):
-        raise InvalidScene([f"the start {scene.start} is not the terrain's SW corner (0, 0)"])
+    if scene.terrain is None:
+        raise InvalidScene(["the Seed Spreader needs a terrain: a rectangle with width and height"])
+    corner = scene.terrain.south_west
+    reach = radius_of(scene, radius, corner)
+    if scene.start is not None and scene.start != corner:
+        raise InvalidScene([f"the start {scene.start} is not the terrain's SW corner {corner}"])
     ground = ground_of(scene)
     return _Spreader(SeedSpreaderRobot(scene, ground, reach), lookahead, choice, progress).run(scene, ground)
 

@@ -30,7 +30,7 @@ class Seat(NamedTuple):
 
 @dataclass(frozen=True)
 class Draft:
-    """Shapes, the radius of vision, a start or the seat of one, and the terrain's width and height.
+    """Shapes, the radius of vision, a start or the seat of one, and the terrain's sides and SW corner.
 
     A start that sits on a boundary goes where the boundary goes. A draft may break the rules of scenes:
     `scene` finds out.
@@ -41,6 +41,7 @@ class Draft:
     start: Pair | None = None
     seat: Seat | None = None
     size: Pair | None = None
+    origin: Pair = (fmpq(0), fmpq(0))
 
     @classmethod
     def of(cls, scene: Scene) -> Draft:
@@ -50,18 +51,21 @@ class Draft:
         if scene.enclosure is not None:
             raise FormatError("the scene has an enclosure: scenes are searched without")
         start = None if scene.start is None else scene.start.rational
-        size = None if scene.terrain is None else (scene.terrain.width, scene.terrain.height)
-        seat = None if start is None or size is not None else _seat(scene.shapes, start)
-        return cls(scene.shapes, scene.radius, start if seat is None else None, seat, size)
+        terrain = scene.terrain
+        seat = None if start is None or terrain is not None else _seat(scene.shapes, start)
+        draft = cls(scene.shapes, scene.radius, start if seat is None else None, seat)
+        if terrain is None:
+            return draft
+        return replace(draft, size=(terrain.width, terrain.height), origin=terrain.origin)
 
     def scene(self, name: str | None = None) -> Scene:
         """The scene; `InvalidScene` if it breaks a rule."""
-        terrain = None if self.size is None else Terrain(*self.size)
+        terrain = None if self.size is None else Terrain(*self.size, self.origin)
         return Scene(self.shapes, self.place, terrain=terrain, radius=self.radius, name=name)
 
     def text(self, name: str | None = None) -> str:
         """The scene file of a draft, valid or not, as `exactacq.load` reads it."""
-        terrain = None if self.size is None else Terrain(*self.size)
+        terrain = None if self.size is None else Terrain(*self.size, self.origin)
         return scene_text(self.shapes, self.place, self.radius, terrain, name)
 
     @property
@@ -139,7 +143,8 @@ class Draft:
         start = self.start and (change(-1, "x", self.start[0]), change(-1, "y", self.start[1]))
         seat = self.seat and self.seat._replace(share=change(-1, "share", self.seat.share))
         size = self.size and (change(-1, "width", self.size[0]), change(-1, "height", self.size[1]))
-        return Draft(shapes, change(-1, "radius", self.radius), start, seat, size)
+        radius = change(-1, "radius", self.radius)
+        return Draft(shapes, radius, start, seat, size, self.origin)
 
 
 def corners(shape: Shape) -> list[Pair]:
