@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from exactacq.errors import ExactacqError, FormatError, InvalidScene
+from exactacq.errors import AuditError, ExactacqError, FormatError, InvalidScene, Undecided
 from exactacq.strategies.options import Strategy, TargetChoice
 from exactacq.study.campaign.command import verify
 from exactacq.study.search.command import search
@@ -27,8 +27,9 @@ if TYPE_CHECKING:
     from exactacq.scene.scene import Scene
     from exactacq.strategies.run import Run
 
-REFUSED, INTERNAL, INTERRUPTED = 2, 1, 130
-"""Exit statuses: bad input or a file that cannot be written; a fault of exactacq itself; control-C."""
+REFUSED, INTERNAL, UNDECIDED, INTERRUPTED = 2, 1, 3, 130
+"""Exit statuses: bad input, a file that cannot be written or a failed audit; a fault of exactacq itself; a
+comparison beyond its limits; control-C."""
 VIOLATIONS = 8
 """Most violations of a scene that the one line of an error names."""
 UsageError: type[Exception] = typer.BadParameter.__bases__[0]
@@ -116,7 +117,10 @@ def explore(
     tolerance: Tolerance = None,
     union: Union = False,
 ) -> None:
-    """Explore a scene; print a summary, or write the figure and the exact trace."""
+    """Explore a scene; print a summary, or write the figure and the exact trace.
+
+    Where a comparison stays undecided, all that is done for the run up to there, and the exit status is 3.
+    """
     from exactacq.files.whole_files import FIGURES, PAGES, TRACES, check_output, write_whole
     from exactacq.output.report import console, run_report
 
@@ -131,7 +135,13 @@ def explore(
     world = _scene(scene, start, layers, outer, tolerance, union, terrain)
     if range_ is None and world.radius is None:
         raise FormatError(f"{scene}: the scene has no radius of vision: give one with --radius R")
-    run = _explored(world, range_, strategy, lookahead, target)
+    trouble: ExactacqError | None = None
+    try:
+        run = _explored(world, range_, strategy, lookahead, target)
+    except Undecided as error:
+        if error.run is None:
+            raise
+        run, trouble = error.run, error
     if figure is not None:
         from exactacq.output.figures import save
 
@@ -143,24 +153,35 @@ def explore(
         from exactacq.output.animation.page import frames_of, page
 
         write_whole(animate, page(run, frames_of(run)).encode())
-    if check_run:
-        from exactacq.auditing.audit import audit
-
-        audit(run)
+    if check_run and trouble is None:
+        trouble = _audited(run)
     if as_json or trace is not None:
         text = json.dumps(run.to_json(), indent=1, ensure_ascii=False) + "\n"
         if trace is not None:
             write_whole(trace, text.encode())
         if as_json:
             sys.stdout.write(text)
-            return
-    out = console()
-    out.print(run_report(run))
-    if check_run:
-        out.print("audit passed")
-    for name, path in (("figure", figure), ("page", animate), ("trace", trace)):
-        if path is not None:
-            out.print(f"{name} written to {path}", soft_wrap=True)
+    if not as_json:
+        out = console()
+        out.print(run_report(run))
+        if check_run and trouble is None:
+            out.print("audit passed")
+        for name, path in (("figure", figure), ("page", animate), ("trace", trace)):
+            if path is not None:
+                out.print(f"{name} written to {path}", soft_wrap=True)
+    if trouble is not None:
+        raise trouble
+
+
+def _audited(run: Run) -> ExactacqError | None:
+    """What the audit has found, if anything: it is told after the report."""
+    from exactacq.auditing.audit import audit
+
+    try:
+        audit(run)
+    except (AuditError, Undecided) as error:
+        return error
+    return None
 
 
 @app.command()
@@ -403,6 +424,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except (BrokenPipeError, SystemExit):  # The reader has seen enough; spare the interpreter its own flush.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return REFUSED
+    except Undecided as error:
+        return _refuse(_one_line(error), UNDECIDED)
     except (ExactacqError, UsageError, OSError) as error:
         return _refuse(_one_line(error), REFUSED)
     except Exception as error:

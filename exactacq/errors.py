@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from reprlib import repr as short
+from typing import Any
 
 
 class ExactacqError(Exception):
@@ -46,12 +47,45 @@ class FormatError(ExactacqError, ValueError):
 class Undecided(ExactacqError, ArithmeticError):
     """An exact comparison is beyond the library's limits; the message names it. It is never guessed.
 
+    ``comparison`` says what is compared. Where a strategy could not go on, ``run`` is the run up to there, a
+    `Run` like any other whose ``ending`` is `Ending.UNDECIDED`, ``place`` is where the robot stands, and
+    ``obstacle`` the number of the obstacle at which it is. All three are None elsewhere.
+
     >>> import exactacq as xa
     >>> circle = xa.Length.turns(1)
     >>> circle / xa.Length(3) == circle * 2 / xa.Length(6)
     Traceback (most recent call last):
     exactacq.errors.Undecided: two quotients of irrational lengths that may be equal
     """
+
+    def __init__(self, comparison: str = "", run: Any = None) -> None:
+        self.comparison, self.run = comparison, run
+        super().__init__(comparison if run is None else f"{_so_far(run)}: {comparison}; {CURE}")
+
+    @property
+    def place(self) -> Any:
+        """Where the robot stands."""
+        return None if self.run is None else self.run.events[-1].point
+
+    @property
+    def obstacle(self) -> int | None:
+        """At which obstacle it is."""
+        return None if self.run is None else self.run.events[-1].obstacle
+
+    def __reduce__(self) -> tuple[type[Undecided], tuple[str, Any]]:
+        return type(self), (self.comparison, self.run)
+
+
+CURE = "a start or a radius close by may decide it"
+"""What to try where a run is undecided: ties are exact, so the least change ends them."""
+
+
+def _so_far(run: Any) -> str:
+    """Where a run was given up."""
+    stop = run.events[-1]
+    x, y = stop.point.xy
+    at = "" if stop.obstacle is None else f" on {list(run.names())[stop.obstacle]}"
+    return f"undecided after {float(run.length):.6g} of the path, at ({x:.6g}, {y:.6g}){at}"
 
 
 class AuditError(ExactacqError, AssertionError):

@@ -46,6 +46,8 @@ def audit(run: Run, *, samples: int = 64, seed: int = 0) -> None:
     """
     if not isinstance(run, SightseerRun | SeedSpreaderRun):
         raise ValueError(f"no audit for a {type(run).__name__}")
+    if run.ending is Ending.UNDECIDED:
+        raise ValueError("no audit for a run that was given up: its strategy did not end")
     rng = Random(seed)
     world, field = World(run.scene), None
     if isinstance(run, SeedSpreaderRun):

@@ -17,6 +17,7 @@ from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
 from exactacq.scene.scene import Scene
+from exactacq.sensing.event import Ending
 from exactacq.strategies.bounds import census
 from exactacq.strategies.run import Run, SeedSpreaderRun, SightseerRun
 
@@ -52,6 +53,8 @@ def run_report(run: Run) -> RenderableType:
         parts += [_links(run, names), ""] if isinstance(run, SightseerRun) else []
         parts.append(_listed("order of visits", (names[k] for k in run.visits), " → "))
     parts.append(Text.assemble("length  ", ("  ".join(readable(run.length, CLOSED_FORM, 20)), "bold")))
+    if run.ending is Ending.UNDECIDED:
+        parts.append(f"given up at {_place(run.events[-1].point)}: a comparison is undecided")
     if run.bounds:
         parts += ["", _bounds(run)]
     return Group(*parts, *_missed(run, names), *_notes(run.scene))

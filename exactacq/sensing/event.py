@@ -102,6 +102,8 @@ class Ending(StrEnum):
     """An obstacle that blocks the M-line leaves no way on to T."""
     WAY_CLOSED = "way closed"
     """An obstacle closes the straight way of a diversion."""
+    UNDECIDED = "undecided"
+    """A comparison is beyond the library's limits: the run was given up (see `exactacq.Undecided`)."""
 
     @property
     def is_early(self) -> bool:
@@ -129,6 +131,7 @@ _ENDED = {
     Ending.END_OF_M_LINE: "the end of the M-line is reached",
     Ending.TRAPPED: "the start or the end of the M-line is trapped in {obstacle}",
     Ending.WAY_CLOSED: "{obstacle} closes the straight way",
+    Ending.UNDECIDED: "given up: a comparison is undecided",
 }
 
 

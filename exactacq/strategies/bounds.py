@@ -15,6 +15,7 @@ from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.scene import Scene
 from exactacq.scene.terrain_components import Ground
+from exactacq.sensing.event import Ending
 from exactacq.strategies.run import Bound, SeedSpreaderRun, SightseerRun
 from exactacq.strategies.seed_spreader.blocked import Blocking
 from exactacq.strategies.seed_spreader.mline import MLine
@@ -25,7 +26,9 @@ AnyRun = TypeVar("AnyRun", SightseerRun, SeedSpreaderRun)
 
 
 def with_bounds(run: AnyRun) -> AnyRun:
-    """A run with the bounds of its strategy."""
+    """A run with the bounds of its strategy; they do not speak of one that was given up."""
+    if run.ending is Ending.UNDECIDED:
+        return run
     bounds = sightseer_bounds(run) if isinstance(run, SightseerRun) else spreader_bounds(run)
     return replace(run, bounds=bounds)
 

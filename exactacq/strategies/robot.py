@@ -15,7 +15,7 @@ from exactacq.geometry.curves import Curve
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.scene.boundary_walk import Boundary
-from exactacq.sensing.event import Event, EventKind
+from exactacq.sensing.event import Ending, Event, EventKind
 from exactacq.sensing.memory import Memory, Report
 from exactacq.sensing.path import Path, Piece
 from exactacq.visibility.links import START, Node
@@ -79,8 +79,15 @@ class Robot:
 
     def _move(self, piece: Piece) -> None:
         """Walk a piece of the path and sense along it."""
+        reports = self._memory.walk(piece)
         self._pieces.append(piece)
-        self._write(self._memory.walk(piece))
+        self._write(reports)
+
+    def give_up(self) -> None:
+        """Stop where the last piece that could be sensed ends, as a comparison is undecided."""
+        self.position = self._pieces[-1].end if self._pieces else self.start
+        at = self._pieces[-1].obstacle if self._pieces else None
+        self.mark(EventKind.STOP, at, ending=Ending.UNDECIDED)
 
     # -- the trace ---------------------------------------------------------------------------------
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cmp_to_key
 
-from exactacq.errors import InvalidScene
+from exactacq.errors import InvalidScene, Undecided
 from exactacq.geometry.points import Point, distance_sq
 from exactacq.scene.scene import Scene, radius_of
 from exactacq.scene.terrain_components import Ground, ground_of
@@ -82,6 +82,15 @@ class _Spreader:
         self.line: Line | None = None
 
     def run(self, scene: Scene, ground: Ground) -> SeedSpreaderRun:
+        """The run; where it is undecided, `Undecided` with the run so far."""
+        try:
+            self._explore()
+        except Undecided as error:
+            self.robot.give_up()
+            raise Undecided(error.comparison, self._finished(scene, ground)) from error
+        return with_bounds(self._finished(scene, ground))
+
+    def _explore(self) -> None:
         """Steps 0 to 3 of the paper; comments give their numbers."""
         robot = self.robot
         try:
@@ -94,7 +103,6 @@ class _Spreader:
             robot.mark(EventKind.STOP, None, ending=Ending.END_OF_M_LINE)  # 1(a)
         except _Stuck as stuck:
             robot.mark(EventKind.STOP, stuck.obstacle, ending=stuck.ending)
-        return self._finished(scene, ground)
 
     # -- step 1: along the M-line ------------------------------------------------------------------
 
@@ -210,7 +218,7 @@ class _Spreader:
             set(robot.map.seen),
             set(robot.map.incomplete),
         )
-        run = SeedSpreaderRun(
+        return SeedSpreaderRun(
             scene=scene,
             radius=robot.radius,
             start=robot.start,
@@ -228,4 +236,3 @@ class _Spreader:
             again=tuple(self.again),
             unreached=tuple(sorted({c.obstacle.index for c in ground.unreached})),
         )
-        return with_bounds(run)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cmp_to_key
 
-from exactacq.errors import InvalidScene
+from exactacq.errors import InvalidScene, Undecided
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.scene.scene import Scene, radius_of, start_of
@@ -74,6 +74,15 @@ class _Sightseer:
         self.depth = 0
 
     def run(self, scene: Scene) -> SightseerRun:
+        """The run; where it is undecided, `Undecided` with the run so far."""
+        try:
+            self._explore()
+        except Undecided as error:
+            self.robot.give_up()
+            raise Undecided(error.comparison, self._finished(scene)) from error
+        return with_bounds(self._finished(scene))
+
+    def _explore(self) -> None:
         """Steps 0 to 4 of the paper; comments give their numbers."""
         robot = self.robot
         while True:
@@ -86,7 +95,6 @@ class _Sightseer:
                 self._backtrack()  # 2
         at = robot.at if isinstance(robot.at, int) else None
         robot.mark(EventKind.STOP, at, ending=self._ending())
-        return self._finished(scene)
 
     def _advance(self, link: Link) -> None:
         robot = self.robot
@@ -140,7 +148,7 @@ class _Sightseer:
         robot = self.robot
         path, events, record = robot.trace()
         unvisited, unseen = robot.unvisited()
-        run = SightseerRun(
+        return SightseerRun(
             scene=scene,
             radius=robot.radius,
             start=robot.start,
@@ -154,4 +162,3 @@ class _Sightseer:
             links=tuple(self.tree.values()),
             stack_depth=self.depth,
         )
-        return with_bounds(run)

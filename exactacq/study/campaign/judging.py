@@ -151,7 +151,9 @@ def _finding(check: Callable[[Case], Finding], case: Case) -> tuple[str, Finding
     return finding.outcome.name.lower(), finding
 
 
-def _words(error: Exception) -> str:
-    """The error's kind and message, and where it was raised."""
+def _words(error: BaseException) -> str:
+    """The error's kind and message, and where it was first raised."""
+    while error.__cause__ is not None:
+        error = error.__cause__
     frame = traceback.extract_tb(error.__traceback__)[-1]
     return f"{type(error).__name__}: {error} (in {frame.name})"

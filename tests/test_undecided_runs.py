@@ -1,0 +1,104 @@
+"""A run that is undecided is not lost: the error carries it up to there, and the command line tells it."""
+
+from __future__ import annotations
+
+import pickle
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import exactacq as xa
+from exactacq import cli
+from exactacq.auditing import audit as auditing
+from exactacq.sensing.event import Ending
+from exactacq.sensing.memory import Memory
+
+STRATEGIES: dict[str, tuple[Callable[..., Any], str]] = {
+    "sightseer": (xa.sightseer, "squares"),
+    "seed-spreader": (xa.seed_spreader, "case3"),
+}
+WORDS = "sign of 0.00000...: excluding 0 would take too many bits"
+
+
+def undecided_after(monkeypatch: pytest.MonkeyPatch, count: int) -> None:
+    """Let the sensing of a piece fail once that many pieces are walked."""
+    walk, walked = Memory.walk, []
+
+    def failing(memory: Memory, piece: Any) -> Any:
+        if len(walked) == count:
+            raise xa.Undecided(WORDS)
+        walked.append(piece)
+        return walk(memory, piece)
+
+    monkeypatch.setattr(Memory, "walk", failing)
+
+
+@pytest.mark.parametrize("count", [0, 1, 3, 6])
+@pytest.mark.parametrize("name", STRATEGIES)
+def test_the_error_carries_the_run_so_far(name: str, count: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    explore, scene = STRATEGIES[name]
+    whole = explore(xa.load(scene))
+    undecided_after(monkeypatch, count)
+    with pytest.raises(xa.Undecided) as caught:
+        explore(xa.load(scene))
+    error = caught.value
+    run = error.run
+    assert error.comparison == WORDS in str(error)
+    assert "a start or a radius close by" in str(error)
+    assert run.ending is Ending.UNDECIDED
+    assert len(run.path) == count
+    assert run.length == whole.path.length_after(count)
+    assert error.place == (whole.path[count].start if count < len(whole.path) else whole.start)
+    assert error.obstacle == (whole.path[count - 1].obstacle if count else None)
+    told = [event for event in whole.events if event.after + event.inside <= count]
+    assert set(map(str, run.events[:-1])) <= set(map(str, told))
+    assert run.bounds == ()
+    monkeypatch.undo()
+    assert xa.load_run(run.to_json()) == run
+    assert pickle.loads(pickle.dumps(error)).run == run
+    with pytest.raises(ValueError, match="given up"):
+        xa.audit(run)
+
+
+@pytest.mark.parametrize("name", STRATEGIES)
+def test_the_command_line_tells_what_there_is(
+    name: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    undecided_after(monkeypatch, 5)
+    figure, trace, page = (tmp_path / f"run.{kind}" for kind in ("svg", "json", "html"))
+    wanted = ["--figure", str(figure), "--trace", str(trace), "--animate", str(page), "--audit"]
+    assert cli.main(["explore", STRATEGIES[name][1], "--strategy", name, *wanted]) == 3
+    monkeypatch.undo()
+    out, err = capsys.readouterr()
+    assert "given up at (" in out
+    assert "length" in out
+    assert "audit passed" not in out
+    assert err.count("\n") == 1
+    assert "undecided after" in err
+    assert WORDS in err
+    assert figure.stat().st_size > 1000
+    assert page.stat().st_size > 1000
+    assert xa.load_run(trace).ending is Ending.UNDECIDED
+
+
+@pytest.mark.parametrize(("error", "status"), [(xa.Undecided(WORDS), 3), (xa.AuditError("a flaw"), 2)])
+def test_an_audit_that_fails_keeps_the_report(
+    error: Exception, status: int, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def fails(*_: object, **__: object) -> None:
+        raise error
+
+    monkeypatch.setattr(auditing, "audit", fails)
+    assert cli.main(["explore", "circles", "--audit"]) == status
+    out, err = capsys.readouterr()
+    assert "order of visits" in out
+    assert "audit passed" not in out
+    assert str(error) in err
+
+
+def test_without_a_run_there_is_none() -> None:
+    error = xa.Undecided("two numbers")
+    assert (error.run, error.place, error.obstacle, str(error)) == (None, None, None, "two numbers")
+    assert pickle.loads(pickle.dumps(error)).comparison == "two numbers"
