@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from exactacq.numbers.real import Real
     from exactacq.output.figures import figure
     from exactacq.output.run_json import load_run
+    from exactacq.scene.bounding import terrain_around
     from exactacq.scene.scene import Scene
     from exactacq.scene.shapes import Circle, Outline, Polygon, Terrain
     from exactacq.sensing.event import Event, EventKind
@@ -64,6 +65,7 @@ __all__ = [
     "seed_spreader",
     "sightseer",
     "sweep",
+    "terrain_around",
     "visibility_graph",
 ]
 
@@ -99,6 +101,7 @@ _HOMES = {
     "seed_spreader": "exactacq.strategies.seed_spreader.strategy",
     "sightseer": "exactacq.strategies.sightseer.strategy",
     "sweep": "exactacq.sensing.view_events",
+    "terrain_around": "exactacq.scene.bounding",
     "visibility_graph": "exactacq.visibility.links",
 }
 """Where the names live."""

@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from enum import StrEnum
 from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from flint import fmpq
 
     from exactacq.scene.scene import Scene
+    from exactacq.scene.shapes import Terrain
     from exactacq.strategies.run import Run
 
 REFUSED, INTERNAL, UNDECIDED, INTERRUPTED = 2, 1, 3, 130
@@ -47,7 +48,10 @@ SceneName = Annotated[str, typer.Argument(metavar="SCENE", help="A .json or .dxf
 Start = Annotated[str | None, typer.Option(metavar="X,Y", help="Start point; required for drawings.")]
 TerrainSize = Annotated[
     str | None,
-    typer.Option(metavar="B,A", help="Terrain B wide and A high; default: the scene's own."),
+    typer.Option(
+        metavar="B,A",
+        help="Terrain: B,A or X,Y,B,A (SW corner, width, height) or bbox[:MARGIN]; default: the scene's.",
+    ),
 ]
 Layers = Annotated[str | None, typer.Option(metavar="A,B", help="Layers of a drawing to read; default: all.")]
 Outermost = Annotated[Outer, typer.Option(help="The outermost loop of a drawing around the start.")]
@@ -137,7 +141,8 @@ def explore(
         raise FormatError(f"{scene}: the scene has no radius of vision: give one with --radius R")
     trouble: ExactacqError | None = None
     try:
-        run = _explored(world, range_, strategy, lookahead, target)
+        sweeps = strategy is Strategy.SEED_SPREADER and start is None
+        run = _explored(_at_corner(world) if sweeps else world, range_, strategy, lookahead, target)
     except Undecided as error:
         if error.run is None:
             raise
@@ -199,9 +204,10 @@ def compare(
     """Explore a scene by both strategies, and set what they do side by side.
 
     The Seed Spreader starts in the SW corner of the terrain, the Sightseer there if no other start is given.
+    If only one of them takes the scene, it is told why the other one does not.
     """
     from exactacq.files.whole_files import FIGURES, check_output
-    from exactacq.output.report import comparison, console
+    from exactacq.output.report import comparison, console, run_report
 
     range_ = _range(radius)
     if figure is not None and _same_file(check_output(figure, FIGURES), scene):
@@ -209,15 +215,37 @@ def compare(
     world = _scene(scene, start, layers, outer, tolerance, union, terrain)
     if range_ is None and world.radius is None:
         raise FormatError(f"{scene}: the scene has no radius of vision: give one with --radius R")
-    corner = _scene_with(world, start=(0, 0))
-    seen = _explored(corner if world.start is None else world, range_, Strategy.SIGHTSEER)
-    spread = _explored(corner, range_, Strategy.SEED_SPREADER)
-    console().print(comparison(seen, spread))
+    corner = _at_corner(world)
+    starts = {Strategy.SIGHTSEER: corner if world.start is None else world, Strategy.SEED_SPREADER: corner}
+    runs, refusals = [], []
+    for strategy, begun in starts.items():
+        try:
+            runs.append(_explored(begun, range_, strategy))
+        except InvalidScene as error:
+            first, *others = error.violations
+            more = f" (and {len(others)} more)" if others else ""
+            refusals.append(f"no {strategy.value}: {first}{more}")
+    if not runs:
+        raise InvalidScene(refusals)
+    console().print(comparison(*runs) if len(runs) == 2 else run_report(runs[0]))
+    for refusal in refusals:
+        console().print(f"\n{refusal}", soft_wrap=True)
     if figure is not None:
-        from exactacq.output.figures import save_pair
+        from exactacq.output.figures import save, save_pair
 
-        save_pair(seen, spread, figure)
+        if len(runs) == 2:
+            save_pair(runs[0], runs[1], figure)
+        else:
+            save(runs[0], figure)
         print(f"figure written to {figure}")
+
+
+def _at_corner(scene: Scene) -> Scene:
+    """The scene with its start in the SW corner of what the Seed Spreader sweeps, if there is such."""
+    from exactacq.scene.bounding import rectangular_room
+
+    terrain = scene.terrain or rectangular_room(scene)
+    return scene if terrain is None else scene.replace(start=terrain.south_west)
 
 
 @app.command()
@@ -297,12 +325,9 @@ def _scene(
     terrain: str | None = None,
 ) -> Scene:
     """The scene in the file, or else of the gallery, of that name; an error names it too."""
-    from exactacq.scene.shapes import Terrain
-
-    size = None if terrain is None else Terrain(*_pair("--terrain", terrain))
     try:
         scene = _loaded(name, start, layers, outer, tolerance, union)
-        return scene if size is None else _scene_with(scene, terrain=size)
+        return scene if terrain is None else scene.replace(terrain=_terrain(terrain, scene))
     except InvalidScene as error:
         first, *others = error.violations
         raise InvalidScene([f"{name}: {first}", *others]) from None
@@ -326,18 +351,23 @@ def _loaded(
         return load(name, **options)
     if name not in names() or os.path.lexists(name):
         return load(name, start=place, **options)
-    return _scene_with(load(name, **options), start=place)
+    return load(name, **options).replace(start=place)
 
 
-def _scene_with(scene: Scene, **changed: Any) -> Scene:
-    """A scene with another start or terrain."""
-    from exactacq.scene.scene import Scene
+def _terrain(text: str, scene: Scene) -> Terrain:
+    """The terrain of an option: its sides, with its SW corner or without, or the rectangle about a scene."""
+    from exactacq.scene.bounding import terrain_around
+    from exactacq.scene.shapes import Terrain
 
-    parts: dict[str, Any] = {
-        "start": scene.start, "terrain": scene.terrain, "enclosure": scene.enclosure, "radius": scene.radius,
-        "name": scene.name, "notes": scene.notes,
-    }  # fmt: skip
-    return Scene(scene.shapes, **{**parts, **changed})
+    word, _, margin = text.partition(":")
+    if word == "bbox":
+        return terrain_around(scene, _number("--terrain bbox", margin or "0"))
+    parts = text.split(",")
+    if len(parts) not in (2, 4):
+        forms = "B,A or X,Y,B,A without spaces, or bbox:MARGIN"
+        raise FormatError(f"--terrain: not two or four numbers: {text!r}; give {forms}")
+    *corner, width, height = (_number("--terrain", part) for part in parts)
+    return Terrain(width, height, corner or (0, 0))
 
 
 def _explored(

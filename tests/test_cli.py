@@ -110,7 +110,10 @@ def test_both_strategies_side_by_side(capsys: pytest.CaptureFixture[str], tmp_pa
     assert re.search(r"^acquired +3 of 3 +2 of 3", out, re.M)
     assert re.search(r"^Seed Spreader / Sightseer +\d", out, re.M)
     assert target.read_text(encoding="utf-8").startswith("<?xml")
-    assert "meets the terrain's border" in refused(capsys, "compare", "figure4")
+    alone = answered(capsys, "compare", "figure4")
+    assert "no sightseer: obstacle 0 meets the terrain's border" in alone
+    assert "Seed Spreader Strategy" in alone
+    assert "no seed-spreader: the Seed Spreader sweeps a rectangle" in answered(capsys, "compare", "plate")
 
 
 def test_numbers_are_exact(capsys: pytest.CaptureFixture[str]) -> None:
@@ -213,7 +216,7 @@ def test_version_and_help(capsys: pytest.CaptureFixture[str]) -> None:
         (["--start", "nan,0"], "--start: not a number"),
         (["--start", "5,0"], "start"),
         (["--strategy", "seed-spreader"], "needs a terrain"),
-        (["--strategy", "seed-spreader", "--terrain", "9"], "--terrain: not two numbers"),
+        (["--strategy", "seed-spreader", "--terrain", "9"], "--terrain: not two or four numbers"),
         (["--strategy", "seed-spreader", "--terrain", "1/9,1/9"], "outside the terrain"),
         (["--strategy", "seed-spreader", "--target", "far"], "--target"),
         (["--strategy", "random"], "--strategy"),

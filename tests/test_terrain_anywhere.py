@@ -85,3 +85,36 @@ def test_the_start_is_the_south_west_corner() -> None:
     covered = xa.Scene([xa.Circle((1, 1), 1)], terrain=xa.Terrain(4, 4, origin=(1, 1)), radius=1)
     with pytest.raises(xa.InvalidScene, match=r"obstacle 0 covers the SW corner \(1, 1\)"):
         xa.seed_spreader(covered)
+
+
+def test_the_terrain_around_a_scene_holds_it() -> None:
+    """Irrational extents are rounded outward, by less than a millionth of the radius."""
+    moon = xa.Outline([(0, 0, "1/2"), (4, 1, "-1/3")])
+    scene = xa.Scene([moon, [(-3, 5), (-2, 5), (-2, 6)]])
+    around = xa.terrain_around(scene)
+    assert xa.Scene(scene.shapes, terrain=xa.terrain_around(scene, "1/100")).meets_border() == []
+    for k in range(4):
+        inward = [fmpq(0)] * 4
+        inward[k] = fmpq(1, 10**5) * (1 if k < 2 else -1)
+        west, south, east, north = (a + b for a, b in zip(around.limits, inward, strict=True))
+        smaller = xa.Terrain(east - west, north - south, (west, south))
+        assert scene.replace(terrain=smaller).meets_border() != []
+    with pytest.raises(xa.FormatError, match="margin: must not be negative"):
+        xa.terrain_around(scene, -1)
+    with pytest.raises(xa.InvalidScene, match="no extent"):
+        xa.terrain_around(xa.Scene([]))
+
+
+def test_a_rectangular_room_is_its_terrain() -> None:
+    """The enclosure counts as the border: the sweep is that of the terrain alone."""
+    post = xa.Circle((3, 3), 1)
+    room = xa.Polygon([(-2, 0), (1, 0), (9, 0), (9, 7), (-2, 7)])
+    run = xa.seed_spreader(xa.Scene([post], enclosure=room, radius=3))
+    alone = xa.seed_spreader(xa.Scene([post], terrain=xa.Terrain(11, 7, (-2, 0)), radius=3))
+    assert run == alone
+    crooked = xa.Polygon([(-2, 0), (9, 0), (9, 7), (-2, 8)])
+    with pytest.raises(xa.InvalidScene, match="an enclosure of another form must be left out"):
+        xa.seed_spreader(xa.Scene([post], enclosure=crooked, radius=3))
+    other = xa.Scene([post], enclosure=room, terrain=xa.Terrain(8, 6), radius=3)
+    with pytest.raises(xa.InvalidScene, match="an enclosure"):
+        xa.seed_spreader(other)

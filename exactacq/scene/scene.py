@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from functools import cached_property
+from typing import Any
 
 from flint import fmpq
 
@@ -149,6 +150,22 @@ class Scene:
             loops.append(Obstacle.of(len(loops), self.enclosure, is_enclosure=True))
         validate(loops, self.start, self.radius, self.terrain)
         self.obstacles = tuple(loop.oriented() for loop in loops)
+
+    def replace(self, **parts: Any) -> Scene:
+        """The scene with other parts: *parts* are named as those of `Scene`. Raises what `Scene` raises.
+
+        >>> Scene([Circle((5, 0), 2)], start=(0, 0)).replace(radius=3, start=(1, 1)).start
+        Point(1, 1)
+        """
+        known = {
+            "start": self.start,
+            "terrain": self.terrain,
+            "enclosure": self.enclosure,
+            "radius": self.radius,
+            "name": self.name,
+            "notes": self.notes,
+        }
+        return Scene(parts.pop("obstacles", self.shapes), **{**known, **parts})
 
     def meets_border(self) -> list[int]:
         """Indices of the obstacles, the enclosure aside, that are not strictly inside the terrain.

@@ -151,16 +151,21 @@ def ground_of(scene: Scene) -> Ground:
     Raises `InvalidScene` if there is no terrain or an enclosure, if the SW corner is not free, or if an
     obstacle lies outside the terrain.
     """
+    flaws: list[str] = []
+    if scene.enclosure is not None:
+        flaws.append(
+            "the Seed Spreader sweeps a rectangle: an enclosure of another form must be left out "
+            "(of a drawing: outer drop)"
+        )
     if scene.terrain is None:
-        raise InvalidScene(["the Seed Spreader needs a terrain: a rectangle with width and height"])
+        flaws.append("the Seed Spreader needs a terrain: a rectangle with width and height")
+        raise InvalidScene(flaws)
     corner = scene.terrain.south_west
-    flaws = [
+    flaws += [
         f"obstacle {obstacle.index} covers the SW corner {corner}, where the Seed Spreader starts"
         for obstacle in scene.obstacles
         if not obstacle.is_enclosure and obstacle.locate(corner) is not Location.OUTSIDE
     ]
-    if scene.enclosure is not None:
-        flaws.append("the Seed Spreader's terrain is a rectangle: an enclosure cannot be explored")
     if flaws:
         raise InvalidScene(flaws)
     ground = Ground(scene.obstacles, scene.terrain)

@@ -7,6 +7,7 @@ from functools import cmp_to_key
 
 from exactacq.errors import InvalidScene, Undecided
 from exactacq.geometry.points import Point, distance_sq
+from exactacq.scene.bounding import rectangular_room
 from exactacq.scene.scene import Scene, radius_of
 from exactacq.scene.terrain_components import Ground, ground_of
 from exactacq.sensing.event import Ending, EventKind, Occasion
@@ -48,7 +49,9 @@ def seed_spreader(
     "visible" to the nearest visible one. *progress* is called with the number of straight pieces of the
     M-line behind the robot, and of all.
 
-    Numbers of obstacles in the run mean components that the terrain cuts out of obstacles (`Run.obstacles`).
+    An enclosure that is the terrain's rectangle counts as its border; without a terrain, a rectangular one is
+    it. Numbers of obstacles in the run mean components that the terrain cuts out of obstacles
+    (`Run.obstacles`).
     Raises `InvalidScene` if there is no terrain, no radius or an enclosure, if the start is another point
     than the SW corner, if that is not free, or if an obstacle lies outside the terrain; `FormatError` for a
     radius that is no number or another target, `Undecided` for a comparison beyond the library's limits.
@@ -61,13 +64,14 @@ def seed_spreader(
     6*pi + 36 (0, 1)
     """
     choice = TargetChoice(target)
-    if scene.terrain is None:
-        raise InvalidScene(["the Seed Spreader needs a terrain: a rectangle with width and height"])
-    corner = scene.terrain.south_west
+    room = rectangular_room(scene)
+    if room is not None and scene.terrain in (None, room):
+        scene = scene.replace(terrain=room, enclosure=None)
+    ground = ground_of(scene)
+    corner = ground.terrain.south_west
     reach = radius_of(scene, radius, corner)
     if scene.start is not None and scene.start != corner:
         raise InvalidScene([f"the start {scene.start} is not the terrain's SW corner {corner}"])
-    ground = ground_of(scene)
     return _Spreader(SeedSpreaderRobot(scene, ground, reach), lookahead, choice, progress).run(scene, ground)
 
 
