@@ -15,7 +15,7 @@ from flint import fmpq
 
 from exactacq.errors import FormatError
 from exactacq.files.source import MAX_EDGES, check_edges, one_line, read_bytes
-from exactacq.numbers.rationals import rational, valuation
+from exactacq.numbers.rationals import plain, rational
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle, Outline, Polygon, Shape, Terrain
 
@@ -170,14 +170,8 @@ def _text_of(value: Any) -> str:
 
 def _number_text(value: fmpq) -> str:
     """A JSON number if the value is a finite decimal, else the string "p/q"."""
-    bottom = int(value.q)
-    twos, fives = valuation(bottom, 2), valuation(bottom, 5)
-    if 2**twos * 5**fives != bottom:
-        return f'"{value.p}/{value.q}"'
-    places = max(twos, fives)
-    digits = str(abs(int(value.p)) * 10**places // bottom).rjust(places + 1, "0")
-    point = len(digits) - places
-    return ("-" if value < 0 else "") + digits[:point] + (f".{digits[point:]}" if places else "")
+    text = plain(value)
+    return f'"{text}"' if "/" in text else text
 
 
 # -- reading ---------------------------------------------------------------------------------------

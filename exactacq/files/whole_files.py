@@ -9,6 +9,7 @@ from pathlib import Path
 
 from exactacq.errors import FormatError
 from exactacq.numbers.length import Length
+from exactacq.numbers.rationals import plain
 from exactacq.numbers.real import Real
 
 FIGURES = (".svg", ".pdf", ".png")
@@ -25,7 +26,7 @@ BITS_PER_CHARACTER = 4
 def readable(length: Length, limit: int, digits: int) -> tuple[str, ...]:
     """The closed form, if it has at most *limit* characters, and ``≈`` the decimal value.
 
-    A whole number is its own decimal value and comes alone. Forms of more radicals than *limit* are not even
+    A finite decimal is its own value and comes alone. Forms of more radicals than *limit* are not even
     written out, which would take seconds: k distinct radicals take more than k characters. Nor are forms of
     numbers so long that their digits alone are too many.
     """
@@ -33,7 +34,10 @@ def readable(length: Length, limit: int, digits: int) -> tuple[str, ...]:
     if "e" not in decimal and "." in decimal:
         decimal = decimal.rstrip("0").rstrip(".")
     closed = str(length) if all(_is_short(number, limit) for number in length.numbers) else ""
-    if closed == decimal:
+    value = length.algebraic.rational if closed and length == Length(length.algebraic) else None
+    if value is not None:
+        closed = plain(value)
+    if closed == decimal or (value is not None and "/" not in closed):
         return (closed,)
     return (closed, f"≈ {decimal}") if 0 < len(closed) <= limit else (f"≈ {decimal}",)
 

@@ -184,6 +184,22 @@ def valuation(number: int, base: int) -> int:
     return exponent
 
 
+def plain(value: fmpq) -> str:
+    """A rational as people write it, without loss: a decimal if that is finite, else "p/q".
+
+    >>> plain(fmpq(1301, 10)), plain(fmpq(-1, 3)), plain(fmpq(12))
+    ('130.1', '-1/3', '12')
+    """
+    bottom = int(value.q)
+    twos, fives = valuation(bottom, 2), valuation(bottom, 5)
+    if 2**twos * 5**fives != bottom:
+        return f"{value.p}/{value.q}"
+    places = max(twos, fives)
+    digits = str(abs(int(value.p)) * 10**places // bottom).rjust(places + 1, "0")
+    point = len(digits) - places
+    return ("-" if value < 0 else "") + digits[:point] + (f".{digits[point:]}" if places else "")
+
+
 def sympy_rational(q: fmpq) -> sympy.Expr:
     """A rational as sympy's."""
     from sympy import Rational

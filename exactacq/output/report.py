@@ -15,11 +15,12 @@ from exactacq.files.whole_files import readable
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
+from exactacq.numbers.rationals import plain
 from exactacq.numbers.real import Real
 from exactacq.scene.scene import Scene
 from exactacq.sensing.event import Ending
 from exactacq.strategies.bounds import census
-from exactacq.strategies.run import Run, SeedSpreaderRun, SightseerRun
+from exactacq.strategies.run import Bound, Run, SeedSpreaderRun, SightseerRun
 
 CLOSED_FORM = 60
 """Closed forms of at most this many characters are shown; longer ones are in the trace."""
@@ -49,6 +50,8 @@ def run_report(run: Run) -> RenderableType:
     ]
     if isinstance(run, SeedSpreaderRun):
         parts += _sweep(run, names)
+    if not run.map.seen and run.scene.obstacles:
+        parts.append(f"nothing is in sight of S within R = {_rational(run.radius)}\n")
     if run.visits:
         parts += [_links(run, names), ""] if isinstance(run, SightseerRun) else []
         parts.append(_listed("order of visits", (names[k] for k in run.visits), " → "))
@@ -79,7 +82,7 @@ def comparison(first: Run, second: Run) -> RenderableType:
         bounds = [run.bounds[number] if number < len(run.bounds) else None for run in runs]
         table.add_row(
             "bounds" if number == 0 else "",
-            *("" if b is None else f"{b.name}: {b.ratio:.4f}{'' if b.holds else ' BROKEN'}" for b in bounds),
+            *("" if b is None else f"{b.name}: {_verdict(b, f'{b.ratio:.4f}')}" for b in bounds),
         )
     title = Text(f"Both strategies on {first.scene.name or 'a scene'}", style="bold")
     return Group(title, "", table, "", f"Seed Spreader / Sightseer  {ratio:.6f}")
@@ -152,9 +155,14 @@ def _bounds(run: Run) -> Table:
     table = _table("bound", "value", "holds", "length / bound", "")
     for bound in run.bounds:
         value = "\n".join(readable(bound.value, CLOSED_FORM // 2, 12))
-        holds = "yes" if bound.holds else "NO"
+        holds = "does not apply" if not bound.applies else "yes" if bound.holds else "no"
         table.add_row(bound.name, value, holds, f"{bound.ratio:.6f}", bound.source)
     return table
+
+
+def _verdict(bound: Bound, ratio: str) -> str:
+    """A bound's ratio, and whether it is broken or does not speak of the run."""
+    return f"{ratio} (does not apply)" if not bound.applies else ratio if bound.holds else f"{ratio} (broken)"
 
 
 def _missed(run: Run, names: list[str]) -> Iterator[RenderableType]:
@@ -200,13 +208,13 @@ def _place(point: Point) -> str:
 
 def _number(value: Real) -> str:
     """A coordinate: rational if that is short, else six digits."""
-    exact = str(value.rational) if value.rational is not None else ""
+    exact = plain(value.rational) if value.rational is not None else ""
     return exact if 0 < len(exact) <= 8 else f"{float(value):.6g}"
 
 
 def _rational(value: fmpq) -> str:
     """A number as given, unless that takes too much room."""
-    exact = str(value)
+    exact = plain(value)
     return exact if len(exact) <= CLOSED_FORM // 2 else f"≈ {Real(value).decimal(12)}"
 
 

@@ -15,7 +15,7 @@ from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.scene import Scene
 from exactacq.scene.terrain_components import Ground
-from exactacq.sensing.event import Ending
+from exactacq.sensing.event import Ending, EventKind, Occasion
 from exactacq.strategies.run import Bound, SeedSpreaderRun, SightseerRun
 from exactacq.strategies.seed_spreader.blocked import Blocking
 from exactacq.strategies.seed_spreader.mline import MLine
@@ -59,11 +59,14 @@ def sightseer_bounds(run: SightseerRun) -> tuple[Bound, ...]:
         corrected = approach + step * (2 * n - 3) + around - last * HALF
     printed = min([reach, _largest_distance(scene, radius)]) * (2 * (n - 1)) + around
     wide = reach * (2 * (n - 1)) + around
+    # Then chains of links join all obstacles, and the start sees one: the paper's model (a).
+    linked = run.complete
+    seated = linked and approach.sign() == 0
     return (
-        _bound("(1)", "Theorem 1, as printed", printed, length),
-        _bound("(2)", "Theorem 1 for d_max >= R, as printed", wide, length),
-        _bound("T1 corrected", "(1) with v_max, S-S1 and 2n - 3", corrected, length),
-        _bound("(2) + S-S1", "(2) with the way from a free start", wide + approach, length),
+        _bound("(1)", "Theorem 1, as printed", printed, length, seated),
+        _bound("(2)", "Theorem 1 for d_max >= R, as printed", wide, length, seated),
+        _bound("T1 corrected", "(1) with v_max, S-S1 and 2n - 3", corrected, length, linked),
+        _bound("(2) + S-S1", "(2) with the way from a free start", wide + approach, length, linked),
     )
 
 
@@ -123,27 +126,42 @@ def spreader_bounds(run: SeedSpreaderRun) -> tuple[Bound, ...]:
     far = (d.length - Length(radius) for d in run.diversions if d.length > Length(radius))
     beyond = Length.sum(far)
     corrected = wide + beyond * 2 + total * (3 * share) + hops * share + met * share
+    whole = run.ending is Ending.END_OF_M_LINE
+    plain, direct = not (run.encounters or run.diversions), not _meets_known(run)
     values = [
-        ("(5)", "Theorem 2, as printed", Length(a + r * (w + a) + 2 * n * w) + total * 3 + hops),
-        ("(6)", "Theorem 2 for rw = B, w = R, as printed", wide + total * 3 + hops),
-        ("(8)", "Case 1: no crossing, no diversion", sweep),
-        ("(9)", "Case 2: (6) without its last terms", wide + total * 3),
-        ("(10)", "Case 3: clear of the border, as printed", wide + total * fmpq(3, 2) + hops * HALF),
-        ("(11)", "Cases 2 and 3, as printed", wide + total * fmpq(3, 2)),
-        ("T2 corrected", "(6) or (10), plus what is met again and far diversions", corrected),
+        ("(5)", "Theorem 2, as printed", Length(a + r * (w + a) + 2 * n * w) + total * 3 + hops, True),
+        ("(6)", "Theorem 2 for rw = B, w = R, as printed", wide + total * 3 + hops, True),
+        ("(8)", "Case 1: no crossing, no diversion", sweep, plain),
+        ("(9)", "Case 2: (6) without its last terms", wide + total * 3, direct),
+        ("(10)", "Case 3: clear of the border, as printed", wide + total * fmpq(3, 2) + hops * HALF, clear),
+        ("(11)", "Cases 2 and 3, as printed", wide + total * fmpq(3, 2), direct and clear),
+        ("T2 corrected", "(6) or (10), plus what is met again and far diversions", corrected, True),
     ]
     visits = Length(len(run.encounters))
     most = Length(n + n * crossing + pairs * HALF)
     return (
-        _bound("(4)", "Lemma 3, visits, as printed", most, visits),
-        _bound("L3 corrected", "(4), plus what is met again", most + Length(len(run.again)), visits),
-        *(_bound(name, source, value, length) for name, source, value in values),
+        _bound("(4)", "Lemma 3, visits, as printed", most, visits, whole),
+        _bound("L3 corrected", "(4), plus what is met again", most + Length(len(run.again)), visits, whole),
+        *(_bound(name, source, value, length, whole and fits) for name, source, value, fits in values),
     )
 
 
-def _bound(name: str, source: str, value: Length, length: Length) -> Bound:
+def _meets_known(run: SeedSpreaderRun) -> bool:
+    """Whether a diversion meets an obstacle on its way out that was acquired before."""
+    acquired: set[int | None] = set()
+    for event in run.events:
+        if event.kind is EventKind.ACQUIRE:
+            acquired.add(event.obstacle)
+        elif (
+            event.kind is EventKind.HIT and event.occasion is Occasion.WAY_OUT and event.obstacle in acquired
+        ):
+            return True
+    return False
+
+
+def _bound(name: str, source: str, value: Length, length: Length, applies: bool) -> Bound:
     ratio = float(length) / float(value) if value.sign() else float("nan")
-    return Bound(name, source, value, length <= value, ratio)
+    return Bound(name, source, value, length <= value, ratio, applies)
 
 
 def _largest_distance(scene: Scene, radius: fmpq) -> Length:

@@ -30,12 +30,13 @@ class Bound:
     """A bound on the path's length, or on the number of visits, by the paper's formula (``source``).
 
     ``value`` is exact, and so is the comparison ``holds``; ``ratio``, a float, is what is bounded over the
-    value (NaN where the value is 0), and is not compared.
+    value (NaN where the value is 0). ``applies`` tells whether the formula speaks of such a run at all: (1),
+    for one, is for starts on a boundary. The last two are not compared.
 
     >>> import exactacq as xa
     >>> bound = xa.sightseer(xa.load("circles")).bounds[0]
-    >>> print(bound.name, bound.value, bound.holds)
-    (1) 4 + 15*pi True
+    >>> print(bound.name, bound.value, bound.holds, bound.applies)
+    (1) 4 + 15*pi True False
     """
 
     name: str
@@ -43,6 +44,7 @@ class Bound:
     value: Length
     holds: bool
     ratio: float = field(compare=False)
+    applies: bool = field(default=True, compare=False)
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)

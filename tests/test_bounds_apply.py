@@ -1,0 +1,43 @@
+"""A bound says whether it speaks of a run: as the claims count it, by code of their own."""
+
+from __future__ import annotations
+
+import pytest
+
+import exactacq as xa
+from exactacq.sensing.event import Ending
+from exactacq.study.claims.model import Case, Subject
+from exactacq.study.claims.premises import PREMISES
+from exactacq.study.random_scenes import random_scene
+
+SIGHTSEERS = {name: xa.load(name) for name in ("circles", "squares", "m14")}
+SIGHTSEERS |= {f"random {seed}": random_scene(Subject.SIGHTSEER, seed) for seed in range(8)}
+SPREADERS = {
+    name: xa.load(name) for name in ("figure3", "figure4", "case1", "case2", "case3", "m15", "m20-8")
+}
+SPREADERS |= {f"random {seed}": random_scene(Subject.SEED_SPREADER, seed) for seed in range(8)}
+
+
+@pytest.mark.parametrize("name", SIGHTSEERS)
+def test_bounds_of_the_sightseer(name: str) -> None:
+    case = Case(SIGHTSEERS[name])
+    for bound in case.sightseer.bounds:
+        assert bound.applies == PREMISES[bound.name].holds(case), bound.name
+
+
+@pytest.mark.parametrize("name", SPREADERS)
+def test_bounds_of_the_seed_spreader(name: str) -> None:
+    case = Case(SPREADERS[name])
+    whole = case.spreader.ending is Ending.END_OF_M_LINE
+    for bound in case.spreader.bounds:
+        assert bound.applies == (whole and PREMISES[bound.name].holds(case)), bound.name
+
+
+def test_a_run_that_sees_nothing_says_so(capsys: pytest.CaptureFixture[str]) -> None:
+    from exactacq import cli
+
+    assert cli.main(["explore", "m14"]) == 0
+    out = capsys.readouterr().out
+    assert "nothing is in sight of S within R = 20" in out
+    assert out.count("does not apply") == 4
+    assert "80.1 " in out
