@@ -21,7 +21,8 @@ def angle(t: Fraction) -> Length:
         (Length(12), ("12",)),
         (Length.turns(1), ("2*pi", "≈ 6.28318530717959")),
         (angle(Fraction(1)), ("pi/2", "≈ 1.5707963267949")),
-        (Length(Fraction(1, 4)), ("1/4", "≈ 0.25")),
+        (Length(Fraction(1, 4)), ("0.25",)),
+        (Length(Fraction(1, 3)), ("1/3", "≈ 0.333333333333333")),
     ],
 )
 def test_short_forms_come_with_their_decimals(length: Length, texts: tuple[str, ...]) -> None:

@@ -61,10 +61,9 @@ def sightseer_bounds(run: SightseerRun) -> tuple[Bound, ...]:
     wide = reach * (2 * (n - 1)) + around
     # Then chains of links join all obstacles, and the start sees one: the paper's model (a).
     linked = run.complete
-    seated = linked and approach.sign() == 0
     return (
-        _bound("(1)", "Theorem 1, as printed", printed, length, seated),
-        _bound("(2)", "Theorem 1 for d_max >= R, as printed", wide, length, seated),
+        _bound("(1)", "Theorem 1, as printed", printed, length, linked),
+        _bound("(2)", "Theorem 1 for d_max >= R, as printed", wide, length, linked),
         _bound("T1 corrected", "(1) with v_max, S-S1 and 2n - 3", corrected, length, linked),
         _bound("(2) + S-S1", "(2) with the way from a free start", wide + approach, length, linked),
     )

@@ -30,13 +30,13 @@ class Bound:
     """A bound on the path's length, or on the number of visits, by the paper's formula (``source``).
 
     ``value`` is exact, and so is the comparison ``holds``; ``ratio``, a float, is what is bounded over the
-    value (NaN where the value is 0). ``applies`` tells whether the formula speaks of such a run at all: (1),
-    for one, is for starts on a boundary. The last two are not compared.
+    value (NaN where the value is 0). ``applies`` tells whether the formula speaks of such a run at all:
+    those of the Sightseer, for one, are for runs that visit all obstacles. The last two are not compared.
 
     >>> import exactacq as xa
     >>> bound = xa.sightseer(xa.load("circles")).bounds[0]
     >>> print(bound.name, bound.value, bound.holds, bound.applies)
-    (1) 4 + 15*pi True False
+    (1) 4 + 15*pi True True
     """
 
     name: str
