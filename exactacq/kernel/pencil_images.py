@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from exactacq.kernel.bound_lines import BoundLine
 from exactacq.kernel.bounded import UNIT
-from exactacq.kernel.cells import BoundLine, LineCells
+from exactacq.kernel.cells import LineCells
 from exactacq.kernel.family_images import NONE, FamilyImage
 from exactacq.kernel.images import TURNING
 from exactacq.kernel.line_keys import LineNumbers

@@ -8,7 +8,7 @@ sides and shows what no neighbouring line does.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cached_property, partial
 
 from flint import arb, fmpq
@@ -20,6 +20,7 @@ from exactacq.geometry.late import late_point
 from exactacq.geometry.points import Point, distance_sq
 from exactacq.kernel.family_images import NONE, FamilyImage
 from exactacq.kernel.line_keys import LineNumbers
+from exactacq.kernel.near_edges import NearEdges
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import CONVEX, EdgeTable
 from exactacq.sensing.line_family import PencilFamilies, SingleLine
@@ -33,7 +34,7 @@ from exactacq.visibility.line_balls import line
 from exactacq.visibility.line_families import Sector, Sliding, Spokes, corner_sectors, quarters
 from exactacq.visibility.line_names import Namer
 from exactacq.visibility.pinched_lines import may_be_pinched
-from exactacq.visibility.rotational_sweep import Pencil, pencil
+from exactacq.visibility.rotational_sweep import Pencil, swept
 from exactacq.visibility.sensor_range import Range
 
 NO_ENDS = (NONE, NONE)
@@ -71,16 +72,20 @@ class FamilySweeper:
         With the single lines that join the tangents. A corner belongs to the edge that starts there.
         """
         found = EdgeFamilies()
+        near = self._near(self.table.boxes[e].tolist())
         for sector in normals(self.table.curves[e]):
             ends = (e, int(self.table.next[e])) if isinstance(sector, Sliding) else NO_ENDS
-            self._add(found, sector, (e,), Side(e, Role.CONTACT), None, ends, goes_back=False)
+            self._add(found, sector, near, (e,), Side(e, Role.CONTACT), None, ends, goes_back=False)
         for feature in self._features.get(e, ()):
+            if not feature.round:
+                near = self._near([*self.table.start[e].tolist()] * 2)
             contact = Side(e, Role.CONTACT, fixed=not feature.round)
             first, last = self._corners_beside(feature)
             sweeps = [
                 self._add(
                     found,
                     s,
+                    near,
                     feature.edges,
                     contact,
                     feature,
@@ -95,8 +100,14 @@ class FamilySweeper:
             found.single_lines += self._end_on(feature, sweeps[0], sweeps[-1])
             if not feature.round:
                 for sector in self._corner_normals(feature):
-                    self._add(found, sector, feature.edges, contact, feature, goes_back=False)
+                    self._add(found, sector, near, feature.edges, contact, feature, goes_back=False)
         return found
+
+    def _near(self, box: Sequence[float]) -> NearEdges:
+        """The edges within reach of a box."""
+        left, bottom, right, top = box
+        edges = self.table.near((left, bottom), (right, top), self.range.above)
+        return NearEdges(self.table.images, edges.tolist())
 
     def _corners_beside(self, feature: Feature) -> tuple[int, int]:
         """The other ends of the straight edges at a corner: its first and its last tangent pass them."""
@@ -118,6 +129,7 @@ class FamilySweeper:
         self,
         found: EdgeFamilies,
         sector: Sector,
+        near: NearEdges,
         own: tuple[int, ...],
         contact: Side,
         feature: Feature | None,
@@ -125,7 +137,8 @@ class FamilySweeper:
         goes_back: bool = True,
     ) -> Pencil:
         """Sweep a sector, of which the first and the last line pass vertices *ends*, and add its families."""
-        lines = pencil(self.table, sector, own, self.range.above, ends=ends)
+        at_start = isinstance(sector, Sliding) or (feature is not None and not feature.round)
+        lines = swept(self.table, sector, own, near, ends=ends, vertex=contact.edge if at_start else NONE)
         families = PencilFamilies(lines, contact, self._namer, feature, goes_back)
         found.images += families.imaged(self.images, self._numbers)
         return lines
