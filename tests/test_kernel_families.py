@@ -22,16 +22,43 @@ def scene_of(seed: int) -> xa.Scene:
     return (arc_terrain, degenerate_terrain)[seed % 2](Random(seed)).scene()
 
 
-@pytest.mark.parametrize("seed", range(8))
-def test_lines_have_one_number_for_each_name(seed: int) -> None:
-    """Whatever feature a line is found from, it has the numbers of its names, and no other line has them."""
+def sweeper_of(seed: int) -> FamilySweeper:
     try:
         table = EdgeTable(scene_of(seed).obstacles)
     except xa.InvalidScene:
         pytest.skip("no scene")
-    sweeper = FamilySweeper(table, Range(xa.Real(4).rational))
+    return FamilySweeper(table, Range(xa.Real(4).rational))
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_what_is_at_an_edge(seed: int) -> None:
+    """All families and single lines of an edge, and no others; and single lines begin where it is said."""
+    sweeper = sweeper_of(seed)
+    edges = range(len(sweeper.table.curves))
+    for found in map(sweeper.of, edges):
+        for e in edges:
+            assert list(found.images_at(e)) == [one for one in found.images if e in one.edges]
+            assert list(found.single_lines_at(e)) == [
+                one for one in found.single_lines if one.edge is not None and e in (one.edge, one.shown)
+            ]
+        for one in found.single_lines:
+            if one.spot is not None and one.edge is not None:
+                curve, u = sweeper.table.curves[one.edge], one.u
+                assert u is not None and curve.passes(one.place)
+                top = sweeper.clipper.rails[one.edge].top
+                low, high = (0 if v == -inf else top if v == inf else xa.Real(v) for v in one.spot)
+                if sweeper.table.full[one.edge]:
+                    assert low <= u <= high or one.spot in ((-inf, -inf), (inf, inf))
+                else:
+                    assert low <= u <= high
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_lines_have_one_number_for_each_name(seed: int) -> None:
+    """Whatever feature a line is found from, it has the numbers of its names, and no other line has them."""
+    sweeper = sweeper_of(seed)
     numbers: dict[object, int] = {}
-    for e in range(len(table.curves)):
+    for e in range(len(sweeper.table.curves)):
         for image in sweeper.of(e).images:
             family = family_of(image)
             for names, keys in zip(family.names, (image.first_keys, image.last_keys), strict=True):

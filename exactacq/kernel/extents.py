@@ -55,14 +55,12 @@ def unknown(edge: int, origin: object, here: int, there: int) -> Extent:
 def extents_from(
     edge: int, families: list[FamilyImage], curves: list[CurveImage], reach: tuple[float, float]
 ) -> list[Extent]:
-    """What families show from an edge of others, unless all of it is out of range.
+    """What the families of an edge show from it of others, unless all of it is out of range.
 
     *reach* bounds the radius of vision from below and above. A side that stays at a corner is left out.
     """
     found: list[Extent] = []
     for family in families:
-        if edge not in family.edges:
-            continue
         for here in range(-1, 2):
             if family.edge(here) != edge or (here == CONTACT and family.fixed):
                 continue

@@ -78,11 +78,11 @@ class Neighbourhood:
         families: list[FamilyImage] = []
         single_lines: list[Extent] = []
         for near in self.near(self.table.boxes[edge]):
-            families += near.images
-            for single in near.single_lines:
+            families += near.images_at(edge)
+            for single in near.single_lines_at(edge):
                 if single.edge == edge:
                     single_lines.append(single.extent(self.images))
-                if single.edge is not None and single.shown == edge:
+                if single.shown == edge:
                     single_lines.append(single.extent(self.images, here=1))
         curves, reach = self.table.curve_images, self.images.reach
         return extents_from(edge, families, curves, reach) + single_lines
