@@ -37,8 +37,8 @@ def test_what_is_at_an_edge(seed: int) -> None:
     edges = range(len(sweeper.table.curves))
     for found in map(sweeper.of, edges):
         for e in edges:
-            assert list(found.images_at(e)) == [one for one in found.images if e in one.edges]
-            assert list(found.single_lines_at(e)) == [
+            assert found.at.get(e, []) == [one for one in found.images if e in one.edges]
+            assert found.lines_at.get(e, []) == [
                 one for one in found.single_lines if one.edge is not None and e in (one.edge, one.shown)
             ]
         for one in found.single_lines:

@@ -113,9 +113,13 @@ class FamilyImage:
         return one if one == _height(self.last, x, y, error, least) else 0
 
 
-def by_edge(families: list[FamilyImage]) -> dict[int, list[FamilyImage]]:
-    """The families of each edge: those whose lines meet it, or touch it at the contact."""
-    found: dict[int, list[FamilyImage]] = {}
+ByEdge = dict[int, list[FamilyImage]]
+"""Families by the edges that their lines meet, or touch at the contact."""
+
+
+def by_edge(families: list[FamilyImage]) -> ByEdge:
+    """Some families by their edges."""
+    found: ByEdge = {}
     for family in families:
         behind, contact, ahead = family.edges
         _note(found, contact, family)
@@ -126,7 +130,7 @@ def by_edge(families: list[FamilyImage]) -> dict[int, list[FamilyImage]]:
     return found
 
 
-def _note(found: dict[int, list[FamilyImage]], edge: int, family: FamilyImage) -> None:
+def _note(found: ByEdge, edge: int, family: FamilyImage) -> None:
     some = found.get(edge)
     if some is None:
         found[edge] = [family]

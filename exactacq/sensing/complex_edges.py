@@ -48,25 +48,18 @@ Swept: TypeAlias = "tuple[Pencil, list[FamilyImage]]"
 class EdgeFamilies:
     """The line families of one edge, as float images, and the single lines.
 
-    Both are found by the edges on which they lie too.
+    By edges, ``at`` has the families that meet or touch them, and ``lines_at`` the single lines from edge to
+    edge that begin there or show them.
     """
 
     def __init__(self, images: list[FamilyImage], single_lines: list[SingleLine]) -> None:
         self.images, self.single_lines = images, single_lines
-        self._images = by_edge(images)
-        self._single_lines: dict[int, list[SingleLine]] = {}
+        self.at = by_edge(images)
+        self.lines_at: dict[int, list[SingleLine]] = {}
         for single in single_lines:
             if single.edge is not None:
                 for e in {single.edge, single.shown}:
-                    self._single_lines.setdefault(e, []).append(single)
-
-    def images_at(self, e: int) -> Sequence[FamilyImage]:
-        """The families with lines that meet or touch an edge."""
-        return self._images.get(e, ())
-
-    def single_lines_at(self, e: int) -> Sequence[SingleLine]:
-        """The single lines from edge to edge that begin on one or show it."""
-        return self._single_lines.get(e, ())
+                    self.lines_at.setdefault(e, []).append(single)
 
 
 class FamilySweeper:
@@ -128,8 +121,8 @@ class FamilySweeper:
     def _near(self, box: Sequence[float]) -> NearEdges:
         """The edges within reach of a box."""
         left, bottom, right, top = box
-        edges = self.table.near((left, bottom), (right, top), self.range.above)
-        return NearEdges(self.table.images, edges.tolist())
+        edges = self.table.around((left, bottom), (right, top), self.range.above)
+        return NearEdges(self.table.images, edges)
 
     def _corners_beside(self, feature: Feature) -> tuple[int, int]:
         """The other ends of the straight edges at a corner: its first and its last tangent pass them."""

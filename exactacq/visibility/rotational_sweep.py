@@ -30,14 +30,15 @@ from exactacq.geometry.points import Point
 from exactacq.kernel.bound_lines import NOTHING, BoundLine, known_line
 from exactacq.kernel.bounded import UNIT
 from exactacq.kernel.cells import LineCells
+from exactacq.kernel.images import SPOKES
 from exactacq.kernel.near_edges import NearEdges
-from exactacq.kernel.pencil_sweep import EDGES, EVENTS, MIDDLES, ORDER, PencilSweep
+from exactacq.kernel.pencil_sweep import DONE, EDGES, EVENTS, MIDDLES, ORDER, PencilSweep
 from exactacq.kernel.surroundings import Surroundings
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.features import directions_at, enters
-from exactacq.visibility.line_families import Sector, Spokes, Vector, held
+from exactacq.visibility.line_families import Sector, Vector, held
 
 Passed: TypeAlias = "tuple[tuple[int, int, int], ...]"
 """The events at one line, each with number (a vertex, or an arc), side and sign: see `Sector.exact`."""
@@ -125,8 +126,8 @@ def pencil(
     halves are no longer than *reach*.
     """
     (x, y), extent = map(float, sector.center), sector.extent
-    edges = table.near((x - extent, y - extent), (x + extent, y + extent), reach)
-    return swept(table, sector, own, NearEdges(table.images, edges.tolist()), breaks)
+    edges = table.around((x - extent, y - extent), (x + extent, y + extent), reach)
+    return swept(table, sector, own, NearEdges(table.images, edges), breaks)
 
 
 def swept(
@@ -143,10 +144,36 @@ def swept(
     *ends* are vertices that the first and the last line of the sector pass: to find that out would take exact
     numbers. *vertex* is that in the sector's centre, if it is known.
     """
-    return _SectorSweep(table, sector, own, near, breaks, ends, vertex).run()
+    images = table.images
+    frame = sector.frame(None if vertex == NOTHING else images.place(vertex))
+    # The edges through the centre of an arc whose normals go there: all of these pass that point.
+    is_inward = frame.kind == SPOKES and frame.sense < 0
+    through = table.edges_at(Point(*sector.center)) if is_inward else ()
+    first, last = ends
+    sweep = PencilSweep(
+        Surroundings(near, frame, own),
+        _known(sector.low, [(first, 0, 0)] if near.has_vertex(first) else []),
+        _known(sector.high, [(last, 0, 0)] if near.has_vertex(last) else []),
+        list(_break_events(table, sector, breaks, through)) if breaks or through else [],
+        images.following[own[0]] if len(own) == 2 else NOTHING,
+        bool(through),
+    )
+    if sweep.stage != DONE:
+        _Decisions(table, sector, own, through, sweep).make()
+    return Pencil(table, sector, sweep.rows, sweep.pinched)
 
 
-class _SectorSweep:
+def _break_events(
+    table: EdgeTable, sector: Sector, breaks: tuple[Vector, ...], through: tuple[int, ...]
+) -> Iterator[BoundLine]:
+    x, y = sector.center
+    for dx, dy in (*breaks, *directions_at(table, Point(x, y), through)):
+        value = sector.exact((x + dx, y + dy), fmpq(0), 0, 0)
+        if value is not None and sector.low <= value <= sector.high:
+            yield _known(value)
+
+
+class _Decisions:
     """Decides what floats leave open in the sweep of a sector."""
 
     def __init__(
@@ -154,30 +181,14 @@ class _SectorSweep:
         table: EdgeTable,
         sector: Sector,
         own: tuple[int, ...],
-        near: NearEdges,
-        breaks: tuple[Vector, ...],
-        ends: tuple[int, int],
-        vertex: int,
+        through: tuple[int, ...],
+        sweep: PencilSweep,
     ) -> None:
-        self.table, self.sector, self.own = table, sector, own
-        self.exact_middles: dict[int, fmpq] = {}
-        images = table.images
-        # The edges through the centre of an arc whose normals go there: all of these pass that point.
-        self.through: tuple[int, ...] = ()
-        if isinstance(sector, Spokes) and not sector.outward:
-            self.through = table.edges_at(Point(*sector.center))
-        place = None if vertex == NOTHING else images.place(vertex)
-        first, last = ([(v, 0, 0)] if near.has_vertex(v) else [] for v in ends)
-        self.sweep = PencilSweep(
-            Surroundings(near, sector.frame(place), own),
-            _known(sector.low, first),
-            _known(sector.high, last),
-            list(self._break_events(breaks)) if breaks or self.through else [],
-            images.following[own[0]] if len(own) == 2 else NOTHING,
-            bool(self.through),
-        )
+        self.table, self.sector, self.own, self.through, self.sweep = table, sector, own, through, sweep
+        self._exact_middles: dict[int, fmpq] = {}
 
-    def run(self) -> Pencil:
+    def make(self) -> None:
+        """Tell the sweep what it waits for, until it is done."""
         sweep = self.sweep
         if sweep.stage == EVENTS:
             sweep.order(list(self._unsure_events()))
@@ -189,17 +200,8 @@ class _SectorSweep:
             for cell, edges in sweep.possible.items():
                 sweep.behind[cell], sweep.ahead[cell] = self._exact_meet(self._middle(cell), edges)
             sweep.join([int(self._is_at_center(cell)) for cell in range(len(sweep.middles))])
-        return Pencil(self.table, self.sector, sweep.rows, sweep.pinched)
 
     # -- events --------------------------------------------------------------------------------
-
-    def _break_events(self, breaks: tuple[Vector, ...]) -> Iterator[BoundLine]:
-        x, y = self.sector.center
-        at_center = directions_at(self.table, Point(x, y), self.through)
-        for dx, dy in (*breaks, *at_center):
-            value = self.sector.exact((x + dx, y + dy), fmpq(0), 0, 0)
-            if value is not None and self.sector.low <= value <= self.sector.high:
-                yield _known(value)
 
     def _unsure_events(self) -> Iterator[BoundLine]:
         """Those that there are, of which floats leave that open."""
@@ -249,13 +251,13 @@ class _SectorSweep:
                 low, high = (
                     value_of(self.table, self.sector, bound) for bound in sweep.bounds[cell : cell + 2]
                 )
-                self.exact_middles[cell] = rational_between(low, high)
-                sweep.middles[cell] = float(self.exact_middles[cell])
+                self._exact_middles[cell] = rational_between(low, high)
+                sweep.middles[cell] = float(self._exact_middles[cell])
                 errors[cell] = UNIT * abs(sweep.middles[cell])
         return errors
 
     def _middle(self, cell: int) -> fmpq:
-        exact = self.exact_middles.get(cell)
+        exact = self._exact_middles.get(cell)
         return fmpq(*self.sweep.middles[cell].as_integer_ratio()) if exact is None else exact
 
     # -- edges met -----------------------------------------------------------------------------
