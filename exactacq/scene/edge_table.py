@@ -146,14 +146,17 @@ class EdgeTable:
 
     def roundoff_at(self, *places: tuple[float, float]) -> float:
         """The bound for differences of the table's coordinates and places, which may lie far outside."""
-        return max(self.roundoff, *(2.0**-50 * max(abs(x), abs(y)) for x, y in places))
+        far = 0.0
+        for x, y in places:
+            far = max(far, abs(x), abs(y))
+        return max(self.roundoff, 2.0**-50 * far)
 
     def near(self, low: tuple[float, float], high: tuple[float, float], reach: float) -> Ints:
         """The edges whose boxes come within *reach* of the box from *low* to *high*."""
         return np.array(self.around(low, high, reach), dtype=np.intp)
 
     def around(self, low: tuple[float, float], high: tuple[float, float], reach: float) -> list[int]:
-        """The same as a list, which is not to be changed.
+        """The same edges in a list, which is not to be changed: cheaper than an array if they are few.
 
         The last answers are kept: all sectors of a corner ask for one box, as do ways along an edge.
         """
