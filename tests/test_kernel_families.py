@@ -12,6 +12,7 @@ from strategies import arc_terrain, degenerate_terrain
 import exactacq as xa
 from exactacq.kernel.choice import LegSpan, mattering
 from exactacq.kernel.extents import Extent, Span
+from exactacq.kernel.images import ROLLING
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.complex_edges import FamilySweeper
 from exactacq.sensing.line_family import family_of
@@ -51,6 +52,16 @@ def test_what_is_at_an_edge(seed: int) -> None:
                     assert low <= u <= high or one.spot in ((-inf, -inf), (inf, inf))
                 else:
                     assert low <= u <= high
+
+
+def test_an_arc_sees_from_all_of_it() -> None:
+    """What is near an arc's end is swept, though it is far from the corner where the arc starts."""
+    half_disc = xa.Outline([(-3, 0), (3, 0, 1)])
+    square = xa.Polygon([(-5, 1), (-4, 1), (-4, 2), (-5, 2)])
+    table = EdgeTable(xa.Scene([half_disc, square], radius=2).obstacles)
+    found = FamilySweeper(table, Range(xa.Real(2).rational)).of(1)
+    tangents = [one for one in found.images if one.frame[0] == ROLLING]
+    assert any(table.owner[e] == 1 for one in tangents for e in one.edges if e >= 0)
 
 
 @pytest.mark.parametrize("seed", range(8))
