@@ -286,11 +286,23 @@ def test_crossings_are_where_they_are_said_to_be(seed: int) -> None:
         exact = exact_crossings(sector, t, curve)
         assert len(exact) == (state & 1) + (state >> 1)
         states.state[j] = state
+        low, high = states.span(j)
         for which, value in zip([w for w in (2, 1) if state & w], exact, strict=True):
             m, e = states.place(j, which, line)
+            from_center = value * factor + center_of(sector, t) * factor
+            assert low == -inf or Real(low) <= from_center
+            assert high == inf or from_center <= Real(high)
             if e < inf:
                 place = value * factor
                 assert Real(m) - Real(e) <= place <= Real(m) + Real(e)
+
+
+def center_of(sector: Sector, t: fmpq) -> Real:
+    """Where on a normal of an arc its centre lies, seen back from the contact; else 0."""
+    if not isinstance(sector, Spokes):
+        return Real(0)
+    contact, direction = sector.touch(Real(t))
+    return (contact - Point(*sector.center)).dot(direction) / direction.norm_sq()
 
 
 def length_of_direction(sector: Sector, t: fmpq) -> Real:

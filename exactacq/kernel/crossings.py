@@ -7,10 +7,11 @@ is the sum of its roots, or `VAGUE`.
 
 from __future__ import annotations
 
+from math import inf
 from typing import Final, final
 
 from exactacq.kernel.bounded import TINY, UNIT, WIDEN, cross, product, quotient, root, total, verdict
-from exactacq.kernel.images import CONCAVE, STRAIGHT
+from exactacq.kernel.images import CONCAVE, ROLLING, SLIDING, STRAIGHT
 from exactacq.kernel.surroundings import LEFT_OUT, THROUGH, FrameLine, FramePoint, Surroundings
 
 VAGUE: Final = 4
@@ -81,6 +82,32 @@ class EdgeStates:
         data = line.contact_bound * (size + 2.0 * w) + line.contact_size * w
         rounding = 2.0 * UNIT * (line.contact_size * size + abs(top))
         return quotient(top, (edge.turn_bound + data + rounding + TINY) * WIDEN, below, below_bound)
+
+    def span(self, j: int) -> tuple[float, float]:
+        """Bounds of all places where lines of the family cross edge j, in multiples of the direction.
+
+        From the contact; of normals of an arc from its centre. The direction (1, t) of lines that turn makes
+        the place the first coordinate of the crossing, and (0, 1) or (0, -1) of those that slide the second
+        one or its negative; of normals that go inward it is the negative of the first. A crossing lies
+        between the ends of a segment, or within an arc's radius of its centre. Four roundings lose at most
+        2 UNIT times the sizes. Of lines that roll nothing is told.
+        """
+        around, near = self.around, self.near
+        kind = around.frame.kind
+        if kind == ROLLING:
+            return -inf, inf
+        if near.middle[j] >= 0:
+            a = b = around.centers[near.middle[j]]
+            room, room_bound = around.radius(near.edges[j])
+            room += room_bound
+        else:
+            a, b, room = around.spots[j], around.spots[near.last[j]], 0.0
+        one, other = (a.y, b.y) if kind == SLIDING else (a.x, b.x)
+        if around.frame.sense < 0:
+            one, other = -one, -other
+        slack = room + 2.0 * UNIT * (abs(one) + abs(other) + a.bound + b.bound + room)
+        low, high = min(one - a.bound, other - b.bound), max(one + a.bound, other + b.bound)
+        return low - slack * WIDEN, high + slack * WIDEN
 
     def enters(self, j: int, which: int) -> bool:
         """Whether the line, followed ahead, passes from free to blocked at a crossing."""

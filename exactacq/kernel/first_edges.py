@@ -114,7 +114,7 @@ class EdgeWalk:
         near, far = self.near
         tried: list[int] = []
         for j in changed:
-            if state[j] and j != near and j != far:
+            if state[j] and j != near and j != far and not self._is_beyond(j):
                 tried.append(j)
         if tried:
             # Otherwise nothing has come in front of the nearest.
@@ -124,6 +124,14 @@ class EdgeWalk:
                 tried.append(far)
             self.known = self._choose(tried, line)
         return self.known
+
+    def _is_beyond(self, j: int) -> bool:
+        """Whether an edge is surely crossed farther away than the nearest on its side: it needs no line."""
+        low, high = self.states.span(j)
+        behind, ahead = self.near
+        if ahead >= 0 and low > self.states.span(ahead)[1]:
+            return True
+        return behind >= 0 and high < self.states.span(behind)[0]
 
     def met(self, side: int) -> int:
         """The edge of the nearest crossing on one side, if an obstacle is entered there."""
