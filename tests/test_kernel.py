@@ -26,6 +26,7 @@ from exactacq.kernel import bounded
 from exactacq.kernel.crossings import VAGUE, EdgeStates
 from exactacq.kernel.images import EdgeImages
 from exactacq.kernel.line_events import line_events
+from exactacq.kernel.near_edges import NearEdges
 from exactacq.kernel.surroundings import FrameLine, Surroundings
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable, with_rests
@@ -206,6 +207,34 @@ def solutions(sector: Sector, side: int) -> list[tuple[int, int]]:
     return [(1, 1), (1, -1)] if side else [(0, 0)]
 
 
+@given(st.lists(st.integers(1, 5), min_size=1, max_size=4), st.data())
+def test_edges_that_are_near_know_their_ends(sizes: list[int], data: st.DataObject) -> None:
+    """Some edges of closed boundaries with so many edges, in their order or not."""
+    following = [
+        first + (k + 1) % n for first, n in zip(accumulated(sizes), sizes, strict=True) for k in range(n)
+    ]
+    kinds = data.draw(st.lists(st.sampled_from([0, 1, -1]), min_size=len(following), max_size=len(following)))
+    zeros = [0.0] * len(following)
+    images = EdgeImages(
+        zeros, zeros, zeros, zeros, (zeros, zeros, zeros, zeros), zeros, kinds, [], following, []
+    )
+    edges = data.draw(st.lists(st.sampled_from(range(len(following))), unique=True))
+    near = NearEdges(images, edges)
+    assert [near.vertices[j] for j in range(len(edges))] == edges
+    assert [near.vertices[k] for k in near.last] == [following[e] for e in edges]
+    assert len(set(near.vertices)) == len(near.vertices)
+    assert [edges[j] for j in near.arcs] == [e for e in edges if kinds[e]]
+    assert [near.arcs[k] for k in near.middle if k >= 0] == near.arcs
+    for e in range(len(following)):
+        assert near.edge(e) == (edges.index(e) if e in edges else -1)
+        assert near.has_vertex(e) == (e in near.vertices)
+
+
+def accumulated(sizes: list[int]) -> list[int]:
+    """Where each of some groups of these sizes begins."""
+    return [sum(sizes[:k]) for k in range(len(sizes))]
+
+
 @pytest.mark.parametrize("seed", range(150))
 def test_events_lie_in_their_intervals(seed: int) -> None:
     """Every event in the sector is found, and each that is certain lies where it is said to."""
@@ -213,9 +242,9 @@ def test_events_lie_in_their_intervals(seed: int) -> None:
     sector = hostile.sector(seed % 4)
     curves = hostile.edges(sector)
     images = images_of(curves)
-    around = Surroundings(images, sector.frame(), list(range(len(curves))), [])
+    around = Surroundings(NearEdges(images, list(range(len(curves)))), sector.frame(), ())
     low, high = float(sector.low), float(sector.high)
-    found = {event[2:5]: event for event in line_events(around, -1, low, high)}
+    found = {(one.number, one.side, one.sign): one for one in line_events(around, -1, low, high)}
     vertices = [c.start.rational for c in curves] + [c.end.rational for c in curves]
     targets = [(k, 0, point, fmpq(0)) for k, point in enumerate(vertices)]
     targets += [
@@ -228,8 +257,8 @@ def test_events_lie_in_their_intervals(seed: int) -> None:
             if event is None:
                 assert value is None or value < sector.low or value > sector.high
                 continue
-            first, last, *_, sure = event
-            assert not sure or value is not None
+            first, last = event.low, event.high
+            assert not event.is_sure or value is not None
             if value is not None and isfinite(first):
                 assert fmpq(*first.as_integer_ratio()) <= value <= fmpq(*last.as_integer_ratio())
 
@@ -245,7 +274,7 @@ def test_crossings_are_where_they_are_said_to_be(seed: int) -> None:
     hostile = Hostile(seed)
     sector = hostile.sector(seed % 4)
     curves = hostile.edges(sector)
-    around = Surroundings(images_of(curves), sector.frame(), list(range(len(curves))), [])
+    around = Surroundings(NearEdges(images_of(curves), list(range(len(curves)))), sector.frame(), ())
     states = EdgeStates(around)
     t = fmpq(hostile.rng.randint(0, 256), 256)
     line = FrameLine(around, float(t), 0.0)
@@ -257,11 +286,23 @@ def test_crossings_are_where_they_are_said_to_be(seed: int) -> None:
         exact = exact_crossings(sector, t, curve)
         assert len(exact) == (state & 1) + (state >> 1)
         states.state[j] = state
+        low, high = states.span(j)
         for which, value in zip([w for w in (2, 1) if state & w], exact, strict=True):
             m, e = states.place(j, which, line)
+            from_center = value * factor + center_of(sector, t) * factor
+            assert low == -inf or Real(low) <= from_center
+            assert high == inf or from_center <= Real(high)
             if e < inf:
                 place = value * factor
                 assert Real(m) - Real(e) <= place <= Real(m) + Real(e)
+
+
+def center_of(sector: Sector, t: fmpq) -> Real:
+    """Where on a normal of an arc its centre lies, seen back from the contact; else 0."""
+    if not isinstance(sector, Spokes):
+        return Real(0)
+    contact, direction = sector.touch(Real(t))
+    return (contact - Point(*sector.center)).dot(direction) / direction.norm_sq()
 
 
 def length_of_direction(sector: Sector, t: fmpq) -> Real:
@@ -326,6 +367,7 @@ from exactacq import kernel
 from exactacq.files.octagons import random_octagons
 from exactacq.kernel.first_edges import first_edges
 from exactacq.kernel.line_events import line_events
+from exactacq.kernel.near_edges import NearEdges
 from exactacq.kernel.radial_faces import RadialFaces
 from exactacq.kernel.radial_sweep import FaceSweep
 from exactacq.kernel.single_rays import met as met_on
@@ -342,13 +384,15 @@ for scene in (random_octagons(12, 3), xa.load("circles"), xa.load("plate"), xa.l
     families = [(s, f.edges) for f in features(table) for s in f.sectors]
     families += [(s, (e,)) for e, curve in enumerate(table.curves) for s in normals(curve)]
     every = list(range(len(table.curves)))
+    near = NearEdges(table.images, every)
     for sector, own in families:
-        around = Surroundings(table.images, sector.frame(), every, list(own))
+        around = Surroundings(near, sector.frame(), own)
         events = line_events(around, -1, float(sector.low), float(sector.high))
-        total.update(repr(events).encode())
-        ends = sorted(e[:2] for e in events)
+        told = [(e.low, e.high, e.number, e.side, e.sign, e.is_sure) for e in events]
+        total.update(repr(told).encode())
+        ends = sorted(e[:2] for e in told)
         middles = [0.5 * (a[1] + b[0]) for a, b in zip(ends, ends[1:]) if a[1] < b[0]]
-        met = first_edges(around, middles, [0.0] * len(middles), [every] * len(middles), True)
+        met = first_edges(around, middles, [0.0] * len(middles), events, True)
         total.update(repr((middles, met)).encode())
     complex_ = VisibilityComplex(table, Range(xa.Real(10).rational))
     for one in (one for e in every for one in complex_.extents(e)):

@@ -12,6 +12,7 @@ from strategies import arc_terrain, degenerate_terrain
 import exactacq as xa
 from exactacq.kernel.choice import LegSpan, mattering
 from exactacq.kernel.extents import Extent, Span
+from exactacq.kernel.images import ROLLING
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.complex_edges import FamilySweeper
 from exactacq.sensing.line_family import family_of
@@ -22,16 +23,53 @@ def scene_of(seed: int) -> xa.Scene:
     return (arc_terrain, degenerate_terrain)[seed % 2](Random(seed)).scene()
 
 
-@pytest.mark.parametrize("seed", range(8))
-def test_lines_have_one_number_for_each_name(seed: int) -> None:
-    """Whatever feature a line is found from, it has the numbers of its names, and no other line has them."""
+def sweeper_of(seed: int) -> FamilySweeper:
     try:
         table = EdgeTable(scene_of(seed).obstacles)
     except xa.InvalidScene:
         pytest.skip("no scene")
-    sweeper = FamilySweeper(table, Range(xa.Real(4).rational))
+    return FamilySweeper(table, Range(xa.Real(4).rational))
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_what_is_at_an_edge(seed: int) -> None:
+    """All families and single lines of an edge, and no others; and single lines begin where it is said."""
+    sweeper = sweeper_of(seed)
+    edges = range(len(sweeper.table.curves))
+    for found in map(sweeper.of, edges):
+        for e in edges:
+            assert found.at.get(e, []) == [one for one in found.images if e in one.edges]
+            assert found.lines_at.get(e, []) == [
+                one for one in found.single_lines if one.edge is not None and e in (one.edge, one.shown)
+            ]
+        for one in found.single_lines:
+            if one.spot is not None and one.edge is not None:
+                curve, u = sweeper.table.curves[one.edge], one.u
+                assert u is not None and curve.passes(one.place)
+                top = sweeper.clipper.rails[one.edge].top
+                low, high = (0 if v == -inf else top if v == inf else xa.Real(v) for v in one.spot)
+                if sweeper.table.full[one.edge]:
+                    assert low <= u <= high or one.spot in ((-inf, -inf), (inf, inf))
+                else:
+                    assert low <= u <= high
+
+
+def test_an_arc_sees_from_all_of_it() -> None:
+    """What is near an arc's end is swept, though it is far from the corner where the arc starts."""
+    half_disc = xa.Outline([(-3, 0), (3, 0, 1)])
+    square = xa.Polygon([(-5, 1), (-4, 1), (-4, 2), (-5, 2)])
+    table = EdgeTable(xa.Scene([half_disc, square], radius=2).obstacles)
+    found = FamilySweeper(table, Range(xa.Real(2).rational)).of(1)
+    tangents = [one for one in found.images if one.frame[0] == ROLLING]
+    assert any(table.owner[e] == 1 for one in tangents for e in one.edges if e >= 0)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_lines_have_one_number_for_each_name(seed: int) -> None:
+    """Whatever feature a line is found from, it has the numbers of its names, and no other line has them."""
+    sweeper = sweeper_of(seed)
     numbers: dict[object, int] = {}
-    for e in range(len(table.curves)):
+    for e in range(len(sweeper.table.curves)):
         for image in sweeper.of(e).images:
             family = family_of(image)
             for names, keys in zip(family.names, (image.first_keys, image.last_keys), strict=True):

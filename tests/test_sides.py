@@ -14,7 +14,7 @@ import pytest
 
 from exactacq.geometry.points import Point
 from exactacq.kernel.bounded import UNIT
-from exactacq.kernel.family_images import NONE, FamilyImage
+from exactacq.kernel.family_images import NONE, EndLine, FamilyImage
 from exactacq.numbers.float_bounds import float_ball, rough
 from exactacq.numbers.real import Real, fmpq, rational
 from exactacq.sensing.line_family import SingleLine
@@ -51,13 +51,13 @@ def distances(lines: list[tuple[Point, Point]], place: Point) -> list[float]:
 
 def of_lines(start: Point, end: Point) -> FamilyImage:
     """The line from one point through another, as a family."""
-    return SingleLine(start, None, (start, end), 0).image
+    return SingleLine((start, None), None, (start, end), 0).image
 
 
 def family(sector: Sector, low: Real, high: Real) -> FamilyImage:
     """The lines of a sector between two parameters."""
-    ends = (*float_ball(low), *float_ball(high))
-    return FamilyImage(sector.image, ends, (NONE, NONE, NONE), False, True, NONE, ([], []), ([], []), None, 0)
+    first, last = (EndLine(sector.image, *float_ball(t), [], []) for t in (low, high))
+    return FamilyImage(sector.image, (first, last), (NONE, NONE, NONE), False, True, NONE, None, 0)
 
 
 def side_of(image: FamilyImage, place: Point) -> int:

@@ -7,22 +7,7 @@ from math import inf, nan
 from operator import attrgetter
 from typing import final
 
-from exactacq.kernel.line_events import Event
-
-Passed = list[tuple[int, int, int]]
-"""What a line passes: number (a vertex, or an arc), side and sign of each (see `kernel.line_events`)."""
-
-
-@final
-class BoundLine:
-    """A line of a pencil: its parameter lies between ``low`` and ``high``; what it passes; its exact value.
-
-    The value is None where none is made yet. Before those that are equal are brought together, a bound passes
-    one thing at most.
-    """
-
-    def __init__(self, low: float, high: float, passed: Passed, value: object) -> None:
-        self.low, self.high, self.passed, self.value = low, high, passed, value
+from exactacq.kernel.bound_lines import BoundLine
 
 
 @final
@@ -31,15 +16,6 @@ class LineCells:
 
     def __init__(self, first: BoundLine, last: BoundLine, behind: int, ahead: int) -> None:
         self.first, self.last, self.behind, self.ahead = first, last, behind, ahead
-
-
-def sure_bounds(events: list[Event], first: int, last: int) -> list[BoundLine]:
-    """The lines of those events that certainly are there, but for two vertices that others stand for."""
-    return [
-        BoundLine(low, high, [(number, side, sign)], None)
-        for low, high, number, side, sign, sure in events
-        if sure and (side or (number != first and number != last))
-    ]
 
 
 def clusters(bounds: list[BoundLine], start: BoundLine, stop: BoundLine) -> list[list[BoundLine]]:

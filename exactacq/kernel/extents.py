@@ -6,7 +6,7 @@ from math import inf, sqrt
 from typing import Final, final
 
 from exactacq.kernel.curve_images import CurveImage
-from exactacq.kernel.family_images import CONTACT, EdgePlace, EdgePlaces, FamilyImage
+from exactacq.kernel.family_images import CONTACT, ByEdge, EdgePlace, EdgePlaces, FamilyImage
 from exactacq.kernel.images import ROLLING, SLIDING
 
 SURE: Final = 1e-9
@@ -53,16 +53,19 @@ def unknown(edge: int, origin: object, here: int, there: int) -> Extent:
 
 
 def extents_from(
-    edge: int, families: list[FamilyImage], curves: list[CurveImage], reach: tuple[float, float]
+    edge: int, groups: list[ByEdge], curves: list[CurveImage], reach: tuple[float, float]
 ) -> list[Extent]:
-    """What families show from an edge of others, unless all of it is out of range.
+    """What the families of an edge, in some groups, show from it of others, unless all is out of range.
 
     *reach* bounds the radius of vision from below and above. A side that stays at a corner is left out.
     """
     found: list[Extent] = []
+    families: list[FamilyImage] = []
+    for group in groups:
+        some = group.get(edge)
+        if some is not None:
+            families += some
     for family in families:
-        if edge not in family.edges:
-            continue
         for here in range(-1, 2):
             if family.edge(here) != edge or (here == CONTACT and family.fixed):
                 continue

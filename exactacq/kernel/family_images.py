@@ -30,6 +30,20 @@ NOWHERE: EdgePlace = (0.0, 0.0, 0.0, 0.0, inf)
 
 
 @final
+class EndLine:
+    """The first or the last line of a family, in floats: its parameter, held with a bound.
+
+    ``corners`` are the vertices that it passes; its ``keys`` are numbers that are equal only for equal lines.
+    Neighbouring families share it.
+    """
+
+    def __init__(self, frame: Frame, t: float, error: float, corners: list[int], keys: list[int]) -> None:
+        self.t, self.error = t, error
+        self.line: Line = line_at(frame, t, error)
+        self.corners, self.keys = corners, keys
+
+
+@final
 class FamilyImage:
     """A line family: a cell of a pencil, and the edges that its lines meet behind and ahead of the contact.
 
@@ -43,27 +57,23 @@ class FamilyImage:
     def __init__(
         self,
         frame: Frame,
-        ends: tuple[float, float, float, float],
+        ends: tuple[EndLine, EndLine],
         edges: tuple[int, int, int],
         fixed: bool,
         goes_back: bool,
         corner: int,
-        corners: tuple[list[int], list[int]],
-        keys: tuple[list[int], list[int]],
         origin: object,
         number: int,
     ) -> None:
-        """*ends* are the parameters of both lines, each with its error."""
+        """*ends* are the first and the last line."""
         self.origin, self.number = origin, number
         self.frame, self.edges = frame, edges
         self.fixed, self.goes_back, self.corner = fixed, goes_back, corner
-        self.first_corners, self.last_corners = corners
-        self.first_keys, self.last_keys = keys
-        low, low_error, high, high_error = ends
-        self.low, self.high = low, high
-        self.first: Line = line_at(frame, low, low_error)
-        self.last: Line = line_at(frame, high, high_error)
-        self.fraction = (low - low_error, low + low_error, high - high_error, high + high_error)
+        first, last = ends
+        self.low, self.high = first.t, last.t
+        self.first, self.last = first.line, last.line
+        self.first_corners, self.last_corners = first.corners, last.corners
+        self.first_keys, self.last_keys = first.keys, last.keys
         self.behind: EdgePlaces = (NOWHERE, NOWHERE)
         self.contact: EdgePlaces = (NOWHERE, NOWHERE)
         self.ahead: EdgePlaces = (NOWHERE, NOWHERE)
@@ -103,21 +113,52 @@ class FamilyImage:
         return one if one == _height(self.last, x, y, error, least) else 0
 
 
-def locate(families: list[FamilyImage], curves: list[CurveImage], following: list[int]) -> None:
-    """Find where the first and the last lines of families meet their edges."""
-    for image in families:
-        _locate(image, curves, following)
+ByEdge = dict[int, list[FamilyImage]]
+"""Families by the edges that their lines meet, or touch at the contact."""
 
 
-def _locate(image: FamilyImage, curves: list[CurveImage], following: list[int]) -> None:
+def by_edge(families: list[FamilyImage]) -> ByEdge:
+    """Some families by their edges."""
+    found: ByEdge = {}
+    for family in families:
+        behind, contact, ahead = family.edges
+        _note(found, contact, family)
+        if behind >= 0 and behind != contact:
+            _note(found, behind, family)
+        if ahead >= 0 and ahead != contact and ahead != behind:
+            _note(found, ahead, family)
+    return found
+
+
+def _note(found: ByEdge, edge: int, family: FamilyImage) -> None:
+    some = found.get(edge)
+    if some is None:
+        found[edge] = [family]
+    else:
+        some.append(family)
+
+
+def locate(
+    image: FamilyImage,
+    ends: tuple[EndLine, EndLine],
+    before: FamilyImage | None,
+    curves: list[CurveImage],
+    following: list[int],
+) -> None:
+    """Find where the first and the last line of a family meet their edges.
+
+    *before* is the family before this one, whose last line is its first: where that meets an edge is known.
+    """
     for role in (BEHIND, CONTACT, AHEAD):
         e = image.edge(role)
         if e < 0:
             continue
         curve, after = curves[e], following[e]
-        low, high = image.fraction[:2], image.fraction[2:]
-        one = _place(image, role, curve, image.first, low, _corner(e, after, image.first_corners))
-        other = _place(image, role, curve, image.last, high, _corner(e, after, image.last_corners))
+        if before is not None and before.is_known and before.edge(role) == e:
+            one = before.places(role)[1]
+        else:
+            one = _place(image, role, e, curve, after, ends[0])
+        other = _place(image, role, e, curve, after, ends[1])
         if not (one[4] < inf and other[4] < inf):
             return
         image.move(role, (one, other))
@@ -125,26 +166,23 @@ def _locate(image: FamilyImage, curves: list[CurveImage], following: list[int]) 
 
 
 def _place(
-    image: FamilyImage,
-    role: int,
-    curve: CurveImage,
-    line: Line,
-    fraction: tuple[float, float],
-    end: float,
+    image: FamilyImage, role: int, edge: int, curve: CurveImage, following: int, at: EndLine
 ) -> EdgePlace:
-    """Where a line meets an edge; *end* is minus infinity or infinity if that is an end of the edge."""
-    x, y, _, _, error, _ = line
+    """Where a line meets an edge."""
+    x, y, _, _, error, _ = at.line
     if role == CONTACT:
         if image.fixed:
             return -inf, -inf, x, y, error
         if image.frame[0] == SLIDING:
-            return (end, end, x, y, error) if end else (fraction[0], fraction[1], x, y, error)
+            end = _corner(edge, following, at.corners)
+            return (end, end, x, y, error) if end else (at.t - at.error, at.t + at.error, x, y, error)
         u, ue = parameter_round(curve, x, y, error)
         return u - ue, u + ue, x, y, error
-    _, fe, u, ue, x, y, error = meets(line, curve, role)
+    _, fe, u, ue, x, y, error = meets(at.line, curve, role)
     if not (fe < inf and ue < inf):
         return NOWHERE
-    return (end, end, x, y, error) if end and not curve.sense else (u - ue, u + ue, x, y, error)
+    end = 0.0 if curve.sense else _corner(edge, following, at.corners)
+    return (end, end, x, y, error) if end else (u - ue, u + ue, x, y, error)
 
 
 def _corner(edge: int, following: int, passed: list[int]) -> float:

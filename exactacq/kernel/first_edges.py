@@ -13,40 +13,40 @@ from __future__ import annotations
 from math import inf
 from typing import Final, final
 
+from exactacq.kernel.bound_lines import NOTHING, BoundLine
 from exactacq.kernel.bounded import UNIT, WIDEN
 from exactacq.kernel.crossings import VAGUE, EdgeStates
-from exactacq.kernel.images import CONCAVE, STRAIGHT
-from exactacq.kernel.surroundings import FrameLine, Surroundings
+from exactacq.kernel.images import CONCAVE
+from exactacq.kernel.surroundings import THROUGH, FrameLine, Surroundings
 
-NOTHING: Final = -1
-"""No edge, or one that is met from its blocked side and stands for one that was left out."""
 DOUBT: Final = -2
-"""The margins leave it open."""
+"""The margins leave open which edge is met; `NOTHING`: none, or one that is met from its blocked side and
+stands for one that was left out."""
 
 
 def first_edges(
     around: Surroundings,
     middles: list[float],
     errors: list[float],
-    passed: list[list[int]],
+    bounds: list[BoundLine],
     always: bool,
-) -> tuple[list[int], list[int], list[list[int]]]:
-    """For each cell the first edge behind, the one ahead, and where that is a `DOUBT` what may be met at all.
+) -> tuple[list[int], list[int], dict[int, list[int]]]:
+    """For each cell the first edge behind and the one ahead; for each in `DOUBT` what may be met at all.
 
-    *passed* lists what is passed between a cell and the one before: a vertex by its number v, an arc e as
-    -1 - e. With *always* every edge is looked at in every cell.
+    Each cell follows one of *bounds*. With *always* every edge is looked at in every cell.
     """
     behind: list[int] = []
     ahead: list[int] = []
-    possible: list[list[int]] = []
+    possible: dict[int, list[int]] = {}
     walk = EdgeWalk(EdgeStates(around))
     for cell in range(len(middles)):
         line = FrameLine(around, middles[cell], errors[cell])
         fresh = always or cell == 0
-        sure = walk.start(line) if fresh else walk.step(walk.concerned(passed[cell]), line)
+        sure = walk.start(line) if fresh else walk.step(walk.concerned(bounds[cell]), line)
         behind.append(walk.met(0) if sure else DOUBT)
         ahead.append(walk.met(1) if sure else DOUBT)
-        possible.append([] if sure else [around.edges[j] for j in walk.active])
+        if not sure:
+            possible[cell] = [around.near.edges[j] for j in walk.active]
     return behind, ahead, possible
 
 
@@ -56,11 +56,9 @@ class EdgeWalk:
 
     def __init__(self, states: EdgeStates) -> None:
         self.states, self.around = states, states.around
-        kinds = self.around.images.kind
+        near, kinds = self.around.near, self.around.images.kind
         self.unsteady = [
-            j
-            for j, e in enumerate(self.around.edges)
-            if kinds[e] == CONCAVE or (self.around.through[j] and kinds[e] != STRAIGHT)
+            j for j in near.arcs if kinds[near.edges[j]] == CONCAVE or self.around.place[j] == THROUGH
         ]
         self.active: list[int] = []
         self.vague: list[int] = []
@@ -69,18 +67,25 @@ class EdgeWalk:
         self.near = (-1, -1)
         self.root = (0, 0)
 
-    def concerned(self, passed: list[int]) -> list[int]:
-        """The numbers of the edges that have an event where something is passed."""
-        at, previous = self.around.at, self.around.images.previous
+    def concerned(self, bound: BoundLine) -> list[int]:
+        """The numbers of the edges that have an event at a line."""
         found: list[int] = []
-        for v in passed:
-            j = at.get(v if v >= 0 else -1 - v, -1)
-            if j >= 0:
-                found.append(j)
-            j = at.get(previous[v], -1) if v >= 0 else -1
-            if j >= 0:
-                found.append(j)
+        if bound.number != NOTHING:
+            self._concern(found, bound.number, bound.side)
+            if bound.others is not None:
+                for number, side, _ in bound.others:
+                    self._concern(found, number, side)
         return found
+
+    def _concern(self, found: list[int], number: int, side: int) -> None:
+        near = self.around.near
+        j = near.edge(number)
+        if j >= 0:
+            found.append(j)
+        if side == 0:
+            j = near.edge(self.around.images.previous[number])
+            if j >= 0:
+                found.append(j)
 
     def start(self, line: FrameLine) -> bool:
         """Look at all edges; whether the nearest crossings are certain."""
@@ -109,7 +114,7 @@ class EdgeWalk:
         near, far = self.near
         tried: list[int] = []
         for j in changed:
-            if state[j] and j != near and j != far:
+            if state[j] and j != near and j != far and not self._is_beyond(j):
                 tried.append(j)
         if tried:
             # Otherwise nothing has come in front of the nearest.
@@ -120,11 +125,19 @@ class EdgeWalk:
             self.known = self._choose(tried, line)
         return self.known
 
+    def _is_beyond(self, j: int) -> bool:
+        """Whether an edge is surely crossed farther away than the nearest on its side: it needs no line."""
+        low, high = self.states.span(j)
+        behind, ahead = self.near
+        if ahead >= 0 and low > self.states.span(ahead)[1]:
+            return True
+        return behind >= 0 and high < self.states.span(behind)[0]
+
     def met(self, side: int) -> int:
         """The edge of the nearest crossing on one side, if an obstacle is entered there."""
         j = self.near[side]
         if j >= 0 and self.states.enters(j, self.root[side]) == (side == 1):
-            return self.around.edges[j]
+            return self.around.near.edges[j]
         return NOTHING
 
     def _look(self, changed: list[int], line: FrameLine) -> None:

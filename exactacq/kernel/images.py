@@ -49,6 +49,10 @@ class EdgeImages:
         self.radius, self.kind, self.full = radius, kind, full
         self.following, self.previous = following, previous
 
+    def place(self, v: int) -> tuple[float, float, float, float]:
+        """A vertex, with rests, as `LineFrame` takes it."""
+        return self.x[v], self.x_rest[v], self.y[v], self.y_rest[v]
+
 
 @final
 class LineFrame:

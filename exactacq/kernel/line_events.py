@@ -10,46 +10,53 @@ radius and K the span, the parameters are
   the sum of a and w does not cancel;
 - sliding: k / K, for circles (k +- r) / K.
 
-An event is a tuple (low, high, number, side, sign, sure): an interval that contains the parameter, what is
-passed (see `exactacq.visibility.line_families.Sector.exact`), and whether such a line exists for certain.
+An event is a `BoundLine`: an interval that contains the parameter, what is passed (see
+`exactacq.visibility.line_families.Sector.exact`), and whether such a line exists for certain.
 """
 
 from __future__ import annotations
 
 from math import inf
 
+from exactacq.kernel.bound_lines import BoundLine
 from exactacq.kernel.bounded import UNIT, WIDEN, product, quotient, root, total
 from exactacq.kernel.images import CONVEX, ROLLING, SLIDING
-from exactacq.kernel.surroundings import Surroundings
-
-Event = tuple[float, float, int, int, int, bool]
+from exactacq.kernel.surroundings import APART, Surroundings
 
 
-def line_events(around: Surroundings, corner: int, low: float, high: float) -> list[Event]:
+def line_events(around: Surroundings, corner: int, low: float, high: float) -> list[BoundLine]:
     """The events between *low* and *high* of all vertices but *corner*, and of convex arcs not at the
     contact.
 
     What may lie there is included.
     """
-    found: list[Event] = []
+    found: list[BoundLine] = []
     kind, span, wide = around.frame.kind, around.span, around.span_bound
-    images = around.images
-    far = max(abs(low), abs(high))
-    for n, v in enumerate(around.vertices):
-        if v == corner or images.full[v]:
+    near, images = around.near, around.images
+    vertices, full = near.vertices, images.full
+    far = max(abs(low), abs(high)) * WIDEN
+    n = -1
+    for spot in around.spots:
+        n += 1
+        k, a, e = spot.x, spot.y, spot.bound
+        if kind != ROLLING and kind != SLIDING and abs(a) - e > (abs(k) + e) * far:
             continue
-        k, a, e = around.x[n], around.y[n], around.bound[n]
+        v = vertices[n]
+        if v == corner or full[v]:
+            continue
         if kind == ROLLING:
             _roll(found, a, e, k, e, span, wide, v, 0, low, high)
         elif kind == SLIDING:
             _note(found, k, e, span, wide, v, 0, 0, True, low, high)
-        elif not abs(a) - e > (abs(k) + e) * far * WIDEN:
+        else:
             _note(found, a, e, k, e, v, 0, 0, True, low, high)
-    for j, c in enumerate(around.edges):
-        if images.kind[c] != CONVEX or around.through[j]:
+    for n in range(len(near.arcs)):
+        j = near.arcs[n]
+        c = near.edges[j]
+        if images.kind[c] != CONVEX or around.place[j] != APART:
             continue
-        n = around.middle[j]
-        k, a, e = around.x[n], around.y[n], around.bound[n]
+        center = around.centers[n]
+        k, a, e = center.x, center.y, center.bound
         r, r_bound = around.radius(c)
         if kind == ROLLING:
             for side in (1, -1):
@@ -65,7 +72,7 @@ def line_events(around: Surroundings, corner: int, low: float, high: float) -> l
 
 
 def _roll(
-    found: list[Event],
+    found: list[BoundLine],
     a: float,
     ae: float,
     k: float,
@@ -98,7 +105,7 @@ def _roll(
 
 
 def _touch(
-    found: list[Event],
+    found: list[BoundLine],
     a: float,
     ae: float,
     k: float,
@@ -130,7 +137,7 @@ def _touch(
 
 
 def _note(
-    found: list[Event],
+    found: list[BoundLine],
     top: float,
     te: float,
     below: float,
@@ -151,10 +158,10 @@ def _note(
         return
     m, e = quotient(top, te, below, be)
     if not e < inf:
-        found.append((-inf, inf, number, side, sign, False))
+        found.append(BoundLine(-inf, inf, number, side, sign, False, None))
         return
     e = e * WIDEN + UNIT * abs(m)
     first, last = m - e, m + e
     if last < low or first > high:
         return
-    found.append((first, last, number, side, sign, sure))
+    found.append(BoundLine(first, last, number, side, sign, sure, None))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import final
 
-from exactacq.kernel.cells import Passed
+from exactacq.kernel.bound_lines import Passed
 
 
 @final

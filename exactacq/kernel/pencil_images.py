@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from exactacq.kernel.bound_lines import BoundLine
 from exactacq.kernel.bounded import UNIT
-from exactacq.kernel.cells import BoundLine, LineCells
-from exactacq.kernel.family_images import NONE, FamilyImage
+from exactacq.kernel.cells import LineCells
+from exactacq.kernel.curve_images import CurveImage
+from exactacq.kernel.family_images import NONE, EndLine, FamilyImage, locate
 from exactacq.kernel.images import TURNING
 from exactacq.kernel.line_keys import LineNumbers
 from exactacq.kernel.lines import Frame
@@ -17,51 +19,43 @@ def pencil_images(
     goes_back: bool,
     name: tuple[int, bool],
     numbers: LineNumbers,
+    curves: list[CurveImage],
+    following: list[int],
     origin: object,
 ) -> list[FamilyImage]:
-    """The images of the cells of a pencil.
+    """The images of the cells of a pencil, and where their lines meet *curves*; without these, not where.
 
     *at* is the edge at the contact, and whether that stays at a corner; *name* the number of the corner or
     circle that names the lines, `NONE` if they have no names, and whether it is a circle.
     """
-    (contact, fixed), (own, is_round) = at, name
+    contact, fixed = at
     found: list[FamilyImage] = []
     corner = contact if frame[0] == TURNING else NONE
+    before: FamilyImage | None = None
     # Neighbouring cells share a bound, so they share what is told of it.
-    last_keys: list[int] = []
-    last_corners: list[int] = []
+    last: EndLine | None = None
     for k in range(len(rows)):
         row = rows[k]
-        first_keys = last_keys if k else _keys(row.first, own, is_round, numbers)
-        last_keys = _keys(row.last, own, is_round, numbers)
-        first_corners = last_corners if k else _vertices(row.first)
-        last_corners = _vertices(row.last)
-        image = FamilyImage(
-            frame,
-            (*_parameter(row.first), *_parameter(row.last)),
-            (row.behind if goes_back else NONE, contact, row.ahead),
-            fixed,
-            goes_back,
-            corner,
-            (first_corners, last_corners),
-            (first_keys, last_keys),
-            origin,
-            k,
-        )
+        first = _end(row.first, frame, name, numbers) if last is None else last
+        last = _end(row.last, frame, name, numbers)
+        edges = (row.behind if goes_back else NONE, contact, row.ahead)
+        image = FamilyImage(frame, (first, last), edges, fixed, goes_back, corner, origin, k)
+        if curves:
+            locate(image, (first, last), before, curves, following)
         found.append(image)
+        before = image
     return found
 
 
-def _keys(bound: BoundLine, own: int, is_round: bool, numbers: LineNumbers) -> list[int]:
-    keys = numbers.keys(own, is_round, bound.passed) if own >= 0 else []
-    return keys if keys else [numbers.fresh(1)]
+def _end(bound: BoundLine, frame: Frame, name: tuple[int, bool], numbers: LineNumbers) -> EndLine:
+    """A line that bounds cells: the middle of its interval, and half its length.
 
-
-def _parameter(bound: BoundLine) -> tuple[float, float]:
-    """The middle of an interval, and half its length; rounding moves the middle by UNIT times its size."""
+    Rounding moves the middle by UNIT times its size.
+    """
+    own, is_round = name
+    passed = bound.passed
     middle = 0.5 * (bound.low + bound.high)
-    return middle, 0.5 * (bound.high - bound.low) * (1.0 + 4.0 * UNIT) + 2.0 * UNIT * abs(middle)
-
-
-def _vertices(bound: BoundLine) -> list[int]:
-    return [number for number, side, _ in bound.passed if side == 0]
+    error = 0.5 * (bound.high - bound.low) * (1.0 + 4.0 * UNIT) + 2.0 * UNIT * abs(middle)
+    keys = numbers.keys(own, is_round, passed) if own >= 0 else []
+    corners = [number for number, side, _ in passed if side == 0]
+    return EndLine(frame, middle, error, corners, keys if keys else [numbers.fresh(1)])

@@ -14,86 +14,75 @@ have simple forms: with (c, d) for contact and direction
 from __future__ import annotations
 
 from math import sqrt
-from typing import final
+from typing import Final, final
 
 from exactacq.kernel.bounded import TINY, UNIT, WIDEN, dot, product, root
-from exactacq.kernel.images import REST, ROLLING, SLIDING, SPOKES, STRAIGHT, EdgeImages, LineFrame
+from exactacq.kernel.images import REST, ROLLING, SLIDING, SPOKES, STRAIGHT, LineFrame
+from exactacq.kernel.near_edges import NearEdges
+
+APART: Final = 0
+"""An edge that has nothing to do with the contact,"""
+THROUGH: Final = 1
+"""an arc through it, which its lines may meet a second time,"""
+LEFT_OUT: Final = 2
+"""and an edge through it that its lines do not meet elsewhere."""
+
+
+@final
+class FramePoint:
+    """A vertex or an arc's centre in the frame: (x, y), held with ``bound``, and ``size`` = |x| + |y|."""
+
+    def __init__(self, x: float, y: float, bound: float) -> None:
+        self.x, self.y, self.bound = x, y, bound
+        self.size = abs(x) + abs(y)
 
 
 @final
 class Surroundings:
-    """The edges within reach of a family, in its frame.
+    """The edges within reach of a family, in its frame: the ``spots`` of their vertices and the ``centers``.
 
-    Vertices and arcs' centres have coordinates ``x`` and ``y``, held with the bound ``bound``, and ``size`` =
-    |x| + |y|. They are numbered anew: ``first`` and ``last`` give the ends of the edges, ``middle`` the
-    centre.
+    *own* are the edges through the contact; ``place[j]`` says of each edge whether it is `APART` from it.
 
     The bound: an offset o is held with b, see `exactacq.kernel.images`, and e with q. Both components of the
     product with e are held with |e|_1 b + q (|o|_1 + 2 b) for the data and 2 UNIT |e|_1 |o|_1 for three
     roundings, where | |_1 is the sum of the components' sizes.
     """
 
-    def __init__(self, images: EdgeImages, frame: LineFrame, edges: list[int], own: list[int]) -> None:
-        self.images, self.frame, self.edges = images, frame, edges
+    def __init__(self, near: NearEdges, frame: LineFrame, own: tuple[int, ...]) -> None:
+        self.near, self.images, self.frame = near, near.images, frame
+        images = self.images
         square, bound = dot(frame.ux, frame.uy, frame.bound, frame.ux, frame.uy, frame.bound)
         self.scale, self.scale_bound = root(square, bound)
         self.span, self.span_bound = product(square, bound, frame.unit, 0.0)
-        self.x: list[float] = []
-        self.y: list[float] = []
-        self.bound: list[float] = []
-        self.size: list[float] = []
-        self.at: dict[int, int] = {}
-        count = len(edges)
-        following, kinds, at = images.following, images.kind, self.at
-        for j in range(count):
-            at[edges[j]] = j
-        self.vertices = edges.copy()
-        self.first = list(range(count))
-        self.last = [0] * count
-        self.middle = [-1] * count
-        self.through = [False] * count
+        self.place = [APART] * len(near.edges)
         for e in own:
-            if e in at:
-                self.through[at[e]] = True
-        beyond: dict[int, int] = {}
-        centers: list[int] = []
-        for j in range(count):
-            e = edges[j]
-            v = following[e]
-            k = at.get(v, -1)
-            if k < 0:
-                k = beyond.get(v, -1)
-            if k < 0:
-                k = beyond[v] = len(self.vertices)
-                self.vertices.append(v)
-            self.last[j] = k
-            if kinds[e] != STRAIGHT:
-                centers.append(j)
-        self._add(self.vertices, images.x, images.x_rest, images.y, images.y_rest)
-        for j in centers:
-            self.middle[j] = len(self.x)
-            self._add([edges[j]], images.cx, images.cx_rest, images.cy, images.cy_rest)
+            j = near.edge(e)
+            if j >= 0:
+                is_out = images.kind[e] == STRAIGHT or frame.kind == ROLLING
+                self.place[j] = LEFT_OUT if is_out else THROUGH
+        self.spots = self._spots(near.vertices, images.x, images.x_rest, images.y, images.y_rest)
+        arcs = [near.edges[j] for j in near.arcs]
+        self.centers = self._spots(arcs, images.cx, images.cx_rest, images.cy, images.cy_rest)
 
-    def _add(
+    def _spots(
         self, points: list[int], x: list[float], x_rest: list[float], y: list[float], y_rest: list[float]
-    ) -> None:
-        """Add points, by their numbers in lists of coordinates with rests."""
+    ) -> list[FramePoint]:
+        """Points in the frame, by their numbers in lists of coordinates with rests."""
         frame = self.frame
         ux, uy, cx, cy, cx_rest, cy_rest = frame.ux, frame.uy, frame.x, frame.y, frame.x_rest, frame.y_rest
         length = abs(ux) + abs(uy)
         base, least = abs(cx) + abs(cy), frame.blur + TINY
         for_size = frame.bound + 2.0 * UNIT * length
+        found: list[FramePoint] = []
         for k in points:
             px, py = x[k], y[k]
             dx = (px - cx) + (x_rest[k] - cx_rest)
             dy = (py - cy) + (y_rest[k] - cy_rest)
             size = abs(dx) + abs(dy)
             b = UNIT * size + REST * (abs(px) + abs(py) + base) + least
-            u, v = ux * dx + uy * dy, ux * dy - uy * dx
-            self.x.append(u)
-            self.y.append(v)
-            self.size.append(abs(u) + abs(v))
-            self.bound.append((length * b + for_size * (size + 2.0 * b) + TINY) * WIDEN)
+            bound = (length * b + for_size * (size + 2.0 * b) + TINY) * WIDEN
+            found.append(FramePoint(ux * dx + uy * dy, ux * dy - uy * dx, bound))
+        return found
 
     def radius(self, e: int) -> tuple[float, float]:
         """The radius of an arc, in the frame."""

@@ -14,12 +14,13 @@ import numpy as np
 from flint import fmpq
 from numpy.typing import NDArray
 
-from exactacq.geometry.box_index import BoxIndex, bounds, circles, united
+from exactacq.geometry.box_index import bounds, circles, united
 from exactacq.geometry.coordinates import raw
 from exactacq.geometry.curve_images import curve_image
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.kernel import images
+from exactacq.kernel.box_tree import BoxNode, box_tree
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.images import EdgeImages
 from exactacq.scene.scene import Obstacle
@@ -63,14 +64,14 @@ class EdgeTable:
         round_ = circles(self.curves)
         self.center, self.radius = round_[:, :2], round_[:, 2]
         self.boxes: Floats = bounds(self.curves)
-        self._near: dict[tuple[tuple[float, float], tuple[float, float], float], Ints] = {}
+        self._around: dict[tuple[tuple[float, float], tuple[float, float], float], list[int]] = {}
         self.magnitude = float(np.abs(self.boxes).max(initial=0.0))
         self.roundoff = 2.0**-50 * max(self.magnitude, float(self.radius.max(initial=0.0)))
 
     @cached_property
-    def index(self) -> BoxIndex:
-        """Spatial index over the edges' boxes."""
-        return BoxIndex(self.boxes)
+    def tree(self) -> BoxNode:
+        """The edges' boxes, to find those that are near."""
+        return box_tree([(x0, y0, x1, y1) for x0, y0, x1, y1 in self.boxes.tolist()])
 
     @cached_property
     def hulls(self) -> Floats:
@@ -122,7 +123,7 @@ class EdgeTable:
         None for a point that is on no boundary.
         """
         x, y = point.xy
-        near = self.near((x, y), (x, y), 0.0).tolist()
+        near = self.around((x, y), (x, y), 0.0)
         found = [e for e in near if self.curves[e].may_pass(point, BITS) and self.curves[e].passes(point)]
         if len(found) == 2 and self.curves[found[0]].start == point:
             found.reverse()
@@ -130,21 +131,26 @@ class EdgeTable:
 
     def roundoff_at(self, *places: tuple[float, float]) -> float:
         """The bound for differences of the table's coordinates and places, which may lie far outside."""
-        return max(self.roundoff, *(2.0**-50 * max(abs(x), abs(y)) for x, y in places))
+        far = 0.0
+        for x, y in places:
+            far = max(far, abs(x), abs(y))
+        return max(self.roundoff, 2.0**-50 * far)
 
     def near(self, low: tuple[float, float], high: tuple[float, float], reach: float) -> Ints:
-        """The edges whose boxes come within *reach* of the box from *low* to *high*.
+        """The edges whose boxes come within *reach* of the box from *low* to *high*."""
+        return np.array(self.around(low, high, reach), dtype=np.intp)
+
+    def around(self, low: tuple[float, float], high: tuple[float, float], reach: float) -> list[int]:
+        """The same edges in a list, which is not to be changed: cheaper than an array if they are few.
 
         The last answers are kept: all sectors of a corner ask for one box, as do ways along an edge.
         """
-        found = self._near.get((low, high, reach))
+        found = self._around.get((low, high, reach))
         if found is None:
-            if len(self._near) >= NEAR_KEPT:
-                self._near.clear()
-            r = reach + 8 * self.roundoff_at(low, high)
-            found = self.index.query(low[0] - r, low[1] - r, high[0] + r, high[1] + r)
-            found.flags.writeable = False
-            self._near[low, high, reach] = found
+            if len(self._around) >= NEAR_KEPT:
+                self._around.clear()
+            margin = 8 * self.roundoff_at(low, high)
+            found = self._around[low, high, reach] = self.tree.near((*low, *high), reach + margin)
         return found
 
     def distance_bounds(self, x: float, y: float, edges: Ints) -> Floats:

@@ -8,8 +8,9 @@ sides and shows what no neighbouring line does.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cached_property, partial
+from typing import TypeAlias
 
 from flint import arb, fmpq
 
@@ -18,11 +19,14 @@ from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.late import late_point
 from exactacq.geometry.points import Point, distance_sq
-from exactacq.kernel.family_images import NONE, FamilyImage
+from exactacq.kernel.bound_lines import BoundLine
+from exactacq.kernel.extents import EVERYTHING
+from exactacq.kernel.family_images import NONE, FamilyImage, by_edge
 from exactacq.kernel.line_keys import LineNumbers
+from exactacq.kernel.near_edges import NearEdges
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import CONVEX, EdgeTable
-from exactacq.sensing.line_family import PencilFamilies, SingleLine
+from exactacq.sensing.line_family import PencilFamilies, Reached, SingleLine
 from exactacq.sensing.line_images import LineImages
 from exactacq.sensing.line_points import Role, Side
 from exactacq.sensing.view_families import FamilyClipper
@@ -33,18 +37,29 @@ from exactacq.visibility.line_balls import line
 from exactacq.visibility.line_families import Sector, Sliding, Spokes, corner_sectors, quarters
 from exactacq.visibility.line_names import Namer
 from exactacq.visibility.pinched_lines import may_be_pinched
-from exactacq.visibility.rotational_sweep import Pencil, pencil
+from exactacq.visibility.rotational_sweep import Pencil, swept
 from exactacq.visibility.sensor_range import Range
 
 NO_ENDS = (NONE, NONE)
+Swept: TypeAlias = "tuple[Pencil, list[FamilyImage]]"
+"""A pencil and the images of its families."""
 
 
 class EdgeFamilies:
-    """The line families of one edge, as float images, and the single lines."""
+    """The line families of one edge, as float images, and the single lines.
 
-    def __init__(self) -> None:
-        self.images: list[FamilyImage] = []
-        self.single_lines: list[SingleLine] = []
+    By edges, ``at`` has the families that meet or touch them, and ``lines_at`` the single lines from edge to
+    edge that begin there or show them.
+    """
+
+    def __init__(self, images: list[FamilyImage], single_lines: list[SingleLine]) -> None:
+        self.images, self.single_lines = images, single_lines
+        self.at = by_edge(images)
+        self.lines_at: dict[int, list[SingleLine]] = {}
+        for single in single_lines:
+            if single.edge is not None:
+                for e in {single.edge, single.shown}:
+                    self.lines_at.setdefault(e, []).append(single)
 
 
 class FamilySweeper:
@@ -70,17 +85,21 @@ class FamilySweeper:
 
         With the single lines that join the tangents. A corner belongs to the edge that starts there.
         """
-        found = EdgeFamilies()
+        images: list[FamilyImage] = []
+        single_lines: list[SingleLine] = []
+        around = self._near(self.table.boxes[e].tolist())
         for sector in normals(self.table.curves[e]):
             ends = (e, int(self.table.next[e])) if isinstance(sector, Sliding) else NO_ENDS
-            self._add(found, sector, (e,), Side(e, Role.CONTACT), None, ends, goes_back=False)
+            self._add(images, sector, around, (e,), Side(e, Role.CONTACT), None, ends, goes_back=False)
         for feature in self._features.get(e, ()):
+            near = around if feature.round else self._near([*self.table.start[e].tolist()] * 2)
             contact = Side(e, Role.CONTACT, fixed=not feature.round)
             first, last = self._corners_beside(feature)
             sweeps = [
                 self._add(
-                    found,
+                    images,
                     s,
+                    near,
                     feature.edges,
                     contact,
                     feature,
@@ -88,15 +107,21 @@ class FamilySweeper:
                 )
                 for k, s in enumerate(feature.sectors)
             ]
-            for s in sweeps:
+            for s, _ in sweeps:
                 for t, passed in s.pinches:
                     if may_be_pinched(self.table, feature, s.sector, t, passed):
-                        found.single_lines += self._pinched(s.sector, t, feature.edges)
-            found.single_lines += self._end_on(feature, sweeps[0], sweeps[-1])
+                        single_lines += self._pinched(s.sector, t, feature.edges)
+            single_lines += self._end_on(feature, sweeps[0], sweeps[-1])
             if not feature.round:
                 for sector in self._corner_normals(feature):
-                    self._add(found, sector, feature.edges, contact, feature, goes_back=False)
-        return found
+                    self._add(images, sector, near, feature.edges, contact, feature, goes_back=False)
+        return EdgeFamilies(images, single_lines)
+
+    def _near(self, box: Sequence[float]) -> NearEdges:
+        """The edges within reach of a box."""
+        left, bottom, right, top = box
+        edges = self.table.around((left, bottom), (right, top), self.range.above)
+        return NearEdges(self.table.images, edges)
 
     def _corners_beside(self, feature: Feature) -> tuple[int, int]:
         """The other ends of the straight edges at a corner: its first and its last tangent pass them."""
@@ -116,70 +141,83 @@ class FamilySweeper:
 
     def _add(
         self,
-        found: EdgeFamilies,
+        images: list[FamilyImage],
         sector: Sector,
+        near: NearEdges,
         own: tuple[int, ...],
         contact: Side,
         feature: Feature | None,
         ends: tuple[int, int] = NO_ENDS,
         goes_back: bool = True,
-    ) -> Pencil:
+    ) -> Swept:
         """Sweep a sector, of which the first and the last line pass vertices *ends*, and add its families."""
-        lines = pencil(self.table, sector, own, self.range.above, ends=ends)
+        at_start = isinstance(sector, Sliding) or (feature is not None and not feature.round)
+        lines = swept(self.table, sector, own, near, ends=ends, vertex=contact.edge if at_start else NONE)
         families = PencilFamilies(lines, contact, self._namer, feature, goes_back)
-        found.images += families.imaged(self.images, self._numbers)
-        return lines
+        imaged = families.imaged(self.images, self._numbers)
+        images += imaged
+        return lines, imaged
 
     # -- single lines ------------------------------------------------------------------------------
 
-    def _end_on(self, feature: Feature, first: Pencil, last: Pencil) -> Iterator[SingleLine]:
+    def _end_on(self, feature: Feature, first: Swept, last: Swept) -> Iterator[SingleLine]:
         """The straight edges beside a feature as seen along their own lines, from where these first end."""
         incoming, outgoing = self._beside(feature)
-        for e, sweep, cell, ahead in (
-            (incoming, first, first.cell(first.rows[0]), True),
-            (outgoing, last, last.cell(last.rows[-1]), False),
-        ):
-            edge, met = self.table.curves[e], cell.ahead if ahead else cell.behind
+        for e, (sweep, images), role in ((incoming, first, Role.AHEAD), (outgoing, last, Role.BEHIND)):
+            edge = self.table.curves[e]
             if not isinstance(edge, Segment):
                 continue
-            t, passed = (cell.low, cell.bounds[0]) if ahead else (cell.high, cell.bounds[1])
-            far = None
-            if any(side or number not in (e, self.table.next[e]) for number, side, _ in passed):
-                # The line grazes what may block its neighbours: it goes on by itself.
-                walk = walk_line(self.table, sweep.sector, t, self.range.above)[ahead]
-                far, met = (abs(walk.hits[-1][0]), walk.hits[-1][1]) if walk.blocked else (None, None)
-            role = Role.AHEAD if ahead else Role.BEHIND
-            place, u = self._reached(sweep.sector, t, role, met, far)
+            ahead = role is Role.AHEAD
+            image = images[0] if ahead else images[-1]
+            row = sweep.rows[image.number]
+            bound = row.first if ahead else row.last
             run = (edge.end, edge.start) if ahead else (edge.start, edge.end)
-            yield SingleLine(place, met, run, e, u)
+            if any(side or number not in (e, self.table.next[e]) for number, side, _ in bound.passed):
+                # The line grazes what may block its neighbours: it goes on by itself.
+                yield SingleLine(*self._walked(sweep.sector, sweep.value(bound), role), run, e)
+                continue
+            met = image.edge(role) if image.edge(role) != NONE else None
+            make = partial(self._reached, sweep, bound, role, met)
+            low, high, *_ = image.places(role)[0 if ahead else 1]
+            yield SingleLine(make, met, run, e, (low, high) if image.is_known else EVERYTHING)
 
-    def _reached(
-        self, sector: Sector, t: Real, role: Role, met: int | None, far: Real | None
-    ) -> tuple[Point, Real | None]:
-        """Where a line that touches a feature meets an edge, or is as long as the range if it meets none.
+    def _walked(self, sector: Sector, t: Real, role: Role) -> tuple[Reached, int | None]:
+        """Where a line that may run along edges meets the first that blocks it, and that edge.
 
-        *far* tells how far away it meets it, if that is known: it may run along the edge.
+        If none does, a place in free space.
         """
-        if far is not None:
-            contact, direction = sector.touch(t)
-            return contact + direction * (far * int(role)), None
-        x, y, dx, dy = at = line(sector, t.ball(64))
-        make = partial(self._reached_exactly, sector, t, role, met)
+        walk = walk_line(self.table, sector, t, self.range.above)[role is Role.AHEAD]
+        if not walk.blocked:
+            return (self._at_range(sector, t, role), None), None
+        contact, direction = sector.touch(t)
+        far, met = walk.hits[-1]
+        return (contact + direction * (abs(far) * int(role)), None), met
+
+    def _reached(self, sweep: Pencil, bound: BoundLine, role: Role, met: int | None) -> Reached:
+        """Where a line that touches a feature meets an edge, or is as long as the range if it meets none."""
+        sector, t = sweep.sector, sweep.value(bound)
         if met is None:
-            away = role * arb(self.range.radius) / (dx * dx + dy * dy).sqrt()
-            return late_point((x + dx * away, y + dy * away), make), None
-        hit = self.clipper.balls(met).met(at, role)
+            return self._at_range(sector, t, role), None
+        hit = self.clipper.balls(met).met(line(sector, t.ball(64)), role)
+        make = partial(self._met, sector, t, role, met)
         place = make() if hit is None else late_point(hit[1], make)
         return place, self.clipper.rails[met].parameter(place)
 
-    def _reached_exactly(self, sector: Sector, t: Real, role: Role, met: int | None) -> Point:
-        contact, along = sector.touch(t)
-        onward: Point = along * int(role)
-        if met is None:
-            far: Real = self.range.radius / onward.norm_sq().sqrt()
-        else:
-            far = meet(contact, onward, self.table.curves[met], 1)
-        reached: Point = contact + onward * far
+    def _at_range(self, sector: Sector, t: Real, role: Role) -> Point:
+        """The end of a line that is as long as the range."""
+        x, y, dx, dy = line(sector, t.ball(64))
+        away = role * arb(self.range.radius) / (dx * dx + dy * dy).sqrt()
+        return late_point((x + dx * away, y + dy * away), partial(self._at_range_exactly, sector, t, role))
+
+    def _at_range_exactly(self, sector: Sector, t: Real, role: Role) -> Point:
+        contact, direction = sector.touch(t)
+        reached: Point = contact + direction * (int(role) * self.range.radius / direction.norm_sq().sqrt())
+        return reached
+
+    def _met(self, sector: Sector, t: Real, role: Role, edge: int) -> Point:
+        contact, direction = sector.touch(t)
+        onward: Point = direction * int(role)
+        reached: Point = contact + onward * meet(contact, onward, self.table.curves[edge], 1)
         return reached
 
     def _beside(self, feature: Feature) -> tuple[int, int]:
@@ -217,7 +255,7 @@ class FamilySweeper:
                 for place in (start, end) if start != end else (start,):
                     near, far = (low, high) if _nearer(place, low, high) else (high, low)
                     if place != near:
-                        yield SingleLine(place, e, (near, far), f)
+                        yield SingleLine((place, None), e, (near, far), f)
         step = direction * (self.range.radius / direction.norm_sq().sqrt())
         for walk, place in ((behind, contact - step), (ahead, contact + step)):
             if not walk.blocked:
@@ -226,7 +264,7 @@ class FamilySweeper:
                         continue
                     near, far = (low, high) if _nearer(place, low, high) else (high, low)
                     if place != near:
-                        yield SingleLine(place, None, (near, far), f)
+                        yield SingleLine((place, None), None, (near, far), f)
 
     def _touched_arcs(self, *walks: LineWalk) -> set[int]:
         """The convex arcs that a line touches once, between their ends: they tell who sees them along it."""

@@ -7,15 +7,17 @@ behind to the contact, from the contact to the edge ahead, and from the one edge
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import TypeAlias
 
 from exactacq import kernel
 from exactacq.geometry.curve_images import curve_image
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.points import Point
 from exactacq.kernel.cells import LineCells
-from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent
-from exactacq.kernel.family_images import NONE, FamilyImage
+from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent, Span
+from exactacq.kernel.family_images import NONE, EndLine, FamilyImage
 from exactacq.kernel.images import TURNING
 from exactacq.kernel.line_keys import LineNumbers
 from exactacq.kernel.pencil_images import pencil_images
@@ -27,6 +29,9 @@ from exactacq.visibility.features import Feature
 from exactacq.visibility.line_families import Sector
 from exactacq.visibility.line_names import Anchor, Namer, Names
 from exactacq.visibility.rotational_sweep import Passed, Pencil
+
+Reached: TypeAlias = "tuple[Point, Real | None]"
+"""A place, and its parameter on its edge if that is known."""
 
 
 @dataclass(slots=True)
@@ -99,8 +104,10 @@ class PencilFamilies:
         own = NONE if feature is None or not self.goes_back else self._namer.number(feature)
         is_round = feature is not None and feature.round
         frame, at = lines.sector.image, (contact.edge, contact.fixed)
-        found = pencil_images(lines.rows, frame, at, self.goes_back, (own, is_round), numbers, self)
-        images.locate(found, lines)
+        curves, following = images.curves, images.table.images.following
+        name = own, is_round
+        found = pencil_images(lines.rows, frame, at, self.goes_back, name, numbers, curves, following, self)
+        images.unroll(found, lines)
         return found
 
     def family(self, image: FamilyImage) -> LineFamily:
@@ -141,21 +148,43 @@ def family_of(image: FamilyImage) -> LineFamily:
     return image.origin.family(image)
 
 
-@dataclass(slots=True)
 class SingleLine:
     """A single line: from ``place`` it shows edge ``shown`` from one point of a run to the other.
 
     The place lies on edge ``edge``, with parameter ``u`` if known, or in free space within reach (None);
-    what lies between sees the run too.
+    what lies between sees the run too. It may be given as what makes it; then ``spot`` bounds its parameter.
     """
 
-    place: Point
-    edge: int | None
-    run: tuple[Point, Point]
-    shown: int
-    u: Real | None = None
-    _views: list[ViewFamily] | None = None
-    _image: FamilyImage | None = None
+    __slots__ = ("_image", "_reached", "_views", "edge", "run", "shown", "spot")
+
+    def __init__(
+        self,
+        reached: Reached | Callable[[], Reached],
+        edge: int | None,
+        run: tuple[Point, Point],
+        shown: int,
+        spot: Span | None = None,
+    ) -> None:
+        self._reached = reached
+        self.edge, self.run, self.shown, self.spot = edge, run, shown, spot
+        self._views: list[ViewFamily] | None = None
+        self._image: FamilyImage | None = None
+
+    @property
+    def place(self) -> Point:
+        """Where the line begins."""
+        return self._made[0]
+
+    @property
+    def u(self) -> Real | None:
+        """The parameter of the place on its edge, if it is known."""
+        return self._made[1]
+
+    @property
+    def _made(self) -> Reached:
+        if not isinstance(self._reached, tuple):
+            self._reached = self._reached()
+        return self._reached
 
     @property
     def line(self) -> tuple[Point, Point]:
@@ -176,14 +205,14 @@ class SingleLine:
         start, end = self.line
         way = curve_image(Segment(start, end))
         frame = TURNING, way.x, way.y, way.wx, way.wy, 0.0, 1
-        at = 0.0, 0.0, 0.0, 0.0
-        return FamilyImage(frame, at, (NONE, NONE, NONE), False, True, NONE, ([], []), ([], []), None, 0)
+        line = EndLine(frame, 0.0, 0.0, [], [])
+        return FamilyImage(frame, (line, line), (NONE, NONE, NONE), False, True, NONE, None, 0)
 
     def extent(self, images: LineImages, here: int = 0) -> Extent:
         """What is shown at most, and from where: of the run from the place, or if *here* of the place."""
         edge, shown, source = self.shown, images.hull(self.shown, self.run), EVERYTHING
         if self.edge is not None:
-            source = images.hull(self.edge, (self.place,))
+            source = images.hull(self.edge, (self.place,)) if self.spot is None else self.spot
             if here:
                 edge, shown, source = self.edge, source, shown
         is_known = not kernel.EXACT_ONLY

@@ -9,8 +9,9 @@ from math import inf
 from exactacq import kernel
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.points import Point
+from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import EVERYTHING, SURE, Span
-from exactacq.kernel.family_images import EdgePlace, FamilyImage, locate
+from exactacq.kernel.family_images import EdgePlace, FamilyImage
 from exactacq.kernel.lines import parameter
 from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real
@@ -32,15 +33,25 @@ class LineImages:
         """For every arc the number of the first one on its circle; for a segment its own."""
         return [self.table.circles.get(e, e) for e in range(len(self.table.curves))]
 
+    @cached_property
+    def curves(self) -> list[CurveImage]:
+        """The curves in floats; none if floats are to decide nothing."""
+        return [] if kernel.EXACT_ONLY else self.table.curve_images
+
+    @cached_property
+    def has_full(self) -> bool:
+        """Whether there are full circles."""
+        return bool(self.table.full.any())
+
     def hull(self, e: int, points: Iterable[Point]) -> Span:
         """Bounds of the parameters of some points of an edge; of a circle's start nothing is told."""
         curve, places = self.table.curves[e], []
         for point in points:
-            if not point.is_late and not self.table.full[e]:
-                if point.rational == curve.start.rational:
+            if not self.table.full[e]:
+                if point is curve.start or (not point.is_late and point.rational == curve.start.rational):
                     places.append((-inf, -inf))
                     continue
-                if point.rational == curve.end.rational:
+                if point is curve.end or (not point.is_late and point.rational == curve.end.rational):
                     places.append((inf, inf))
                     continue
             (x, p), (y, q) = float_ball(point.x), float_ball(point.y)
@@ -50,12 +61,9 @@ class LineImages:
             places.append((u - error, u + error))
         return min(low for low, _ in places), max(high for _, high in places)
 
-    def locate(self, families: list[FamilyImage], lines: Pencil) -> None:
-        """Find where the first and the last lines of a pencil's families meet their edges."""
-        if kernel.EXACT_ONLY:
-            return
-        locate(families, self.table.curve_images, self.table.images.following)
-        if self.table.curved:
+    def unroll(self, families: list[FamilyImage], lines: Pencil) -> None:
+        """Tell of those of a pencil's families that meet full circles where they may pass their start."""
+        if self.has_full:
             for image in families:
                 for role in Role:
                     edge = image.edge(role)

@@ -12,8 +12,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import lru_cache
 
-import numpy as np
-
 from exactacq.kernel.extents import Extent, extents_from
 from exactacq.kernel.family_images import FamilyImage
 from exactacq.scene.edge_table import EdgeTable, Floats
@@ -69,26 +67,16 @@ class Neighbourhood:
     def near(self, box: Floats) -> list[EdgeFamilies]:
         """The families of the edges within reach of a box."""
         left, bottom, right, top = box.tolist()
-        edges = self.table.near((left, bottom), (right, top), self.range.above)
-        gaps = _gaps(self.table.boxes[edges], box)
-        return [self._of(e) for e in edges[gaps <= self.range.above + 8 * self.table.roundoff].tolist()]
+        return [self._of(e) for e in self.table.around((left, bottom), (right, top), self.range.above)]
 
     def extents(self, edge: int) -> list[Extent]:
         """What families show of others from an edge, and single lines that meet it."""
-        families: list[FamilyImage] = []
+        near = self.near(self.table.boxes[edge])
         single_lines: list[Extent] = []
-        for near in self.near(self.table.boxes[edge]):
-            families += near.images
-            for single in near.single_lines:
-                if single.edge == edge:
-                    single_lines.append(single.extent(self.images))
-                if single.edge is not None and single.shown == edge:
-                    single_lines.append(single.extent(self.images, here=1))
+        for single in (single for one in near if edge in one.lines_at for single in one.lines_at[edge]):
+            if single.edge == edge:
+                single_lines.append(single.extent(self.images))
+            if single.shown == edge:
+                single_lines.append(single.extent(self.images, here=1))
         curves, reach = self.table.curve_images, self.images.reach
-        return extents_from(edge, families, curves, reach) + single_lines
-
-
-def _gaps(boxes: Floats, box: Floats) -> Floats:
-    """Distances of boxes from a box."""
-    apart = np.maximum(np.maximum(boxes[:, :2] - box[2:], box[:2] - boxes[:, 2:]), 0.0)
-    return np.hypot(apart[:, 0], apart[:, 1])
+        return extents_from(edge, [one.at for one in near], curves, reach) + single_lines

@@ -107,10 +107,10 @@ class Sector(ABC):
         offset = center[0] - self.center[0], center[1] - self.center[1]
         return offset, dot(self.base, offset), cross(self.base, offset)
 
-    def frame(self) -> LineFrame:
-        """The family as the compiled loops take it."""
+    def frame(self, place: tuple[float, float, float, float] | None = None) -> LineFrame:
+        """The family as the compiled loops take it; *place* is its centre with rests, if that is known."""
         kind, radius, sense = self._kind
-        center, blur = _place(self.center)
+        center, blur = _place(self.center) if place is None or kernel.EXACT_ONLY else (place, 0.0)
         (x, p), (y, q) = (held(c) for c in self.base)
         # A power of two, so that dividing by it is exact.
         unit = ldexp(1.0, frexp(max(abs(x), abs(y)))[1])

@@ -18,7 +18,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, cmp_to_key, partial
-from math import inf, isnan
+from math import isnan
 from typing import TypeAlias
 
 from flint import arb, fmpq
@@ -27,16 +27,18 @@ from exactacq.geometry.coordinates import raw
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.points import Point
+from exactacq.kernel.bound_lines import NOTHING, BoundLine, known_line
 from exactacq.kernel.bounded import UNIT
-from exactacq.kernel.cells import BoundLine, LineCells, clusters, middles, rows, sure_bounds
-from exactacq.kernel.first_edges import DOUBT, NOTHING, first_edges
-from exactacq.kernel.line_events import line_events
+from exactacq.kernel.cells import LineCells
+from exactacq.kernel.images import SPOKES
+from exactacq.kernel.near_edges import NearEdges
+from exactacq.kernel.pencil_sweep import DONE, EDGES, EVENTS, MIDDLES, ORDER, PencilSweep
 from exactacq.kernel.surroundings import Surroundings
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
-from exactacq.scene.edge_table import STRAIGHT, EdgeTable
+from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.features import directions_at, enters
-from exactacq.visibility.line_families import Sector, Spokes, Vector, held
+from exactacq.visibility.line_families import Sector, Vector, held
 
 Passed: TypeAlias = "tuple[tuple[int, int, int], ...]"
 """The events at one line, each with number (a vertex, or an arc), side and sign: see `Sector.exact`."""
@@ -62,15 +64,11 @@ class Pencil:
     The exact parameters of the lines that bound cells are made when they are first asked for.
     """
 
-    def __init__(self, table: EdgeTable, sector: Sector) -> None:
+    def __init__(
+        self, table: EdgeTable, sector: Sector, rows: list[LineCells], pinched: list[BoundLine]
+    ) -> None:
         self.table, self.sector = table, sector
-        self.rows: list[LineCells] = []
-        self._pinched: list[BoundLine] = []
-
-    def join(self, bounds: list[BoundLine], rows: list[LineCells]) -> None:
-        """Take in what was swept."""
-        self.rows = rows
-        self._pinched = [bound for bound in bounds if len(bound.passed) > 1]
+        self.rows, self._pinched = rows, pinched
 
     @cached_property
     def cells(self) -> tuple[Cell, ...]:
@@ -95,12 +93,23 @@ class Pencil:
 
     def value(self, bound: BoundLine) -> Real:
         """The exact parameter of a line; a late number where only the interval is known."""
-        if bound.value is None:
-            ((number, side, sign),) = bound.passed
-            make = partial(_exact, self.sector, *target(self.table, number, side), side, sign)
-            bound.value = Real.late(arb(bound.low).union(arb(bound.high)), make)
-        assert isinstance(bound.value, Real), "values are made here"
-        return bound.value
+        return value_of(self.table, self.sector, bound)
+
+
+def value_of(table: EdgeTable, sector: Sector, bound: BoundLine) -> Real:
+    """The exact parameter of a line of a sector; a late number where only the interval is known."""
+    value = bound.value
+    if isinstance(value, Real):
+        return value
+    if isinstance(value, fmpq):
+        made = Real(value)
+    else:
+        # Of what passes several things the value is known.
+        circle = target(table, bound.number, bound.side)
+        make = partial(_exact, sector, *circle, bound.side, bound.sign)
+        made = Real.late(arb(bound.low).union(arb(bound.high)), make)
+    bound.value = made
+    return made
 
 
 def pencil(
@@ -109,95 +118,111 @@ def pencil(
     own: tuple[int, ...],
     reach: float,
     breaks: tuple[Vector, ...] = (),
-    ends: tuple[int, int] = (NOTHING, NOTHING),
 ) -> Pencil:
     """Sweep one sector; only edges within *reach* of the contact are considered.
 
-    *own* are the edges through the contact, *breaks* further directions (at a corner) that end cells, *ends*
-    vertices that the first and the last line of the sector pass: to find that out would take exact numbers.
-    What lies beyond *reach* may be reported wrongly or as None, so a chord is to be trusted only if both its
+    *own* are the edges through the contact, *breaks* further directions (at a corner) that end cells. What
+    lies beyond *reach* may be reported wrongly or as None, so a chord is to be trusted only if both its
     halves are no longer than *reach*.
     """
-    edges = table.near(*_box(sector), reach).tolist()
-    return _SectorSweep(table, sector, own, edges, breaks, ends).run()
+    (x, y), extent = map(float, sector.center), sector.extent
+    edges = table.around((x - extent, y - extent), (x + extent, y + extent), reach)
+    return swept(table, sector, own, NearEdges(table.images, edges), breaks)
 
 
-def _box(sector: Sector) -> tuple[tuple[float, float], tuple[float, float]]:
-    (x, y), extent = sector.origin, sector.extent
-    return (x - extent, y - extent), (x + extent, y + extent)
+def swept(
+    table: EdgeTable,
+    sector: Sector,
+    own: tuple[int, ...],
+    near: NearEdges,
+    breaks: tuple[Vector, ...] = (),
+    ends: tuple[int, int] = (NOTHING, NOTHING),
+    vertex: int = NOTHING,
+) -> Pencil:
+    """Sweep one sector among the edges that are *near* its contact.
+
+    *ends* are vertices that the first and the last line of the sector pass: to find that out would take exact
+    numbers. *vertex* is that in the sector's centre, if it is known.
+    """
+    images = table.images
+    frame = sector.frame(None if vertex == NOTHING else images.place(vertex))
+    # The edges through the centre of an arc whose normals go there: all of these pass that point.
+    is_inward = frame.kind == SPOKES and frame.sense < 0
+    through = table.edges_at(Point(*sector.center)) if is_inward else ()
+    first, last = ends
+    sweep = PencilSweep(
+        Surroundings(near, frame, own),
+        _known(sector.low, [(first, 0, 0)] if near.has_vertex(first) else []),
+        _known(sector.high, [(last, 0, 0)] if near.has_vertex(last) else []),
+        list(_break_events(table, sector, breaks, through)) if breaks or through else [],
+        images.following[own[0]] if len(own) == 2 else NOTHING,
+        bool(through),
+    )
+    if sweep.stage != DONE:
+        _Decisions(table, sector, own, through, sweep).make()
+    return Pencil(table, sector, sweep.rows, sweep.pinched)
 
 
-class _SectorSweep:
+def _break_events(
+    table: EdgeTable, sector: Sector, breaks: tuple[Vector, ...], through: tuple[int, ...]
+) -> Iterator[BoundLine]:
+    x, y = sector.center
+    for dx, dy in (*breaks, *directions_at(table, Point(x, y), through)):
+        value = sector.exact((x + dx, y + dy), fmpq(0), 0, 0)
+        if value is not None and sector.low <= value <= sector.high:
+            yield _known(value)
+
+
+class _Decisions:
+    """Decides what floats leave open in the sweep of a sector."""
+
     def __init__(
         self,
         table: EdgeTable,
         sector: Sector,
         own: tuple[int, ...],
-        edges: list[int],
-        breaks: tuple[Vector, ...],
-        ends: tuple[int, int],
+        through: tuple[int, ...],
+        sweep: PencilSweep,
     ) -> None:
-        self.table, self.sector, self.own, self.breaks = table, sector, own, breaks
-        self.pencil = Pencil(table, sector)
-        images = table.images
-        left_out = [e for e in own if sector.round or images.kind[e] == STRAIGHT]
-        self.edges = [e for e in edges if e not in left_out] if left_out else edges
-        self.around = Surroundings(images, sector.frame(), self.edges, list(own))
-        vertices = self.around.vertices
-        self.ends = [vertex if vertex in vertices else NOTHING for vertex in ends]
-        # The edges through the centre of an arc whose normals go there: all of these pass that point.
-        self.through: tuple[int, ...] = ()
-        if isinstance(sector, Spokes) and not sector.outward:
-            self.through = table.edges_at(Point(*sector.center))
+        self.table, self.sector, self.own, self.through, self.sweep = table, sector, own, through, sweep
+        self._exact_middles: dict[int, fmpq] = {}
 
-    def run(self) -> Pencil:
-        bounds = self._bounds()
-        exact: dict[int, fmpq] = {}
-        places = middles(bounds)
-        errors = [0.0] * len(places)
-        for k, place in enumerate(places):
-            if isnan(place):
-                exact[k] = rational_between(self.pencil.value(bounds[k]), self.pencil.value(bounds[k + 1]))
-                places[k] = float(exact[k])
-                errors[k] = UNIT * abs(places[k])
-        passed = [
-            [number if side == 0 else -1 - number for number, side, _ in bound.passed]
-            for bound in bounds[:-1]
-        ]
-        behind, ahead, possible = first_edges(self.around, places, errors, passed, bool(self.through))
-        for k, edge in enumerate(behind):
-            if edge == DOUBT:
-                behind[k], ahead[k] = self._exact_meet(exact.get(k, _rational(places[k])), possible[k])
-        kinds = [0] * len(places)
-        if self.through:
-            kinds = [
-                int(self._is_at_center(exact.get(k, _rational(place)), ahead[k]))
-                for k, place in enumerate(places)
-            ]
-        self.pencil.join(bounds, rows(bounds, behind, ahead, kinds))
-        return self.pencil
+    def make(self) -> None:
+        """Tell the sweep what it waits for, until it is done."""
+        sweep = self.sweep
+        if sweep.stage == EVENTS:
+            sweep.order(list(self._unsure_events()))
+        if sweep.stage == ORDER:
+            sweep.part(list(self._parted(sweep.clusters)))
+        if sweep.stage == MIDDLES:
+            sweep.look(self._middles())
+        if sweep.stage == EDGES:
+            for cell, edges in sweep.possible.items():
+                sweep.behind[cell], sweep.ahead[cell] = self._exact_meet(self._middle(cell), edges)
+            sweep.join([int(self._is_at_center(cell)) for cell in range(len(sweep.middles))])
 
     # -- events --------------------------------------------------------------------------------
 
-    def _bounds(self) -> list[BoundLine]:
+    def _unsure_events(self) -> Iterator[BoundLine]:
+        """Those that there are, of which floats leave that open."""
+        for event in self.sweep.unsure:
+            number, side, sign = event.number, event.side, event.sign
+            value = self.sector.exact(*target(self.table, number, side), side, sign)
+            if value is not None:
+                yield _known(value, [(number, side, sign)])
+
+    def _parted(self, clusters: list[list[BoundLine]]) -> Iterator[BoundLine]:
         """The distinct lines at which there are events, from low to high."""
-        low, high = _known(Real(self.sector.low)), _known(Real(self.sector.high))
-        events = [*self._break_events(), *self._edge_events(low.low, high.high)]
-        for bound, vertex in zip((low, high), self.ends, strict=True):
-            if vertex != NOTHING:
-                bound.passed = [(vertex, 0, 0)]
-        events += [low, high]
-        found: list[BoundLine] = []
-        for cluster in clusters(events, low, high):
+        low, high = self.sweep.low, self.sweep.high
+        for cluster in clusters:
             if len(cluster) == 1:
-                found += cluster
+                yield cluster[0]
             else:
-                found += self._resolved(cluster, low in cluster, high in cluster)
-        return found
+                yield from self._resolved(cluster, low in cluster, high in cluster)
 
     def _resolved(self, cluster: list[BoundLine], has_low: bool, has_high: bool) -> Iterator[BoundLine]:
         """The distinct lines of a cluster, from the low bound on or up to the high one, in exact order."""
-        values = [(self.pencil.value(event), event) for event in cluster]
+        values = [(value_of(self.table, self.sector, event), event) for event in cluster]
         values.sort(key=cmp_to_key(_by_value))
         low, high = Real(self.sector.low), Real(self.sector.high)
         current: Real | None = None
@@ -215,28 +240,25 @@ class _SectorSweep:
         if current is not None:
             yield _known(current, passed)
 
-    def _break_events(self) -> Iterator[BoundLine]:
-        x, y = self.sector.center
-        at_center = directions_at(self.table, Point(x, y), self.through)
-        for dx, dy in (*self.breaks, *at_center):
-            value = self.sector.exact((x + dx, y + dy), fmpq(0), 0, 0)
-            if value is not None and self.sector.low <= value <= self.sector.high:
-                yield _known(value)
+    # -- lines of the cells ----------------------------------------------------------------------
 
-    def _edge_events(self, low: float, high: float) -> list[BoundLine]:
-        """Where lines pass vertices or touch arcs; what floats leave open is made exact."""
-        corner = self.table.images.following[self.own[0]] if len(self.own) == 2 else -1
-        if low == -inf or high == inf:
-            low, high = -1.0, 1.0
-        events = line_events(self.around, corner, low, high)
-        found = sure_bounds(events, *self.ends)
-        if len(found) < len(events):
-            for _, _, number, side, sign, sure in events:
-                if not sure and (side or number not in self.ends):
-                    value = self.sector.exact(*target(self.table, number, side), side, sign)
-                    if value is not None:
-                        found.append(_known(value, [(number, side, sign)]))
-        return found
+    def _middles(self) -> list[float]:
+        """Finds a rational line where floats part no two bounds; the errors of all middles."""
+        sweep = self.sweep
+        errors = [0.0] * len(sweep.middles)
+        for cell, middle in enumerate(sweep.middles):
+            if isnan(middle):
+                low, high = (
+                    value_of(self.table, self.sector, bound) for bound in sweep.bounds[cell : cell + 2]
+                )
+                self._exact_middles[cell] = rational_between(low, high)
+                sweep.middles[cell] = float(self._exact_middles[cell])
+                errors[cell] = UNIT * abs(sweep.middles[cell])
+        return errors
+
+    def _middle(self, cell: int) -> fmpq:
+        exact = self._exact_middles.get(cell)
+        return fmpq(*self.sweep.middles[cell].as_integer_ratio()) if exact is None else exact
 
     # -- edges met -----------------------------------------------------------------------------
 
@@ -273,14 +295,15 @@ class _SectorSweep:
         ways = list(directions_at(self.table, Point(*self.sector.center), self.through))
         return enters(incoming, outgoing, ways[0], ways[-1], raw(direction))
 
-    def _is_at_center(self, middle: fmpq, ahead: int) -> bool:
+    def _is_at_center(self, cell: int) -> bool:
         """Whether a normal meets the edge ahead in the centre of the arc.
 
         Then all normals of a family do; others, which meet the same arc elsewhere, are another family.
         """
+        ahead = self.sweep.ahead[cell]
         if ahead not in self.through:
             return False
-        contact, direction = self.sector.touch(Real(middle))
+        contact, direction = self.sector.touch(Real(self._middle(cell)))
         center = (Point(*self.sector.center) - contact).dot(direction) / direction.norm_sq()
         return isinstance(self.table.curves[ahead], Segment) or self._enters(
             contact, direction, center, ahead, 1
@@ -310,13 +333,8 @@ def target(table: EdgeTable, number: int, side: int) -> tuple[Vector, fmpq]:
     return arc.center.rational, arc.radius_sq  # type: ignore[union-attr, return-value]
 
 
-def _rational(middle: float) -> fmpq:
-    return fmpq(*middle.as_integer_ratio())
-
-
-def _known(value: Real, passed: Sequence[tuple[int, int, int]] = ()) -> BoundLine:
-    near, bound = held(value)
-    return BoundLine(near - 2 * bound, near + 2 * bound, list(passed), value)
+def _known(value: fmpq | Real, passed: Sequence[tuple[int, int, int]] = ()) -> BoundLine:
+    return known_line(*held(value), list(passed), value)
 
 
 def _by_value(a: tuple[Real, BoundLine], b: tuple[Real, BoundLine]) -> int:
