@@ -17,7 +17,8 @@ from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import Extent, Span, bent, extent
 from exactacq.kernel.family_images import AHEAD, CONTACT, NONE, FamilyImage
 from exactacq.kernel.images import ROLLING, SLIDING, TURNING
-from exactacq.kernel.lines import Line
+from exactacq.kernel.lines import Line, meets_straight
+from exactacq.kernel.range_cuts import range_cut
 
 BEGINS: Final = 0
 """The edge is seen from there on, by the parameter."""
@@ -30,6 +31,10 @@ CLEAR: Final = 0.001
 """A line that leaves the middle of a circle so many radii aside meets it in two places that are no nearer."""
 NARROW: Final = 0.0001
 """Parameters with bounds that are no wider tell these places apart."""
+SHORT: Final = -1
+LONG: Final = 1
+EITHER: Final = 0
+BOTH_SHORT: Final = (SHORT, SHORT)
 
 BEFORE: Span = (-inf, -inf)
 """Instead of the bounds of a place that is the start of the leg's span or lies before it."""
@@ -45,8 +50,8 @@ class Sight:
 
     Both ends have bounds, in extended numbers, and the keys of the lines there: equal keys and bounds that
     overlap, one place. ``name`` tells the feature and the side of it that bounds the views, `NONE` if they
-    bound nothing of what is seen. All views are surely shorter than the range if they are ``short``.
-    ``origin`` tells where it comes from.
+    bound nothing of what is seen. The view at each end is shorter than the range (`SHORT`), as long (`LONG`)
+    or either (`EITHER`). ``origin`` tells where it comes from.
     """
 
     def __init__(
@@ -57,24 +62,26 @@ class Sight:
         high: Span,
         low_keys: list[int],
         high_keys: list[int],
-        short: bool,
+        lengths: tuple[int, int],
         origin: object,
     ) -> None:
         self.edge, self.name = edge, name
         self.low, self.high = low, high
         self.low_keys, self.high_keys = low_keys, high_keys
-        self.short, self.origin = short, origin
+        self.lengths, self.origin = lengths, origin
 
 
 @final
 class Turn:
     """A change at an end of a sight, number ``end``: of edge ``edge``, at place ``rank`` in the leg's order.
 
-    ``ends`` are the ends of sights of the edge there, if none is known to be shorter than the range.
+    It ``is_short`` if a view of the edge from there is known to be shorter than the range; else one at an end
+    of ``unsure`` may be.
     """
 
-    def __init__(self, rank: int, edge: int, kind: int, end: int, ends: list[int]) -> None:
-        self.rank, self.edge, self.kind, self.end, self.ends = rank, edge, kind, end, ends
+    def __init__(self, rank: int, edge: int, kind: int, end: int, is_short: bool, unsure: list[int]) -> None:
+        self.rank, self.edge, self.kind, self.end = rank, edge, kind, end
+        self.is_short, self.unsure = is_short, unsure
 
 
 @final
@@ -129,14 +136,16 @@ def sights(
     crossing: list[FamilyImage],
     span: LegSpan,
     leg: CurveImage,
-    circles: list[int],
+    scene: tuple[list[CurveImage], list[int], tuple[float, float]],
     also: dict[int, int],
 ) -> tuple[list[Sight], list[Extent]]:
     """The sights of families of which floats tell both ends, and the families of which they do not.
 
-    *crossing* are the families that the extents of a straight way tell of by their places. The leg lies on
-    the curve *leg*; *circles* are the numbers of the circles of arcs; *also* has second keys of lines.
+    *crossing* are the families that the extents of a straight way tell of by their places; the leg lies on
+    the curve *leg*. *scene* has its curves, the numbers of the circles of arcs, and bounds of the radius;
+    *also* has second keys of lines.
     """
+    curves, circles, reach = scene
     count = len(circles)
     found: list[Sight] = []
     left: list[Extent] = []
@@ -147,29 +156,67 @@ def sights(
         outer = span.outer(one.source)
         if outer[0] > outer[1] or not (outer[0] < inf and outer[1] > -inf):
             continue
-        (low, high), (first, last) = one.source, one.surely
-        origin = one.origin
+        origin, is_way = one.origin, False
         if isinstance(origin, int):
-            family = crossing[origin]
+            family, is_way = crossing[origin], True
         elif isinstance(origin, FamilyImage):
             family = origin
         else:
             left.append(one)
             continue
+        name = _bounded_by(family, one.there, circles)
+        (low, high), (first, last) = one.source, one.surely
         if first > last:
-            left.append(one)
+            cut = _cut(one, family, is_way, name, leg, curves, reach, also, count)
+            if cut is None:
+                left.append(one)
+            else:
+                found.append(cut)
             continue
-        name, kind = NONE, family.frame[0]
-        if family.goes_back and kind in (TURNING, ROLLING):
-            contact = family.edges[1]
-            number = circles[contact] if kind == ROLLING else contact
-            name = name_of(number, kind == ROLLING, one.there)
         lows, highs = one.first_keys, one.last_keys
         if leg.sense:
             lows, highs = _keys_on_arc(family, one.here, low, leg)
         lows, highs = _all_keys(lows, family, also, count), _all_keys(highs, family, also, count)
-        found.append(Sight(one.edge, name, (low, first), (last, high), lows, highs, True, one))
+        found.append(Sight(one.edge, name, (low, first), (last, high), lows, highs, BOTH_SHORT, one))
     return found, left
+
+
+def _bounded_by(family: FamilyImage, there: int, circles: list[int]) -> int:
+    """The name of what bounds the views to a part of a family, if they are along tangents."""
+    kind, contact = family.frame[0], family.edges[1]
+    if not family.goes_back or kind not in (TURNING, ROLLING):
+        return NONE
+    return name_of(circles[contact] if kind == ROLLING else contact, kind == ROLLING, there)
+
+
+def _cut(
+    one: Extent,
+    family: FamilyImage,
+    is_way: bool,
+    name: int,
+    leg: CurveImage,
+    curves: list[CurveImage],
+    reach: tuple[float, float],
+    also: dict[int, int],
+    count: int,
+) -> Sight | None:
+    """The sight of a family that leaves the range at one end, if floats tell where."""
+    shown = None if one.there == CONTACT else curves[one.edge]
+    end, cut = range_cut(family, one.here, one.there, leg, shown, reach)
+    if end == 0:
+        return None
+    line, keys = (family.first, family.first_keys) if end > 0 else (family.last, family.last_keys)
+    if is_way:
+        _, _, u, error, *_ = meets_straight(line, leg)
+        near = u - error, u + error
+    else:
+        near = family.places(one.here)[0 if end > 0 else 1][:2]
+    keys = _all_keys(keys, family, also, count)
+    if near[1] <= cut[0]:
+        return Sight(one.edge, name, near, cut, keys, [], (SHORT, LONG), one)
+    if cut[1] <= near[0]:
+        return Sight(one.edge, name, cut, near, [], keys, (LONG, SHORT), one)
+    return None
 
 
 def normal_sights(
@@ -206,7 +253,7 @@ def normal_sights(
             continue
         low = BEFORE if k == 0 else (one.source[0], one.surely[0])
         high = AFTER if k == len(normals) - 1 else (one.surely[1], one.source[1])
-        found.append(Sight(edge, NONE, low, high, [first_key - k], [first_key - k - 1], True, family))
+        found.append(Sight(edge, NONE, low, high, [first_key - k], [first_key - k - 1], BOTH_SHORT, family))
     return found, left
 
 
@@ -491,17 +538,16 @@ class LegChanges:
                 if spans[k][2] > high:
                     high, end = spans[k][2], spans[k][3]
                 k += 1
-            if self._is_inside(low):
-                places.add(low)
-                found.append(Turn(low, edge, BEGINS, begin, self._unsure(ends, low)))
-            if self._is_inside(high):
-                places.add(high)
-                found.append(Turn(high, edge, ENDS, end, self._unsure(ends, high)))
+            for rank, kind, at in ((low, BEGINS, begin), (high, ENDS, end)):
+                if self._is_inside(rank):
+                    places.add(rank)
+                    there = [end for end in ends if self._at(end) == rank]
+                    is_short = any(self._length(end) == SHORT for end in there)
+                    unsure = [end for end in there if self._length(end) == EITHER]
+                    found.append(Turn(rank, edge, kind, at, is_short, unsure))
 
-    def _unsure(self, ends: list[int], rank: int) -> list[int]:
-        """The ends at a place, unless one is known to be of views that are shorter than the range."""
-        there = [end for end in ends if self._at(end) == rank]
-        return [] if any(self.sights[end // 2].short for end in there) else there
+    def _length(self, end: int) -> int:
+        return self.sights[end // 2].lengths[end % 2]
 
     def _turned(
         self, edge: int, turns: dict[tuple[int, int], int], taken: set[int], found: list[Turn]
@@ -516,7 +562,7 @@ class LegChanges:
         places = {rank for (_, rank), count in balance.items() if count}
         for rank in sorted(places):
             if rank not in taken and self._is_inside(rank):
-                found.append(Turn(rank, edge, TURNS, end_at[rank], []))
+                found.append(Turn(rank, edge, TURNS, end_at[rank], False, []))
 
 
 def _leader(leader: list[int], n: int) -> int:

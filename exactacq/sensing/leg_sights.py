@@ -28,6 +28,8 @@ from exactacq.kernel.images import SLIDING
 from exactacq.kernel.leg_changes import (
     AFTER,
     BEFORE,
+    BOTH_SHORT,
+    EITHER,
     LegChanges,
     Sight,
     Spot,
@@ -72,6 +74,8 @@ class LegSights:
         self.complex, self.leg = complex_, leg
         self._view, self._clipper = view, complex_.clipper
         self._rail = None if leg.edge is None else leg.rail
+        images = complex_.images
+        self._scene = complex_.table.curve_images, images.circles, images.reach
         self._numbers = LineNumbers(complex_.images.circles)
         self._span = LegSpan(bounds(leg.span.low, None), bounds(leg.span.high, None))
         self._pins: dict[int, Pin] = {}
@@ -118,9 +122,9 @@ class LegSights:
     def _on_edge(self, edge: int) -> Iterator[Sight]:
         complex_ = self.complex
         curve = complex_.table.curve_images[edge]
-        extents, circles = complex_.extents(edge), complex_.images.circles
+        extents = complex_.extents(edge)
         also = self._normals_at(corner_normals(extents, []))
-        found, left = sights(extents, [], self._span, curve, circles, also)
+        found, left = sights(extents, [], self._span, curve, self._scene, also)
         yield from found
         for one in left:
             if isinstance(one.origin, SingleLine) and one.is_known:
@@ -137,9 +141,9 @@ class LegSights:
             return
         if one.here == 0 and at_near > 0:
             keys = self._keys(single)
-            yield Sight(one.edge, NONE, one.source, one.source, keys, keys, True, one)
+            yield Sight(one.edge, NONE, one.source, one.source, keys, keys, BOTH_SHORT, one)
         elif one.here and self._is_whole(single) and in_reach(place, _spot(far), reach) > 0:
-            yield Sight(one.edge, NONE, BEFORE, AFTER, [], [], True, one)
+            yield Sight(one.edge, NONE, BEFORE, AFTER, [], [], BOTH_SHORT, one)
         else:
             yield from self._exactly(one)
 
@@ -153,7 +157,7 @@ class LegSights:
         images = [image for image, _ in self._crossing]
         extents, curve = way.extents(), curve_image(leg.rail.curve)
         also = self._normals_at(corner_normals(extents, images))
-        found, left = sights(extents, images, self._span, curve, complex_.images.circles, also)
+        found, left = sights(extents, images, self._span, curve, self._scene, also)
         yield from found
         for one in left:
             yield from self._exactly(one)
@@ -165,7 +169,7 @@ class LegSights:
             yield from self._along_normals(lines, k * WAY_KEYS)
 
     def _normals_at(self, images: Iterable[FamilyImage]) -> dict[int, int]:
-        """Second keys of the first and last normals of corners that are the normals of edges too, by the first."""
+        """Second keys of normals of corners that are normals of the edges there too, by the first key."""
         found: dict[int, int] = {}
         table, count = self.complex.table, len(self.complex.images.circles)
         for image in images:
@@ -219,7 +223,7 @@ class LegSights:
                 return
             if crosses and reaches:
                 keys, source = self._keys(single), (u - error, u + error)
-                yield Sight(single.shown, NONE, source, source, keys, keys, True, single)
+                yield Sight(single.shown, NONE, source, source, keys, keys, BOTH_SHORT, single)
                 return
         yield from self._sights_of([Share.of(f, 0) for f in self._way.single_views(single)], None)
 
@@ -258,7 +262,7 @@ class LegSights:
                 kind, number = free_views.anchor
                 name = name_of(number, kind == "circle", free_views.sides[1 - share.side].role)
             low, high = self._bounds(source.low), self._bounds(source.high)
-            yield Sight(share.edge, name, low, high, first, last, False, share)
+            yield Sight(share.edge, name, low, high, first, last, (EITHER, EITHER), share)
 
     def _bounds(self, u: Real) -> Span:
         span = self.leg.span

@@ -156,7 +156,7 @@ class LegViews:
     def _change(self, turn: Turn) -> Change:
         if turn.kind == TURNS:
             return Change.TURNING
-        short = not turn.ends or any(self.sights.is_short(end) for end in turn.ends)
+        short = turn.is_short or any(self.sights.is_short(end) for end in turn.unsure)
         if (turn.kind == BEGINS) == self.leg.ahead:
             return Change.REAPPEARANCE if short else Change.ENTRY
         return Change.OCCLUSION if short else Change.EXIT
