@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import inf
 from typing import Final
 
+from exactacq.kernel.bounded import UNIT, WIDEN
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import NOTHING, Span
 from exactacq.kernel.family_images import CONTACT, FamilyImage
@@ -12,7 +13,11 @@ from exactacq.kernel.images import SLIDING, TURNING
 from exactacq.kernel.lines import Line, line_at, meets_straight
 
 STEPS: Final = 40
-"""How often an interval of lines is halved."""
+"""How often a line is tried at most."""
+ENOUGH: Final = 4e-13
+"""A length is near enough to the radius if it differs by less than so much of it: less than its bounds do."""
+NEXT: Final = 2e-13
+"""How far the next line is from there at first, in shares of the family."""
 
 
 def range_cut(
@@ -66,33 +71,45 @@ def _parted(
     inner: float,
     outer: float,
 ) -> tuple[float, float]:
-    """Parameters as near to each other as floats part views in range from those beyond."""
-    unsure = inner
+    """Parameters near to each other, of a view that floats may find in range and of one beyond.
+
+    A zero is looked for by the Illinois variant of false position. From there both go outward, the further
+    the more often floats do not tell. They stay between *inner* and *outer*.
+    """
+    middle = 0.5 * (reach[0] + reach[1])
+    a, b = inner, outer
+    f = _length(line_at(family.frame, a, 0.0), here, there, leg, shown)[0] - middle
+    g = _length(line_at(family.frame, b, 0.0), here, there, leg, shown)[0] - middle
+    t, kept = a, 0
     for _ in range(STEPS):
-        t = 0.5 * (inner + outer)
-        order = _order(line_at(family.frame, t, 0.0), here, there, leg, shown, reach)
-        if order < 0:
-            inner = t
-        elif order > 0:
-            outer = t
-        else:
-            unsure = t
+        if not f < 0.0 < g:
             break
-    else:
-        return inner, outer
-    low = high = unsure
+        t = b - g * (b - a) / (g - f)
+        h = _length(line_at(family.frame, t, 0.0), here, there, leg, shown)[0] - middle
+        if abs(h) <= ENOUGH * middle:
+            break
+        if h < 0.0:
+            a, f, g = t, h, 0.5 * g if kept < 0 else g
+            kept = -1
+        else:
+            b, g, f = t, h, 0.5 * f if kept > 0 else f
+            kept = 1
+    away = abs(outer - inner) * NEXT
+    towards = 1.0 if inner < outer else -1.0
+    near = far = t
     for _ in range(STEPS):
-        t = 0.5 * (inner + low)
-        if _order(line_at(family.frame, t, 0.0), here, there, leg, shown, reach) < 0:
-            inner = t
-        else:
-            low = t
-        t = 0.5 * (outer + high)
-        if _order(line_at(family.frame, t, 0.0), here, there, leg, shown, reach) > 0:
-            outer = t
-        else:
-            high = t
-    return inner, outer
+        if _order(line_at(family.frame, near, 0.0), here, there, leg, shown, reach) < 0:
+            break
+        near -= towards * away
+        away *= 4.0
+    away = abs(outer - inner) * NEXT
+    for _ in range(STEPS):
+        if _order(line_at(family.frame, far, 0.0), here, there, leg, shown, reach) > 0:
+            break
+        far += towards * away
+        away *= 4.0
+    low, high = min(inner, outer), max(inner, outer)
+    return min(max(near, low), high), min(max(far, low), high)
 
 
 def _order(
@@ -104,16 +121,26 @@ def _order(
     reach: tuple[float, float],
 ) -> int:
     """-1 or 1 as the view along a line surely is shorter than the range or longer, else 0."""
+    size, error = _length(line, here, there, leg, shown)
+    return -1 if size + error < reach[0] else 1 if size - error > reach[1] else 0
+
+
+def _length(
+    line: Line, here: int, there: int, leg: CurveImage, shown: CurveImage | None
+) -> tuple[float, float]:
+    """The length of the view along a line; (0, inf) if it may not lie on the sides of the contact it should.
+
+    The last rounding takes less than ten times `UNIT` of it.
+    """
     a, p, b, q = 0.0, 0.0, 0.0, 0.0
     if here != CONTACT:
         a, p = meets_straight(line, leg)[:2]
     if there != CONTACT and shown is not None:
         b, q = meets_straight(line, shown)[:2]
-    # Between the two places the view passes the contact or ends there, each on the side of its role.
     if not (a * here >= p and b * there >= q and p < inf and q < inf):
-        return 0
-    size, error = abs(a - b), (p + q) * (1.0 + 1e-9) + 1e-15 * abs(a - b)
-    return -1 if size + error < reach[0] else 1 if size - error > reach[1] else 0
+        return 0.0, inf
+    size = abs(a - b)
+    return size, (p + q + 10.0 * UNIT * size) * WIDEN
 
 
 def _place(family: FamilyImage, line: Line, t: float, here: int, leg: CurveImage) -> tuple[float, float]:
