@@ -78,7 +78,6 @@ class LegSights:
         self._scene = complex_.table.curve_images, images.circles, images.reach
         self._numbers = LineNumbers(complex_.images.circles)
         self._span = LegSpan(bounds(leg.span.low, None), bounds(leg.span.high, None))
-        self._pins: dict[int, Pin] = {}
         self._made: dict[int, list[Share]] = {}
         self._sights = [*(self._on_way() if leg.edge is None else self._on_edge(leg.edge))]
         self._changes = LegChanges(self._sights, self._span, NONE if leg.edge is None else leg.edge)
@@ -90,13 +89,24 @@ class LegSights:
 
     def place(self, end: int) -> Pin:
         """The place of an end of a sight, or of the leg, by its number there; late where floats know it."""
-        if end not in self._pins:
-            self._pins[end] = self._place(end)
-        return self._pins[end]
+        span, k = self.leg.span, end // 2
+        if k == len(self._sights):
+            return (span.end, span.high) if end % 2 else (span.start, span.low)
+        low, high = self._changes.low[end], self._changes.high[end]
+        if isinstance(self._sights[k].origin, Share) or not high - low < inf:
+            return self.made(end)
+        middle = 0.5 * (low + high)
+        # Rounding moves the middle, and takes from the difference, by less than these together.
+        u = arb(middle, 0.5 * (high - low) * (1.0 + 2.0**-50) + 2.0**-51 * abs(middle))
+        around = self.leg.rail.around(u)
+        if around is None:
+            return self.made(end)
+        late = _Place(self, end)
+        return late_point(around, late.point), Real.late(u, late.parameter)
 
     def is_short(self, end: int) -> bool:
         """Whether a view of a sight from one of its ends is shorter than the range."""
-        u = self.place(end)[1]
+        u = self.made(end)[1]
         return any(
             (v is u or v.compare(u) == 0) and extreme.is_short(self.complex.range)
             for share in self._shares(end // 2)
@@ -304,36 +314,20 @@ class LegSights:
 
     def _parted(self, cluster: list[int]) -> list[list[int]]:
         """Some places in their exact order, equal ones together."""
-        ends = sorted(cluster, key=cmp_to_key(self._compared))
-        parts = [[ends[0]]]
-        for a, b in pairwise(ends):
-            if self._compared(a, b):
-                parts.append([b])
+        places = [(end, self.made(end)[1]) for end in cluster]
+        places.sort(key=cmp_to_key(_by_place))
+        parts = [[places[0][0]]]
+        for (_, u), (end, v) in pairwise(places):
+            if u.compare(v):
+                parts.append([end])
             else:
-                parts[-1].append(b)
+                parts[-1].append(end)
         return parts
 
-    def _compared(self, a: int, b: int) -> int:
-        return self.place(a)[1].compare(self.place(b)[1])
-
-    def _place(self, end: int) -> Pin:
-        span, k = self.leg.span, end // 2
-        if k == len(self._sights):
-            return (span.end, span.high) if end % 2 else (span.start, span.low)
-        low, high = self._changes.low[end], self._changes.high[end]
-        if isinstance(self._sights[k].origin, Share) or not high - low < inf:
-            return self._made_place(end)
-        middle = 0.5 * (low + high)
-        # Rounding moves the middle, and takes from the difference, by less than these together.
-        u = arb(middle, 0.5 * (high - low) * (1.0 + 2.0**-50) + 2.0**-51 * abs(middle))
-        around = self.leg.rail.around(u)
-        if around is None:
-            return self._made_place(end)
-        late = _Place(self, end)
-        return late_point(around, late.point), Real.late(u, late.parameter)
-
-    def _made_place(self, end: int) -> Pin:
-        """The place of an end of a sight, exactly."""
+    def made(self, end: int) -> Pin:
+        """The place of an end, exactly."""
+        if end // 2 == len(self._sights):
+            return self.place(end)
         sources = [share.source for share in self._shares(end // 2)]
         if not sources:
             # The lines meet the leg in its end alone: nothing was made of them.
@@ -357,7 +351,7 @@ class _Place:
 
     def _made(self) -> Pin:
         if self._pin is None:
-            self._pin = self._sights._made_place(self._end)
+            self._pin = self._sights.made(self._end)
         return self._pin
 
     def point(self) -> Point:
@@ -365,6 +359,10 @@ class _Place:
 
     def parameter(self) -> Real:
         return self._made()[1]
+
+
+def _by_place(a: tuple[int, Real], b: tuple[int, Real]) -> int:
+    return a[1].compare(b[1])
 
 
 def _role(family: ViewFamily) -> int:
