@@ -41,6 +41,24 @@ def test_a_run_leaves_no_cycles_and_goes_without_a_search(name: str) -> None:
     assert gc.collect() < FEW, "once it is dropped: many runs in turn would pile up"
 
 
+@pytest.mark.usefixtures("unsearched")
+def test_sweeps_leave_no_cycles() -> None:
+    scene = xa.load("m11")
+    pieces = xa.sightseer(scene).path[:6]
+
+    def swept() -> int:
+        found = 0
+        for piece in pieces:
+            events = xa.sweep(scene, piece.curve, obstacle=piece.obstacle).events
+            found += len([event for event in events[::2] if float(event.place.x) < 1e9])
+        return found
+
+    swept()
+    gc.collect()
+    assert swept() > 0
+    assert gc.collect() < FEW
+
+
 def test_a_run_that_fails_resumes_the_search() -> None:
     def stop(visited: int, total: int) -> None:
         raise KeyboardInterrupt

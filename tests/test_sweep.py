@@ -35,7 +35,7 @@ def seen_through(
     scene: Scene, radius: object, cell: SweepCell, u: object
 ) -> list[tuple[Point, Point | None]]:
     """The windows of a view made from scratch: what the sweep leaves out is left out."""
-    point, line = cell.point(u), cell.shares.leg.rail.curve
+    point, line = cell.point(u), cell.rail.curve
     square = Point(radius, 0).norm_sq()
     found = []
     for window in xa.isovist(scene, point, radius).pieces:

@@ -70,6 +70,20 @@ class Rail:
         cosine, sine = (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t) * self._turns.sense
         return curve.center + Point(x * cosine - y * sine, y * cosine + x * sine)
 
+    def around(self, u: arb) -> Balls | None:
+        """Balls around the points at the parameters in a ball; None if these may lie on two quarters."""
+        curve = self.curve
+        if isinstance(curve, Segment):
+            start, (dx, dy) = balls(curve.start), balls(curve.direction)
+            return start[0] + u * dx, start[1] + u * dy
+        k = (u - u.rad()).floor().unique_fmpz()
+        if k is None or not 0 <= k < 4 or not u < k + 1:
+            return None
+        (cx, cy), (x, y) = balls(curve.center), self._turns.around[int(k)]
+        t = u - k
+        cosine, sine = (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t) * self._turns.sense
+        return cx + x * cosine - y * sine, cy + y * cosine + x * sine
+
     # Late numbers keep these and not the rail, which keeps a number: so none of them is in a cycle.
 
     @cached_property
@@ -146,6 +160,11 @@ class _Turns:
         raise AssertionError("one of four quarter turns contains every direction")
 
     @cached_property
+    def around(self) -> list[Balls]:
+        """Balls around the radii of `bases`."""
+        return [(ball_of(x), ball_of(y)) for x, y in self.bases]
+
+    @cached_property
     def _balls(self) -> tuple[arb, list[Balls]]:
         """Balls around the squared radius and the radii."""
-        return arb(self.radius_sq), [(ball_of(x), ball_of(y)) for x, y in self.bases]
+        return arb(self.radius_sq), self.around

@@ -27,9 +27,10 @@ from exactacq.geometry.interval_union import Cover
 from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
 from exactacq.kernel.bounded import TINY, UNIT
+from exactacq.kernel.cells import LineCells
 from exactacq.kernel.extents import EVERYTHING, Extent
 from exactacq.kernel.family_images import NONE, FamilyImage
-from exactacq.kernel.lines import meets_straight
+from exactacq.kernel.lines import Meeting, meets_straight
 from exactacq.kernel.ways import Crossing, WayImage, crossings, extents_from_way
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.float_bounds import rough
@@ -46,7 +47,7 @@ from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.visibility.chords import meet
 from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes
 from exactacq.visibility.line_names import Names
-from exactacq.visibility.rotational_sweep import pencil
+from exactacq.visibility.rotational_sweep import Pencil, pencil
 
 Cut: TypeAlias = "tuple[Real, Pin | None, Names]"
 """A parameter where a line family is cut, the point of the way there, and the names of the line."""
@@ -119,6 +120,16 @@ class WayViews:
         """What the line families in `crossing` show, in floats; the origins are their places there."""
         curves, reach = self.complex.table.curve_images, self.complex.images.reach
         return extents_from_way(self._families, self._found, set(self.wanted), self._image, curves, reach)
+
+    @property
+    def single_lines(self) -> list[tuple[SingleLine, Meeting]]:
+        """The single lines that may cross the way, and where they meet its line, in floats."""
+        line = self._image.line
+        return [(single, meets_straight(single.image.first, line)) for single in self._single_lines()]
+
+    def single_views(self, single: SingleLine | None) -> list[ViewFamily]:
+        """The views along a single line from the way, or along the way itself if None."""
+        return [*(self._own_line() if single is None else self._along(single))]
 
     @cached_property
     def _near(self) -> list[EdgeFamilies]:
@@ -426,19 +437,28 @@ class WayViews:
                 ends[k] = place, u
         return ends
 
-    def _normals(self) -> Iterator[ViewFamily]:
-        """The views along the normals of the way itself, to both sides."""
+    def normals(self) -> Iterator[Pencil]:
+        """The normals of the way itself, to both sides."""
         start, end = raw(self.line.start), raw(self.line.end)
         low, high = self.span.low, self.span.high
-        here = Side(self.way, Role.CONTACT)
         for leftward in (True, False):
             sector = Sliding(start, minus(end, start), low, high, leftward=leftward)
-            sweep = pencil(self.complex.table, sector, (), self.complex.range.above)
-            for cell in sweep.cells:
-                if cell.ahead is not None and cell.ahead in self.wanted:
-                    sides = here, Side(cell.ahead, Role.AHEAD)
-                    free_views = FreeViews(sector, cell.low, cell.high, sides, passed=cell.bounds)
-                    yield from self.clipper.families(free_views)
+            yield pencil(self.complex.table, sector, (), self.complex.range.above)
+
+    def normal_views(self, lines: Pencil, row: LineCells) -> list[ViewFamily]:
+        """The views along some neighbouring normals of the way."""
+        cell = lines.cell(row)
+        if cell.ahead is None or cell.ahead not in self.wanted:
+            return []
+        sides = Side(self.way, Role.CONTACT), Side(cell.ahead, Role.AHEAD)
+        free_views = FreeViews(lines.sector, cell.low, cell.high, sides, passed=cell.bounds)
+        return self.clipper.families(free_views)
+
+    def _normals(self) -> Iterator[ViewFamily]:
+        """The views along the normals of the way itself."""
+        for lines in self.normals():
+            for row in lines.rows:
+                yield from self.normal_views(lines, row)
 
 
 def _edges_near(table: EdgeTable, point: Point) -> list[int]:

@@ -197,11 +197,6 @@ class Shares:
             inside = inside and source.high.compare(part.high) < 0
         return inside or None
 
-    def at(self, share: Share, u: Real, place: Point) -> Share | None:
-        """The one view of a share from a place of the leg, if it has one."""
-        cut = self._clipper.clipped(share.family, share.side, Interval(u, place, u, place))
-        return None if cut is None else share.cut(cut)
-
     def taught(
         self, covers: Covers, known: Mapping[int, Sequence[Span]] | None = None, *, from_ends: bool = True
     ) -> dict[int, Cover]:

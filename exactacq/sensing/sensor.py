@@ -21,6 +21,7 @@ from exactacq.sensing.acquisition import Acquisition
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.event import SENSED, EventKind, Reason
 from exactacq.sensing.family_filter import KnownSpans, inside
+from exactacq.sensing.leg_sights import LegSights
 from exactacq.sensing.leg_views import Covers, Shares, add
 from exactacq.sensing.legs import Leg
 from exactacq.sensing.targets import Targets
@@ -144,6 +145,10 @@ class Sensor:
     def shares(self, leg: Leg) -> Shares:
         """All that a leg shows, also of acquired obstacles."""
         return Shares(self.complex, self.targets, leg, self._near(leg), self._view)
+
+    def sights(self, leg: Leg) -> LegSights:
+        """From where on a leg edges are seen, also those of acquired obstacles."""
+        return LegSights(self.complex, leg, self._view)
 
     def _settle(
         self, notices: list[Notice], learned: dict[int, Cover]

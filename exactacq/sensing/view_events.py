@@ -8,29 +8,29 @@ keeps its combinatorial form.
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Hashable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
-from operator import attrgetter
 from typing import Any, TypeAlias
 
 from flint import fmpq
 
-from exactacq.geometry.coordinates import dot
+from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Curve, Segment
+from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
+from exactacq.kernel.leg_changes import BEGINS, TURNS, Turn
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.scene import Scene, radius_of
-from exactacq.sensing.leg_views import Share, Shares
-from exactacq.sensing.legs import legs_of
-from exactacq.sensing.line_points import Role, Side
+from exactacq.sensing.leg_sights import LegSights
+from exactacq.sensing.leg_views import Shares
+from exactacq.sensing.legs import Leg, legs_of
+from exactacq.sensing.line_points import Role
 from exactacq.sensing.map import Map
 from exactacq.sensing.path import Piece
 from exactacq.sensing.sensor import Sensor
-from exactacq.visibility.line_families import Sector
 from exactacq.visibility.sensor_range import Range
 
 Place: TypeAlias = "tuple[Real, Point]"
@@ -75,49 +75,91 @@ class SweepCell:
     leg: int
     begin: Place
     end: Place
-    shares: Shares
+    views: LegViews
     scene: Scene
 
     @property
     def low(self) -> Real:
         """The lesser parameter."""
-        return self.begin[0] if self.shares.leg.ahead else self.end[0]
+        return self.begin[0] if self.views.leg.ahead else self.end[0]
 
     @property
     def high(self) -> Real:
         """The greater parameter."""
-        return self.end[0] if self.shares.leg.ahead else self.begin[0]
+        return self.end[0] if self.views.leg.ahead else self.begin[0]
+
+    @property
+    def rail(self) -> Rail:
+        """What the parameters belong to."""
+        return self.views.leg.rail
 
     def point(self, u: fmpq) -> Point:
         """The place at a rational parameter."""
-        return self.shares.leg.rail.point(u)
+        return self.rail.point(u)
 
     @cached_property
     def map(self) -> Map:
         """The map of a robot that has walked this cell only: all that is seen from some place of it."""
-        part = self.shares.leg.between(self.begin, self.end)
-        rails = self.shares.complex.clipper.rails
-        return Map(self.scene.obstacles, self.shares.targets, rails, self.shares.cut(part).taught({}))
+        shares = self.views.shares
+        part = shares.leg.between(self.begin, self.end)
+        rails = shares.complex.clipper.rails
+        return Map(self.scene.obstacles, shares.targets, rails, shares.cut(part).taught({}))
 
     def windows(self, u: fmpq) -> list[tuple[Point, Point | None]]:
         """The windows of the view at a rational parameter: the touched point, and the point seen beyond it.
 
         The latter is None if it is out of range. A view along the robot's own line is no window here.
         """
-        at, place = Real(u), self.point(u)
-        cut = [self.shares.at(share, at, place) for share in _bounds(self.shares)]
         touched: list[Point] = []
         found: list[tuple[Point, Point | None]] = []
-        for share in cut:
-            if share is None:
-                continue
-            near, seen = _sector(share).touch(share.family.first.t)[0], share.shown.start
-            if _shown(share).role is Role.CONTACT:
+        for share in self.views.sights.bounding(Real(u), self.point(u)):
+            free_views = share.family.free_views
+            assert free_views is not None, "what bounds a view touches something"
+            near, seen = free_views.sector.touch(share.family.first.t)[0], share.shown.start
+            if free_views.sides[1 - share.side].role is Role.CONTACT:
                 touched.append(near)
             elif (near, seen) not in found:
                 found.append((near, seen))
         past = [near for near, _ in found]
         return [*found, *((near, None) for near in _distinct(touched) if near not in past)]
+
+
+class LegViews:
+    """The views along one leg: where they change, and all that they show, each made when it is asked for."""
+
+    def __init__(self, sensor: Sensor, leg: Leg) -> None:
+        self.leg, self._sensor = leg, sensor
+
+    @cached_property
+    def sights(self) -> LegSights:
+        """From where edges are seen."""
+        return self._sensor.sights(self.leg)
+
+    @cached_property
+    def shares(self) -> Shares:
+        """All that the leg shows."""
+        return self._sensor.shares(self.leg)
+
+    def events(self, number: int) -> Iterator[SweepEvent]:
+        """The events inside the leg of that number; those of one place by edge."""
+        sights, leg, table = self.sights, self.leg, self._sensor.table
+        places: dict[int, Pin] = {}
+        step = 1 if leg.ahead else -1
+        for turn in sorted(sights.turns(), key=lambda turn: (step * turn.rank, turn.edge)):
+            if turn.rank not in places:
+                places[turn.rank] = sights.place(turn.end)
+            place, u = places[turn.rank]
+            owner = table.owners[turn.edge]
+            first = table.edges_of(owner).start
+            yield SweepEvent(self._change(turn), owner, turn.edge - first, number, u, place)
+
+    def _change(self, turn: Turn) -> Change:
+        if turn.kind == TURNS:
+            return Change.TURNING
+        short = turn.is_short or any(self.sights.is_short(end) for end in turn.unsure)
+        if (turn.kind == BEGINS) == self.leg.ahead:
+            return Change.REAPPEARANCE if short else Change.ENTRY
+        return Change.OCCLUSION if short else Change.EXIT
 
 
 class Sweep:
@@ -127,7 +169,7 @@ class Sweep:
         self.scene = scene
         self._made_of = piece, sensor.range.radius
         legs = legs_of(sensor.table, sensor.rails, piece.obstacle, piece.curve, piece.touches)
-        self._shares = [sensor.shares(leg) for leg in legs]
+        self._legs = [LegViews(sensor, leg) for leg in legs]
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Without the sensing, which is repeated: it knows places by identity."""
@@ -140,22 +182,22 @@ class Sweep:
     @cached_property
     def events(self) -> tuple[SweepEvent, ...]:
         """All events inside the piece; those of one place by edge."""
-        return tuple(event for k, shares in enumerate(self._shares) for event in _events(k, shares))
+        return tuple(event for k, views in enumerate(self._legs) for event in views.events(k))
 
     @cached_property
     def cells(self) -> tuple[SweepCell, ...]:
         """The stretches between events; at least one for each leg."""
-        return tuple(cell for k in range(len(self._shares)) for cell in self._cells(k))
+        return tuple(cell for k in range(len(self._legs)) for cell in self._cells(k))
 
     def _cells(self, k: int) -> Iterator[SweepCell]:
-        shares = self._shares[k]
-        leg = shares.leg
+        views = self._legs[k]
+        leg = views.leg
         begin: Place = leg.first, leg.start
         for event in self.events:
-            if event.leg == k and leg.order(begin[0], event.u) < 0:
-                yield SweepCell(k, begin, (event.u, event.place), shares, self.scene)
+            if event.leg == k and event.u is not begin[0]:
+                yield SweepCell(k, begin, (event.u, event.place), views, self.scene)
                 begin = event.u, event.place
-        yield SweepCell(k, begin, (leg.last, leg.end), shares, self.scene)
+        yield SweepCell(k, begin, (leg.last, leg.end), views, self.scene)
 
 
 def sweep(scene: Scene, curve: Curve, radius: object = None, *, obstacle: int | None = None) -> Sweep:
@@ -182,84 +224,6 @@ def sweep(scene: Scene, curve: Curve, radius: object = None, *, obstacle: int | 
 def _again(scene: Scene, piece: Piece, radius: fmpq) -> Sweep:
     """The sweep of a piece, with a sensor of its own."""
     return Sweep(scene, piece, Sensor(EdgeTable(scene.obstacles), Range(radius)))
-
-
-def _events(number: int, shares: Shares) -> list[SweepEvent]:
-    found: dict[int, list[tuple[Real, Point, Change]]] = {}
-    for e in dict.fromkeys(share.edge for k in shares.of for share in shares.of[k]):
-        found[e] = [*_sightings(shares, e)]
-    for u, place, e in _turnings(shares):
-        if all(u.compare(other) != 0 for other, _, _ in found[e]):
-            found[e].append((u, place, Change.TURNING))
-    table, leg = shares.complex.table, shares.leg
-    events: list[SweepEvent] = [
-        SweepEvent(change, table.owners[e], e - table.edges_of(table.owners[e]).start, number, u, place)
-        for e in sorted(found)
-        for u, place, change in found[e]
-    ]
-    return sorted(events, key=attrgetter("u"), reverse=not leg.ahead)
-
-
-def _sightings(shares: Shares, e: int) -> Iterator[tuple[Real, Point, Change]]:
-    """When an edge comes into sight and goes out of it, inside the leg."""
-    leg, owner = shares.leg, shares.complex.table.owners[e]
-    for interval in shares.times(owner, e).intervals:
-        ends = [(interval.low, interval.start), (interval.high, interval.end)]
-        for k, (u, place) in enumerate(ends):
-            if leg.order(u, leg.first) > 0 and leg.order(u, leg.last) < 0:
-                short = shares.is_short(owner, u, e)
-                if (k == 0) == leg.ahead:
-                    yield u, place, Change.REAPPEARANCE if short else Change.ENTRY
-                else:
-                    yield u, place, Change.OCCLUSION if short else Change.EXIT
-
-
-def _turnings(shares: Shares) -> Iterator[tuple[Real, Point, int]]:
-    """Where windows on an edge begin and end, unless one goes over into another of the same feature."""
-    leg = shares.leg
-    ends: list[tuple[Real, Point, int, Hashable, int]] = []
-    for share in _bounds(shares):
-        name, i = _feature(share), share.source
-        ends.append((i.low, i.start, share.edge, name, 1))
-        ends.append((i.high, i.end, share.edge, name, -1))
-    ends = [end for end in ends if leg.order(end[0], leg.first) > 0 and leg.order(end[0], leg.last) < 0]
-    ends.sort(key=lambda end: end[0])
-    k = 0
-    while k < len(ends):
-        u, place = ends[k][:2]
-        balance: Counter[tuple[int, Hashable]] = Counter()
-        while k < len(ends) and ends[k][0].compare(u) == 0:
-            _, _, e, name, step = ends[k]
-            balance[e, name] += step
-            k += 1
-        for e in sorted({e for (e, _), count in balance.items() if count}):
-            yield u, place, e
-
-
-def _bounds(shares: Shares) -> Iterator[Share]:
-    """The families that bound what is seen, over more than one place of the leg."""
-    for found in shares.of.values():
-        for share in found:
-            free_views, i = share.family.free_views, share.source
-            if free_views is not None and free_views.anchor is not None and i.low.compare(i.high) < 0:
-                yield share
-
-
-def _feature(share: Share) -> Hashable:
-    """What tells the windows of a feature on one edge from those of another."""
-    sector = _sector(share)
-    size = dot(sector.base, sector.base) if sector.round else None
-    return _shown(share).role, *sector.center, size
-
-
-def _sector(share: Share) -> Sector:
-    assert share.family.free_views is not None
-    return share.family.free_views.sector
-
-
-def _shown(share: Share) -> Side:
-    assert share.family.free_views is not None
-    return share.family.free_views.sides[1 - share.side]
 
 
 def _distinct(points: list[Point]) -> list[Point]:

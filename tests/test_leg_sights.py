@@ -1,0 +1,265 @@
+"""From where on a leg edges are seen: the kernel against whole numbers, sweeps against all exact families."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Hashable, Iterator
+from fractions import Fraction
+from itertools import pairwise
+from math import inf
+from random import Random
+
+import pytest
+from strategies import arc_terrain, degenerate_terrain, random_terrain
+
+import exactacq as xa
+from exactacq import kernel
+from exactacq.files.octagons import random_octagons
+from exactacq.kernel.choice import LegSpan
+from exactacq.kernel.curve_images import CurveImage
+from exactacq.kernel.family_images import AHEAD, BEHIND, CONTACT, NONE, FamilyImage
+from exactacq.kernel.images import SLIDING, TURNING
+from exactacq.kernel.leg_changes import BEGINS, BOTH_SHORT, ENDS, TURNS, LegChanges, Sight
+from exactacq.kernel.range_cuts import range_cut
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.sensing.leg_views import Share, Shares
+from exactacq.sensing.legs import legs_of
+from exactacq.sensing.path import Piece
+from exactacq.sensing.sensor import Sensor
+from exactacq.sensing.view_events import Change, Sweep
+from exactacq.visibility.sensor_range import Range
+
+# -- the kernel ------------------------------------------------------------------------------------
+
+
+def brute_changes(sights: list[tuple[int, int, int, int]], last: int) -> set[tuple[int, int, int]]:
+    """Changes strictly between 0 and *last*, as (place, edge, kind), of sights (edge, name, low, high)."""
+    found = set()
+    for edge in {e for e, *_ in sights}:
+        mine = [(low, high) for e, _, low, high in sights if e == edge and high >= 0 and low <= last]
+        # Twice the places, so that there are numbers between them.
+        seen = [any(2 * a <= x <= 2 * b for a, b in mine) for x in range(-1, 2 * last + 2)]
+        at = dict(zip(range(-1, 2 * last + 2), seen, strict=True))
+        for x in range(1, last):
+            if at[2 * x] and not at[2 * x - 1]:
+                found.add((x, edge, BEGINS))
+            if at[2 * x] and not at[2 * x + 1]:
+                found.add((x, edge, ENDS))
+        counts: Counter[tuple[int, int]] = Counter()
+        for e, name, low, high in sights:
+            if e == edge and name != NONE and high >= 0 and low <= last:
+                counts[name, low] += 1
+                counts[name, high] -= 1
+        taken = {x for x, e, _ in found if e == edge}
+        found |= {(x, edge, TURNS) for (_, x), count in counts.items() if count and 0 < x < last} - {
+            (x, edge, TURNS) for x in taken
+        }
+    return found
+
+
+@pytest.mark.parametrize("seed", range(300))
+def test_changes_are_those_of_whole_numbers(seed: int) -> None:
+    """However wide the bounds are, and whether equal places have equal keys or only equal values."""
+    rng, last = Random(seed), 8
+    plain, found, values = [], [], []
+
+    def bounds(value: int) -> tuple[float, float]:
+        wide = rng.choice((0.0, 0.1, 0.7, 2.0))
+        return value - wide * rng.random(), value + wide * rng.random()
+
+    for _ in range(rng.randint(1, 12)):
+        low, high = sorted(rng.randint(-1, last + 1) for _ in range(2))
+        edge, name = rng.randint(0, 2), rng.choice((NONE, 0, 1))
+        keys = [[100 + value] if rng.random() < 0.5 else [] for value in (low, high)]
+        plain.append((edge, name, low, high))
+        found.append(Sight(edge, name, bounds(low), bounds(high), keys[0], keys[1], BOTH_SHORT, None))
+        values += [low, high]
+    values += [0, last]
+    changes = LegChanges(found, LegSpan(bounds(0), bounds(last)), NONE)
+    parted = []
+    for cluster in changes.clusters():
+        places = sorted({values[end] for end in cluster})
+        parted.append([[end for end in cluster if values[end] == place] for place in places])
+    turns = changes.settle(parted)
+    assert {(values[turn.end], turn.edge, turn.kind) for turn in turns} == brute_changes(plain, last)
+    order = sorted(turns, key=lambda turn: turn.rank)
+    assert [values[turn.end] for turn in order] == sorted(values[turn.end] for turn in turns)
+    for a in turns:
+        for b in turns:
+            assert (a.rank == b.rank) == (values[a.end] == values[b.end])
+
+
+def segment(ax: Fraction, ay: Fraction, bx: Fraction, by: Fraction) -> CurveImage:
+    return CurveImage(float(ax), float(ay), float(bx - ax), float(by - ay), 0.0, 0, False)
+
+
+def turning(ends: tuple[float, float], edges: tuple[int, int, int]) -> FamilyImage:
+    """Lines through the origin, that of parameter t in the direction (1, t)."""
+    frame = TURNING, 0.0, 0.0, 1.0, 0.0, 0.0, 1
+    at = ends[0], 0.0, ends[1], 0.0
+    return FamilyImage(frame, at, edges, True, True, 0, ([], []), ([], []), None, 0)
+
+
+def square_length(u: Fraction, leg: list[Fraction], wall: list[Fraction] | None) -> Fraction:
+    """The squared length of the view from a place of a segment through the origin to a wall, or to there."""
+    ax, ay, bx, by = leg
+    x, y = ax + u * (bx - ax), ay + u * (by - ay)
+    if wall is None:
+        return x * x + y * y
+    cx, cy, dx, dy = wall
+    share = (cx * (dy - cy) - cy * (dx - cx)) / (x * (dy - cy) - y * (dx - cx))
+    return (x * x + y * y) * (1 - share) ** 2
+
+
+@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.parametrize("past", [False, True])
+def test_the_last_view_in_range_is_where_it_is(seed: int, past: bool) -> None:
+    """By fractions: the length at the two bounds of the place is on either side of the radius."""
+    rng = Random(seed)
+
+    def number(low: int, high: int) -> Fraction:
+        return Fraction(rng.randint(64 * low, 64 * high), 64)
+
+    leg = [number(-6, -2), number(-9, -3), number(-6, -2), number(3, 9)]
+    wall = [number(2, 6), number(-9, -3), number(2, 6), number(3, 9)] if past else None
+    radius = number(3, 9)
+    ends = sorted((rng.random() - 0.5, rng.random() - 0.5))
+    family = turning((ends[0], ends[1]), (0, 0, 1))
+    there = AHEAD if past else CONTACT
+    shown = None if wall is None else segment(*wall)
+    reach = float(radius) * (1 - 1e-12), float(radius) * (1 + 1e-12)
+    end, (low, high) = range_cut(family, BEHIND, there, segment(*leg), shown, reach)
+    places = []
+    for t in map(Fraction, ends):
+        ax, ay, bx, by = leg
+        places.append((ay - t * ax) / (t * (bx - ax) - (by - ay)))
+    orders = [square_length(u, leg, wall) > radius**2 for u in places]
+    if orders[0] == orders[1]:
+        assert end == 0
+        return
+    assert end == (1 if orders[1] else -1)
+    assert high - low < 1e-9
+    assert (square_length(Fraction(low), leg, wall) > radius**2) != (
+        square_length(Fraction(high), leg, wall) > radius**2
+    )
+
+
+def test_normals_end_where_they_are_as_long_as_the_range() -> None:
+    """From the x-axis up to the line y = x + 1: that of length 3 begins at x = 2, a fifth of the way."""
+    frame = SLIDING, 0.0, 0.0, 10.0, 0.0, 0.0, 1
+    family = FamilyImage(
+        frame, (0.0, 0.0, 1.0, 0.0), (NONE, 0, 1), False, False, NONE, ([], []), ([], []), None, 0
+    )
+    axis, roof = (segment(*map(Fraction, ends)) for ends in ((0, 0, 10, 0), (-1, 0, 19, 20)))
+    end, (low, high) = range_cut(family, CONTACT, AHEAD, axis, roof, (3 * (1 - 1e-12), 3 * (1 + 1e-12)))
+    assert end == 1
+    assert low < 0.2 < high < low + 1e-9
+
+
+def test_what_is_round_or_passes_infinity_is_left_open() -> None:
+    leg = segment(*map(Fraction, (-2, -9, -2, 9)))
+    ring = CurveImage(5.0, 0.0, 1.0, 0.0, 1.0, 1, True)
+    level = segment(*map(Fraction, (-9, -1, 9, -1)))
+    family, reach = turning((-0.4, 0.4), (0, 0, 1)), (3.0, 3.0)
+    for shown in (ring, level):
+        assert range_cut(family, BEHIND, AHEAD, leg, shown, reach)[0] == 0
+    assert range_cut(family, BEHIND, CONTACT, level, None, reach)[0] == 0
+
+
+# -- sweeps ----------------------------------------------------------------------------------------
+
+
+def exact_events(shares: Shares) -> Iterator[tuple[int, str, xa.Real]]:
+    """The events of a leg, from all its families with exact ends: edge, change and place, in no order."""
+    leg, owners = shares.leg, shares.complex.table.owners
+    families = [share for some in shares.of.values() for share in some]
+
+    def inside(u: xa.Real) -> bool:
+        return leg.order(u, leg.first) > 0 > leg.order(u, leg.last)
+
+    for e in {share.edge for share in families}:
+        taken = []
+        for i in shares.times(owners[e], e).intervals:
+            for u, comes in ((i.low, leg.ahead), (i.high, not leg.ahead)):
+                if inside(u):
+                    short = shares.is_short(owners[e], u, e)
+                    change = (Change.REAPPEARANCE if short else Change.ENTRY) if comes else None
+                    yield e, (change or (Change.OCCLUSION if short else Change.EXIT)).value, u
+                    taken.append(u)
+        places: list[tuple[xa.Real, Counter[Hashable]]] = []
+        for share in families:
+            if share.edge != e or (name := bound(share)) is None:
+                continue
+            for u, step in ((share.source.low, 1), (share.source.high, -1)):
+                counts = next((c for v, c in places if v.compare(u) == 0), None)
+                if counts is None:
+                    counts = Counter()
+                    places.append((u, counts))
+                counts[name] += step
+        for u, counts in places:
+            if any(counts.values()) and inside(u) and all(u.compare(v) for v in taken):
+                yield e, Change.TURNING.value, u
+
+
+def bound(share: Share) -> Hashable:
+    """What tells the feature that bounds a view, and where on its lines what it shows is."""
+    views = share.family.free_views
+    return None if views is None or views.anchor is None else (views.anchor, views.sides[1 - share.side].role)
+
+
+def check_sweep(scene: xa.Scene, piece: Piece, radius: object) -> int:
+    """A sweep against all exact families, event by event. Returns how many there are."""
+    table, range_ = EdgeTable(scene.obstacles), Range(xa.Real(radius).rational)
+    mine = Sweep(scene, piece, Sensor(table, range_)).events
+    fresh = Sensor(table, range_)
+    legs = legs_of(table, fresh.rails, piece.obstacle, piece.curve, piece.touches)
+    for k, leg in enumerate(legs):
+        expected = [*exact_events(fresh.shares(leg))]
+        events = [event for event in mine if event.leg == k]
+        assert len(events) == len(expected)
+        for a, b in pairwise(events):
+            assert leg.order(a.u, b.u) <= 0
+            assert leg.order(a.u, b.u) or (a.obstacle, a.edge) <= (b.obstacle, b.edge)
+        for event in events:
+            e = table.edges_of(event.obstacle).start + event.edge
+            assert any(
+                (e, event.change.value) == (f, change) and event.u.compare(u) == 0
+                for f, change, u in expected
+            )
+            assert leg.rail.parameter(event.place).compare(event.u) == 0
+    return len(mine)
+
+
+def run_of(make: object, seed: int) -> tuple[xa.Scene, xa.Run]:
+    terrain = make(Random(seed))
+    scene = terrain.scene()
+    return scene, xa.sightseer(scene, terrain.radius)
+
+
+@pytest.mark.parametrize("make", [random_terrain, degenerate_terrain, arc_terrain])
+@pytest.mark.parametrize("seed", range(5))
+def test_events_are_those_of_all_exact_families(make: object, seed: int) -> None:
+    scene, run = run_of(make, seed)
+    for piece in run.path[:6]:
+        check_sweep(scene, piece, run.radius)
+
+
+@pytest.mark.parametrize("make", [random_terrain, degenerate_terrain])
+def test_floats_change_nothing(make: object, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With every float unsure all families are made, all places compared, and the events are the same."""
+    scene, run = run_of(make, 4)
+    with monkeypatch.context() as patch:
+        patch.setattr(kernel, "EXACT_ONLY", True)
+        assert sum(check_sweep(scene, piece, run.radius) for piece in run.path[:4]) > 0
+
+
+def test_places_are_made_when_they_are_read() -> None:
+    scene = random_octagons(12, 3)
+    run = xa.sightseer(scene, 10)
+    senses = Sensor(EdgeTable(scene.obstacles), Range(run.radius))
+    events = [event for piece in run.path for event in Sweep(scene, piece, senses).events]
+    late = [event for event in events if event.u.is_late and event.place.is_late]
+    assert len(late) > 0.8 * len(events) > 100
+    place = late[0].place
+    assert -inf < float(place.x + place.y) < inf
+    assert not place.is_late
