@@ -25,8 +25,9 @@ from exactacq.sensing.view_families import ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.visibility.sensor_range import Range
 
-Told = tuple[tuple[Span, Span, Span] | None, list[tuple[Real, Real, Rail, Real, Real, Rail]]]
-"""Source, sure source and what is shown in floats, and the exact families: source and shown, with rails."""
+Told = tuple[tuple[Span, Span, Span, Span] | None, list[tuple[Real, Real, Rail, Real, Real, Rail]]]
+"""Source, sure source, what is shown and surely shown in floats; the exact families, source and shown with
+rails."""
 
 SCENES = ["figure2", "m11", "plate"]
 
@@ -43,7 +44,7 @@ def told(complex_: VisibilityComplex, leg: Leg, run: xa.SightseerRun) -> Iterato
     if leg.edge is not None:
         for one in complex_.extents(leg.edge):
             exact = [pair(family, side, rails[leg.edge]) for family, side in complex_.views(one)]
-            yield (one.source, one.surely, one.shown) if one.is_known else None, exact
+            yield (one.source, one.surely, one.shown, one.told) if one.is_known else None, exact
         return
 
     def view(place: xa.Point, own: tuple[int, ...] | None) -> Seen:
@@ -63,7 +64,7 @@ def told(complex_: VisibilityComplex, leg: Leg, run: xa.SightseerRun) -> Iterato
                 if part is not None and family.free_views.sides[1] is line_family.sides[one.there + 1]:
                     exact.append(pair(part, 0, leg.rail))
             parts.discard(one.edge)
-            yield (one.source, one.surely, one.shown) if one.is_known else None, exact
+            yield (one.source, one.surely, one.shown, one.told) if one.is_known else None, exact
         for edge in parts:
             # What is not mentioned is not shown, but from an end of the way.
             for family in way.across(line_family, certain, frozenset({edge})):
@@ -83,6 +84,13 @@ def is_below(bound: float, u: Real, rail: Rail) -> bool:
     return bound == -inf or u >= bound or (bound == inf and u == rail.top)
 
 
+def is_inside(source: Span, leg: Leg) -> bool:
+    """Whether all of where a family is seen from surely lies in a leg."""
+    low, high = leg.span.low, leg.span.high
+    starts, ends = leg.edge is not None and low.sign() == 0, leg.edge is not None and high == leg.rail.top
+    return (starts or source[0] >= low) and (ends or source[1] <= high)
+
+
 def check(run: xa.SightseerRun) -> int:
     """Compare floats with exact families along the first legs of a run; how many were compared."""
     table = EdgeTable(run.scene.obstacles)
@@ -93,7 +101,7 @@ def check(run: xa.SightseerRun) -> int:
             for floats, exact in told(complex_, leg, run):
                 if floats is None:
                     continue
-                source, surely, shown = floats
+                source, surely, shown, sure_shown = floats
                 for a, b, near, c, d, far in exact:
                     count += 1
                     assert is_below(source[0], a, near) and is_above(source[1], b, near)
@@ -104,6 +112,11 @@ def check(run: xa.SightseerRun) -> int:
                     sure = [max(sure[0], low), min(sure[1], high)] if leg.edge is None else sure
                     if sure[0] <= sure[1]:
                         assert any(a <= sure[0] and b >= sure[1] for a, b, *_ in exact)
+                if sure_shown[0] <= sure_shown[1] and is_inside(source, leg):
+                    assert any(
+                        is_above(sure_shown[0], c, far) and is_below(sure_shown[1], d, far)
+                        for *_, c, d, far in exact
+                    )
     return count
 
 
