@@ -51,7 +51,7 @@ def told(complex_: VisibilityComplex, leg: Leg, run: xa.SightseerRun) -> Iterato
         return Seen(complex_.table, rails, place, complex_.range, own)
 
     way = WayViews(complex_, leg, wanted, view)
-    extents = way.extents()
+    extents, clipper = way.crossing.extents(), way.way.clipper
     for n, (image, certain) in enumerate(way.crossing):
         line_family = family_of(image)
         parts = {side.edge for side in line_family.sides if side is not None}
@@ -59,16 +59,16 @@ def told(complex_: VisibilityComplex, leg: Leg, run: xa.SightseerRun) -> Iterato
             if one.origin != n:
                 continue
             exact = []
-            for family in way.across(line_family, certain, frozenset({one.edge})):
-                part = way.clipper.clipped(family, 0, leg.span)
+            for family in way.crossing.views(line_family, certain, frozenset({one.edge})):
+                part = clipper.clipped(family, 0, leg.span)
                 if part is not None and family.free_views.sides[1] is line_family.sides[one.there + 1]:
                     exact.append(pair(part, 0, leg.rail))
             parts.discard(one.edge)
             yield (one.source, one.surely, one.shown, one.told) if one.is_known else None, exact
         for edge in parts:
             # What is not mentioned is not shown, but from an end of the way.
-            for family in way.across(line_family, certain, frozenset({edge})):
-                part = way.clipper.clipped(family, 0, leg.span)
+            for family in way.crossing.views(line_family, certain, frozenset({edge})):
+                part = clipper.clipped(family, 0, leg.span)
                 if part is not None:
                     low, high = sorted(end.places[0] for end in (part.first, part.last))
                     assert low == high and (low == leg.span.low or low == leg.span.high)

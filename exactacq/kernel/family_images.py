@@ -9,10 +9,9 @@ from __future__ import annotations
 from math import inf
 from typing import Final, final
 
-from exactacq.kernel.bounded import cross, total
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.images import ROLLING, SLIDING
-from exactacq.kernel.lines import Frame, Line, line_at, meets, parameter_round
+from exactacq.kernel.lines import Frame, Line, line_at, meets, parameter_round, side_of
 
 BEHIND: Final = -1
 CONTACT: Final = 0
@@ -99,8 +98,8 @@ class FamilyImage:
         least = 0.0
         if self.frame[0] == ROLLING:
             least = ROUNDED * (self.frame[3] * self.frame[3] + self.frame[4] * self.frame[4])
-        one = _height(self.first, x, y, error, least)
-        return one if one == _height(self.last, x, y, error, least) else 0
+        one = side_of(self.first, x, y, error, least)
+        return one if one == side_of(self.last, x, y, error, least) else 0
 
 
 def locate(families: list[FamilyImage], curves: list[CurveImage], following: list[int]) -> None:
@@ -155,17 +154,3 @@ def _corner(edge: int, following: int, passed: list[int]) -> float:
         if vertex == following:
             return inf
     return 0.0
-
-
-def _height(line: Line, x: float, y: float, error: float, least: float) -> int:
-    """1 or -1 if a place is certainly left of a line, by more than *least*, or right of it; else 0.
-
-    The height is the product of the direction with the offset: times the direction's length.
-    """
-    cx, cy, dx, dy, ce, de = line
-    ox, p = total(x, error, -cx, ce)
-    oy, q = total(y, error, -cy, ce)
-    height, bound = cross(dx, dy, de, ox, oy, max(p, q))
-    if height - bound > least:
-        return 1
-    return -1 if -height > bound else 0

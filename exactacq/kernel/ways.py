@@ -89,6 +89,26 @@ def extents_from_way(
     return extents
 
 
+def extents_along_normals(
+    families: list[FamilyImage], curves: list[CurveImage], reach: tuple[float, float]
+) -> list[Extent]:
+    """What families of a way's normals show from it; they are the origins."""
+    extents: list[Extent] = []
+    for family in families:
+        edge = family.edge(AHEAD)
+        if not family.is_known:
+            extents.append(unknown(edge, family, CONTACT, AHEAD))
+            continue
+        a, b, c, d = family.fraction
+        (ax, ay, _, _, p, _), (bx, by, _, _, q, _) = family.first, family.last
+        slack = bent(family, AHEAD, family.ahead, curves) + 2.0 * (p + q)
+        spots = (a, b, ax, ay, p), (c, d, bx, by, q)
+        one = extent(edge, spots, family.ahead, slack, ([], []), reach, family, CONTACT, AHEAD)
+        if one is not None:
+            extents.append(one)
+    return extents
+
+
 @final
 class Crossed:
     """How a family crosses a way: from where to where, and on which side of the contact.

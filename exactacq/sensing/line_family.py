@@ -14,11 +14,14 @@ from exactacq.geometry.curve_images import curve_image
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.points import Point
 from exactacq.kernel.cells import LineCells
-from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent
+from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent, Span
 from exactacq.kernel.family_images import NONE, FamilyImage
 from exactacq.kernel.images import TURNING
 from exactacq.kernel.line_keys import LineNumbers
+from exactacq.kernel.lines import line_at
 from exactacq.kernel.pencil_images import pencil_images
+from exactacq.kernel.single_lines import SingleImage, Spot
+from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real
 from exactacq.sensing.line_images import LineImages
 from exactacq.sensing.line_points import Role, Side
@@ -155,37 +158,32 @@ class SingleLine:
     shown: int
     u: Real | None = None
     _views: list[ViewFamily] | None = None
-    _image: FamilyImage | None = None
+    _image: SingleImage | None = None
+    _hulls: tuple[Span, Span] | None = None
 
     @property
-    def line(self) -> tuple[Point, Point]:
-        """Two points of the line, of the scene's if possible."""
-        return self.run if self.run[0] is not self.run[1] else (self.place, self.run[0])
-
-    @property
-    def image(self) -> FamilyImage:
-        """The line in floats, as a family of one: by a point and a direction.
-
-        The points are subtracted exactly and then rounded: the difference of their floats could be 0.
-        """
+    def image(self) -> SingleImage:
+        """The line in floats."""
         if self._image is None:
             self._image = self._imaged()
         return self._image
 
-    def _imaged(self) -> FamilyImage:
-        start, end = self.line
-        way = curve_image(Segment(start, end))
-        frame = TURNING, way.x, way.y, way.wx, way.wy, 0.0, 1
-        at = 0.0, 0.0, 0.0, 0.0
-        return FamilyImage(frame, at, (NONE, NONE, NONE), False, True, NONE, ([], []), ([], []), None, 0)
+    def _imaged(self) -> SingleImage:
+        """The points are subtracted exactly and then rounded: the difference of their floats could be 0."""
+        run = self.run
+        ends = run if run[0] is not run[1] else (self.place, run[0])
+        curve = curve_image(Segment(*ends))
+        line = line_at((TURNING, curve.x, curve.y, curve.wx, curve.wy, 0.0, 1), 0.0, 0.0)
+        return SingleImage(line, _spot(self.place), _spot(run[0]))
 
     def extent(self, images: LineImages, here: int = 0) -> Extent:
         """What is shown at most, and from where: of the run from the place, or if *here* of the place."""
-        edge, shown, source = self.shown, images.hull(self.shown, self.run), EVERYTHING
-        if self.edge is not None:
-            source = images.hull(self.edge, (self.place,))
-            if here:
-                edge, shown, source = self.edge, source, shown
+        if self._hulls is None:
+            place = EVERYTHING if self.edge is None else images.hull(self.edge, (self.place,))
+            self._hulls = images.hull(self.shown, self.run), place
+        (shown, source), edge = self._hulls, self.shown
+        if here and self.edge is not None:
+            edge, shown, source = self.edge, source, shown
         is_known = not kernel.EXACT_ONLY
         return Extent(edge, shown, source, NOTHING, [], [], self, here, 1 - here, is_known)
 
@@ -200,3 +198,9 @@ class SingleLine:
             ends = clipper.along((self.place, u), self.run, self.shown)
             self._views = [ViewFamily((self.edge, self.shown), *end) for end in ends]
         return self._views, here
+
+
+def _spot(point: Point) -> Spot:
+    """A point in floats."""
+    (x, p), (y, q) = float_ball(point.x), float_ball(point.y)
+    return x, y, max(p, q)
