@@ -6,6 +6,7 @@ from math import inf
 from typing import final
 
 from exactacq.kernel.bounded import TINY, UNIT
+from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import EVERYTHING, Span
 from exactacq.kernel.lines import Line, meets_straight, side_of
 from exactacq.kernel.ways import WayImage
@@ -16,14 +17,20 @@ Spot = tuple[float, float, float]
 
 @final
 class SingleImage:
-    """A line from a place to the nearest point of the run that it shows."""
+    """A line from a place to the nearest point of the run that it shows, along a segment."""
 
-    def __init__(self, line: Line, place: Spot, near: Spot) -> None:
-        self.line, self.place, self.near = line, place, near
+    def __init__(self, segment: CurveImage, place: Spot, near: Spot) -> None:
+        self.line, self.place, self.near = line_along(segment), place, near
 
     def side(self, x: float, y: float, error: float) -> int:
         """1 or -1 if a place is certainly left or right of the line, else 0."""
         return side_of(self.line, x, y, error, 0.0)
+
+
+def line_along(segment: CurveImage) -> Line:
+    """The line of a segment."""
+    x, y, dx, dy = segment.x, segment.y, segment.wx, segment.wy
+    return x, y, dx, dy, UNIT * max(abs(x), abs(y)) + TINY, UNIT * max(abs(dx), abs(dy)) + TINY
 
 
 def crossing_lines(lines: list[SingleImage], way: WayImage) -> list[tuple[int, Span]]:
@@ -32,8 +39,7 @@ def crossing_lines(lines: list[SingleImage], way: WayImage) -> list[tuple[int, S
     Others leave the whole way on one side, or have both their points on one side of it.
     """
     ax, ay, bx, by, error = way.ends
-    x, y, dx, dy = way.line.x, way.line.y, way.line.wx, way.line.wy
-    across: Line = (x, y, dx, dy, UNIT * max(abs(x), abs(y)) + TINY, UNIT * max(abs(dx), abs(dy)) + TINY)
+    across = line_along(way.line)
     found: list[tuple[int, Span]] = []
     for k in range(len(lines)):
         one = lines[k]

@@ -62,7 +62,7 @@ class WayViews:
 
     def families(self, choose: Choose | None = None) -> Iterator[ViewFamily]:
         """All families at wanted edges whose first side lies on the way, or those that are chosen."""
-        found = [*self._single_lines(), *self.normals.extents()]
+        found = [*self.single_lines(), *self.normals.extents()]
         if choose is None:
             for image, certain in self.crossing:
                 yield from self.crossing.views(family_of(image), certain, self.wanted)
@@ -71,12 +71,12 @@ class WayViews:
         yield from self._views(found)
         yield from self.own_line.families()
 
-    def _single_lines(self) -> list[Extent]:
+    def single_lines(self) -> list[Extent]:
         """What the single lines that may cross the way show, in floats; they are the origins."""
         lines = [line for edge in self._near for line in edge.single_lines if line.shown in self.wanted]
-        found = []
-        for k, source in crossing_lines([line.image for line in lines], self.way.image):
-            one = lines[k].extent(self.way.complex.images)
+        found, images = [], self.way.complex.images
+        for k, source in crossing_lines([line.image(images) for line in lines], self.way.image):
+            one = lines[k].extent(images)
             one.source = source
             found.append(one)
         return found
@@ -86,7 +86,7 @@ class WayViews:
         crossing, roles = dict[int, set[int]](), dict[int, Role | None]()
         for one in extents:
             if isinstance(one.origin, SingleLine):
-                yield from self._along(one.origin)
+                yield from self.along(one.origin)
             elif isinstance(one.origin, FamilyImage):
                 yield from self.normals.views(one.origin)
             elif isinstance(one.origin, int):
@@ -98,7 +98,7 @@ class WayViews:
                 image, certain = families[n]
                 yield from self.crossing.views(family_of(image), certain, frozenset(edges), roles[n])
 
-    def _along(self, single: SingleLine) -> Iterator[ViewFamily]:
+    def along(self, single: SingleLine) -> Iterator[ViewFamily]:
         """A single line that crosses the way between its place and the run that it shows."""
         direction = single.run[0] - single.place
         met = line_contacts(single.place, direction, self.way.piece)

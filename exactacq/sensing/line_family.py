@@ -16,9 +16,7 @@ from exactacq.geometry.points import Point
 from exactacq.kernel.cells import LineCells
 from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent, Span
 from exactacq.kernel.family_images import NONE, FamilyImage
-from exactacq.kernel.images import TURNING
 from exactacq.kernel.line_keys import LineNumbers
-from exactacq.kernel.lines import line_at
 from exactacq.kernel.pencil_images import pencil_images
 from exactacq.kernel.single_lines import SingleImage, Spot
 from exactacq.numbers.float_bounds import float_ball
@@ -161,20 +159,15 @@ class SingleLine:
     _image: SingleImage | None = None
     _hulls: tuple[Span, Span] | None = None
 
-    @property
-    def image(self) -> SingleImage:
-        """The line in floats."""
+    def image(self, images: LineImages) -> SingleImage:
+        """The line in floats, from a segment on it: a run is the whole edge that is shown, or one point."""
         if self._image is None:
-            self._image = self._imaged()
+            first, last = self.run
+            curve = images.table.curve_images[self.shown]
+            if first is last:
+                curve = curve_image(Segment(self.place, first))
+            self._image = SingleImage(curve, _spot(self.place), _spot(first))
         return self._image
-
-    def _imaged(self) -> SingleImage:
-        """The points are subtracted exactly and then rounded: the difference of their floats could be 0."""
-        run = self.run
-        ends = run if run[0] is not run[1] else (self.place, run[0])
-        curve = curve_image(Segment(*ends))
-        line = line_at((TURNING, curve.x, curve.y, curve.wx, curve.wy, 0.0, 1), 0.0, 0.0)
-        return SingleImage(line, _spot(self.place), _spot(run[0]))
 
     def extent(self, images: LineImages, here: int = 0) -> Extent:
         """What is shown at most, and from where: of the run from the place, or if *here* of the place."""

@@ -13,7 +13,7 @@ from exactacq.geometry.interval_union import Cover
 from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
-from exactacq.scene.edge_table import STRAIGHT
+from exactacq.scene.edge_table import STRAIGHT, EdgeTable
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.straight_way import StraightWay
 from exactacq.sensing.view_families import End, ViewFamily
@@ -28,6 +28,7 @@ class OwnLine:
     def __init__(self, way: StraightWay, wanted: frozenset[int], view: Callable[[Point, None], Seen]) -> None:
         self.way, self.wanted, self.view = way, wanted, view
         self.table, self.line = way.table, way.line
+        self._slack = 256 * way.clipper.roundoff
 
     def families(self) -> Iterator[ViewFamily]:
         """The views of the way's ends, of corners that it touches, and of what lies beyond."""
@@ -51,7 +52,7 @@ class OwnLine:
         """The corners and the tangent points of wanted edges on the way's line, named or not."""
         table, start, touches = self.table, self.line.start, self.way.touches
         along = self.line.end - start
-        for e in self._on_line(self.wanted, start, along):
+        for e in on_line(table, self.wanted, start, along, self._slack):
             curve = table.curves[e]
             for number, corner in ((e, curve.start), (int(table.next[e]), curve.end)):
                 if ("corner", number) in touches or along.cross(corner - start).sign() == 0:
@@ -63,30 +64,11 @@ class OwnLine:
                     if curve.contains(foot):
                         yield e, foot
 
-    def _on_line(self, edges: Collection[int], origin: Point, along: Point, ahead: bool = False) -> list[int]:
-        """Those of some edges that may have points on a line, or on its ray *ahead*."""
-        numbers = np.fromiter(edges, np.intp, len(edges))
-        (x, y), (dx, dy) = origin.xy, along.xy
-        size = hypot(dx, dy)
-        slack = 256 * self.way.clipper.roundoff * size
-        boxes = self.table.boxes[numbers] - (x, y, x, y)
-        corners = boxes[:, [0, 0, 2, 2]], boxes[:, [1, 3, 1, 3]]
-        is_straight = self.table.kind[numbers] == STRAIGHT
-        start, end = self.table.start[numbers] - (x, y), self.table.end[numbers] - (x, y)
-        heights = corners[0] * dy - corners[1] * dx
-        ends = np.stack([start[:, 0] * dy - start[:, 1] * dx, end[:, 0] * dy - end[:, 1] * dx], axis=1)
-        low = np.where(is_straight, ends.min(axis=1), heights.min(axis=1))
-        high = np.where(is_straight, ends.max(axis=1), heights.max(axis=1))
-        is_met = (low <= slack) & (high >= -slack)
-        if ahead:
-            is_met &= ((corners[0] * dx + corners[1] * dy) >= -slack).any(axis=1)
-        found: list[int] = numbers[is_met].tolist()
-        return found
-
     def _beyond(self, end: Point, onward: Point) -> Iterator[tuple[int, Point]]:
         """What the way's line meets beyond an end, as far as it is seen from there."""
         own, view = self._edges_near(end), self.view(end, None)
-        for e in self._on_line([e for e in view.edges if e in self.wanted], end, onward, ahead=True):
+        edges = [e for e in view.edges if e in self.wanted]
+        for e in on_line(self.table, edges, end, onward, self._slack, ahead=True):
             curve = self.table.curves[e]
             if e in own:
                 # The line meets an edge at its end only there, unless it runs along it.
@@ -131,3 +113,28 @@ class OwnLine:
 def _certainly(low: Real, high: Real) -> bool:
     """Whether balls tell that one number is less than another."""
     return (high - low).clear_sign(BITS) > 0
+
+
+def on_line(
+    table: EdgeTable, edges: Collection[int], origin: Point, along: Point, slack: float, ahead: bool = False
+) -> list[int]:
+    """Those of some edges that may have points on a line, or on its ray *ahead*.
+
+    Floats tell, of arcs by their boxes. *slack* is far more than what they are off.
+    """
+    numbers = np.fromiter(edges, np.intp, len(edges))
+    (x, y), (dx, dy) = origin.xy, along.xy
+    slack *= hypot(dx, dy)
+    boxes, here = table.boxes[numbers], np.array((x, y))
+    across, down = boxes[:, [0, 0, 2, 2]] - x, boxes[:, [1, 3, 1, 3]] - y
+    heights = across * dy - down * dx
+    start, end = table.start[numbers] - here, table.end[numbers] - here
+    ends = np.stack([start[:, 0] * dy - start[:, 1] * dx, end[:, 0] * dy - end[:, 1] * dx], axis=1)
+    is_straight = table.kind[numbers] == STRAIGHT
+    low = np.where(is_straight, ends.min(axis=1), heights.min(axis=1))
+    high = np.where(is_straight, ends.max(axis=1), heights.max(axis=1))
+    is_met = (low <= slack) & (high >= -slack)
+    if ahead:
+        is_met &= (across * dx + down * dy >= -slack).any(axis=1)
+    found: list[int] = numbers[is_met].tolist()
+    return found

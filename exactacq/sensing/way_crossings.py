@@ -11,6 +11,7 @@ from itertools import pairwise
 
 from flint import fmpq
 
+from exactacq.geometry.coordinates import dot, raw
 from exactacq.geometry.intersections import line_contacts
 from exactacq.kernel.extents import Extent
 from exactacq.kernel.family_images import FamilyImage
@@ -23,6 +24,7 @@ from exactacq.sensing.straight_way import StraightWay
 from exactacq.sensing.view_families import FreeViews, ViewFamily
 from exactacq.sensing.way_cuts import Cut, WayCuts
 from exactacq.visibility.chords import meet
+from exactacq.visibility.line_families import Sector, Sliding
 
 
 class WayCrossings:
@@ -57,6 +59,9 @@ class WayCrossings:
         if not line_family.sector.round and line_family.anchor in self.way.touches:
             # Every line through a corner that the way touches crosses it there and shows nothing else.
             return
+        if not certain and self._is_parallel(line_family.sector):
+            # The way may be one of the normals: what is seen along itself is told by its own line.
+            return
         cuts: list[Cut] = [
             (line_family.low, None, line_family.names[0]),
             (line_family.high, None, line_family.names[1]),
@@ -79,6 +84,10 @@ class WayCrossings:
                     line_family.sector, low, high, (here, other), names, pins, passed, anchor
                 )
                 yield from self.way.clipper.families(free_views)
+
+    def _is_parallel(self, sector: Sector) -> bool:
+        """Whether all lines of a sector are parallel to the way."""
+        return isinstance(sector, Sliding) and dot(sector.base, raw(self.way.piece.direction)) == 0
 
     def _role(self, line_family: LineFamily, t: fmpq, wanted: frozenset[int]) -> Role | None:
         """On which side of the contact the line crosses the way within its free part, if it does."""
