@@ -19,7 +19,7 @@ AHEAD: Final = 1
 NONE: Final = -1
 """No edge, or no vertex."""
 ROUNDED: Final = 0.3
-"""More than 1 - 1/sqrt(2): see `FamilyImage.side`."""
+"""More than 1 - 1/sqrt(2): see `side_of_all`."""
 
 EdgePlace = tuple[float, float, float, float, float]
 """Where a line meets an edge: bounds of the parameter, the point, and the error of its coordinates."""
@@ -86,20 +86,25 @@ class FamilyImage:
             self.contact = places
 
     def side(self, x: float, y: float, error: float) -> int:
-        """1 or -1 if a place is certainly left or right of all lines of the family, else 0.
+        """1 or -1 if a place is certainly left or right of all lines of the family, else 0."""
+        return side_of_all(self.frame, self.first, self.last, x, y, error)
 
-        *error* bounds that of its coordinates. The height of a place above a line, times the length of the
-        direction, is linear in the parameter where the contact is fixed, slides, or lies on the spokes of
-        an arc: there both ends decide. Of lines that roll on a circle of radius r it is r (w + r), with w the
-        height above the parallel through the centre, a sum a w_1 + b w_2 of those at the ends with a, b >= 0
-        and 1 <= a + b <= sqrt(2), as lines turn by a quarter at most. So it is negative if it is at both ends
-        (w_1, w_2 < -r), and positive if at both w + r > (1 - 1/sqrt(2)) r.
-        """
-        least = 0.0
-        if self.frame[0] == ROLLING:
-            least = ROUNDED * (self.frame[3] * self.frame[3] + self.frame[4] * self.frame[4])
-        one = side_of(self.first, x, y, error, least)
-        return one if one == side_of(self.last, x, y, error, least) else 0
+
+def side_of_all(frame: Frame, first: Line, last: Line, x: float, y: float, error: float) -> int:
+    """1 or -1 if a place is certainly left or right of all lines of a sector between two of them, else 0.
+
+    *error* bounds that of its coordinates. The height of a place above a line, times the length of the
+    direction, is linear in the parameter where the contact is fixed, slides, or lies on the spokes of
+    an arc: there both ends decide. Of lines that roll on a circle of radius r it is r (w + r), with w the
+    height above the parallel through the centre, a sum a w_1 + b w_2 of those at the ends with a, b >= 0
+    and 1 <= a + b <= sqrt(2), as lines turn by a quarter at most. So it is negative if it is at both ends
+    (w_1, w_2 < -r), and positive if at both w + r > (1 - 1/sqrt(2)) r.
+    """
+    least = 0.0
+    if frame[0] == ROLLING:
+        least = ROUNDED * (frame[3] * frame[3] + frame[4] * frame[4])
+    one = side_of(first, x, y, error, least)
+    return one if one == side_of(last, x, y, error, least) else 0
 
 
 def locate(families: list[FamilyImage], curves: list[CurveImage], following: list[int]) -> None:

@@ -13,6 +13,7 @@ from flint import fmpq
 
 from exactacq.geometry.coordinates import dot, raw
 from exactacq.geometry.intersections import line_contacts
+from exactacq.geometry.points import Point
 from exactacq.kernel.extents import Extent
 from exactacq.kernel.family_images import FamilyImage
 from exactacq.kernel.ways import Crossing, crossings, extents_from_way
@@ -24,7 +25,7 @@ from exactacq.sensing.straight_way import StraightWay
 from exactacq.sensing.view_families import FreeViews, ViewFamily
 from exactacq.sensing.way_cuts import Cut, WayCuts
 from exactacq.visibility.chords import meet
-from exactacq.visibility.line_families import Sector, Sliding
+from exactacq.visibility.line_families import Sector, Sliding, Spokes
 
 
 class WayCrossings:
@@ -59,8 +60,8 @@ class WayCrossings:
         if not line_family.sector.round and line_family.anchor in self.way.touches:
             # Every line through a corner that the way touches crosses it there and shows nothing else.
             return
-        if not certain and self._is_parallel(line_family.sector):
-            # The way may be one of the normals: what is seen along itself is told by its own line.
+        if not certain and self._is_normal(line_family.sector):
+            # No other line crosses it, and what is seen along itself is told by its own line.
             return
         cuts: list[Cut] = [
             (line_family.low, None, line_family.names[0]),
@@ -85,9 +86,14 @@ class WayCrossings:
                 )
                 yield from self.way.clipper.families(free_views)
 
-    def _is_parallel(self, sector: Sector) -> bool:
-        """Whether all lines of a sector are parallel to the way."""
-        return isinstance(sector, Sliding) and dot(sector.base, raw(self.way.piece.direction)) == 0
+    def _is_normal(self, sector: Sector) -> bool:
+        """Whether the way's line is one of the normals, or would be if the edge were longer."""
+        start, along = self.way.piece.start, self.way.piece.direction
+        if isinstance(sector, Sliding):
+            return bool(dot(sector.base, raw(along)) == 0)
+        return (
+            isinstance(sector, Spokes) and sector.outward and along.cross(Point(*sector.center) - start) == 0
+        )
 
     def _role(self, line_family: LineFamily, t: fmpq, wanted: frozenset[int]) -> Role | None:
         """On which side of the contact the line crosses the way within its free part, if it does."""
