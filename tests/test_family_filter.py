@@ -164,6 +164,12 @@ def test_floats_agree_on_random_scenes(seed: int) -> None:
     check(run)
 
 
+def test_floats_agree_on_a_board() -> None:
+    """The robot walks along rows of holes: their quarter turns begin with lines parallel to its ways."""
+    holes = [xa.Circle((2 * k % 6, 2 * (k // 3)), "3/5") for k in range(6)]
+    assert check(xa.sightseer(xa.Scene(holes, start=(-1, -1), radius=5))) > 20
+
+
 def record(run: xa.SightseerRun) -> list[object]:
     """All that a run tells."""
     events = [(e.kind, e.obstacle, *map(digits, e.point), e.describe()) for e in run.events]
