@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator
-from math import hypot
+from math import hypot, inf
 
 import numpy as np
 
+from exactacq import kernel
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.interval_union import Cover
@@ -28,7 +29,7 @@ class OwnLine:
     def __init__(self, way: StraightWay, wanted: frozenset[int], view: Callable[[Point, None], Seen]) -> None:
         self.way, self.wanted, self.view = way, wanted, view
         self.table, self.line = way.table, way.line
-        self._slack = 256 * way.clipper.roundoff
+        self._slack = inf if kernel.EXACT_ONLY else 256 * way.clipper.roundoff
 
     def families(self) -> Iterator[ViewFamily]:
         """The views of the way's ends, of corners that it touches, and of what lies beyond."""
