@@ -396,7 +396,7 @@ for scene in (random_octagons(12, 3), xa.load("circles"), xa.load("plate"), xa.l
         total.update(repr((middles, met)).encode())
     complex_ = VisibilityComplex(table, Range(xa.Real(10).rational))
     for one in (one for e in every for one in complex_.extents(e)):
-        spans = one.edge, one.shown, one.source, one.surely, one.here, one.there, one.is_known
+        spans = one.edge, one.shown, one.source, one.surely, one.told, one.here, one.there, one.is_known
         total.update(repr((spans, one.first_keys, one.last_keys)).encode())
     for obstacle in scene.obstacles:
         for place in ((e.start + e.end) / 2 + e.start * Q(1, 97) for e in obstacle.edges[:4]):

@@ -17,7 +17,7 @@ from exactacq import kernel
 from exactacq.files.octagons import random_octagons
 from exactacq.kernel.choice import LegSpan
 from exactacq.kernel.curve_images import CurveImage
-from exactacq.kernel.family_images import AHEAD, BEHIND, CONTACT, NONE, FamilyImage
+from exactacq.kernel.family_images import AHEAD, BEHIND, CONTACT, NONE, EndLine, FamilyImage
 from exactacq.kernel.images import SLIDING, TURNING
 from exactacq.kernel.leg_changes import BEGINS, BOTH_SHORT, ENDS, TURNS, LegChanges, Sight
 from exactacq.kernel.range_cuts import range_cut
@@ -96,8 +96,8 @@ def segment(ax: Fraction, ay: Fraction, bx: Fraction, by: Fraction) -> CurveImag
 def turning(ends: tuple[float, float], edges: tuple[int, int, int]) -> FamilyImage:
     """Lines through the origin, that of parameter t in the direction (1, t)."""
     frame = TURNING, 0.0, 0.0, 1.0, 0.0, 0.0, 1
-    at = ends[0], 0.0, ends[1], 0.0
-    return FamilyImage(frame, at, edges, True, True, 0, ([], []), ([], []), None, 0)
+    first, last = (EndLine(frame, t, 0.0, [], []) for t in ends)
+    return FamilyImage(frame, (first, last), edges, True, True, 0, None, 0)
 
 
 def square_length(u: Fraction, leg: list[Fraction], wall: list[Fraction] | None) -> Fraction:
@@ -147,9 +147,8 @@ def test_the_last_view_in_range_is_where_it_is(seed: int, past: bool) -> None:
 def test_normals_end_where_they_are_as_long_as_the_range() -> None:
     """From the x-axis up to the line y = x + 1: that of length 3 begins at x = 2, a fifth of the way."""
     frame = SLIDING, 0.0, 0.0, 10.0, 0.0, 0.0, 1
-    family = FamilyImage(
-        frame, (0.0, 0.0, 1.0, 0.0), (NONE, 0, 1), False, False, NONE, ([], []), ([], []), None, 0
-    )
+    first, last = (EndLine(frame, t, 0.0, [], []) for t in (0.0, 1.0))
+    family = FamilyImage(frame, (first, last), (NONE, 0, 1), False, False, NONE, None, 0)
     axis, roof = (segment(*map(Fraction, ends)) for ends in ((0, 0, 10, 0), (-1, 0, 19, 20)))
     end, (low, high) = range_cut(family, CONTACT, AHEAD, axis, roof, (3 * (1 - 1e-12), 3 * (1 + 1e-12)))
     assert end == 1

@@ -12,18 +12,21 @@ from random import Random
 
 import pytest
 
+from exactacq.geometry.curve_images import curve_image
+from exactacq.geometry.curves import Segment
 from exactacq.geometry.points import Point
 from exactacq.kernel.bounded import UNIT
 from exactacq.kernel.family_images import NONE, EndLine, FamilyImage
+from exactacq.kernel.single_lines import SingleImage
 from exactacq.numbers.float_bounds import float_ball, rough
 from exactacq.numbers.real import Real, fmpq, rational
-from exactacq.sensing.line_family import SingleLine
 from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes, Turning
 
 Q = Fraction
 LENGTHS = [1, Q(1, 10**6), Q(1, 10**20), Q(1, 10**60), 10**9]
 OFFSETS = [0, 1, 10**6, Q(10**9, 3)]
 GAPS = [0, Q(1, 10**60), Q(1, 10**12), Q(1, 10**7), Q(1, 10**4), 1, 10**4, 10**12]
+NO_SPOT = 0.0, 0.0, 0.0
 DECIDED = 2.0**-43
 """What is farther from all lines, as a part of all coordinates and lengths, is to be decided."""
 
@@ -49,9 +52,9 @@ def distances(lines: list[tuple[Point, Point]], place: Point) -> list[float]:
     return [float(t) / sqrt(float(d.norm_sq())) for t, (_, d) in zip(turns, lines, strict=True)]
 
 
-def of_lines(start: Point, end: Point) -> FamilyImage:
-    """The line from one point through another, as a family."""
-    return SingleLine((start, None), None, (start, end), 0).image
+def of_lines(start: Point, end: Point) -> SingleImage:
+    """The line from one point through another."""
+    return SingleImage(curve_image(Segment(start, end)), NO_SPOT, NO_SPOT)
 
 
 def family(sector: Sector, low: Real, high: Real) -> FamilyImage:
@@ -60,12 +63,14 @@ def family(sector: Sector, low: Real, high: Real) -> FamilyImage:
     return FamilyImage(sector.image, (first, last), (NONE, NONE, NONE), False, True, NONE, None, 0)
 
 
-def side_of(image: FamilyImage, place: Point) -> int:
+def side_of(image: FamilyImage | SingleImage, place: Point) -> int:
     x, y = rough(place.x), rough(place.y)
     return image.side(x, y, UNIT * (abs(x) + abs(y)))
 
 
-def judge(image: FamilyImage, lines: list[tuple[Point, Point]], place: Point, room: float) -> bool:
+def judge(
+    image: FamilyImage | SingleImage, lines: list[tuple[Point, Point]], place: Point, room: float
+) -> bool:
     """Whether the side of a place is told, which it rightly is unless a line passes within *room*."""
     side = side_of(image, place)
     exact = distances(lines, place)

@@ -59,14 +59,17 @@ def mattering(
     obstacles: set[int],
     along: set[int],
     known: Known,
+    ahead: bool,
 ) -> tuple[list[int], list[Group]]:
     """Which of some families matter on a leg, by their numbers, and from where obstacles surely are seen.
 
     *owners* are the obstacles that edges count for, and whether all of the edge does. The leg lies on the
-    boundaries of the obstacles *along*, which are in sight anyway.
+    boundaries of the obstacles *along*, which are in sight anyway. The robot walks it *ahead*, from its low
+    end, or back.
     """
     chosen = [False] * len(extents)
     sources: dict[int, list[Source]] = {}
+    news: dict[int, list[int]] = {}
     for n in range(len(extents)):
         one = extents[n]
         concerned = [owner for owner in owners.get(one.edge, NOBODY) if owner[0] in obstacles]
@@ -78,7 +81,10 @@ def mattering(
         outer = span.outer(one.source)
         if outer[0] > outer[1]:
             continue
-        chosen[n] = not _is_known(one, known)
+        if not _is_known(one, known):
+            if one.edge not in news:
+                news[one.edge] = []
+            news[one.edge].append(n)
         # What is seen from an end of the leg alone is part of the view from there.
         if not (outer[0] < inf and outer[1] > -inf):
             continue
@@ -88,19 +94,20 @@ def mattering(
                 if k not in sources:
                     sources[k] = []
                 sources[k].append(Source(n, outer, surely if whole else NOTHING, one))
+    for e, numbers in news.items():
+        for n in _untold([extents[m] for m in numbers], span, known.get(e), ahead):
+            chosen[numbers[n]] = True
     groups: list[Group] = []
     for k, some in sources.items():
-        spans: list[Span] = []
-        for group in _joined([source for source in some if source.surely[0] <= source.surely[1]]):
-            last = group[0].surely
-            for source in group:
-                if source.surely[1] > last[1]:
-                    last = source.surely
-            spans.append((group[0].surely[0], last[1]))
-            groups.append((k, group[0].surely, last))
+        found = [SightGroup(group) for group in _joined([s for s in some if s.surely[0] <= s.surely[1]])]
+        for sight in found:
+            groups.append((k, sight.first.surely, sight.last.surely))
+            if sight.first.surely[0] > -inf:
+                chosen[sight.first.number] = True
+            if sight.last.surely[1] < inf:
+                chosen[sight.last.number] = True
         for source in some:
-            low, high = source.outer
-            if not any(a <= low and high <= b for a, b in spans):
+            if not any(sight.contains(source) for sight in found):
                 chosen[source.number] = True
     return [n for n in range(len(extents)) if chosen[n]], groups
 
@@ -110,6 +117,83 @@ def _is_known(one: Extent, known: Known) -> bool:
     low, high = one.shown
     spans = known.get(one.edge)
     return spans is not None and any(a <= low and high <= b for a, b in spans)
+
+
+def _untold(some: list[Extent], span: LegSpan, known: Sequence[Span] | None, ahead: bool) -> list[int]:
+    """Of families that show something new of one edge those that are not certainly the later to show it.
+
+    All of such a one is known, or shown by families that end where it begins or before. These do not depend
+    on it in turn, for each of them is seen from more than one place.
+    """
+    whole = [
+        one
+        for one in some
+        if one.told[0] <= one.told[1]
+        and one.surely[0] < one.surely[1]
+        and span.low[1] <= one.source[0]
+        and one.source[1] <= span.high[0]
+    ]
+    found: list[int] = []
+    for n in range(len(some)):
+        one = some[n]
+        spans = [
+            other.told for other in whole if (_is_before(other, one) if ahead else _is_before(one, other))
+        ]
+        if not spans or not _is_covered(one.shown, spans if known is None else [*spans, *known]):
+            found.append(n)
+    return found
+
+
+def _is_before(one: Extent, other: Extent) -> bool:
+    """Whether one family certainly ends where another begins, or at a lower place."""
+    if one.source[1] < other.source[0]:
+        return True
+    return (
+        one.surely[0] <= one.surely[1]
+        and other.surely[0] <= other.surely[1]
+        and _have_common(one.last_keys, other.first_keys)
+    )
+
+
+def _is_covered(shown: Span, spans: list[Span]) -> bool:
+    """Whether intervals together contain all of one."""
+    low, high = shown
+    for a, b in sorted(spans):
+        if a > low:
+            return False
+        if b >= high:
+            return True
+        low = max(low, b)
+    return False
+
+
+@final
+class SightGroup:
+    """Connected places from which an obstacle surely is seen: the one that begins first, the one that ends
+    last.
+
+    Lines with equal keys meet the leg in one place. So a family that begins with the line with which the
+    first begins, or ends with that with which the last ends, is seen from no place beyond.
+    """
+
+    def __init__(self, group: list[Source]) -> None:
+        self.first = self.last = group[0]
+        for source in group:
+            if source.surely[1] > self.last.surely[1]:
+                self.last = source
+
+    def contains(self, source: Source) -> bool:
+        """Whether a family certainly is seen from here alone."""
+        (low, high), first, last = source.outer, self.first, self.last
+        begins, ends = first.surely[0] <= low, high <= last.surely[1]
+        if source.surely[0] <= source.surely[1]:
+            begins = begins or _have_common(source.extent.first_keys, first.extent.first_keys)
+            ends = ends or _have_common(source.extent.last_keys, last.extent.last_keys)
+        return begins and ends
+
+
+def _have_common(keys: list[int], others: list[int]) -> bool:
+    return any(key in others for key in keys)
 
 
 def _joined(sources: list[Source]) -> list[list[Source]]:

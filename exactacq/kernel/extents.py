@@ -23,8 +23,8 @@ class Extent:
     """What is shown of edge ``edge`` at most, from where it is seen at most, and from where surely.
 
     It comes from ``origin``, by the views from its part ``here`` to its part ``there``. The keys tell which
-    lines bound where it surely is seen from: equal keys, one place. Unless it ``is_known``, floats tell
-    nothing of it.
+    lines bound where it surely is seen from: equal keys, one place. From all of its source together ``told``
+    is surely shown. Unless it ``is_known``, floats tell nothing of it.
     """
 
     def __init__(
@@ -39,12 +39,13 @@ class Extent:
         here: int,
         there: int,
         is_known: bool,
+        told: Span = NOTHING,
     ) -> None:
         self.edge = edge
         self.shown, self.source, self.surely = shown, source, surely
         self.first_keys, self.last_keys = first_keys, last_keys
         self.origin, self.here, self.there = origin, here, there
-        self.is_known = is_known
+        self.is_known, self.told = is_known, told
 
 
 def unknown(edge: int, origin: object, here: int, there: int) -> Extent:
@@ -114,13 +115,9 @@ def extent(
     if not is_in_range:
         return Extent(edge, seen, outer, NOTHING, [], [], origin, here, there, True)
     first, last = keys
-    surely = NOTHING
-    if a[1] <= b[0]:
-        surely = (a[1], b[0])
-    elif b[1] <= a[0]:
-        surely = (b[1], a[0])
+    if b[1] <= a[0] and not a[1] <= b[0]:
         first, last = last, first
-    return Extent(edge, seen, outer, surely, first, last, origin, here, there, True)
+    return Extent(edge, seen, outer, _inner(a, b), first, last, origin, here, there, True, _inner(c, d))
 
 
 def bent(family: FamilyImage, role: int, places: EdgePlaces, curves: list[CurveImage]) -> float:
@@ -150,3 +147,10 @@ def _gap(a: float, b: float, c: float, d: float) -> float:
 
 def _hull(a: EdgePlace, b: EdgePlace) -> Span:
     return min(a[0], b[0]), max(a[1], b[1])
+
+
+def _inner(a: EdgePlace, b: EdgePlace) -> Span:
+    """What surely lies between two places."""
+    if a[1] <= b[0]:
+        return a[1], b[0]
+    return (b[1], a[0]) if b[1] <= a[0] else NOTHING

@@ -9,10 +9,9 @@ from __future__ import annotations
 from math import inf
 from typing import Final, final
 
-from exactacq.kernel.bounded import cross, total
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.images import ROLLING, SLIDING
-from exactacq.kernel.lines import Frame, Line, line_at, meets, parameter_round
+from exactacq.kernel.lines import Frame, Line, line_at, meets, parameter_round, side_of
 
 BEHIND: Final = -1
 CONTACT: Final = 0
@@ -20,7 +19,7 @@ AHEAD: Final = 1
 NONE: Final = -1
 """No edge, or no vertex."""
 ROUNDED: Final = 0.3
-"""More than 1 - 1/sqrt(2): see `FamilyImage.side`."""
+"""More than 1 - 1/sqrt(2): see `side_of_all`."""
 
 EdgePlace = tuple[float, float, float, float, float]
 """Where a line meets an edge: bounds of the parameter, the point, and the error of its coordinates."""
@@ -50,8 +49,9 @@ class FamilyImage:
     ``edges`` are those behind, at the contact and ahead, `NONE` where there is none. The contact is
     ``fixed`` at a corner. ``corner`` is the vertex about which lines turn, or `NONE`. Of the first and of the
     last line are known: the vertices that they pass, and their ``keys``, numbers that are equal only for
-    equal lines. Unless the image ``is_known`` floats cannot tell where the lines meet the edges. It belongs
-    to cell ``number`` of what it comes from, its ``origin``.
+    equal lines. ``fraction`` bounds their parameters, the first one's before the last one's. Unless the image
+    ``is_known`` floats cannot tell where the lines meet the edges. It belongs to cell ``number`` of what it
+    comes from, its ``origin``.
     """
 
     def __init__(
@@ -72,6 +72,7 @@ class FamilyImage:
         first, last = ends
         self.low, self.high = first.t, last.t
         self.first, self.last = first.line, last.line
+        self.fraction = first.t - first.error, first.t + first.error, last.t - last.error, last.t + last.error
         self.first_corners, self.last_corners = first.corners, last.corners
         self.first_keys, self.last_keys = first.keys, last.keys
         self.behind: EdgePlaces = (NOWHERE, NOWHERE)
@@ -97,20 +98,25 @@ class FamilyImage:
             self.contact = places
 
     def side(self, x: float, y: float, error: float) -> int:
-        """1 or -1 if a place is certainly left or right of all lines of the family, else 0.
+        """1 or -1 if a place is certainly left or right of all lines of the family, else 0."""
+        return side_of_all(self.frame, self.first, self.last, x, y, error)
 
-        *error* bounds that of its coordinates. The height of a place above a line, times the length of the
-        direction, is linear in the parameter where the contact is fixed, slides, or lies on the spokes of
-        an arc: there both ends decide. Of lines that roll on a circle of radius r it is r (w + r), with w the
-        height above the parallel through the centre, a sum a w_1 + b w_2 of those at the ends with a, b >= 0
-        and 1 <= a + b <= sqrt(2), as lines turn by a quarter at most. So it is negative if it is at both ends
-        (w_1, w_2 < -r), and positive if at both w + r > (1 - 1/sqrt(2)) r.
-        """
-        least = 0.0
-        if self.frame[0] == ROLLING:
-            least = ROUNDED * (self.frame[3] * self.frame[3] + self.frame[4] * self.frame[4])
-        one = _height(self.first, x, y, error, least)
-        return one if one == _height(self.last, x, y, error, least) else 0
+
+def side_of_all(frame: Frame, first: Line, last: Line, x: float, y: float, error: float) -> int:
+    """1 or -1 if a place is certainly left or right of all lines of a sector between two of them, else 0.
+
+    *error* bounds that of its coordinates. The height of a place above a line, times the length of the
+    direction, is linear in the parameter where the contact is fixed, slides, or lies on the spokes of
+    an arc: there both ends decide. Of lines that roll on a circle of radius r it is r (w + r), with w the
+    height above the parallel through the centre, a sum a w_1 + b w_2 of those at the ends with a, b >= 0
+    and 1 <= a + b <= sqrt(2), as lines turn by a quarter at most. So it is negative if it is at both ends
+    (w_1, w_2 < -r), and positive if at both w + r > (1 - 1/sqrt(2)) r.
+    """
+    least = 0.0
+    if frame[0] == ROLLING:
+        least = ROUNDED * (frame[3] * frame[3] + frame[4] * frame[4])
+    one = side_of(first, x, y, error, least)
+    return one if one == side_of(last, x, y, error, least) else 0
 
 
 ByEdge = dict[int, list[FamilyImage]]
@@ -193,17 +199,3 @@ def _corner(edge: int, following: int, passed: list[int]) -> float:
         if vertex == following:
             return inf
     return 0.0
-
-
-def _height(line: Line, x: float, y: float, error: float, least: float) -> int:
-    """1 or -1 if a place is certainly left of a line, by more than *least*, or right of it; else 0.
-
-    The height is the product of the direction with the offset: times the direction's length.
-    """
-    cx, cy, dx, dy, ce, de = line
-    ox, p = total(x, error, -cx, ce)
-    oy, q = total(y, error, -cy, ce)
-    height, bound = cross(dx, dy, de, ox, oy, max(p, q))
-    if height - bound > least:
-        return 1
-    return -1 if -height > bound else 0

@@ -221,23 +221,20 @@ def _cut(
 
 def normal_sights(
     normals: list[FamilyImage],
-    wanted: set[int],
+    count: int,
     curves: list[CurveImage],
     reach: tuple[float, float],
     first_key: int,
-) -> tuple[list[Sight], list[int]]:
-    """The sights along the normals of a straight way, from its start to its end, of *wanted* edges.
+) -> tuple[list[Sight], list[FamilyImage]]:
+    """The sights along some normals of a straight way to one side; of *count* in all, from start to end.
 
-    And the numbers of those normals of which floats do not tell what they show. The keys of the lines go
-    down from *first_key*.
+    And those normals of which floats do not tell what they show. The keys of the lines go down from
+    *first_key*.
     """
     found: list[Sight] = []
-    left: list[int] = []
-    for k in range(len(normals)):
-        family = normals[k]
-        edge = family.edges[2]
-        if edge not in wanted:
-            continue
+    left: list[FamilyImage] = []
+    for family in normals:
+        edge, k = family.edges[2], family.number
         one: Extent | None = None
         if family.is_known:
             a, b, c, d = family.fraction
@@ -249,10 +246,10 @@ def normal_sights(
             if one is None:
                 continue
         if one is None or one.surely[0] > one.surely[1]:
-            left.append(k)
+            left.append(family)
             continue
         low = BEFORE if k == 0 else (one.source[0], one.surely[0])
-        high = AFTER if k == len(normals) - 1 else (one.surely[1], one.source[1])
+        high = AFTER if k == count - 1 else (one.surely[1], one.source[1])
         found.append(Sight(edge, NONE, low, high, [first_key - k], [first_key - k - 1], BOTH_SHORT, family))
     return found, left
 

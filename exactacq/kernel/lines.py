@@ -63,6 +63,20 @@ def _moved(
     return x, y, max(p, q)
 
 
+def side_of(line: Line, x: float, y: float, error: float, least: float) -> int:
+    """1 or -1 if a place is certainly left of a line, by more than *least*, or right of it; else 0.
+
+    The height is the product of the direction with the offset: times the direction's length.
+    """
+    cx, cy, dx, dy, ce, de = line
+    ox, p = total(x, error, -cx, ce)
+    oy, q = total(y, error, -cy, ce)
+    height, bound = cross(dx, dy, de, ox, oy, max(p, q))
+    if height - bound > least:
+        return 1
+    return -1 if -height > bound else 0
+
+
 def meets(line: Line, curve: CurveImage, side: int) -> Meeting:
     """Where a line enters what a curve bounds, ahead (1) or back (-1) along the line."""
     return meets_round(line, curve, side) if curve.sense else meets_straight(line, curve)

@@ -8,10 +8,12 @@ from typing import Final, final
 from exactacq.kernel.bounded import TINY, UNIT, cross, dot, product, root, total
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import Extent, Span, bent, extent, unknown
-from exactacq.kernel.family_images import AHEAD, BEHIND, CONTACT, EdgePlace, FamilyImage
+from exactacq.kernel.family_images import AHEAD, BEHIND, CONTACT, EdgePlace, FamilyImage, side_of_all
 from exactacq.kernel.images import ROLLING, SLIDING, SPOKES
-from exactacq.kernel.lines import Line, Meeting, line_at, meets, meets_straight
+from exactacq.kernel.lines import Frame, Line, Meeting, line_at, meets, meets_straight
 
+NEXT: Final = 2.0**-20
+"""How far a line is from one next to it, as a part of their family: far more than floats are off."""
 STEPS: Final = 24
 """How often an interval of lines is halved to find one that crosses the way."""
 
@@ -89,6 +91,26 @@ def extents_from_way(
     return extents
 
 
+def extents_along_normals(
+    families: list[FamilyImage], curves: list[CurveImage], reach: tuple[float, float]
+) -> list[Extent]:
+    """What families of a way's normals show from it; they are the origins."""
+    extents: list[Extent] = []
+    for family in families:
+        edge = family.edge(AHEAD)
+        if not family.is_known:
+            extents.append(unknown(edge, family, CONTACT, AHEAD))
+            continue
+        a, b, c, d = family.fraction
+        (ax, ay, _, _, p, _), (bx, by, _, _, q, _) = family.first, family.last
+        slack = bent(family, AHEAD, family.ahead, curves) + 2.0 * (p + q)
+        spots = (a, b, ax, ay, p), (c, d, bx, by, q)
+        one = extent(edge, spots, family.ahead, slack, ([], []), reach, family, CONTACT, AHEAD)
+        if one is not None:
+            extents.append(one)
+    return extents
+
+
 @final
 class Crossed:
     """How a family crosses a way: from where to where, and on which side of the contact.
@@ -122,19 +144,19 @@ def _crossed(family: FamilyImage, way: WayImage, curves: list[CurveImage]) -> Cr
     side, and the contact is behind it before and ahead after, or the other way round. Then the way may be met
     by one of the two parts only.
     """
-    one, other = family.first, family.last
+    first, last = Outermost(family, way, True), Outermost(family, way, False)
+    one, other, a, b = first.line, last.line, first.met, last.met
     wx, wy = way.line.wx, way.line.wy
-    a, b = meets_straight(one, way.line), meets_straight(other, way.line)
     # Where these places are known the line is not parallel to the way, and the sign of its turn is sure.
     is_parallel = (wx * one[3] - wy * one[2] > 0.0) != (wx * other[3] - wy * other[2] > 0.0)
     if not (a[3] < inf and b[3] < inf):
         return _unknown()
     if (is_parallel or family.frame[0] == SPOKES) and _may_touch(family, way):
         return _unknown()
-    role, last_role = _role(a, family, family.first_corners, way), _role(b, family, family.last_corners, way)
+    role, last_role = _role(a, family, first.corners, way), _role(b, family, last.corners, way)
     role, last_role = role if role else last_role, last_role if last_role else role
-    spots = _spot(a, family.first_corners, way), _spot(b, family.last_corners, way)
-    keys = family.first_keys, family.last_keys
+    spots = _spot(a, first.corners, way), _spot(b, last.corners, way)
+    keys = first.keys, last.keys
     low, high = way.low[0], way.high[1]
     turn = wx * one[3] - wy * one[2]
     is_rising = a[2] < b[2]
@@ -165,12 +187,39 @@ def _crossed(family: FamilyImage, way: WayImage, curves: list[CurveImage]) -> Cr
         if not family.goes_back and role == BEHIND:
             role = CONTACT
     else:
-        before = _is_before(family, way, is_rising, part, turn > 0.0, role, curves[wall])
+        ends = first.t, last.t
+        before = _is_before(family.frame, ends, way, is_rising, part, turn > 0.0, role, curves[wall])
         if before == 0:
             return _unknown()
         if before < 0:
             role = CONTACT
     return Crossed(role, _within(spots[0], way), _within(spots[1], way), keys[0], keys[1])
+
+
+@final
+class Outermost:
+    """The first or the last line of a family, at ``t``, and where it is ``met`` by the way's line.
+
+    A line that is nearly parallel to that may be met anywhere. Then it is one next to it, if none of those
+    between them meets the way: both ends of the way are on one side of them. That one passes no vertices and
+    has no key.
+    """
+
+    def __init__(self, family: FamilyImage, way: WayImage, is_first: bool) -> None:
+        self.t, end = (family.low, family.high) if is_first else (family.high, family.low)
+        self.line = family.first if is_first else family.last
+        self.keys = family.first_keys if is_first else family.last_keys
+        self.corners = family.first_corners if is_first else family.last_corners
+        self.met = meets_straight(self.line, way.line)
+        t = self.t + (end - self.t) * NEXT
+        if self.met[3] < inf or not family.fraction[1] < t < family.fraction[2]:
+            return
+        line = line_at(family.frame, t, 0.0)
+        ax, ay, bx, by, error = way.ends
+        side = side_of_all(family.frame, self.line, line, ax, ay, error)
+        if side and side == side_of_all(family.frame, self.line, line, bx, by, error):
+            self.t, self.line, self.met = t, line, meets_straight(line, way.line)
+            self.keys, self.corners = [], []
 
 
 def _may_touch(family: FamilyImage, way: WayImage) -> bool:
@@ -226,7 +275,8 @@ def _part(a_low: float, a_high: float, b_low: float, b_high: float, low: float, 
 
 
 def _is_before(
-    family: FamilyImage,
+    frame: Frame,
+    ends: tuple[float, float],
     way: WayImage,
     is_rising: bool,
     part: int,
@@ -236,14 +286,14 @@ def _is_before(
 ) -> int:
     """1 or -1 as lines of a family that cross the way do so before they meet a wall or not; 0 if open.
 
-    The way does not cross the wall, so one line tells. It is looked for between the first and the last; if
-    only a *part* of the family meets the way, among those that turn from the way to the same side.
+    The way does not cross the wall, so one line tells. It is looked for between those at the *ends*; if only
+    a *part* of the family meets the way, among those that turn from the way to the same side.
     """
-    low, high = family.low, family.high
+    low, high = ends
     middle = (way.low[0] + way.high[1]) / 2.0
     for _ in range(STEPS):
         t = (low + high) / 2.0
-        line: Line = line_at(family.frame, t, 0.0)
+        line: Line = line_at(frame, t, 0.0)
         if part and (way.line.wx * line[3] - way.line.wy * line[2] > 0.0) != turns_left:
             if part < 0:
                 high = t

@@ -72,8 +72,8 @@ class FamilyFilter:
         """Those that matter."""
         span, rail = self.leg.span, None if self.leg.edge is None else self.leg.rail
         part = LegSpan(bounds(span.low, rail), bounds(span.high, rail))
-        owners = self.targets.owners
-        numbers, groups = mattering(extents, part, owners, self.obstacles, self.along, self.known)
+        owners, obstacles, ahead = self.targets.owners, self.obstacles, self.leg.ahead
+        numbers, groups = mattering(extents, part, owners, obstacles, self.along, self.known, ahead)
         for k, first, last in groups:
             self.in_sight.setdefault(k, []).extend(self._interval(first, last))
         return [extents[n] for n in numbers]

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from functools import cmp_to_key
-from itertools import pairwise
+from itertools import groupby, pairwise
 from math import inf
 
 from flint import arb
@@ -23,8 +23,7 @@ from exactacq.geometry.late import Pin, late_point
 from exactacq.geometry.points import Point
 from exactacq.kernel.choice import LegSpan
 from exactacq.kernel.extents import Extent, Span
-from exactacq.kernel.family_images import NONE, FamilyImage, locate
-from exactacq.kernel.images import SLIDING
+from exactacq.kernel.family_images import NONE, FamilyImage
 from exactacq.kernel.leg_changes import (
     AFTER,
     BEFORE,
@@ -43,9 +42,8 @@ from exactacq.kernel.leg_changes import (
     sights,
 )
 from exactacq.kernel.line_keys import LineNumbers
-from exactacq.kernel.lines import Meeting
-from exactacq.kernel.pencil_images import pencil_images
-from exactacq.numbers.float_bounds import float_ball, rough
+from exactacq.kernel.lines import meets_straight
+from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.free_way import WayViews
@@ -55,7 +53,6 @@ from exactacq.sensing.line_family import PencilFamilies, SingleLine, family_of
 from exactacq.sensing.line_images import bounds
 from exactacq.sensing.view_families import End, ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
-from exactacq.visibility.line_families import Sliding
 from exactacq.visibility.rotational_sweep import Pencil
 
 WAY_KEYS = -(2**60)
@@ -162,21 +159,23 @@ class LegSights:
         x, y, right, top = leg.box
         near = complex_.table.near((x, y), (right, top), complex_.range.above)
         self._way = way = WayViews(complex_, leg, frozenset(near.tolist()), self._view)
-        self._clipper = way.clipper
-        self._crossing = way.crossing
+        self._clipper = way.way.clipper
+        self._crossing = list(way.crossing)
         images = [image for image, _ in self._crossing]
-        extents, curve = way.extents(), curve_image(leg.rail.curve)
+        extents, curve = way.crossing.extents(), curve_image(leg.rail.curve)
         also = self._normals_at(corner_normals(extents, images))
         found, left = sights(extents, images, self._span, curve, self._scene, also)
         yield from found
         for one in left:
             yield from self._exactly(one)
-        for single, met in way.single_lines:
-            yield from self._single_on_way(single, met)
-        for family in way.single_views(None):
+        for one in way.single_lines():
+            assert isinstance(one.origin, SingleLine), "extents of single lines tell of them"
+            yield from self._single_on_way(one.origin)
+        for family in way.own_line.families():
             yield from self._sights_of([Share.of(family, 0)], None)
-        for k, lines in enumerate(way.normals(), 1):
-            yield from self._along_normals(lines, k * WAY_KEYS)
+        for k, (lines, normals) in enumerate(groupby(way.normals.images, lambda image: image.origin), 1):
+            assert isinstance(lines, Pencil), "normals come from pencils"
+            yield from self._along_normals(lines, [*normals], k * WAY_KEYS)
 
     def _normals_at(self, images: Iterable[FamilyImage]) -> dict[int, int]:
         """Second keys of normals of corners that are normals of the edges there too, by the first key."""
@@ -199,43 +198,33 @@ class LegSights:
                     found[keys[0]] = key_of_normal(edge, corner, count)
         return found
 
-    def _along_normals(self, lines: Pencil, first_key: int) -> Iterator[Sight]:
+    def _along_normals(self, lines: Pencil, normals: list[FamilyImage], first_key: int) -> Iterator[Sight]:
         """The sights along the way's normals to one side."""
-        table, sector = self.complex.table, lines.sector
-        assert isinstance(sector, Sliding), "they start on a segment"
-        x, y, dx, dy = (rough(Real(v)) for v in (*sector.center, *sector.base))
-        frame = SLIDING, x, y, dx, dy, 0.0, 1 if sector.leftward else -1
-        images = pencil_images(lines.rows, frame, (NONE, False), False, (NONE, False), LineNumbers([]), lines)
-        if not kernel.EXACT_ONLY:
-            locate(images, table.curve_images, table.images.following)
-        wanted, reach = set(self._way.wanted), self.complex.images.reach
-        found, left = normal_sights(images, wanted, table.curve_images, reach, first_key)
+        curves, reach = self.complex.table.curve_images, self.complex.images.reach
+        found, left = normal_sights(normals, len(lines.rows), curves, reach, first_key)
         yield from found
-        for k in left:
-            yield from self._sights_of(self._shares_along(images[k]), None)
+        for family in left:
+            yield from self._sights_of(self._shares_along(family), None)
 
     def _shares_along(self, normals: FamilyImage) -> list[Share]:
         """What some normals of the way show."""
-        lines = normals.origin
-        assert isinstance(lines, Pencil), "normals come from pencils"
-        families = self._way.normal_views(lines, lines.rows[normals.number])
-        return [Share.of(family, 0) for family in families]
+        return [Share.of(family, 0) for family in self._way.normals.views(normals)]
 
-    def _single_on_way(self, single: SingleLine, met: Meeting) -> Iterator[Sight]:
+    def _single_on_way(self, single: SingleLine) -> Iterator[Sight]:
         """The sight of a single line where it crosses the way."""
-        _, _, u, error, *at, e = met
-        near = _spot(single.run[0])
+        image = single.image(self.complex.images)
+        _, _, u, error, *at, e = meets_straight(image.line, self._way.way.image.line)
         if error < inf and not kernel.EXACT_ONLY:
             here = at[0], at[1], e
-            crosses = between(_spot(single.place), near, here)
-            reaches = in_reach(here, near, self.complex.images.reach)
+            crosses = between(image.place, image.near, here)
+            reaches = in_reach(here, image.near, self.complex.images.reach)
             if crosses < 0 or reaches < 0 or u + error < self._span.low[0] or u - error > self._span.high[1]:
                 return
             if crosses and reaches:
                 keys, source = self._keys(single), (u - error, u + error)
                 yield Sight(single.shown, NONE, source, source, keys, keys, BOTH_SHORT, single)
                 return
-        yield from self._sights_of([Share.of(f, 0) for f in self._way.single_views(single)], None)
+        yield from self._sights_of([Share.of(f, 0) for f in self._way.along(single)], None)
 
     def _is_whole(self, single: SingleLine) -> bool:
         """Whether a single line shows a whole straight edge end on."""
@@ -294,7 +283,7 @@ class LegSights:
             return [origin]
         if k not in self._made:
             if isinstance(origin, SingleLine):
-                self._made[k] = [Share.of(family, 0) for family in self._way.single_views(origin)]
+                self._made[k] = [Share.of(family, 0) for family in self._way.along(origin)]
             elif isinstance(origin, FamilyImage):
                 self._made[k] = self._shares_along(origin)
             else:
@@ -307,7 +296,7 @@ class LegSights:
         if not isinstance(one.origin, int):
             return [Share.of(family, side) for family, side in self.complex.views(one)]
         image, certain = self._crossing[one.origin]
-        found = self._way.across(family_of(image), certain, frozenset({one.edge}))
+        found = self._way.crossing.views(family_of(image), certain, frozenset({one.edge}))
         return [Share.of(family, 0) for family in found if _role(family) == one.there]
 
     # -- places ------------------------------------------------------------------------------------

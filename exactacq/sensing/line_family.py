@@ -17,10 +17,11 @@ from exactacq.geometry.curves import Segment
 from exactacq.geometry.points import Point
 from exactacq.kernel.cells import LineCells
 from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent, Span
-from exactacq.kernel.family_images import NONE, EndLine, FamilyImage
-from exactacq.kernel.images import TURNING
+from exactacq.kernel.family_images import NONE, FamilyImage
 from exactacq.kernel.line_keys import LineNumbers
 from exactacq.kernel.pencil_images import pencil_images
+from exactacq.kernel.single_lines import SingleImage, Spot
+from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real
 from exactacq.sensing.line_images import LineImages
 from exactacq.sensing.line_points import Role, Side
@@ -155,7 +156,7 @@ class SingleLine:
     what lies between sees the run too. It may be given as what makes it; then ``spot`` bounds its parameter.
     """
 
-    __slots__ = ("_image", "_reached", "_views", "edge", "run", "shown", "spot")
+    __slots__ = ("_hulls", "_image", "_reached", "_views", "edge", "run", "shown", "spot")
 
     def __init__(
         self,
@@ -168,7 +169,8 @@ class SingleLine:
         self._reached = reached
         self.edge, self.run, self.shown, self.spot = edge, run, shown, spot
         self._views: list[ViewFamily] | None = None
-        self._image: FamilyImage | None = None
+        self._image: SingleImage | None = None
+        self._hulls: tuple[Span, Span] | None = None
 
     @property
     def place(self) -> Point:
@@ -186,35 +188,26 @@ class SingleLine:
             self._reached = self._reached()
         return self._reached
 
-    @property
-    def line(self) -> tuple[Point, Point]:
-        """Two points of the line, of the scene's if possible."""
-        return self.run if self.run[0] is not self.run[1] else (self.place, self.run[0])
-
-    @property
-    def image(self) -> FamilyImage:
-        """The line in floats, as a family of one: by a point and a direction.
-
-        The points are subtracted exactly and then rounded: the difference of their floats could be 0.
-        """
+    def image(self, images: LineImages) -> SingleImage:
+        """The line in floats, from a segment on it: a run is the whole edge that is shown, or one point."""
         if self._image is None:
-            self._image = self._imaged()
+            first, last = self.run
+            curve = images.table.curve_images[self.shown]
+            if first is last:
+                curve = curve_image(Segment(self.place, first))
+            self._image = SingleImage(curve, _spot(self.place), _spot(first))
         return self._image
-
-    def _imaged(self) -> FamilyImage:
-        start, end = self.line
-        way = curve_image(Segment(start, end))
-        frame = TURNING, way.x, way.y, way.wx, way.wy, 0.0, 1
-        line = EndLine(frame, 0.0, 0.0, [], [])
-        return FamilyImage(frame, (line, line), (NONE, NONE, NONE), False, True, NONE, None, 0)
 
     def extent(self, images: LineImages, here: int = 0) -> Extent:
         """What is shown at most, and from where: of the run from the place, or if *here* of the place."""
-        edge, shown, source = self.shown, images.hull(self.shown, self.run), EVERYTHING
-        if self.edge is not None:
-            source = images.hull(self.edge, (self.place,)) if self.spot is None else self.spot
-            if here:
-                edge, shown, source = self.edge, source, shown
+        if self._hulls is None:
+            place = self.spot
+            if place is None:
+                place = EVERYTHING if self.edge is None else images.hull(self.edge, (self.place,))
+            self._hulls = images.hull(self.shown, self.run), place
+        (shown, source), edge = self._hulls, self.shown
+        if here and self.edge is not None:
+            edge, shown, source = self.edge, source, shown
         is_known = not kernel.EXACT_ONLY
         return Extent(edge, shown, source, NOTHING, [], [], self, here, 1 - here, is_known)
 
@@ -229,3 +222,9 @@ class SingleLine:
             ends = clipper.along((self.place, u), self.run, self.shown)
             self._views = [ViewFamily((self.edge, self.shown), *end) for end in ends]
         return self._views, here
+
+
+def _spot(point: Point) -> Spot:
+    """A point in floats."""
+    (x, p), (y, q) = float_ball(point.x), float_ball(point.y)
+    return x, y, max(p, q)

@@ -1,0 +1,141 @@
+"""What is seen along a straight way itself: by single lines of sight, on its own line."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator
+from math import hypot, inf
+
+import numpy as np
+
+from exactacq import kernel
+from exactacq.geometry.curves import Arc, Segment
+from exactacq.geometry.intersections import line_contacts
+from exactacq.geometry.interval_union import Cover
+from exactacq.geometry.late import Pin
+from exactacq.geometry.points import Point
+from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import STRAIGHT, EdgeTable
+from exactacq.sensing.end_names import Seen
+from exactacq.sensing.straight_way import StraightWay
+from exactacq.sensing.view_families import End, ViewFamily
+
+BITS = 256
+"""Precision of the balls that propose ties."""
+
+
+class OwnLine:
+    """The views along a way's own line; *view* tells what is seen from an end of it."""
+
+    def __init__(self, way: StraightWay, wanted: frozenset[int], view: Callable[[Point, None], Seen]) -> None:
+        self.way, self.wanted, self.view = way, wanted, view
+        self.table, self.line = way.table, way.line
+        self._slack = inf if kernel.EXACT_ONLY else 256 * way.clipper.roundoff
+
+    def families(self) -> Iterator[ViewFamily]:
+        """The views of the way's ends, of corners that it touches, and of what lies beyond."""
+        span, rails = self.way.span, self.way.clipper.rails
+        shown = [(e, p) for p in (span.start, span.end) for e in self._edges_near(p)]
+        along = self.line.end - self.line.start
+        shown += [*self._beyond(span.end, along), *self._beyond(span.start, -along)]
+        for e, point in self._touched():
+            # Its line may touch things beyond its ends too; those at an end are there already.
+            u = self.way.rail.parameter(point)
+            if _certainly(span.low, u) and _certainly(u, span.high):
+                shown.append((e, point))
+        for e, point in shown:
+            if e in self.wanted:
+                place = rails[e].parameter(point)
+                ends = [End(Real(0), (p, point), (u, place)) for p, u in self._within(point)]
+                if ends:
+                    yield ViewFamily((self.way.number, e), ends[0], ends[-1])
+
+    def _touched(self) -> Iterator[tuple[int, Point]]:
+        """The corners and the tangent points of wanted edges on the way's line, named or not."""
+        table, start, touches = self.table, self.line.start, self.way.touches
+        along = self.line.end - start
+        for e in on_line(table, self.wanted, start, along, self._slack):
+            curve = table.curves[e]
+            for number, corner in ((e, curve.start), (int(table.next[e]), curve.end)):
+                if ("corner", number) in touches or along.cross(corner - start).sign() == 0:
+                    yield e, corner
+            if isinstance(curve, Arc):
+                named = ("circle", table.circles[e]) in touches
+                if named or self.way.is_tangent(curve.center, curve.radius_sq):
+                    foot = start + along * ((curve.center - start).dot(along) / along.norm_sq())
+                    if curve.contains(foot):
+                        yield e, foot
+
+    def _beyond(self, end: Point, onward: Point) -> Iterator[tuple[int, Point]]:
+        """What the way's line meets beyond an end, as far as it is seen from there."""
+        own, view = self._edges_near(end), self.view(end, None)
+        edges = [e for e in view.edges if e in self.wanted]
+        for e in on_line(self.table, edges, end, onward, self._slack, ahead=True):
+            curve = self.table.curves[e]
+            if e in own:
+                # The line meets an edge at its end only there, unless it runs along it.
+                if isinstance(curve, Segment) and len(line_contacts(end, onward, curve)) == 2:
+                    far = max((curve.start, curve.end), key=lambda p: (p - end).dot(onward))
+                    yield e, far
+                continue
+            for share in line_contacts(end, onward, curve):
+                if share.sign() > 0:
+                    point = end + onward * share
+                    rail = self.way.clipper.rails[e]
+                    u = rail.parameter(point)
+                    # A full circle's start is at 0 and at the top.
+                    full = isinstance(curve, Arc) and curve.full
+                    places = [u, rail.top] if full and u.sign() == 0 else [u]
+                    if any(Cover(tuple(view.spans[e])).contains(place) for place in places):
+                        yield e, point
+
+    def _within(self, point: Point) -> list[Pin]:
+        """The ends of the part of the way within range of a point of its line."""
+        span, range_ = self.way.span, self.way.clipper.range
+        ends = list(self.way.ends)
+        far = [range_.order(p, point) > 0 for p, _ in ends]
+        if not any(far):
+            return ends
+        along = self.line.end - self.line.start
+        step = along * (range_.radius / along.norm_sq().sqrt())
+        for k, place in enumerate((point - step, point + step)):
+            if far[k]:
+                u = self.way.rail.parameter(place)
+                if u.compare(span.low) < 0 or u.compare(span.high) > 0:
+                    return []
+                ends[k] = place, u
+        return ends
+
+    def _edges_near(self, point: Point) -> list[int]:
+        """The edges that balls do not part from a point: it lies on a boundary, or it does not."""
+        near = self.table.near(point.xy, point.xy, 0.0).tolist()
+        return [e for e in near if self.table.curves[e].may_pass(point, BITS)]
+
+
+def _certainly(low: Real, high: Real) -> bool:
+    """Whether balls tell that one number is less than another."""
+    return (high - low).clear_sign(BITS) > 0
+
+
+def on_line(
+    table: EdgeTable, edges: Collection[int], origin: Point, along: Point, slack: float, ahead: bool = False
+) -> list[int]:
+    """Those of some edges that may have points on a line, or on its ray *ahead*.
+
+    Floats tell, of arcs by their boxes. *slack* is far more than what they are off.
+    """
+    numbers = np.fromiter(edges, np.intp, len(edges))
+    (x, y), (dx, dy) = origin.xy, along.xy
+    slack *= hypot(dx, dy)
+    boxes, here = table.boxes[numbers], np.array((x, y))
+    across, down = boxes[:, [0, 0, 2, 2]] - x, boxes[:, [1, 3, 1, 3]] - y
+    heights = across * dy - down * dx
+    start, end = table.start[numbers] - here, table.end[numbers] - here
+    ends = np.stack([start[:, 0] * dy - start[:, 1] * dx, end[:, 0] * dy - end[:, 1] * dx], axis=1)
+    is_straight = table.kind[numbers] == STRAIGHT
+    low = np.where(is_straight, ends.min(axis=1), heights.min(axis=1))
+    high = np.where(is_straight, ends.max(axis=1), heights.max(axis=1))
+    is_met = (low <= slack) & (high >= -slack)
+    if ahead:
+        is_met &= (across * dx + down * dy >= -slack).any(axis=1)
+    found: list[int] = numbers[is_met].tolist()
+    return found

@@ -1,0 +1,69 @@
+"""A straight way through free space, a stretch of a rail, as what is seen from it needs it."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from math import inf
+from typing import Any
+
+from flint import fmpq
+
+from exactacq import kernel
+from exactacq.geometry.curve_images import curve_image
+from exactacq.geometry.curves import Segment
+from exactacq.geometry.late import Pin
+from exactacq.geometry.points import Point
+from exactacq.kernel.bounded import TINY, UNIT
+from exactacq.kernel.ways import WayImage
+from exactacq.numbers.float_bounds import rough
+from exactacq.numbers.real import Real
+from exactacq.sensing.legs import Leg
+from exactacq.sensing.line_images import bounds
+from exactacq.sensing.visibility_complex import VisibilityComplex
+
+
+class StraightWay:
+    """A leg through free space. ``number`` is that of its rail for ``clipper``, ``line`` the rail's curve.
+
+    ``touches`` names what it is known to touch (see `line_names`).
+    """
+
+    def __init__(self, complex_: VisibilityComplex, leg: Leg) -> None:
+        self.complex, self.table = complex_, complex_.table
+        self.span, self.rail = leg.span, leg.rail
+        self.line = leg.rail.curve
+        self.touches: frozenset[Any] = frozenset(leg.touches)
+        self.piece = Segment(leg.span.start, leg.span.end)
+        self.clipper = complex_.clipper.with_way(leg.rail, leg.touches)
+        self.number = len(self.clipper.rails) - 1
+
+    @property
+    def ends(self) -> tuple[Pin, Pin]:
+        """Its ends: points and parameters."""
+        span = self.span
+        return (span.start, span.low), (span.end, span.high)
+
+    @cached_property
+    def image(self) -> WayImage:
+        """The way in floats."""
+        (ax, ay), (bx, by) = ((rough(p.x), rough(p.y)) for p, _ in self.ends)
+        error = inf if kernel.EXACT_ONLY else UNIT * (abs(ax) + abs(ay) + abs(bx) + abs(by)) + TINY
+        starts, stops = (self._vertices_at(end) for end, _ in self.ends)
+        low, high = bounds(self.span.low, None), bounds(self.span.high, None)
+        return WayImage(curve_image(self.line), low, high, (ax, ay, bx, by, error), starts, stops)
+
+    def _vertices_at(self, point: Point) -> list[int]:
+        """The vertices at a point."""
+        if point.rational is None:
+            return []
+        x, y = point.xy
+        near = self.table.near((x, y), (x, y), 0.0).tolist()
+        numbers = {number for e in near for number in (e, int(self.table.next[e]))}
+        return [number for number in numbers if self.table.vertices[number] == point.rational]
+
+    def is_tangent(self, center: Point, radius_sq: fmpq) -> bool:
+        """Whether the way's line touches a circle."""
+        along = self.line.end - self.line.start
+        height = along.cross(center - self.line.start)
+        excess: Real = height * height - along.norm_sq() * radius_sq
+        return excess.sign() == 0

@@ -1,0 +1,119 @@
+"""The line families that cross a straight way: where a line does, the robot sees along it both ways.
+
+It sees past the contact, to the contact, or, on the normal of an edge, to the foot.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+from itertools import pairwise
+
+from flint import fmpq
+
+from exactacq.geometry.coordinates import dot, raw
+from exactacq.geometry.intersections import line_contacts
+from exactacq.geometry.points import Point
+from exactacq.kernel.extents import Extent
+from exactacq.kernel.family_images import FamilyImage
+from exactacq.kernel.ways import Crossing, crossings, extents_from_way
+from exactacq.numbers.between import rational_between
+from exactacq.numbers.real import Real
+from exactacq.sensing.line_family import LineFamily
+from exactacq.sensing.line_points import Role, Side
+from exactacq.sensing.straight_way import StraightWay
+from exactacq.sensing.view_families import FreeViews, ViewFamily
+from exactacq.sensing.way_cuts import Cut, WayCuts
+from exactacq.visibility.chords import meet
+from exactacq.visibility.line_families import Sector, Sliding, Spokes
+
+
+class WayCrossings:
+    """Those of some *families* that may cross a way and meet *wanted* edges."""
+
+    def __init__(self, way: StraightWay, families: list[FamilyImage], wanted: frozenset[int]) -> None:
+        self.way, self.wanted = way, wanted
+        self._families, self._cuts = families, WayCuts(way)
+
+    @cached_property
+    def _found(self) -> list[Crossing]:
+        return crossings(self._families, set(self.wanted), self.way.image)
+
+    def __iter__(self) -> Iterator[tuple[FamilyImage, bool]]:
+        """The line families, and whether all their lines cross the way."""
+        return ((self._families[k], certain) for k, certain in self._found)
+
+    def extents(self) -> list[Extent]:
+        """What they show, in floats; the origins are their places here."""
+        curves, reach = self.way.table.curve_images, self.way.complex.images.reach
+        return extents_from_way(self._families, self._found, set(self.wanted), self.way.image, curves, reach)
+
+    def views(
+        self, line_family: LineFamily, certain: bool, wanted: frozenset[int], told: Role | None = None
+    ) -> Iterator[ViewFamily]:
+        """Views along the lines of a family; *certain* if each line passes between the ends of the way.
+
+        *told* is on which side of the contact they do, if that is known.
+        """
+        if not any(side is not None and side.edge in wanted for side in line_family.sides):
+            return
+        if not line_family.sector.round and line_family.anchor in self.way.touches:
+            # Every line through a corner that the way touches crosses it there and shows nothing else.
+            return
+        if not certain and self._is_normal(line_family.sector):
+            # No other line crosses it, and what is seen along itself is told by its own line.
+            return
+        cuts: list[Cut] = [
+            (line_family.low, None, line_family.names[0]),
+            (line_family.high, None, line_family.names[1]),
+        ]
+        if not certain:
+            cuts, told = self._cuts.of(line_family), None
+        for (low, first, called), (high, last, named) in pairwise(cuts):
+            role = self._role(line_family, rational_between(low, high), wanted) if told is None else told
+            if role is None:
+                continue
+            here = Side(self.way.number, role)
+            for other in _shown(line_family, role, wanted):
+                names, pins = (called, named), (first, last)
+                passed = (
+                    line_family.passed[0] if low is line_family.low else (),
+                    line_family.passed[1] if high is line_family.high else (),
+                )
+                anchor = line_family.anchor if line_family.goes_back else None
+                free_views = FreeViews(
+                    line_family.sector, low, high, (here, other), names, pins, passed, anchor
+                )
+                yield from self.way.clipper.families(free_views)
+
+    def _is_normal(self, sector: Sector) -> bool:
+        """Whether the way's line is one of the normals, or would be if the edge were longer."""
+        start, along = self.way.piece.start, self.way.piece.direction
+        if isinstance(sector, Sliding):
+            return bool(dot(sector.base, raw(along)) == 0)
+        return (
+            isinstance(sector, Spokes) and sector.outward and along.cross(Point(*sector.center) - start) == 0
+        )
+
+    def _role(self, line_family: LineFamily, t: fmpq, wanted: frozenset[int]) -> Role | None:
+        """On which side of the contact the line crosses the way within its free part, if it does."""
+        contact, direction = line_family.sector.touch(Real(t))
+        met = line_contacts(contact, direction, self.way.piece)
+        if not met or met[0].sign() == 0:
+            return None
+        side = met[0].sign()
+        role = Role.AHEAD if side > 0 else Role.BEHIND
+        if not _shown(line_family, role, wanted):
+            return None
+        wall = line_family.ahead if side > 0 else line_family.behind
+        if wall is None:
+            # Nothing was met within reach; normals do not go back from their edge.
+            return role if side > 0 or line_family.goes_back else None
+        limit = meet(contact, direction, self.way.clipper.curve(wall.edge), side)
+        return role if (limit - met[0]).sign() * side >= 0 else None
+
+
+def _shown(line_family: LineFamily, role: Role, wanted: frozenset[int]) -> list[Side]:
+    """The wanted sides that a line family shows from behind or ahead of its contact."""
+    shown = (line_family.contact, line_family.ahead if role is Role.BEHIND else line_family.behind)
+    return [side for side in shown if side is not None and side.edge in wanted]

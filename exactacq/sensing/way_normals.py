@@ -1,0 +1,56 @@
+"""What is seen along the normals of a straight way, to both sides."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+
+from exactacq.geometry.coordinates import minus, raw
+from exactacq.kernel.extents import Extent
+from exactacq.kernel.family_images import NONE, FamilyImage
+from exactacq.kernel.images import SLIDING
+from exactacq.kernel.line_keys import LineNumbers
+from exactacq.kernel.pencil_images import pencil_images
+from exactacq.kernel.ways import extents_along_normals
+from exactacq.sensing.line_points import Role, Side
+from exactacq.sensing.straight_way import StraightWay
+from exactacq.sensing.view_families import FreeViews, ViewFamily
+from exactacq.visibility.line_families import Sliding
+from exactacq.visibility.rotational_sweep import Pencil, pencil
+
+
+class WayNormals:
+    """The normals of one way that meet *wanted* edges."""
+
+    def __init__(self, way: StraightWay, wanted: frozenset[int]) -> None:
+        self.way, self.wanted = way, wanted
+
+    @cached_property
+    def images(self) -> list[FamilyImage]:
+        """Their families in floats. Each knows the pencil that it comes from."""
+        way, found = self.way, list[FamilyImage]()
+        start, end = raw(way.line.start), raw(way.line.end)
+        line, complex_ = way.image.line, way.complex
+        for sense in (1, -1):
+            sector = Sliding(start, minus(end, start), way.span.low, way.span.high, leftward=sense > 0)
+            sweep = pencil(way.table, sector, (), complex_.range.above)
+            frame = SLIDING, line.x, line.y, line.wx, line.wy, 0.0, sense
+            no_names = (NONE, False), False, (NONE, False), LineNumbers([])
+            curves, following = complex_.images.curves, way.table.images.following
+            images = pencil_images(sweep.rows, frame, *no_names, curves, following, sweep)
+            complex_.images.unroll(images, sweep)
+            found += images
+        return [image for image in found if image.edge(Role.AHEAD) in self.wanted]
+
+    def extents(self) -> list[Extent]:
+        """What they show, in floats; the origins are their images."""
+        return extents_along_normals(self.images, self.way.table.curve_images, self.way.complex.images.reach)
+
+    def views(self, image: FamilyImage) -> Iterator[ViewFamily]:
+        """The views of a family."""
+        sweep = image.origin
+        assert isinstance(sweep, Pencil), "normals come from pencils"
+        cell = sweep.cell(sweep.rows[image.number])
+        sides = Side(self.way.number, Role.CONTACT), Side(image.edge(Role.AHEAD), Role.AHEAD)
+        free_views = FreeViews(sweep.sector, cell.low, cell.high, sides, passed=cell.bounds)
+        yield from self.way.clipper.families(free_views)
