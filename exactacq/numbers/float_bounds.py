@@ -1,4 +1,9 @@
-"""Exact numbers as floats with bounds of the error, as the compiled loops take them."""
+"""Exact numbers as floats with bounds of the error, as the compiled loops take them.
+
+The switch `exactacq.kernel.EXACT_ONLY` makes all bounds infinite, so that nothing is decided by floats. Code
+that has a bound of its own passes it through `margin`; so does what prunes with lower bounds, which are then
+-inf.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +13,11 @@ from exactacq import kernel
 from exactacq.kernel.bounded import TINY, UNIT
 from exactacq.numbers.rationals import nearest_float
 from exactacq.numbers.real import Real
+
+
+def margin(error: float) -> float:
+    """A bound of errors, as verdicts of floats take it: infinite if tests want nothing decided by floats."""
+    return inf if kernel.EXACT_ONLY else error
 
 
 def rough(value: Real) -> float:

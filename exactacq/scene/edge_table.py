@@ -23,7 +23,7 @@ from exactacq.geometry.points import Location, Point
 from exactacq.kernel import images
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.images import EdgeImages
-from exactacq.numbers.real import Real
+from exactacq.numbers.float_bounds import float_ball, margin
 from exactacq.scene.scene import Obstacle
 
 Floats = NDArray[np.float64]
@@ -67,7 +67,12 @@ class EdgeTable:
         self.boxes: Floats = bounds(self.curves)
         self._near: dict[tuple[tuple[float, float], tuple[float, float], float], Ints] = {}
         self.magnitude = float(np.abs(self.boxes).max(initial=0.0))
-        self.roundoff = 2.0**-50 * max(self.magnitude, float(self.radius.max(initial=0.0)))
+        self._largest = max(self.magnitude, float(self.radius.max(initial=0.0)))
+
+    @property
+    def roundoff(self) -> float:
+        """The bound of errors, infinite if tests want nothing decided by floats."""
+        return margin(self._error())
 
     @cached_property
     def index(self) -> BoxIndex:
@@ -136,27 +141,32 @@ class EdgeTable:
         All others lie on one side of the ray's line or west of the point. They add nothing to the number of
         turns that `geometry.intersections.winding` counts, and do not pass the point.
         """
-        body, (x, dx), (y, dy) = self.obstacles[obstacle], _float_ball(point.x), _float_ball(point.y)
+        body, (x, dx), (y, dy) = self.obstacles[obstacle], float_ball(point.x), float_ball(point.y)
         first = int(self.first[obstacle])
         boxes = self.boxes[first : first + len(body.edges)]
-        missed = (boxes[:, 1] > y + dy) | (boxes[:, 3] < y - dy) | (boxes[:, 2] < x - dx)
+        # Twice the bounds: they count the rounding of these sums too.
+        missed = (boxes[:, 1] > y + 2 * dy) | (boxes[:, 3] < y - 2 * dy) | (boxes[:, 2] < x - 2 * dx)
         edges = [body.edges[k] for k in np.flatnonzero(~missed).tolist()]
         return locate(edges, point, ccw=not body.is_enclosure)
 
     def roundoff_at(self, *places: tuple[float, float]) -> float:
         """The bound for differences of the table's coordinates and places, which may lie far outside."""
-        return max(self.roundoff, *(2.0**-50 * max(abs(x), abs(y)) for x, y in places))
+        return margin(self._error(*places))
+
+    def _error(self, *places: tuple[float, float]) -> float:
+        return 2.0**-50 * max(self._largest, *(abs(v) for place in places for v in place), 0.0)
 
     def near(self, low: tuple[float, float], high: tuple[float, float], reach: float) -> Ints:
         """The edges whose boxes come within *reach* of the box from *low* to *high*.
 
-        The last answers are kept: all sectors of a corner ask for one box, as do ways along an edge.
+        These are looked at, whatever decides then. The last answers are kept: all sectors of a corner ask for
+        one box, as do ways along an edge.
         """
         found = self._near.get((low, high, reach))
         if found is None:
             if len(self._near) >= NEAR_KEPT:
                 self._near.clear()
-            r = reach + 8 * self.roundoff_at(low, high)
+            r = reach + 8 * self._error(low, high)
             found = self.index.query(low[0] - r, low[1] - r, high[0] + r, high[1] + r)
             found.flags.writeable = False
             self._near[low, high, reach] = found
@@ -187,14 +197,6 @@ def quotient(top: Floats | float, bottom: Floats) -> Floats:
     """
     with np.errstate(over="ignore"):
         return top / np.maximum(bottom, 1e-300)
-
-
-def _float_ball(value: Real) -> tuple[float, float]:
-    """A float near a number and a bound of its error, which counts the rounding of sums with it too."""
-    ball = value.ball(BITS)
-    middle = float(ball.mid())
-    error = 2.0 * float(ball.rad()) + 2.0**-50 * abs(middle)
-    return (middle, error) if error < np.inf else (0.0, np.inf)
 
 
 def _kind(curve: Curve) -> int:

@@ -64,11 +64,6 @@ class Sector(ABC):
         return hypot(float(self.base[0]), float(self.base[1]))
 
     @cached_property
-    def unit(self) -> Floats:
-        """Direction of the base vector in floats."""
-        return np.array((float(self.base[0]), float(self.base[1]))) / self.size
-
-    @cached_property
     def image(self) -> lines.Frame:
         """The sector in floats, if its frame is rational."""
         (x, y), (dx, dy) = self.center, self.base
