@@ -12,6 +12,7 @@ from typing import Any
 from exactacq.geometry.curves import Curve
 from exactacq.geometry.geo import Geo, line_string
 from exactacq.geometry.points import Point
+from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.length import Length
 
 
@@ -108,7 +109,7 @@ class Path(tuple[Piece, ...]):
         >>> xa.sightseer(xa.load("circles")).path.find(xa.Length(4))
         (1, Length('1'))
         """
-        slack = 1e-6 * (self._ends[-1] + 1.0)
+        slack = margin(1e-6 * (self._ends[-1] + 1.0))
         count = max(bisect_left(self._ends, float(length) - slack) - 1, 0)
         rest = length - self.length_after(count)
         while count < len(self) and rest >= self[count].length:

@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.intersections import Nearest, NearestFamily, NearestFamilyKind, nearest_points
 from exactacq.geometry.points import Point
+from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import STRAIGHT, EdgeTable, Floats, Ints, quotient
@@ -189,7 +190,7 @@ class Links:
                         if ends in seen:
                             continue
                         seen.add(ends)
-                    heappush(heap, (float(found.distance_sq) ** 0.5 * (1 - 1e-13), next(order), found))
+                    heappush(heap, (_at_least(float(found.distance_sq) ** 0.5), next(order), found))
                 continue
             length = item.distance_sq.sqrt()
             if least is None or length < least:
@@ -314,7 +315,7 @@ class Links:
         """Lower bound of the way along a tangent of a feature from the contact to an edge."""
         (x, y), size = self.spots[0][k], self.spots[1][k]
         gap = self.table.distance_bounds(float(x), float(y), np.array((e,)))[0]
-        return float(max(gap**2 - size**2 * (1 + 1e-12), 0.0) ** 0.5 * (1 - 1e-13))
+        return _at_least(float(max(gap**2 - size**2 * (1 + 1e-12), 0.0) ** 0.5))
 
     def _cell_chords(
         self, sweep: Pencil, cell: Cell, mirrors: Mirrors | None = None, feature: Feature | None = None
@@ -463,6 +464,11 @@ def pair_bounds(table: EdgeTable, a: Ints, b: Ints) -> Floats:
     capsules = np.minimum(to_b, to_a) - size_a[:, None] - size_b[None]
     bounds = np.maximum(bounds, capsules)
     return np.maximum(bounds * (1 - 1e-14) - 64 * table.roundoff, 0.0)
+
+
+def _at_least(length: float) -> float:
+    """A lower bound of a length that was computed in floats, by some roundings of numbers of its size."""
+    return max(length - margin(1e-13 * length), 0.0)
 
 
 def _facing(table: EdgeTable, a: Ints, b: Ints) -> NDArray[np.bool_]:

@@ -13,14 +13,15 @@ from heapq import heappop, heappush
 
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.points import Location, Point
+from exactacq.numbers.float_bounds import margin
 from exactacq.scene.scene import Scene
 from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Piece
 from exactacq.strategies.robot import Robot
 from exactacq.visibility.links import START, Link, Links, Node
 
-SLACK = 1 + 1e-12
-"""Floats of lengths that differ by more tell which is less."""
+SLACK = 1e-12
+"""Floats of lengths that differ by more than this part tell which is less."""
 
 
 class _LinksByLength:
@@ -51,12 +52,12 @@ class _LinksByLength:
     def _next(self, visited: Container[int]) -> list[Link]:
         while self._found and self._found[0][1] in visited:
             heappop(self._found)
-        while self._near and not (self._found and self._near[-1][0] > self._found[0][0] * SLACK):
+        while self._near and not (self._found and self._near[-1][0] > _at_most(self._found[0][0])):
             _, j = self._near.pop()
             link = None if j in visited else self._link(j)
             if link is not None:
                 heappush(self._found, (float(link.length), j, link))
-        least = self._found[0][0] * SLACK if self._found else 0.0
+        least = _at_most(self._found[0][0]) if self._found else 0.0
         close = []
         while self._found and self._found[0][0] <= least:
             _, j, link = heappop(self._found)
@@ -65,6 +66,11 @@ class _LinksByLength:
         close.sort(key=lambda link: link.target)
         close.sort(key=lambda link: link.length)
         return close[::-1]
+
+
+def _at_most(length: float) -> float:
+    """An upper bound of a length, from its float."""
+    return length + margin(SLACK * length)
 
 
 class SightseerRobot(Robot):
