@@ -41,18 +41,18 @@ def spreader(name: str, **options: object) -> Callable[[], xa.Run]:
 
 
 RUNS: dict[str, Callable[[], xa.Run]] = {
-    **{f"sightseer {name}": sightseer(name) for name in ("figure1", "circles", "m8", "plate", "m11")},
+    **{f"sightseer {name}": sightseer(name) for name in ("figure1", "circles", "m8", "m11")},
     "octagons": lambda: xa.sightseer(random_octagons(5, 1), 5),
     **{
         f"random sightseer {seed}": (lambda s=seed: xa.sightseer(random_scene(Subject.SIGHTSEER, s)))
-        for seed in range(12)
+        for seed in range(10)
     },
     "spreader figure4": spreader("figure4"),
     "spreader figure4, what is visible": spreader("figure4", target="visible"),
     "spreader figure4, without looking ahead": spreader("figure4", lookahead=False),
     **{
         f"random spreader {seed}": (lambda s=seed: xa.seed_spreader(random_scene(Subject.SEED_SPREADER, s)))
-        for seed in range(12)
+        for seed in range(10)
     },
 }
 
