@@ -34,12 +34,7 @@ def rough(value: Real) -> float:
 
 
 def float_ball(t: Real) -> tuple[float, float]:
-    """A float near a parameter, with a bound of its error: of a late one what its ball tells.
-
-    The bound is infinite if tests want nothing decided by floats.
-    """
-    if kernel.EXACT_ONLY:
-        return 0.0, inf
+    """A float near a parameter, with a bound of its error: of a late one what its ball tells."""
     if t.is_late or t.rational is None:
         bits = 64
         ball = t.ball(bits)
@@ -47,6 +42,6 @@ def float_ball(t: Real) -> tuple[float, float]:
             bits *= 2
             ball = t.ball(bits)
         middle = float(ball.mid())
-        return middle, 2.0 * float(ball.rad()) + UNIT * abs(middle) + TINY
+        return middle, margin(2.0 * float(ball.rad()) + UNIT * abs(middle) + TINY)
     middle = nearest_float(t.rational)
-    return middle, UNIT * abs(middle)
+    return middle, margin(UNIT * abs(middle))

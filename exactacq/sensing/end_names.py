@@ -11,7 +11,6 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from math import inf
 
-from exactacq import kernel
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.interval_union import Interval
@@ -97,7 +96,7 @@ class Seen:
             parts = view.seen_parts.get(e)
             if parts is None:
                 continue
-            spans = () if kernel.EXACT_ONLY else known.get(e, ())
+            spans = known.get(e, ())
             new = parts
             if spans and not self._rails[e].is_closed:
                 new = [part for part in parts if not _is_in(view.bracket(e, part), spans)]

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from exactacq import kernel
 from exactacq.geometry.curve_images import curve_image
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.points import Point
@@ -195,8 +194,7 @@ class SingleLine:
             source = images.hull(self.edge, (self.place,))
             if here:
                 edge, shown, source = self.edge, source, shown
-        is_known = not kernel.EXACT_ONLY
-        return Extent(edge, shown, source, NOTHING, [], [], self, here, 1 - here, is_known)
+        return Extent(edge, shown, source, NOTHING, [], [], self, here, 1 - here, True)
 
     def views(self, here: int, there: int, clipper: FamilyClipper) -> tuple[list[ViewFamily], int]:
         """The views from the place, which lies on an edge, within range; and on which side of them is *here*.

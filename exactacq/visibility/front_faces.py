@@ -16,12 +16,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from math import inf
 from typing import Any
 
 from flint import arb, fmpq
 
-from exactacq import kernel
 from exactacq.geometry.coordinates import Vector, advance, cross, dot, minus, raw, sign, square_root
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import spans
@@ -29,6 +27,7 @@ from exactacq.geometry.late import Balls, ball_of, balls, clearly_between, from_
 from exactacq.geometry.points import Point
 from exactacq.kernel.bounded import TINY, UNIT, WIDEN
 from exactacq.kernel.radial_faces import RadialFaces
+from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
@@ -320,10 +319,8 @@ def _held(vector: Vector) -> tuple[float, float, float]:
 
 def _image(place: Vector) -> tuple[float, float, float, float, float]:
     """A place in floats: each coordinate and what it leaves, and a bound of what is left then."""
-    if kernel.EXACT_ONLY:
-        return 0.0, 0.0, 0.0, 0.0, inf
     (x, u, p), (y, v, q) = (_with_rest(c) for c in place)
-    return x, u, y, v, max(p, q)
+    return x, u, y, v, margin(max(p, q))
 
 
 def _with_rest(value: fmpq | Real) -> tuple[float, float, float]:

@@ -19,18 +19,18 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from math import frexp, hypot, inf, ldexp
+from math import frexp, hypot, ldexp
 from typing import Any, TypeAlias
 
 import numpy as np
 from flint import arb, fmpq
 
-from exactacq import kernel
 from exactacq.geometry.coordinates import cross, dot, sign
 from exactacq.geometry.points import Point
 from exactacq.kernel import lines
 from exactacq.kernel.bounded import TINY, UNIT, WIDEN
 from exactacq.kernel.images import ROLLING, SLIDING, SPOKES, TURNING, LineFrame
+from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.rationals import nearest_float
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import Floats, with_rests
@@ -297,22 +297,20 @@ def left(a: Vector) -> Vector:
 
 
 def held(value: fmpq | Real) -> tuple[float, float]:
-    """A float near a number and a bound of its error, inf if tests want nothing decided by floats."""
-    if kernel.EXACT_ONLY:
-        return 0.0, inf
+    """A float near a number and a bound of its error."""
     if isinstance(value, Real):
         ball = value.ball(BITS)
         near = float(ball.mid())
-        return near, (2 * float(ball.rad()) + 2 * UNIT * abs(near) + TINY) * WIDEN
+        return near, margin((2 * float(ball.rad()) + 2 * UNIT * abs(near) + TINY) * WIDEN)
     near = float(value)
-    return near, UNIT * abs(near) + TINY
+    return near, margin(UNIT * abs(near) + TINY)
 
 
 def _place(point: Vector) -> tuple[tuple[float, float, float, float], float]:
     """A point in floats, with rests if it is rational, and a bound of what they leave."""
     x, y = point
-    if kernel.EXACT_ONLY or isinstance(x, Real) or isinstance(y, Real):
+    if isinstance(x, Real) or isinstance(y, Real):
         (u, p), (v, q) = held(x), held(y)
         return (u, 0.0, v, 0.0), max(p, q)
     (u, rest), (v, other) = with_rests((x, y))
-    return (u, rest, v, other), 0.0
+    return (u, rest, v, other), margin(0.0)
