@@ -281,8 +281,8 @@ def split(piece: Piece) -> list[Piece]:
     middle = piece.point(Q(1, 3))
     curve = piece.curve
     return [
-        Piece(piece.kind, piece.obstacle, curve.part(curve.start, middle), piece.touches),
-        Piece(piece.kind, piece.obstacle, curve.part(middle, curve.end), piece.touches),
+        Piece(piece.kind, piece.obstacle, curve.part(curve.start, middle)),
+        Piece(piece.kind, piece.obstacle, curve.part(middle, curve.end)),
     ]
 
 

@@ -22,7 +22,7 @@ def met(images: EdgeImages, edges: list[int], place: Place, along: Place) -> lis
 
 
 def _verdict(images: EdgeImages, e: int, start: Place, end: Place, along: Place, whole: bool) -> int:
-    """As `crossed`, of an edge and a segment or, if *whole*, the line from its start along a vector."""
+    """The verdict of `crossed` for an edge and a segment or, if *whole*, the line along a vector."""
     if images.kind[e] == STRAIGHT:
         return _straight(images, e, start, end, along, whole)
     return _round(images, e, start, along, whole)

@@ -203,7 +203,7 @@ class Memory:
         owner = piece.obstacle
         if owner is not None and self.ground is not None:
             owner = self.ground.components[owner].obstacle.index
-        return legs_of(self._table, self._sensor.rails, owner, piece.curve, piece.touches)
+        return legs_of(self._table, self._sensor.rails, owner, piece.curve)
 
     def parts(self, way: Segment) -> list[Segment]:
         """The parts of a straight way of which each is one leg (see `ahead`)."""

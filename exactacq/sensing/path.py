@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Hashable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate
@@ -20,9 +19,6 @@ from exactacq.numbers.length import Length
 class Piece:
     """One piece of the path: ``kind`` is "straight", or "boundary" along an edge of ``obstacle``.
 
-    ``touches`` names the features that a straight piece's line touches (see
-    `exactacq.visibility.line_names`): known from how the piece was found, they save long proofs.
-
     >>> import exactacq as xa
     >>> piece = xa.sightseer(xa.load("circles")).path[1]
     >>> print(piece.kind, piece.obstacle, piece.start, piece.length)
@@ -32,7 +28,6 @@ class Piece:
     kind: str
     obstacle: int | None
     curve: Curve
-    touches: tuple[Hashable, ...] = ()
 
     @property
     def start(self) -> Point:

@@ -7,7 +7,7 @@ has walked all around (or from the start), and for nothing else.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Hashable, Iterable
+from collections.abc import Callable, Container, Iterable
 from functools import partial
 from heapq import heappop, heappush
 
@@ -131,17 +131,5 @@ class SightseerRobot(Robot):
     def linear_navigate(self, node: Node, target: Point) -> None:
         """Go straight to a point of *node* along a free segment."""
         if self.position != target:
-            self._move(Piece("straight", None, Segment(self.position, target), self._touches(node, target)))
+            self._move(Piece("straight", None, Segment(self.position, target)))
         self.at, self.position = node, target
-
-    def _touches(self, node: Node, target: Point) -> tuple[Hashable, ...]:
-        """What holds the way to a point of another node."""
-        if isinstance(self.at, int) and isinstance(node, int):
-            link = self._links.between(self.at, node)
-            return () if link is None else link.touches(self.position, target)
-        inner = self.at if isinstance(self.at, int) else node
-        link = self._links.from_point(self.start).get(inner) if isinstance(inner, int) else None
-        if link is None:
-            return ()
-        hit = target if isinstance(node, int) else self.position
-        return link.touches(None, hit)
