@@ -123,7 +123,7 @@ def check(run: xa.SightseerRun) -> int:
     complex_ = VisibilityComplex(table, Range(run.radius))
     count = 0
     for piece in run.path[:8]:
-        for leg in legs_of(table, complex_.clipper.rails, piece.obstacle, piece.curve, piece.touches):
+        for leg in legs_of(table, complex_.clipper.rails, piece.obstacle, piece.curve):
             for floats, exact in told(complex_, leg, run):
                 if floats is None:
                     continue

@@ -211,7 +211,7 @@ def check_sweep(scene: xa.Scene, piece: Piece, radius: object) -> int:
     table, range_ = EdgeTable(scene.obstacles), Range(xa.Real(radius).rational)
     mine = Sweep(scene, piece, Sensor(table, range_)).events
     fresh = Sensor(table, range_)
-    legs = legs_of(table, fresh.rails, piece.obstacle, piece.curve, piece.touches)
+    legs = legs_of(table, fresh.rails, piece.obstacle, piece.curve)
     for k, leg in enumerate(legs):
         expected = [*exact_events(fresh.shares(leg))]
         events = [event for event in mine if event.leg == k]

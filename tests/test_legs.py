@@ -12,6 +12,7 @@ from strategies import arc_terrain, degenerate_terrain
 from exactacq import Circle, Outline, Point, Polygon, Scene
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.legs import Leg, legs_of
 
@@ -104,3 +105,33 @@ def test_inside_an_edge_there_is_no_other() -> None:
     assert copied.own(Rail(edge).parameter(edge.end)) is None
     (leg,) = legs(table, 4, table.curves[table.edges_of(4).start])
     assert leg.own(leg.first) == (leg.edge,) == leg.own(leg.last)
+
+
+def test_what_a_way_touches_is_found() -> None:
+    """Corners on its line, pairs of these, and circles; along irrational and nearly touching ways too."""
+    shapes = [
+        Circle((0, -2), 2),
+        Circle((5, 1), 1),
+        Polygon([(8, 0), (9, 3), (8, 3)]),
+        Polygon([(12, 0), (13, -1), (13, 1)]),
+    ]
+    table = EdgeTable(Scene(shapes).obstacles)
+    (one, other) = (table.edges_of(k).start for k in (0, 1))
+    corner, last = table.edges_of(2).start, table.edges_of(3).start
+
+    def touched(start: Point, end: Point) -> list[set[object]]:
+        found = legs_of(table, [], None, Segment(start, end))
+        return [set(leg.touches) for leg in found]
+
+    all_ = {("circle", one), ("circle", other), ("corner", corner)}
+    both = all_ | {("corner", last), ("corners", corner, last)}
+    assert touched(Point(-3, 0), Point(7, 0)) == [{("circle", one), ("circle", other)}]
+    assert touched(Point(-3, 0), Point(10, 0)) == [all_, all_]
+    assert touched(Point(12, 0), Point(-3, 0)) == [both, both]
+    tiny = fmpq(1, 10**50)
+    assert touched(Point(-3, tiny), Point(10, tiny)) == [set()]
+    # From 2 sqrt(2) away of its centre a circle of radius 2 is touched under 45 degrees.
+    root = Real(2).sqrt()
+    place = Point(0, root * 2 - 2)
+    assert touched(place, place + Point(3, -3)) == [{("circle", one)}]
+    assert touched(place, place + Point(3, tiny - 3)) == [set()]

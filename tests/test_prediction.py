@@ -14,15 +14,25 @@ from random import Random
 import numpy as np
 import pytest
 
+from exactacq import kernel
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real, fmpq, roots
 from exactacq.strategies.seed_spreader.prediction.decide import sees_later
-from exactacq.strategies.seed_spreader.prediction.sight import growth_sign
+from exactacq.strategies.seed_spreader.prediction.sight import growth
 
 EPS = fmpq(1, 10**40)
 FAR = fmpq(100)
+
+
+@pytest.fixture(autouse=True, params=["with floats", "without"])
+def _mode(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every answer is the same if floats decide nothing."""
+    if request.param == "without":
+        if request.function is test_the_sampler_agrees:
+            pytest.skip("takes long")
+        monkeypatch.setattr(kernel, "EXACT_ONLY", True)
 
 
 def wall(x: object, low: object, high: object) -> Segment:
@@ -424,7 +434,10 @@ def test_the_sign_of_growth_is_that_of_exact_differences() -> None:
         before, after = (sights_about(Point(x, z), shape, target) for z in (y, y + step))
         if len(before) == len(after):
             for one, other in zip(before, after, strict=True):
-                sign = growth_sign(x, (y, y + step), shape, target, one)
+                length, rate = growth(x, (y, y + step), shape, target, one)
+                if length.is_finite():
+                    assert all(length.overlaps(known.ball(128)) for known in (one, other))
+                sign = int(rate > 0) - int(rate < 0)
                 assert sign in (0, (other - one).sign())
                 told += sign != 0
     assert told > 50

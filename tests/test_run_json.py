@@ -283,6 +283,17 @@ def test_files_of_version_2_are_read(path: Path) -> None:
     assert_same(run, strategy(run.scene, run.radius))
 
 
+@pytest.mark.parametrize("path", sorted(OLD.glob("version3-*.json")), ids=lambda path: path.stem)
+def test_files_of_version_3_are_read(path: Path) -> None:
+    """What straight pieces touch is left out: the sensing is the same."""
+    run = load_run(path)
+    strategy = sightseer if run.strategy == "sightseer" else seed_spreader
+    again = strategy(run.scene, run.radius)
+    assert_same(run, again)
+    assert run.map.known_length() == again.map.known_length()
+    assert all("touches" not in piece for piece in run.to_json()["path"])
+
+
 @pytest.mark.parametrize("note", ["from", "trapped", "from 0 S", "from 99", "overdue"])
 def test_words_that_version_2_never_wrote_are_refused(note: str) -> None:
     document = json.loads((OLD / "version2-squares.json").read_text("utf-8"))

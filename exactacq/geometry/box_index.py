@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import spans
+from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.real import Real
 
 Boxes = NDArray[np.float64]
@@ -279,8 +280,8 @@ class Separator:
         along, offset = b - a, hull - a
         side = along[..., 0] * offset[..., 1] - along[..., 1] * offset[..., 0]
         size = np.maximum(np.abs(hull).max(axis=(1, 2)), np.abs(self.hulls[segments]).max(axis=(1, 2)))
-        margin = size * size * 2.0**-46 + TINY
-        apart = (side.min(axis=1) > margin) | (side.max(axis=1) < -margin)
+        error = size * size * margin(2.0**-46) + TINY
+        apart = (side.min(axis=1) > error) | (side.max(axis=1) < -error)
         beside: NDArray[np.bool_] = apart & self.is_segment[segments]
         return beside
 
@@ -289,7 +290,7 @@ class Separator:
         a, b = self.circles[first], self.circles[second]
         gap = np.hypot(a[:, 0] - b[:, 0], a[:, 1] - b[:, 1])
         size = np.maximum(np.abs(a).max(axis=1), np.abs(b).max(axis=1))
-        margin = size * 2.0**-46 + TINY
-        apart = (gap > a[:, 2] + b[:, 2] + margin) | (gap < np.abs(a[:, 2] - b[:, 2]) - margin)
+        error = size * margin(2.0**-46) + TINY
+        apart = (gap > a[:, 2] + b[:, 2] + error) | (gap < np.abs(a[:, 2] - b[:, 2]) - error)
         off: NDArray[np.bool_] = apart & ~self.is_segment[first] & ~self.is_segment[second]
         return off

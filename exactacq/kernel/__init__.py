@@ -61,4 +61,6 @@ if COMPILED:
     __path__.insert(0, str(FOLDER))
 
 EXACT_ONLY = False
-"""For tests: whether the callers give their data the bound inf, so that nothing is decided by floats."""
+"""For tests: whether the bounds of all data are infinite, so that nothing is decided by floats.
+
+See `exactacq.numbers.float_bounds`. Boxes stay, which are rounded outward: they choose what is looked at."""

@@ -22,9 +22,10 @@ EVERYTHING: Span = (-inf, inf)
 class Extent:
     """What is shown of edge ``edge`` at most, from where it is seen at most, and from where surely.
 
-    It comes from ``origin``, by the views from its part ``here`` to its part ``there``. The keys tell which
-    lines bound where it surely is seen from: equal keys, one place. From all of its source together ``told``
-    is surely shown. Unless it ``is_known``, floats tell nothing of it.
+    It comes from ``origin``, by the views from its part ``here`` to its part ``there``; ``in_range`` tells
+    whether all of these surely are within range. The keys tell which lines bound where it surely is seen
+    from: equal keys, one place. From all of its source together ``told`` is surely shown. Unless it
+    ``is_known``, floats tell nothing of it.
     """
 
     def __init__(
@@ -46,6 +47,7 @@ class Extent:
         self.first_keys, self.last_keys = first_keys, last_keys
         self.origin, self.here, self.there = origin, here, there
         self.is_known, self.told = is_known, told
+        self.in_range = False
 
 
 def unknown(edge: int, origin: object, here: int, there: int) -> Extent:
@@ -104,35 +106,59 @@ def extent(
     of the last line.
     """
     (a, b), (c, d) = source, shown
-    longest = max(_apart(a, c), _apart(a, d), _apart(b, c), _apart(b, d))
-    is_in_range = (longest + slack) * (1.0 + SURE) < reach[0]
-    if not is_in_range:
-        x = _gap(a[2], b[2], c[2], d[2])
-        y = _gap(a[3], b[3], c[3], d[3])
-        if sqrt(x * x + y * y) - slack > reach[1] * (1.0 + SURE):
-            return None
+    near = in_range(source, shown, slack, reach)
+    if near < 0:
+        return None
     seen, outer = _hull(c, d), _hull(a, b)
-    if not is_in_range:
+    if near == 0:
         return Extent(edge, seen, outer, NOTHING, [], [], origin, here, there, True)
     first, last = keys
     if b[1] <= a[0] and not a[1] <= b[0]:
         first, last = last, first
-    return Extent(edge, seen, outer, _inner(a, b), first, last, origin, here, there, True, _inner(c, d))
+    one = Extent(edge, seen, outer, _inner(a, b), first, last, origin, here, there, True, _inner(c, d))
+    one.in_range = True
+    return one
+
+
+def in_range(source: EdgePlaces, shown: EdgePlaces, slack: float, reach: tuple[float, float]) -> int:
+    """1 if all views between two sides are surely within range, -1 if none is, else 0.
+
+    The sides are told by their extreme points. A view from one hull of points to another is at most as long
+    as the longest between these points, and at least as long as the gap of their boxes; *slack* is how far
+    the sides may leave them, the errors of the points included.
+    """
+    (a, b), (c, d) = source, shown
+    longest = max(_apart(a, c), _apart(a, d), _apart(b, c), _apart(b, d))
+    if (longest + slack) * (1.0 + SURE) < reach[0]:
+        return 1
+    x = _gap(a[2], b[2], c[2], d[2])
+    y = _gap(a[3], b[3], c[3], d[3])
+    return -1 if sqrt(x * x + y * y) - slack > reach[1] * (1.0 + SURE) else 0
 
 
 def bent(family: FamilyImage, role: int, places: EdgePlaces, curves: list[CurveImage]) -> float:
-    """How far a side may leave the box of its two extreme points (no side of turning lines passes a half
-    turn)."""
+    """How far a side of a family may leave the box of its two extreme points."""
+    curve = curves[family.edge(role)]
+    is_straight = (role == CONTACT and family.fixed) or not curve.sense
+    turns = family.frame[0] not in (ROLLING, SLIDING)
+    return sagitta(0.0 if is_straight else curve.radius, turns, places)
+
+
+def sagitta(radius: float, turns: bool, places: EdgePlaces) -> float:
+    """How far a side may leave the box of its two extreme points, with the errors of these.
+
+    It lies on an arc of radius r, 0 if it is straight or a point. No side of lines of which each *turns*
+    about a point passes a half turn: so its rise h over its chord c is at most r, and from c^2 / 4 = h (2 r -
+    h) >= h r follows h <= c^2 / (4 r).
+    """
     one, other = places
     error = 2.0 * (one[4] + other[4])
-    curve = curves[family.edge(role)]
-    if (role == CONTACT and family.fixed) or not curve.sense:
+    if radius == 0.0:
         return error
-    radius, kind = curve.radius * (1.0 + SURE), family.frame[0]
-    if kind in (ROLLING, SLIDING):
-        return error + 2.0 * radius
-    chord = _apart(one, other)
-    return error + min(chord * chord / (4.0 * radius) * (1.0 + SURE) * 2.0, radius)
+    if not turns:
+        return error + 2.0 * radius * (1.0 + SURE)
+    chord = _apart(one, other) + error
+    return error + min(chord * chord / (4.0 * radius), radius) * (1.0 + SURE)
 
 
 def _apart(a: EdgePlace, b: EdgePlace) -> float:

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from typing import Final, final
 
-from exactacq.kernel.bounded import TINY, UNIT, WIDEN, cross, dot, product, quotient, root, total
+from exactacq.kernel.bounded import TINY, UNIT, WIDEN, cross, dot, product, quotient, root, total, verdict
 from exactacq.kernel.images import REST, STRAIGHT, EdgeImages
 
 NONE: Final = -1
@@ -130,13 +130,21 @@ class RadialFaces:
         kinds = self.images.kind
         return [e for e in edges if kinds[e] != STRAIGHT]
 
-    def may_be_on(self, e: int) -> bool:
-        """Whether the place may be on the circle of an arc."""
+    def gap(self, e: int) -> tuple[float, float]:
+        """How far the place lies outside the circle of an arc; negative inside."""
         wx, wy, w = self.center(e)
         r = self.images.radius[e]
         far, far_bound = root(*dot(wx, wy, w, wx, wy, w))
-        gap, gap_bound = total(far, far_bound, -r, UNIT * r)
-        return not abs(gap) > gap_bound
+        return total(far, far_bound, -r, UNIT * r)
+
+    def beside(self, e: int) -> int:
+        """1 or -1 if the place is certainly outside or inside the circle of an arc, else 0."""
+        return verdict(*self.gap(e))
+
+    def reaches(self, e: int) -> int:
+        """1 if the circle of an arc certainly comes within range, -1 if it certainly does not, else 0."""
+        gap, bound = self.gap(e)
+        return self.reach(gap, 0.0, bound)
 
     def add_arc(self, e: int, low: int, high: int) -> None:
         """Add a face of an arc between two events (`NONE` for none): vertices, or events that are added."""

@@ -1,4 +1,9 @@
-"""Exact numbers as floats with bounds of the error, as the compiled loops take them."""
+"""Exact numbers as floats with bounds of the error, as the compiled loops take them.
+
+The switch `exactacq.kernel.EXACT_ONLY` makes all bounds infinite, so that nothing is decided by floats. Code
+that has a bound of its own passes it through `margin`; so does what prunes with lower bounds, which are then
+-inf.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +13,11 @@ from exactacq import kernel
 from exactacq.kernel.bounded import TINY, UNIT
 from exactacq.numbers.rationals import nearest_float
 from exactacq.numbers.real import Real
+
+
+def margin(error: float) -> float:
+    """A bound of errors, as verdicts of floats take it: infinite if tests want nothing decided by floats."""
+    return inf if kernel.EXACT_ONLY else error
 
 
 def rough(value: Real) -> float:
@@ -24,12 +34,7 @@ def rough(value: Real) -> float:
 
 
 def float_ball(t: Real) -> tuple[float, float]:
-    """A float near a parameter, with a bound of its error: of a late one what its ball tells.
-
-    The bound is infinite if tests want nothing decided by floats.
-    """
-    if kernel.EXACT_ONLY:
-        return 0.0, inf
+    """A float near a parameter, with a bound of its error: of a late one what its ball tells."""
     if t.is_late or t.rational is None:
         bits = 64
         ball = t.ball(bits)
@@ -37,6 +42,6 @@ def float_ball(t: Real) -> tuple[float, float]:
             bits *= 2
             ball = t.ball(bits)
         middle = float(ball.mid())
-        return middle, 2.0 * float(ball.rad()) + UNIT * abs(middle) + TINY
+        return middle, margin(2.0 * float(ball.rad()) + UNIT * abs(middle) + TINY)
     middle = nearest_float(t.rational)
-    return middle, UNIT * abs(middle)
+    return middle, margin(UNIT * abs(middle))

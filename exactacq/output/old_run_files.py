@@ -1,4 +1,8 @@
-"""Run files of version 2, whose events said in words what version 3 says in fields."""
+"""Run files of versions 2 and 3.
+
+Until version 2 events said in words what they say in fields now. Until version 3 straight pieces told what
+their lines touch (``touches``), which sensing finds by itself.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +12,8 @@ from typing import Any
 from exactacq.errors import FormatError
 from exactacq.sensing.event import Ending, EventKind, Occasion, Reason
 
+OLD_VERSIONS = (2, 3)
+"""The versions that are still read."""
 _TRAPPED = "the start or the end of the M-line is trapped in obstacle #"
 _WORDS: dict[tuple[str, str], dict[str, str]] = {
     (EventKind.HIT, "from #"): {"occasion": Occasion.ADVANCE},
@@ -34,12 +40,19 @@ _NODE = re.compile(r"\d+|\bS$")
 
 
 def upgraded(document: dict[str, Any]) -> dict[str, Any]:
-    """The data of version 2 as those of version 3. Raises `FormatError` for an event that it never wrote."""
+    """The data of an old version as those of the present one.
+
+    Raises `FormatError` for an event that version 2 never wrote.
+    """
+    path = [{key: value for key, value in piece.items() if key != "touches"} for piece in document["path"]]
+    document = document | {"path": path}
+    if int(document["version"]) > 2:
+        return document | {"version": 4}
     fields = {key: value for key, value in document.items() if key != "sweeping"}
     if "sweeping" in document:
         del fields["links"], fields["stack_depth"]
         fields |= document["sweeping"]
-    return fields | {"version": 3, "events": [_event(event) for event in document["events"]]}
+    return fields | {"version": 4, "events": [_event(event) for event in document["events"]]}
 
 
 def _event(event: dict[str, Any]) -> dict[str, Any]:

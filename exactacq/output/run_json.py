@@ -1,16 +1,16 @@
 """Run files: runs as JSON, written and read without a rounding.
 
 A run file is one JSON object with ``"format": "exactacq run"`` and ``"version"``, the number of the
-format's version (`VERSION`). Files of version 2 are read too (`old_run_files`), others are refused. It has
-the scene, the path, visits, links, events and bounds, and one table of all algebraic numbers. The map is not
-written: the sensing is repeated on first use.
+format's version (`VERSION`). Files of versions 2 and 3 are read too (`old_run_files`), others are refused. It
+has the scene, the path, visits, links, events and bounds, and one table of all algebraic numbers. The map is
+not written: the sensing is repeated on first use.
 """
 
 from __future__ import annotations
 
 import json
 import os
-from collections.abc import Hashable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from exactacq.errors import ExactacqError, FormatError
@@ -22,7 +22,7 @@ from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.numbers.number_json import Decoder, Encoder, Number, is_place
 from exactacq.numbers.rationals import rational
-from exactacq.output.old_run_files import upgraded
+from exactacq.output.old_run_files import OLD_VERSIONS, upgraded
 from exactacq.scene.terrain_components import ground_of
 from exactacq.sensing.event import SENSED, Ending, Event, EventKind, Occasion, Reason
 from exactacq.sensing.memory import Memory
@@ -31,17 +31,9 @@ from exactacq.strategies.bounds import with_bounds
 from exactacq.strategies.run import Bound, Diversion, Run, SeedSpreaderRun, SightseerRun, TreeLink
 from exactacq.visibility.links import START
 
-FORMAT, VERSION = "exactacq run", 3
+FORMAT, VERSION = "exactacq run", 4
 DIGITS = 20
 """Decimals beside exact values are for readers: they are not read back."""
-NAMES = {
-    "corner": ("corner",),
-    "circle": ("circle",),
-    "corners": ("corner", "corner"),
-    "corner, circle": ("corner", "circle", "crossing"),
-    "circles": ("circle", "circle", "crossing", "turn"),
-}
-"""What names hold after their first word: numbers of edges, a truth value, 1 or -1."""
 FACTS = ("occasion", "other", "reason", "ending")
 """Fields of events that are written where they apply."""
 CLOSED = 200
@@ -95,9 +87,9 @@ def load_run(source: str | os.PathLike[str] | dict[str, Any]) -> Run:
         if not isinstance(document, dict) or document.get("format") != FORMAT:
             raise FormatError("not a run: write one with exactacq explore SCENE --trace F.json")
         version = int(document["version"])
-        if version not in (2, VERSION):
+        if version not in (*OLD_VERSIONS, VERSION):
             raise FormatError(f"version {version} of a run is not known here")
-        return _run(upgraded(document) if version == 2 else document)
+        return _run(document if version == VERSION else upgraded(document))
     except ExactacqError as error:
         raise type(error)(
             [f"{name}: {error}"] if hasattr(error, "violations") else f"{name}: {error}"
@@ -111,7 +103,6 @@ def load_run(source: str | os.PathLike[str] | dict[str, Any]) -> Run:
 def _run(document: dict[str, Any]) -> Run:
     numbers = _Points(Decoder(document["numbers"]))
     scene = scene_of(document["scene"])
-    edges = [edge for obstacle in scene.obstacles for edge in obstacle.edges]
     radius, start = rational(document["radius"]), numbers.point(document["start"])
     if radius <= 0:
         raise FormatError(f"the radius must be positive, not {radius}")
@@ -120,7 +111,7 @@ def _run(document: dict[str, Any]) -> Run:
         raise FormatError(f"a run of the unknown strategy {str(strategy)[:40]!r}")
     ground = ground_of(scene) if strategy == SeedSpreaderRun.strategy else None
     count = len(scene.obstacles if ground is None else ground.components)
-    path = Path(_read_piece(numbers, piece, edges, count) for piece in document["path"])
+    path = Path(_read_piece(numbers, piece, count) for piece in document["path"])
     memory = None
     if any(event["point"] is None for event in document["events"]):
         memory = Memory.of(scene, radius, start, path, ground)
@@ -207,8 +198,6 @@ def _of_strategy(out: Encoder, run: Run) -> dict[str, Any]:
 def _piece(out: Encoder, piece: Piece) -> dict[str, Any]:
     document: dict[str, Any] = {"kind": piece.kind, "obstacle": piece.obstacle}
     document["start"], document["end"] = _point(out, piece.start), _point(out, piece.end)
-    if piece.touches:
-        document["touches"] = [list(name) for name in piece.touches]  # type: ignore[call-overload]
     curve = piece.curve
     if isinstance(curve, Arc):
         document["arc"] = {
@@ -263,7 +252,7 @@ class _Points:
         return self._points[key]
 
 
-def _read_piece(numbers: _Points, document: dict[str, Any], edges: Sequence[Curve], count: int) -> Piece:
+def _read_piece(numbers: _Points, document: dict[str, Any], count: int) -> Piece:
     start, end = numbers.point(document["start"]), numbers.point(document["end"])
     curve: Curve = Segment(start, end)
     if "arc" in document:
@@ -276,30 +265,7 @@ def _read_piece(numbers: _Points, document: dict[str, Any], edges: Sequence[Curv
         raise FormatError("a piece of the path is straight or boundary")
     if is_straight != (obstacle is None) or (is_straight and isinstance(curve, Arc)):
         raise FormatError("a piece of the path is straight, or on the boundary of an obstacle")
-    touches = tuple(_read_name(name, edges) for name in document.get("touches", ()))
-    return Piece(document["kind"], obstacle, curve, touches)
-
-
-def _read_name(name: list[Any], edges: Sequence[Curve]) -> tuple[Hashable, ...]:
-    """What a straight piece touches, with numbers as they were written.
-
-    See `exactacq.visibility.line_names`.
-    """
-    kind, *parts = name
-    roles = NAMES.get(str(kind))
-    if roles is None or len(parts) != len(roles):
-        raise FormatError(f"a piece touches something unknown: {str(name)[:40]}")
-    read: list[Hashable] = [str(kind)]
-    for role, part in zip(roles, parts, strict=True):
-        is_truth = isinstance(part, bool)
-        value = part if is_truth else int(part)
-        known = abs(value) == 1 if role == "turn" else 0 <= value < len(edges)
-        if role == "circle":
-            known = known and isinstance(edges[value], Arc)
-        if is_truth != (role == "crossing") or not (is_truth or known):
-            raise FormatError(f"a piece touches a {role} that the scene does not have: {str(part)[:40]}")
-        read.append(value)
-    return tuple(read)
+    return Piece(document["kind"], obstacle, curve)
 
 
 def _read_link(numbers: _Points, document: dict[str, Any], count: int) -> TreeLink:

@@ -23,6 +23,7 @@ from exactacq.kernel import images
 from exactacq.kernel.box_tree import BoxNode, box_tree
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.images import EdgeImages
+from exactacq.numbers.float_bounds import margin
 from exactacq.scene.scene import Obstacle
 
 Floats = NDArray[np.float64]
@@ -66,7 +67,12 @@ class EdgeTable:
         self.boxes: Floats = bounds(self.curves)
         self._around: dict[tuple[tuple[float, float], tuple[float, float], float], list[int]] = {}
         self.magnitude = float(np.abs(self.boxes).max(initial=0.0))
-        self.roundoff = 2.0**-50 * max(self.magnitude, float(self.radius.max(initial=0.0)))
+        self._largest = max(self.magnitude, float(self.radius.max(initial=0.0)))
+
+    @property
+    def roundoff(self) -> float:
+        """The bound of errors, infinite if tests want nothing decided by floats."""
+        return margin(self._error())
 
     @cached_property
     def tree(self) -> BoxNode:
@@ -131,10 +137,13 @@ class EdgeTable:
 
     def roundoff_at(self, *places: tuple[float, float]) -> float:
         """The bound for differences of the table's coordinates and places, which may lie far outside."""
-        far = 0.0
+        return margin(self._error(*places))
+
+    def _error(self, *places: tuple[float, float]) -> float:
+        far = self._largest
         for x, y in places:
             far = max(far, abs(x), abs(y))
-        return max(self.roundoff, 2.0**-50 * far)
+        return 2.0**-50 * far
 
     def near(self, low: tuple[float, float], high: tuple[float, float], reach: float) -> Ints:
         """The edges whose boxes come within *reach* of the box from *low* to *high*."""
@@ -143,14 +152,15 @@ class EdgeTable:
     def around(self, low: tuple[float, float], high: tuple[float, float], reach: float) -> list[int]:
         """The same edges in a list, which is not to be changed: cheaper than an array if they are few.
 
-        The last answers are kept: all sectors of a corner ask for one box, as do ways along an edge.
+        These are looked at, whatever decides then. The last answers are kept: all sectors of a corner ask for
+        one box, as do ways along an edge.
         """
         found = self._around.get((low, high, reach))
         if found is None:
             if len(self._around) >= NEAR_KEPT:
                 self._around.clear()
-            margin = 8 * self.roundoff_at(low, high)
-            found = self._around[low, high, reach] = self.tree.near((*low, *high), reach + margin)
+            slack = 8 * self._error(low, high)
+            found = self._around[low, high, reach] = self.tree.near((*low, *high), reach + slack)
         return found
 
     def distance_bounds(self, x: float, y: float, edges: Ints) -> Floats:

@@ -116,15 +116,17 @@ class Acquisition:
                 found.append((end.places[share.side], end.points[share.side]))
         for _, part in shares.ends.get(k, ()):
             found += [(part.low, part.start), (part.high, part.end)]
-        circled: dict[int, Point] = {}
+        corners: set[int] = set()
         for e, span, _ in shares.targets.of[k]:
             for gap in stretch.known.get(e, EMPTY).gaps(span):
                 for u, point in ((gap.low, gap.start), (gap.high, gap.end)):
                     found += shares.reaching(k, e, u, point)
-                    if id(point) not in circled:
-                        # A corner may end the gaps of two edges. It is kept: no other takes its identity.
-                        circled[id(point)] = point
+                    corner = self._corner(e, point)
+                    if corner not in corners:
                         found += self._in_range(leg, point)
+                    if corner is not None:
+                        # It may end the gaps of two edges.
+                        corners.add(corner)
                     if e == leg.edge:
                         found.append((u, point))
         groups = clusters(found)
@@ -139,6 +141,12 @@ class Acquisition:
         if len(inside) > 1 and len(inside[-1]) == 1 and leg.last is not shares.leg.last:
             inside = inside[:-1]
         return inside
+
+    def _corner(self, e: int, point: Point) -> int | None:
+        """The number of a place of an edge, if it is one of the edge's ends, as a vertex."""
+        table = self.shares.complex.table
+        curve = table.curves[e]
+        return e if point is curve.start else int(table.next[e]) if point is curve.end else None
 
     def _in_range(self, leg: Leg, point: Point) -> Iterator[Place]:
         """The places of a leg that are as far from a point as the range."""
@@ -172,15 +180,15 @@ def clusters(places: Iterable[Place]) -> list[list[Place]]:
 
     Within a cluster they are in no order; a parameter that comes again is left out.
     """
-    unique = {id(u): (u, place) for u, place in reversed(list(places))}
-    enclosed = [(_enclosure(u), (u, place)) for u, place in reversed(unique.values())]
+    enclosed = [(_enclosure(place[0]), place) for place in places]
     enclosed.sort(key=lambda item: item[0][0])
     found: list[list[Place]] = []
     reached: fmpq | None = None
     for (low, high), place in enclosed:
         if reached is not None and low <= reached:
-            found[-1].append(place)
-            reached = max(reached, high)
+            if not any(place[0] is u for u, _ in found[-1]):
+                found[-1].append(place)
+                reached = max(reached, high)
         else:
             found.append([place])
             reached = high

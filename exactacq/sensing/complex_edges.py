@@ -92,7 +92,7 @@ class FamilySweeper:
             ends = (e, int(self.table.next[e])) if isinstance(sector, Sliding) else NO_ENDS
             self._add(images, sector, around, (e,), Side(e, Role.CONTACT), None, ends, goes_back=False)
         for feature in self._features.get(e, ()):
-            near = around if feature.round else self._near([*self.table.start[e].tolist()] * 2)
+            near = around if feature.round else self._near(self.table.curves[e].start.xy * 2)
             contact = Side(e, Role.CONTACT, fixed=not feature.round)
             first, last = self._corners_beside(feature)
             sweeps = [

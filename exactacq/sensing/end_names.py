@@ -11,7 +11,6 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from math import inf
 
-from exactacq import kernel
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.interval_union import Interval
@@ -38,13 +37,22 @@ class SeenSpans(Mapping[int, "list[Interval]"]):
 
     def __init__(self, view: BoundaryView, rails: Sequence[Rail]) -> None:
         self._parts, self._ends, self._rails = view.seen_parts, view.ends, rails
-        self._made: dict[int, list[Interval]] = {}
+        self._made: dict[int, list[tuple[Part, list[Interval]]]] = {}
 
     def __getitem__(self, e: int) -> list[Interval]:
+        return [i for _, intervals in self._of(e) for i in intervals]
+
+    def _of(self, e: int) -> list[tuple[Part, list[Interval]]]:
         found = self._made.get(e)
         if found is None:
-            found = self._made[e] = self.intervals(e, self._parts[e])
+            found = self._made[e] = [(part, self.intervals(e, [part])) for part in self._parts[e]]
         return found
+
+    def ends_on(self, e: int) -> Iterator[tuple[int, Pin]]:
+        """The ends of what is seen of an edge, by their numbers; a circle's start may stand for one."""
+        for part, intervals in self._of(e) if e in self._parts else ():
+            yield part[0], (intervals[0].start, intervals[0].low)
+            yield part[1], (intervals[-1].end, intervals[-1].high)
 
     def __contains__(self, e: object) -> bool:
         return e in self._parts
@@ -97,7 +105,7 @@ class Seen:
             parts = view.seen_parts.get(e)
             if parts is None:
                 continue
-            spans = () if kernel.EXACT_ONLY else known.get(e, ())
+            spans = known.get(e, ())
             new = parts
             if spans and not self._rails[e].is_closed:
                 new = [part for part in parts if not _is_in(view.bracket(e, part), spans)]
@@ -128,14 +136,14 @@ class Seen:
     def _held_on(self, e: int) -> dict[Hold, Pin]:
         found: dict[Hold, Pin] = {}
         curve = self.table.curves[e]
-        for i in self.spans.get(e, ()):
-            for point, u in ((i.start, i.low), (i.end, i.high)):
-                if point is curve.start or point is curve.end:
-                    # A line through the corner may meet the edge again: there its name is another's.
-                    continue
-                if self._view.is_at_range(point):
-                    found[e, RANGE, self._onward(e, point)] = point, u
-                found.update((hold, (point, u)) for hold in self._view.holds(e, point))
+        for end, pin in self.spans.ends_on(e):
+            point = pin[0]
+            if point is curve.start or point is curve.end:
+                # A line through the corner may meet the edge again: there its name is another's.
+                continue
+            if self._view.is_at_range(end):
+                found[e, RANGE, self._onward(e, point)] = pin
+            found.update((hold, pin) for hold in self._view.holds(e, end))
         return {hold: pin for hold, pin in found.items() if hold[1] != RANGE or hold[2]}
 
     def _holds(self, e: int, point: Point, tight: bool, free_views: FreeViews | None) -> Iterator[Hold]:

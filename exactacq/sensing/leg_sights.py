@@ -14,7 +14,6 @@ from math import inf
 
 from flint import arb
 
-from exactacq import kernel
 from exactacq.geometry.coordinates import dot, minus
 from exactacq.geometry.curve_images import curve_image
 from exactacq.geometry.curves import Segment
@@ -214,7 +213,7 @@ class LegSights:
         """The sight of a single line where it crosses the way."""
         image = single.image(self.complex.images)
         _, _, u, error, *at, e = meets_straight(image.line, self._way.way.image.line)
-        if error < inf and not kernel.EXACT_ONLY:
+        if error < inf:
             here = at[0], at[1], e
             crosses = between(image.place, image.near, here)
             reaches = in_reach(here, image.near, self.complex.images.reach)

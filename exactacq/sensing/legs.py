@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Hashable, Sequence
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import pairwise
+from itertools import combinations, pairwise
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from exactacq.geometry.intersections import ContactKind, contacts
 from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
-from exactacq.scene.edge_table import EdgeTable
+from exactacq.scene.edge_table import EdgeTable, Floats, Ints
 
 BITS = 256
 """Precision of the balls that tell which corners a way may touch, and which places are inside an edge."""
@@ -27,8 +27,8 @@ BITS = 256
 class Leg:
     """A way along one rail: of boundary edge ``edge``, or in free space if None.
 
-    ``ahead`` tells whether the rail's parameter grows along the way; ``touches`` names what a straight way
-    is known to touch (see `line_names`).
+    ``ahead`` tells whether the rail's parameter grows along the way; ``touches`` names what the line of a
+    straight way touches (see `line_names`).
     """
 
     rail: Rail
@@ -99,20 +99,19 @@ def legs_of(
     rails: Sequence[Rail],
     obstacle: int | None,
     curve: Curve,
-    touches: tuple[Hashable, ...] = (),
 ) -> list[Leg]:
     """The legs of a path piece, on the boundary of an obstacle or straight through free space if None.
 
     One leg; two if the piece passes the start of a full circle. A straight piece that runs along edges has a
     leg on each, and between them; it is cut at corners, from which it may see what it sees from nowhere else.
-    *touches* is what a straight piece touches.
     """
     if obstacle is None:
         # The robots walk arcs only along boundaries; `load_run` refuses other pieces.
         assert isinstance(curve, Segment), "free space is crossed on straight lines"
         return [
-            _through_space(part, touches) if e is None else _on_edge(rails[e], e, part)
-            for e, part in parts_of(table, curve, touches)
+            leg
+            for e, part in _along_edges(table, curve)
+            for leg in (_through_space(table, part) if e is None else [_on_edge(rails[e], e, part)])
         ]
     e = _edge_of(table, obstacle, curve)
     rail = rails[e]
@@ -130,39 +129,72 @@ def legs_of(
     return legs if ahead else legs[::-1]
 
 
-def parts_of(
-    table: EdgeTable, way: Segment, touches: Collection[Hashable] = ()
-) -> list[tuple[int | None, Segment]]:
+def parts_of(table: EdgeTable, way: Segment) -> list[tuple[int | None, Segment]]:
     """A straight way in parts: along edges, with their numbers, and free ones, with None, between corners."""
     return [
         (e, piece)
         for e, part in _along_edges(table, way)
-        for piece in ([part] if e is not None else _between_corners(table, part, touches))
+        for piece in ([part] if e is not None else _between_corners(part, _corners_on(table, part)))
     ]
 
 
-def _between_corners(table: EdgeTable, way: Segment, touches: Collection[Hashable]) -> list[Segment]:
-    """A free way, cut at the corners that it touches between its ends."""
-    left, bottom, right, top = box(way)
-    near = table.near((left, bottom), (right, top), 0.0)
+def _between_corners(way: Segment, corners: list[tuple[int, Point]]) -> list[Segment]:
+    """A free way, cut at the corners that lie on it between its ends."""
+    along, size = way.direction, way.direction.norm_sq()
+    stops: list[tuple[Real, Point]] = []
+    for _, corner in corners:
+        place = (corner - way.start).dot(along)
+        if place.sign() > 0 > place.compare(size):
+            stops.append((place, corner))
+    if not stops:
+        return [way]
+    stops.sort(key=lambda stop: stop[0])
+    return [Segment(a, b) for a, b in pairwise([way.start, *(p for _, p in stops), way.end])]
+
+
+def _corners_on(table: EdgeTable, way: Segment) -> list[tuple[int, Point]]:
+    """The corners near a way that lie on its line, by number."""
+    near = _near(table, way)
     near = near[~table.full[near]]
     numbers = np.unique(np.concatenate((near, table.next[near])))
+    heights, slack = _heights(table, way, table.start[numbers])
+    corners = [(n, table.curves[n].start) for n in numbers[np.abs(heights) <= slack].tolist()]
+    return [(n, p) for n, p in corners if _is_zero(way.direction.cross(p - way.start))]
+
+
+def _circles_beside(table: EdgeTable, way: Segment) -> list[int]:
+    """The circles of arcs near a way that its line touches, by the number of their first arc."""
+    near = _near(table, way)
+    near = near[table.kind[near] != 0]
+    heights, slack = _heights(table, way, table.center[near])
+    size = math.hypot(*(d.rough() for d in way.direction))
+    close = np.abs(np.abs(heights) - table.radius[near] * size) <= slack
+    found: list[int] = []
+    for number in dict.fromkeys(table.circles[e] for e in near[close].tolist()):
+        arc = table.curves[number]
+        assert isinstance(arc, Arc)
+        height = way.direction.cross(arc.center - way.start)
+        if _is_zero(height * height - way.direction.norm_sq() * arc.radius_sq):
+            found.append(number)
+    return found
+
+
+def _near(table: EdgeTable, way: Segment) -> Ints:
+    left, bottom, right, top = box(way)
+    return table.near((left, bottom), (right, top), 0.0)
+
+
+def _heights(table: EdgeTable, way: Segment, places: Floats) -> tuple[Floats, float]:
+    """How far some places of the table are from a way's line, times the way's length, and the margin."""
+    left, bottom, right, top = box(way)
     (x, y), (dx, dy) = way.start.xy, (d.rough() for d in way.direction)
-    offsets, length = table.start[numbers] - (x, y), math.hypot(dx, dy)
-    sides = np.abs(offsets[:, 0] * dy - offsets[:, 1] * dx)
-    stops: list[tuple[Real, Point]] = []
-    for number in numbers[sides <= 64 * table.roundoff_at((left, bottom), (right, top)) * length].tolist():
-        corner = table.curves[number].start
-        offset = corner - way.start
-        height = way.direction.cross(offset)
-        if ("corner", number) in touches or (height.ball(BITS).contains(0) and height.sign() == 0):
-            place = offset.dot(way.direction)
-            if place.sign() > 0 > place.compare(way.direction.norm_sq()):
-                stops.append((place, corner))
-    stops.sort(key=lambda stop: stop[0])
-    return (
-        [Segment(a, b) for a, b in pairwise([way.start, *(p for _, p in stops), way.end])] if stops else [way]
-    )
+    offsets = places - (x, y)
+    slack = 64 * table.roundoff_at((left, bottom), (right, top)) * math.hypot(dx, dy)
+    return offsets[:, 0] * dy - offsets[:, 1] * dx, slack
+
+
+def _is_zero(value: Real) -> bool:
+    return bool(value.ball(BITS).contains(0)) and value.sign() == 0
 
 
 def _along_edges(table: EdgeTable, way: Segment) -> list[tuple[int | None, Segment]]:
@@ -202,11 +234,19 @@ def _on_edge(rail: Rail, e: int, piece: Segment) -> Leg:
     return Leg(rail, e, Interval(high, end, low, start), False)
 
 
-def _through_space(piece: Segment, touches: tuple[Hashable, ...]) -> Leg:
-    """The leg of a straight piece, on a rail with rational ends if its line is seen to be rational."""
-    rail = Rail(_rational_carrier(piece) or piece)
-    low, high = rail.parameter(piece.start), rail.parameter(piece.end)
-    return Leg(rail, None, Interval(low, piece.start, high, piece.end), True, touches)
+def _through_space(table: EdgeTable, way: Segment) -> list[Leg]:
+    """The legs of a free way, each on a rail with rational ends if its line is seen to be rational."""
+    corners = _corners_on(table, way)
+    names: list[Hashable] = [("corner", number) for number, _ in corners]
+    names += [("corners", *pair) for pair in combinations((number for number, _ in corners), 2)]
+    names += [("circle", number) for number in _circles_beside(table, way)]
+    legs = []
+    for piece in _between_corners(way, corners):
+        rail = Rail(_rational_carrier(piece) or piece)
+        low, high = rail.parameter(piece.start), rail.parameter(piece.end)
+        span = Interval(low, piece.start, high, piece.end)
+        legs.append(Leg(rail, None, span, True, tuple(names)))
+    return legs
 
 
 def _edge_of(table: EdgeTable, obstacle: int, piece: Curve) -> int:

@@ -11,7 +11,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from exactacq import kernel
 from exactacq.geometry.curve_images import curve_image
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.points import Point
@@ -62,22 +61,31 @@ class LineFamily:
         """What its lines meet or touch: behind, at the contact, ahead."""
         return self.behind, self.contact, self.ahead
 
-    def views(self, here: int, there: int, clipper: FamilyClipper) -> tuple[list[ViewFamily], int]:
+    def views(
+        self, here: int, there: int, clipper: FamilyClipper, in_range: bool
+    ) -> tuple[list[ViewFamily], int]:
         """The views within range between two of its parts, and which of their two sides is *here*.
 
-        They are made when they are first asked for.
+        They are made when they are first asked for. *in_range* if it is known that they all are.
         """
         pair = min(here, there), max(here, there)
         if pair not in self._views:
-            self._views[pair] = clipper.families(self._free_views(*pair))
+            self._views[pair] = clipper.families(self._free_views(*pair, in_range))
         return self._views[pair], int(here > there)
 
-    def _free_views(self, first: int, last: int) -> FreeViews:
+    def _free_views(self, first: int, last: int, in_range: bool) -> FreeViews:
         one, other = self.sides[first + 1], self.sides[last + 1]
         assert one is not None and other is not None, "views lie between edges"
         anchor = self.anchor if self.goes_back else None
         return FreeViews(
-            self.sector, self.low, self.high, (one, other), self.names, passed=self.passed, anchor=anchor
+            self.sector,
+            self.low,
+            self.high,
+            (one, other),
+            self.names,
+            passed=self.passed,
+            anchor=anchor,
+            in_range=in_range,
         )
 
 
@@ -208,8 +216,7 @@ class SingleLine:
         (shown, source), edge = self._hulls, self.shown
         if here and self.edge is not None:
             edge, shown, source = self.edge, source, shown
-        is_known = not kernel.EXACT_ONLY
-        return Extent(edge, shown, source, NOTHING, [], [], self, here, 1 - here, is_known)
+        return Extent(edge, shown, source, NOTHING, [], [], self, here, 1 - here, True)
 
     def views(self, here: int, there: int, clipper: FamilyClipper) -> tuple[list[ViewFamily], int]:
         """The views from the place, which lies on an edge, within range; and on which side of them is *here*.

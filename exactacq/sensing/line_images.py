@@ -7,6 +7,7 @@ from functools import cached_property
 from math import inf
 
 from exactacq import kernel
+from exactacq.geometry.curve_images import held_point
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.points import Point
 from exactacq.kernel.curve_images import CurveImage
@@ -54,8 +55,7 @@ class LineImages:
                 if point is curve.end or (not point.is_late and point.rational == curve.end.rational):
                     places.append((inf, inf))
                     continue
-            (x, p), (y, q) = float_ball(point.x), float_ball(point.y)
-            u, error = parameter(self.table.curve_images[e], x, y, max(p, q))
+            u, error = parameter(self.table.curve_images[e], *held_point(point))
             if self.table.full[e] and not error < u < 4 - error:
                 return EVERYTHING
             places.append((u - error, u + error))

@@ -121,11 +121,11 @@ class Memory:
         targets = None if ground is None else Targets.of_components(ground.components, self._table, range_)
         self._sensor = Sensor(self._table, range_, targets)
         self.reports: list[Report] = []
-        # The parameters of the reports' places, and on which leg of the piece they are: numbers that families
-        # share, so that ties with them are free.
-        self._parameters: dict[tuple[int, int], tuple[Point, Real, int]] = {}
+        # Of every piece the places of its reports, their parameters, and on which leg of the piece they are:
+        # numbers that families share, so that ties with them are free.
+        self._reported_at: list[list[tuple[Point, Real, int]]] = []
         self._looked: tuple[Piece | None, Ahead | None] = None, None
-        self._walked: dict[tuple[int, int], Piece] = {}
+        self._walked: set[tuple[object, object]] = set()
         self._retraced: set[int] = set()
         self._history = History()
         self._news: set[int] = set()
@@ -160,18 +160,20 @@ class Memory:
         known, ahead = self._looked
         legs = [ahead.leg] if ahead is not None and known is piece else self._legs_of(piece)
         count, reports, retraced = len(self._legs), [], self._is_retraced(piece)
+        places: list[tuple[Point, Real, int]] = []
         for k, leg in enumerate(legs):
             took = ahead if ahead is not None and leg is ahead.leg else self._sensor.ahead(leg, retraced)
             notices, learned = self._sensor.follow(took)
             self._learn(learned)
             for n in notices:
-                self._parameters[count, id(n.place)] = n.place, n.u, k
+                places.append((n.place, n.u, k))
                 at_start = k == 0 and leg.order(n.u, leg.first) == 0
                 at_end = k == len(legs) - 1 and leg.order(n.u, leg.last) == 0
                 after = count + 1 if at_end and not at_start else count
                 inside = not (at_start or at_end)
                 reports.append(Report(n.kind, n.obstacle, n.place, n.reason, after, inside))
         self._legs.append(legs)
+        self._reported_at.append(places)
         self._before.append(self._before[-1] + len(legs))
         if retraced:
             self._retraced.add(count)
@@ -193,14 +195,15 @@ class Memory:
         """
         if piece.obstacle is not None:
             return False
-        self._walked[id(piece.start), id(piece.end)] = piece
-        return (id(piece.end), id(piece.start)) in self._walked
+        start, end = piece.start.key, piece.end.key
+        self._walked.add((start, end))
+        return (end, start) in self._walked
 
     def _legs_of(self, piece: Piece) -> list[Leg]:
         owner = piece.obstacle
         if owner is not None and self.ground is not None:
             owner = self.ground.components[owner].obstacle.index
-        return legs_of(self._table, self._sensor.rails, owner, piece.curve, piece.touches)
+        return legs_of(self._table, self._sensor.rails, owner, piece.curve)
 
     def parts(self, way: Segment) -> list[Segment]:
         """The parts of a straight way of which each is one leg (see `ahead`)."""
@@ -270,11 +273,12 @@ class Memory:
         if count in self._retraced:
             # What it shows is known, in other forms of the same numbers.
             return self._map(Moment(self._history, before, {}))
-        reported = self._parameters.get((count, id(place)))
+        # The last report there: where two legs meet there may be one of each.
+        told = [(u, k) for point, u, k in self._reported_at[count] if point is place][-1:]
         for k, leg in enumerate(legs):
-            if reported is not None and k < reported[2]:
+            if told and k < told[0][1]:
                 continue
-            u = leg.rail.parameter(place) if reported is None else reported[1]
+            u = told[0][0] if told else leg.rail.parameter(place)
             if leg.span.low.compare(u) <= 0 and leg.span.high.compare(u) >= 0:
                 known = Moment(self._history, before + k, {})
                 if leg.order(u, leg.first) > 0:

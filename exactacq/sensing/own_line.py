@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator
-from math import hypot, inf
+from math import hypot
 
 import numpy as np
 
-from exactacq import kernel
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.interval_union import Cover
 from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
+from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import STRAIGHT, EdgeTable
 from exactacq.sensing.end_names import Seen
@@ -29,7 +29,7 @@ class OwnLine:
     def __init__(self, way: StraightWay, wanted: frozenset[int], view: Callable[[Point, None], Seen]) -> None:
         self.way, self.wanted, self.view = way, wanted, view
         self.table, self.line = way.table, way.line
-        self._slack = inf if kernel.EXACT_ONLY else 256 * way.clipper.roundoff
+        self._slack = margin(256 * way.clipper.roundoff)
 
     def families(self) -> Iterator[ViewFamily]:
         """The views of the way's ends, of corners that it touches, and of what lies beyond."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Hashable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate
@@ -12,15 +11,13 @@ from typing import Any
 from exactacq.geometry.curves import Curve
 from exactacq.geometry.geo import Geo, line_string
 from exactacq.geometry.points import Point
+from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.length import Length
 
 
 @dataclass(frozen=True)
 class Piece:
     """One piece of the path: ``kind`` is "straight", or "boundary" along an edge of ``obstacle``.
-
-    ``touches`` names the features that a straight piece's line touches (see
-    `exactacq.visibility.line_names`): known from how the piece was found, they save long proofs.
 
     >>> import exactacq as xa
     >>> piece = xa.sightseer(xa.load("circles")).path[1]
@@ -31,7 +28,6 @@ class Piece:
     kind: str
     obstacle: int | None
     curve: Curve
-    touches: tuple[Hashable, ...] = ()
 
     @property
     def start(self) -> Point:
@@ -108,7 +104,7 @@ class Path(tuple[Piece, ...]):
         >>> xa.sightseer(xa.load("circles")).path.find(xa.Length(4))
         (1, Length('1'))
         """
-        slack = 1e-6 * (self._ends[-1] + 1.0)
+        slack = margin(1e-6 * (self._ends[-1] + 1.0))
         count = max(bisect_left(self._ends, float(length) - slack) - 1, 0)
         rest = length - self.length_after(count)
         while count < len(self) and rest >= self[count].length:

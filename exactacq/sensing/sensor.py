@@ -7,7 +7,7 @@ its two ends (see `view_families`). Only obstacles that are not acquired yet are
 
 from __future__ import annotations
 
-from collections import ChainMap
+from collections import ChainMap, deque
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cmp_to_key
@@ -73,7 +73,7 @@ class Sensor:
         self.acquired: set[int] = set()
         self.incomplete: set[int] = set()
         self.in_sight: set[int] = set()
-        self._views: dict[int, Seen] = {}
+        self._views: deque[Seen] = deque(maxlen=VIEWS_KEPT)
         self._last: LegNews | None = None
 
     # -- moving ------------------------------------------------------------------------------------
@@ -177,11 +177,10 @@ class Sensor:
 
     def _view(self, place: Point, own: tuple[int, ...] | None = None) -> Seen:
         """What is seen from a place on edges *own*, if known; the last are kept, for legs share ends."""
-        kept = self._views.get(id(place))
+        kept = next((seen for seen in self._views if seen.place is place), None)
         if kept is None:
-            if len(self._views) >= VIEWS_KEPT:
-                self._views.clear()
-            kept = self._views[id(place)] = Seen(self.table, self.rails, place, self.range, own)
+            kept = Seen(self.table, self.rails, place, self.range, own)
+            self._views.appendleft(kept)
         return kept
 
     def _with_view(self, view: Seen, obstacles: list[int]) -> dict[int, Cover]:

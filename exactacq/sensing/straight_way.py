@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from functools import cached_property
-from math import inf
 from typing import Any
 
 from flint import fmpq
 
-from exactacq import kernel
 from exactacq.geometry.curve_images import curve_image
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
 from exactacq.kernel.bounded import TINY, UNIT
 from exactacq.kernel.ways import WayImage
-from exactacq.numbers.float_bounds import rough
+from exactacq.numbers.float_bounds import margin, rough
 from exactacq.numbers.real import Real
 from exactacq.sensing.legs import Leg
 from exactacq.sensing.line_images import bounds
@@ -47,7 +45,7 @@ class StraightWay:
     def image(self) -> WayImage:
         """The way in floats."""
         (ax, ay), (bx, by) = ((rough(p.x), rough(p.y)) for p, _ in self.ends)
-        error = inf if kernel.EXACT_ONLY else UNIT * (abs(ax) + abs(ay) + abs(bx) + abs(by)) + TINY
+        error = margin(UNIT * (abs(ax) + abs(ay) + abs(bx) + abs(by)) + TINY)
         starts, stops = (self._vertices_at(end) for end, _ in self.ends)
         low, high = bounds(self.span.low, None), bounds(self.span.high, None)
         return WayImage(curve_image(self.line), low, high, (ax, ay, bx, by, error), starts, stops)

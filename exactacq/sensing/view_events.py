@@ -168,7 +168,7 @@ class Sweep:
     def __init__(self, scene: Scene, piece: Piece, sensor: Sensor) -> None:
         self.scene = scene
         self._made_of = piece, sensor.range.radius
-        legs = legs_of(sensor.table, sensor.rails, piece.obstacle, piece.curve, piece.touches)
+        legs = legs_of(sensor.table, sensor.rails, piece.obstacle, piece.curve)
         self._legs = [LegViews(sensor, leg) for leg in legs]
 
     def __reduce__(self) -> tuple[Any, ...]:

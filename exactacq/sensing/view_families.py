@@ -16,19 +16,23 @@ from collections.abc import Collection, Hashable, Iterator, Mapping, MutableMapp
 from dataclasses import dataclass
 from functools import cmp_to_key, partial
 from itertools import pairwise
-from math import hypot
+from math import inf
 from typing import Any, TypeAlias, overload
 
 from flint import arb, fmpq
 
 from exactacq.geometry.coordinates import dot, raw
+from exactacq.geometry.curve_images import held_point
 from exactacq.geometry.curve_parameter import Rail
-from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.intersections import contacts, line_contacts
 from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.late import Balls, Pin, balls, late_point
 from exactacq.geometry.points import Point
+from exactacq.kernel.extents import in_range, sagitta
+from exactacq.kernel.family_images import EdgePlace, EdgePlaces
 from exactacq.numbers.between import rational_between
+from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.real import Real
 from exactacq.sensing.line_points import LinePoints, Role, Side, along_normal
 from exactacq.sensing.view_length import of_length_on
@@ -39,8 +43,6 @@ from exactacq.visibility.line_names import Anchor, Names
 from exactacq.visibility.rotational_sweep import Passed
 from exactacq.visibility.sensor_range import Range
 
-SURE = 1e-9
-"""Relative margin beyond which floats decide on the range; round-off is far below."""
 BITS = 128
 """Precision of the balls that tell a short way from a long proof."""
 PINS_KEPT = 10_000
@@ -72,7 +74,8 @@ class FreeViews:
 
     ``names`` are what else the first and the last line are called (see `line_names`); ``pinned`` are their
     points on the first side, where these are known; ``passed`` tells what they pass. ``anchor`` names the
-    feature that tangents touch; the views along normals, without, bound nothing of what is seen.
+    feature that tangents touch; the views along normals, without, bound nothing of what is seen. ``in_range``
+    if all are known to be within range.
     """
 
     sector: Sector
@@ -83,6 +86,7 @@ class FreeViews:
     pinned: tuple[Pin | None, Pin | None] = (None, None)
     passed: tuple[Passed, Passed] = ((), ())
     anchor: Anchor | None = None
+    in_range: bool = False
 
 
 @dataclass(slots=True)
@@ -160,7 +164,10 @@ class FamilyClipper:
         """These and one more curve, a way through free space that touches what is named (`line_names`)."""
         extent = max(abs(v) for p in (way.curve.start, way.curve.end) for v in p.xy)
         clipper = FamilyClipper(
-            RailsAndWay(self.rails, way), self.range, max(self.roundoff, 2.0**-50 * extent), self.circles
+            RailsAndWay(self.rails, way),
+            self.range,
+            max(self.roundoff, margin(2.0**-50 * extent)),
+            self.circles,
         )
         clipper._pins = NamedPins(self._pins)
         clipper._balls = ChainMap({}, self._balls)
@@ -203,10 +210,9 @@ class FamilyClipper:
 
     def _within(self, free_views: FreeViews) -> Iterator[ViewFamily]:
         low, high = self.end(free_views, free_views.low), self.end(free_views, free_views.high)
-        certain = self._certain(free_views, low, high)
         edges = free_views.sides[0].edge, free_views.sides[1].edge
-        if certain is not None:
-            if certain:
+        if certain := 1 if free_views.in_range else self._certain(free_views, low, high):
+            if certain > 0:
                 yield ViewFamily(edges, low, high, free_views)
             return
         ends = [low, *self._at_range(free_views, low, high), high]
@@ -382,35 +388,18 @@ class FamilyClipper:
         a, b = (self._points.at(free_views.sector, side, contact, direction) for side in free_views.sides)
         return self.range.order(a, b) <= 0
 
-    def _certain(self, free_views: FreeViews, low: End, high: End) -> bool | None:
-        """Whether floats prove that all views are within range, or that none is; None if they cannot tell.
+    def _certain(self, free_views: FreeViews, low: End, high: End) -> int:
+        """1 if floats prove that all views are within range, -1 if none is, 0 if they cannot tell."""
+        near, far = ((_held(low.points[k]), _held(high.points[k])) for k in (0, 1))
+        slack = self._bent(free_views, 0, near) + self._bent(free_views, 1, far)
+        return in_range(near, far, slack, (self.range.below, self.range.above))
 
-        Sides are hulls of their extreme points, widened by the sagitta of arcs.
-        """
-        hulls = [
-            (_rough(low.points[k]), _rough(high.points[k]), self._sagitta(free_views, k, low, high))
-            for k in (0, 1)
-        ]
-        (a, b, wide), (c, d, far) = hulls
-        slack = wide + far + 64 * self.roundoff + a[2] + b[2] + c[2] + d[2]
-        longest = max(hypot(p[0] - q[0], p[1] - q[1]) for p in (a, b) for q in (c, d))
-        if (longest + slack) * (1 + SURE) < self.range.below:
-            return True
-        gap_x = max(min(a[0], b[0]) - max(c[0], d[0]), min(c[0], d[0]) - max(a[0], b[0]), 0.0)
-        gap_y = max(min(a[1], b[1]) - max(c[1], d[1]), min(c[1], d[1]) - max(a[1], b[1]), 0.0)
-        return False if hypot(gap_x, gap_y) - slack > self.range.above * (1 + SURE) else None
-
-    def _sagitta(self, free_views: FreeViews, k: int, low: End, high: End) -> float:
-        """How far a side bends away from its chord at most (no side of Turning lines passes a half turn)."""
+    def _bent(self, free_views: FreeViews, k: int, places: EdgePlaces) -> float:
+        """How far a side may leave the box of its two extreme points."""
         side = free_views.sides[k]
         curve = self.curve(side.edge)
-        if side.fixed or isinstance(curve, Segment):
-            return 0.0
-        radius = float(curve.radius)
-        if isinstance(free_views.sector, Rolling | Sliding):
-            return 2 * radius
-        (ax, ay, a), (bx, by, b) = _rough(low.points[k]), _rough(high.points[k])
-        return a + b + min(((ax - bx) ** 2 + (ay - by) ** 2) / (4 * radius) * (1 + SURE) * 2, radius)
+        radius = float(curve.radius) if isinstance(curve, Arc) and not side.fixed else 0.0
+        return sagitta(radius, not isinstance(free_views.sector, Rolling | Sliding), places)
 
     # -- where a family meets the range --------------------------------------------------------------
 
@@ -474,11 +463,9 @@ class FamilyClipper:
         return Real(self.range.square)
 
 
-def _rough(point: Point) -> tuple[float, float, float]:
-    """A point in floats, with a bound of the error of both coordinates together."""
-    x, y = point.x.ball(64), point.y.ball(64)
-    a, b = float(x.mid()), float(y.mid())
-    return a, b, (float(x.rad()) + float(y.rad()) + 2.0**-52 * (abs(a) + abs(b))) * (1 + SURE)
+def _held(point: Point) -> EdgePlace:
+    """A point in floats, as of an edge wherever it is there."""
+    return -inf, inf, *held_point(point)
 
 
 def _shared(end: End, k: int, point: Point, place: Real) -> End:

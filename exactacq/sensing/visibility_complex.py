@@ -16,7 +16,7 @@ from exactacq.kernel.extents import Extent, extents_from
 from exactacq.kernel.family_images import FamilyImage
 from exactacq.scene.edge_table import EdgeTable, Floats
 from exactacq.sensing.complex_edges import EdgeFamilies, FamilySweeper
-from exactacq.sensing.line_family import LineFamily, SingleLine, family_of
+from exactacq.sensing.line_family import SingleLine, family_of
 from exactacq.sensing.view_families import ViewFamily
 from exactacq.visibility.sensor_range import Range
 
@@ -51,9 +51,12 @@ class VisibilityComplex:
 
     def views(self, one: Extent) -> Iterator[tuple[ViewFamily, int]]:
         """The families that `extents` tells of, and which of their sides lies on the edge."""
-        source = family_of(one.origin) if isinstance(one.origin, FamilyImage) else one.origin
-        assert isinstance(source, LineFamily | SingleLine), "families come from lines"
-        families, side = source.views(one.here, one.there, self.clipper)
+        source, here, there = one.origin, one.here, one.there
+        if isinstance(source, FamilyImage):
+            families, side = family_of(source).views(here, there, self.clipper, one.in_range)
+        else:
+            assert isinstance(source, SingleLine), "families come from lines"
+            families, side = source.views(here, there, self.clipper)
         return ((family, side) for family in families)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from flint import fmpq
 
 from exactacq.geometry.intersections import nearest_points
+from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
@@ -191,7 +192,7 @@ def _distance(table: EdgeTable, i: int, j: int) -> Real:
     least: Real | None = None
     for k in np.argsort(bounds, axis=None):
         r, c = divmod(int(k), bounds.shape[1])
-        if least is not None and float(least) < bounds[r, c] ** 2 * (1 - 1e-12):
+        if least is not None and float(least) < max(bounds[r, c] - margin(1e-12 * bounds[r, c]), 0.0) ** 2:
             break
         for found in nearest_points(table.curves[a[r]], table.curves[b[c]]):
             if least is None or found.distance_sq < least:

@@ -11,7 +11,6 @@ gives a free chord.
 
 from __future__ import annotations
 
-from collections.abc import Hashable
 from dataclasses import dataclass
 
 from flint import fmpq, fmpq_poly
@@ -31,16 +30,15 @@ GROWTH = fmpq_poly([1, 0, 1])
 
 @dataclass(frozen=True, slots=True)
 class Chord:
-    """A free segment and its exact length; ``touches`` names what its line touches (see `line_names`)."""
+    """A free segment and its exact length."""
 
     start: Point
     end: Point
     length: Real
-    touches: tuple[Hashable, ...] = ()
 
     def reversed(self) -> Chord:
         """The chord from ``end`` to ``start``."""
-        return Chord(self.end, self.start, self.length, self.touches)
+        return Chord(self.end, self.start, self.length)
 
 
 class _Fraction:

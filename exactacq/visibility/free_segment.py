@@ -1,7 +1,8 @@
 """Whether a segment is free: its open part meets no obstacle's interior (touching a boundary does not block).
 
-Floats settle the clear cases with proven margins. Otherwise the contacts with the doubtful edges divide the
-segment into pieces, and one exact point of each decides whether the piece is inside an obstacle.
+Floats settle the clear cases (see `exactacq.kernel.clearance`). Otherwise the contacts with the doubtful
+edges divide the segment into pieces, and one exact point of each decides whether the piece is inside an
+obstacle.
 """
 
 from __future__ import annotations
@@ -9,20 +10,20 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cmp_to_key
 from itertools import pairwise
-from math import inf
+from math import hypot, inf
 
-import numpy as np
 from flint import fmpq
 
+from exactacq.geometry.curve_images import held_point
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.points import Location, Point
+from exactacq.kernel.clearance import crossed, met
 from exactacq.kernel.lines import line_at, meets
 from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real, rational
-from exactacq.scene.edge_table import EdgeTable, Ints
+from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.line_families import Sector
-from exactacq.visibility.line_hits import Crossings
 
 HALF = fmpq(1, 2)
 
@@ -33,20 +34,17 @@ def is_free(table: EdgeTable, start: Point, end: Point) -> bool:
     Without a contact between its ends it is taken to be outside: from a boundary it must not lead straight
     into the obstacle (`View.buries` tells).
     """
-    p, q = np.array(start.xy), np.array(end.xy)
-    size = float(np.hypot(*(q - p)))
-    edges = table.near((min(p[0], q[0]), min(p[1], q[1])), (max(p[0], q[0]), max(p[1], q[1])), 0.0)
-    slack = 64 * table.roundoff_at((p[0], p[1]), (q[0], q[1]))
-    if size > 1024 * slack and len(edges):
-        direction = ((q - p) / size)[None, :]
-        found = Crossings(table, edges, (), p, np.zeros((1, 2)), direction, slack * (1 + slack / size))
-        if found.blocks(0, size):
-            return False
-        edges = found.doubtful(0, size)
-    return _is_free_exactly(table, start, end, edges)
+    first, last = held_point(start), held_point(end)
+    (ax, ay, a), (bx, by, b) = first, last
+    edges = table.near((min(ax, bx), min(ay, by)), (max(ax, bx), max(ay, by)), max(a, b)).tolist()
+    verdicts = crossed(table.images, edges, first, last)
+    if 1 in verdicts:
+        return False
+    doubtful = [e for e, verdict in zip(edges, verdicts, strict=True) if verdict == 0]
+    return _is_free_exactly(table, start, end, doubtful)
 
 
-def _is_free_exactly(table: EdgeTable, start: Point, end: Point, edges: Ints) -> bool:
+def _is_free_exactly(table: EdgeTable, start: Point, end: Point, edges: list[int]) -> bool:
     direction = end - start
     cuts: dict[int, list[Real]] = {}
     for e in edges:
@@ -90,20 +88,18 @@ def walk_line(table: EdgeTable, sector: Sector, t: Real, reach: float) -> tuple[
     """What a tangent line touches behind and ahead of its contact, up to what first blocks it."""
     contact, direction = sector.touch(t)
     x, y = contact.xy
-    edges = table.near((x, y), (x, y), reach)
-    size = float(np.hypot(*direction.xy))
-    slack = 64 * table.roundoff
-    line = np.array([direction.xy]) / size
-    found = Crossings(table, edges, (), np.array((x, y)), np.zeros((1, 2)), line, slack)
-    edges_met, walls = _as_far_as_walls(table, sector, t, found.possible(0).tolist())
-    met = [(tau, e) for e in edges_met for tau in line_contacts(contact, direction, table.curves[e])]
-    met.sort(key=cmp_to_key(_by_parameter))
+    edges = table.near((x, y), (x, y), reach).tolist()
+    size = hypot(*direction.xy)
+    possible = met(table.images, edges, held_point(contact), held_point(direction))
+    edges_met, walls = _as_far_as_walls(table, sector, t, possible)
+    hits = [(tau, e) for e in edges_met for tau in line_contacts(contact, direction, table.curves[e])]
+    hits.sort(key=cmp_to_key(_by_parameter))
     far = reach * (1 + 1e-9) / size
-    ahead = _as_far([hit for hit in met if hit[0].sign() > 0], table, far)
-    behind = _as_far([hit for hit in reversed(met) if hit[0].sign() < 0], table, far)
+    ahead = _as_far([hit for hit in hits if hit[0].sign() > 0], table, far)
+    behind = _as_far([hit for hit in reversed(hits) if hit[0].sign() < 0], table, far)
     # Beyond the last contact nothing changes within reach: a parameter just short of that tells of the rest.
     end = rational(reach * (1 - 1e-9) / size)
-    here = {table.owners[e] for tau, e in met if tau.sign() == 0}
+    here = {table.owners[e] for tau, e in hits if tau.sign() == 0}
     return (
         _until_blocked(table, contact, direction, behind, here, walls, Real(-end)),
         _until_blocked(table, contact, direction, ahead, here, walls, Real(end)),

@@ -16,12 +16,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from math import hypot, inf
 from typing import Any
 
 from flint import arb, fmpq
 
-from exactacq import kernel
 from exactacq.geometry.coordinates import Vector, advance, cross, dot, minus, raw, sign, square_root
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import spans
@@ -29,6 +27,7 @@ from exactacq.geometry.late import Balls, ball_of, balls, clearly_between, from_
 from exactacq.geometry.points import Point
 from exactacq.kernel.bounded import TINY, UNIT, WIDEN
 from exactacq.kernel.radial_faces import RadialFaces
+from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
@@ -36,9 +35,6 @@ from exactacq.visibility.features import is_spike, parallel
 from exactacq.visibility.line_families import BITS, held
 from exactacq.visibility.sensor_range import Range
 
-SLACK = 8.0
-"""Margin of float differences of coordinates, in units of the table's round-off; the larger, the more is
-decided exactly."""
 NOWHERE = -1
 """The event where a full circle about the point begins and ends: there is none."""
 
@@ -124,17 +120,14 @@ class FrontFaces:
     """
 
     def __init__(self, table: EdgeTable, point: Point, range_: Range, own: tuple[int, ...] | None) -> None:
-        self.table, self.point = table, point
+        self.table, self.point, self.range = table, point, range_
         self.origin, self.around = raw(point), balls(point)
-        self.xy = point.xy
-        self.reach = range_.above
-        self.slack = SLACK * table.roundoff_at(self.xy)
         self.marks: list[SweepEnd] = []
         self.on_ray: list[int] = []
         self.special: list[int] = []
         self._offsets: dict[int, Vector] = {}
         self.floats = faces = RadialFaces(table.images, _image(self.origin), held(range_.square))
-        near = table.near(self.xy, self.xy, self.reach).tolist()
+        near = table.near(point.xy, point.xy, range_.above).tolist()
         open_ = faces.add_straight(near)
         round_ = faces.arcs(near) if table.curved else []
         if own is None:
@@ -176,7 +169,7 @@ class FrontFaces:
         be.
         """
         curves, point, faces = self.table.curves, self.point, self.floats
-        some = open_ + [e for e in round_ if faces.may_be_on(e)]
+        some = open_ + [e for e in round_ if not faces.beside(e)]
         found = [e for e in some if curves[e].may_pass(point, BITS) and curves[e].passes(point)]
         if len(found) == 2 and curves[found[0]].start == point:
             found.reverse()
@@ -223,20 +216,15 @@ class FrontFaces:
 
     def _arc(self, e: int) -> list[tuple[int, int, int]]:
         """The faces (edge, low, high) of an arc that does not pass through the point, in its direction."""
-        table, slack, arc = self.table, self.slack, self.table.curves[e]
+        table, arc = self.table, self.table.curves[e]
         assert isinstance(arc, Arc)
-        wx, wy = float(table.center[e, 0] - self.xy[0]), float(table.center[e, 1] - self.xy[1])
-        size, radius = hypot(wx, wy), float(table.radius[e])
-        if abs(size - radius) > self.reach + 8 * slack:
+        w = minus(raw(arc.center), self.origin)
+        if (self.floats.reaches(e) or self._reaches(arc, w)) < 0:
             return []
         end = int(table.next[e])
-        w = minus(raw(arc.center), self.origin)
-        outside = size > radius
-        if any(table.circles.get(own) == table.circles[e] for own in self.own):
-            outside = False  # An own edge is another arc of the same circle, so the point is on it.
-        elif not abs(size - radius) > 8 * slack:
-            outside = sign(dot(w, w) - arc.radius_sq) > 0
-        if not outside:
+        # If an own edge is another arc of the same circle, the point is on it.
+        outside = -1 if any(table.circles.get(own) == table.circles[e] for own in self.own) else 0
+        if (outside or self.floats.beside(e) or sign(dot(w, w) - arc.radius_sq)) <= 0:
             whole = NOWHERE if arc.full else e
             return [] if arc.ccw else [(e, NOWHERE if arc.full else end, whole)]
         away = (-w[0], -w[1])
@@ -252,6 +240,11 @@ class FrontFaces:
         if first and last:
             return [(e, leave, e), (e, end, enter)]
         return [(e, end if last else leave, e if first else enter)]
+
+    def _reaches(self, arc: Arc, w: Vector) -> int:
+        """1, 0 or -1 as an arc's circle comes nearer than the range, as near, or not."""
+        gap = square_root(dot(w, w)) - arc.radius
+        return -abs(gap).compare(self.range.radius)
 
     def _facing(self, arc: Arc, w: Vector, end: Point) -> bool:
         """Whether the boundary near an end of the arc, on the arc, turns its free side to the point."""
@@ -326,10 +319,8 @@ def _held(vector: Vector) -> tuple[float, float, float]:
 
 def _image(place: Vector) -> tuple[float, float, float, float, float]:
     """A place in floats: each coordinate and what it leaves, and a bound of what is left then."""
-    if kernel.EXACT_ONLY:
-        return 0.0, 0.0, 0.0, 0.0, inf
     (x, u, p), (y, v, q) = (_with_rest(c) for c in place)
-    return x, u, y, v, max(p, q)
+    return x, u, y, v, margin(max(p, q))
 
 
 def _with_rest(value: fmpq | Real) -> tuple[float, float, float]:

@@ -19,18 +19,18 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from math import frexp, hypot, inf, ldexp
+from math import frexp, hypot, ldexp
 from typing import Any, TypeAlias
 
 import numpy as np
 from flint import arb, fmpq
 
-from exactacq import kernel
 from exactacq.geometry.coordinates import cross, dot, sign
 from exactacq.geometry.points import Point
 from exactacq.kernel import lines
 from exactacq.kernel.bounded import TINY, UNIT, WIDEN
 from exactacq.kernel.images import ROLLING, SLIDING, SPOKES, TURNING, LineFrame
+from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.rationals import nearest_float
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import Floats, with_rests
@@ -62,11 +62,6 @@ class Sector(ABC):
     def size(self) -> float:
         """Length of the base vector in floats."""
         return hypot(float(self.base[0]), float(self.base[1]))
-
-    @cached_property
-    def unit(self) -> Floats:
-        """Direction of the base vector in floats."""
-        return np.array((float(self.base[0]), float(self.base[1]))) / self.size
 
     @cached_property
     def image(self) -> lines.Frame:
@@ -110,7 +105,7 @@ class Sector(ABC):
     def frame(self, place: tuple[float, float, float, float] | None = None) -> LineFrame:
         """The family as the compiled loops take it; *place* is its centre with rests, if that is known."""
         kind, radius, sense = self._kind
-        center, blur = _place(self.center) if place is None or kernel.EXACT_ONLY else (place, 0.0)
+        center, blur = _place(self.center) if place is None else (place, margin(0.0))
         (x, p), (y, q) = (held(c) for c in self.base)
         # A power of two, so that dividing by it is exact.
         unit = ldexp(1.0, frexp(max(abs(x), abs(y)))[1])
@@ -302,22 +297,20 @@ def left(a: Vector) -> Vector:
 
 
 def held(value: fmpq | Real) -> tuple[float, float]:
-    """A float near a number and a bound of its error, inf if tests want nothing decided by floats."""
-    if kernel.EXACT_ONLY:
-        return 0.0, inf
+    """A float near a number and a bound of its error."""
     if isinstance(value, Real):
         ball = value.ball(BITS)
         near = float(ball.mid())
-        return near, (2 * float(ball.rad()) + 2 * UNIT * abs(near) + TINY) * WIDEN
+        return near, margin((2 * float(ball.rad()) + 2 * UNIT * abs(near) + TINY) * WIDEN)
     near = float(value)
-    return near, UNIT * abs(near) + TINY
+    return near, margin(UNIT * abs(near) + TINY)
 
 
 def _place(point: Vector) -> tuple[tuple[float, float, float, float], float]:
     """A point in floats, with rests if it is rational, and a bound of what they leave."""
     x, y = point
-    if kernel.EXACT_ONLY or isinstance(x, Real) or isinstance(y, Real):
+    if isinstance(x, Real) or isinstance(y, Real):
         (u, p), (v, q) = held(x), held(y)
         return (u, 0.0, v, 0.0), max(p, q)
     (u, rest), (v, other) = with_rests((x, y))
-    return (u, rest, v, other), 0.0
+    return (u, rest, v, other), margin(0.0)

@@ -45,11 +45,6 @@ class Namer:
         """The number in that name."""
         return self.anchor(feature)[1]
 
-    def passed(self, passed: Passed) -> Iterator[Anchor]:
-        """The names of what a line passes."""
-        for number, side, _ in passed:
-            yield ("circle", self.table.circles[number]) if side else ("corner", number)
-
     def names(self, feature: Feature, sector: Sector, t: Real, passed: Passed) -> Names:
         """The names of a feature's tangent line at *t*, from what it passes."""
         return tuple(

@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.intersections import Nearest, NearestFamily, NearestFamilyKind, nearest_points
 from exactacq.geometry.points import Point
+from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import STRAIGHT, EdgeTable, Floats, Ints, quotient
@@ -35,7 +36,6 @@ from exactacq.visibility.features import Feature, leaving
 from exactacq.visibility.features import features as scene_features
 from exactacq.visibility.free_segment import is_free, walk_line
 from exactacq.visibility.free_translates import free_pieces
-from exactacq.visibility.line_names import Namer
 from exactacq.visibility.mirrors import Mirrors
 from exactacq.visibility.rotational_sweep import Cell, Pencil, pencil
 from exactacq.visibility.sensor_range import Range
@@ -84,13 +84,6 @@ class Link:
         """
         return [pair for item in self.shortest for pair in _extremes(item, position)]
 
-    def touches(self, leave: Point | None, hit: Point) -> tuple[Hashable, ...]:
-        """What the line of one of the segments touches, if features hold it; *leave* is None at the start."""
-        for item in self.shortest:
-            if isinstance(item, Chord) and item.end is hit and (leave is None or item.start is leave):
-                return item.touches
-        return ()
-
     def reversed(self) -> Link:
         """This link with source and target exchanged; the source must be an obstacle, not the start."""
         assert isinstance(self.source, int)
@@ -112,7 +105,6 @@ class Links:
         self._between: dict[tuple[int, int], Link | None] = {}
         self._pencils: dict[int, dict[tuple[int, int], list[tuple[Pencil, Cell]]]] = {}
         self._pinch_table: dict[int, list[tuple[Chord, tuple[int, int]]]] = {}
-        self._namer = Namer(self.table)
         self._from_start: tuple[Point, dict[int, Link]] | None = None
 
     @cached_property
@@ -189,7 +181,7 @@ class Links:
                         if ends in seen:
                             continue
                         seen.add(ends)
-                    heappush(heap, (float(found.distance_sq) ** 0.5 * (1 - 1e-13), next(order), found))
+                    heappush(heap, (_at_least(float(found.distance_sq) ** 0.5), next(order), found))
                 continue
             length = item.distance_sq.sqrt()
             if least is None or length < least:
@@ -238,7 +230,7 @@ class Links:
             return
         bounds = box_gaps(centers, self.table.hulls[i], sizes) + box_gaps(centers, self.table.hulls[j], sizes)
         order = count()
-        heap: list[tuple[float, int, tuple[int, Pencil, Cell, bool]]] = []
+        heap: list[tuple[float, int, tuple[Pencil, Cell, bool]]] = []
         mirrors: dict[tuple[Hashable, ...], Mirrors] = {}
         close = np.flatnonzero(bounds <= best.guess)
         # A chord lies in the convex hull of what it joins, and with it the place where a feature holds it.
@@ -252,15 +244,15 @@ class Links:
                 for sweep, cell in self._cells(int(k)).get(key, ()):
                     bound = self._cell_bound(int(k), cell)
                     if bound <= best.guess:
-                        heappush(heap, (bound, next(order), (int(k), sweep, cell, flip)))
+                        heappush(heap, (bound, next(order), (sweep, cell, flip)))
             for chord, ends in self._pinches(int(k)):
                 if ends in ((i, j), (j, i)):
                     best.offer(chord.length, chord if ends == (i, j) else chord.reversed())
         while heap and heap[0][0] <= best.guess:
-            _, _, (feature, sweep, cell, flip) = heappop(heap)
+            _, _, (sweep, cell, flip) = heappop(heap)
             pair = sweep.sector.center, *sorted((cell.behind or 0, cell.ahead or 0))
             kept = mirrors.setdefault(pair, Mirrors())
-            for chord in self._cell_chords(sweep, cell, kept, self.features[feature]):
+            for chord in self._cell_chords(sweep, cell, kept):
                 best.offer(chord.length, chord.reversed() if flip else chord)
 
     def _cells(self, k: int) -> dict[tuple[int, int], list[tuple[Pencil, Cell]]]:
@@ -314,24 +306,15 @@ class Links:
         """Lower bound of the way along a tangent of a feature from the contact to an edge."""
         (x, y), size = self.spots[0][k], self.spots[1][k]
         gap = self.table.distance_bounds(float(x), float(y), np.array((e,)))[0]
-        return float(max(gap**2 - size**2 * (1 + 1e-12), 0.0) ** 0.5 * (1 - 1e-13))
+        return _at_least(float(max(gap**2 - size**2 * (1 + 1e-12), 0.0) ** 0.5))
 
-    def _cell_chords(
-        self, sweep: Pencil, cell: Cell, mirrors: Mirrors | None = None, feature: Feature | None = None
-    ) -> Iterator[Chord]:
-        """The chords of a closed cell among which its shortest are; *mirrors* recognises equal ones.
-
-        *feature* is what the cell's lines touch, None in a fan.
-        """
+    def _cell_chords(self, sweep: Pencil, cell: Cell, mirrors: Mirrors | None = None) -> Iterator[Chord]:
+        """The chords of a closed cell among which its shortest are; *mirrors* recognises equal ones."""
         behind = None if cell.behind is None else self.table.curves[cell.behind]
         assert cell.ahead is not None
         ahead = self.table.curves[cell.ahead]
-        own = () if feature is None else (self._namer.anchor(feature),)
-        for t, passed in zip((cell.low, cell.high), cell.bounds, strict=True):
-            touches = (*own, *self._namer.passed(passed))
-            if feature is not None:
-                touches += tuple(name for name, _ in self._namer.names(feature, sweep.sector, t, passed))
-            yield replace(chord_at(sweep.sector, t, behind, ahead), touches=touches)
+        for t in (cell.low, cell.high):
+            yield chord_at(sweep.sector, t, behind, ahead)
         # A constant length (arcs about the contact's centre) is never the least: it shrinks off the feature.
         stationary = critical(sweep.sector, behind, ahead) or []
         for t in stationary:
@@ -340,7 +323,7 @@ class Links:
                 if mirrors is not None and behind is not None:
                     ends = behind, ahead
                     chord = mirrors.chord(sweep.sector, t, stationary, chord, ends)
-                yield replace(chord, touches=own)
+                yield chord
 
     # -- from the start ----------------------------------------------------------------------------
 
@@ -463,6 +446,11 @@ def pair_bounds(table: EdgeTable, a: Ints, b: Ints) -> Floats:
     capsules = np.minimum(to_b, to_a) - size_a[:, None] - size_b[None]
     bounds = np.maximum(bounds, capsules)
     return np.maximum(bounds * (1 - 1e-14) - 64 * table.roundoff, 0.0)
+
+
+def _at_least(length: float) -> float:
+    """A lower bound of a length that was computed in floats, by some roundings of numbers of its size."""
+    return max(length - margin(1e-13 * length), 0.0)
 
 
 def _facing(table: EdgeTable, a: Ints, b: Ints) -> NDArray[np.bool_]:

@@ -17,12 +17,12 @@ AT_RANGE = -1
 
 
 class ViewEnds:
-    """The points of one view's ends; each is made once, and known again by identity."""
+    """The points of one view's ends, by their numbers; each is made once."""
 
     def __init__(self, sweep: RadialSweep, parts: ViewParts, disc: Disc) -> None:
         self.sweep, self.parts, self.disc = sweep, parts, disc
         self._points: dict[int, Point] = {}
-        self._ranks: dict[int, tuple[Point, int]] = {}
+        self._ranks: dict[int, int] = {}
 
     def point(self, end: int, read: bool = False) -> Point:
         """The point of an end; one that is to be *read* is not made late."""
@@ -47,13 +47,12 @@ class ViewEnds:
                 line = sweep.table.curves[sweep.edges[face]]
                 assert isinstance(line, Segment)
                 point, rank = crossing(line, self.disc, rank), AT_RANGE
-        self._ranks[id(point)] = point, rank
+        self._ranks[end] = rank
         return point
 
-    def rank(self, point: Point) -> int | None:
-        """The rank of the direction in which a point of an end lies, or `AT_RANGE`; None for vertices."""
-        known = self._ranks.get(id(point))
-        return None if known is None else known[1]
+    def rank(self, end: int) -> int | None:
+        """The rank of an end's direction, or `AT_RANGE`; None for vertices and points that were given."""
+        return self._ranks.get(end)
 
     def number(self, e: int, point: Point, at_range: bool = False) -> int:
         """The number of a point of an edge that was made elsewhere, perhaps for the distance of the range."""
@@ -66,7 +65,7 @@ class ViewEnds:
         end = self.parts.add(GIVEN, HERE, HERE)
         self._points[end] = point
         if at_range:
-            self._ranks[id(point)] = point, AT_RANGE
+            self._ranks[end] = AT_RANGE
         return end
 
     def span(self, part: tuple[int, int]) -> Span:

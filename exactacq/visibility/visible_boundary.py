@@ -181,13 +181,13 @@ class BoundaryView:
             return [(curve.start, opposite), (opposite, curve.start)]
         return some
 
-    def is_at_range(self, point: Point) -> bool:
-        """Whether an end of what is seen was made as a point as far away as the range."""
-        return self.ends.rank(point) == AT_RANGE
+    def is_at_range(self, end: int) -> bool:
+        """Whether an end of what is seen, by its number, was made as a point as far away as the range."""
+        return self.ends.rank(end) == AT_RANGE
 
-    def holds(self, e: int, point: Point) -> list[Hold]:
+    def holds(self, e: int, end: int) -> list[Hold]:
         """What holds an end of what is seen that is no vertex and ends a sight, by what the ray touches."""
-        rank = self.ends.rank(point)
+        rank = self.ends.rank(end)
         return [] if rank is None or rank == AT_RANGE else self._holds(e, rank)
 
     def _holds(self, e: int, rank: int) -> list[Hold]:

@@ -8,7 +8,6 @@ from math import inf, isfinite
 
 from flint import fmpq
 
-from exactacq import kernel
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.kernel import bounded
 from exactacq.kernel.extents import Span
@@ -30,7 +29,7 @@ class Horizon:
     def __init__(self, x: fmpq, upward: bool, curves: Sequence[Curve], radius: fmpq) -> None:
         self.x, self.upward, self.sense = x, upward, 1 if upward else -1
         self.curves, self.radius = curves, radius
-        self.bounds: Span = (-inf, inf) if kernel.EXACT_ONLY else self._bounds()
+        self.bounds: Span = self._bounds()
 
     @cached_property
     def exact(self) -> Real | None:
@@ -78,8 +77,6 @@ def reach_begins(sense: int, curves: Sequence[Curve], radius: fmpq) -> float:
 
     Times the sense of the walk. What is R or less from a place has an ordinate at most R beyond.
     """
-    if kernel.EXACT_ONLY:
-        return -inf
     reach, lows = _held(Real(radius)), []
     for curve in curves:
         places = [(curve.start.y, reach), (curve.end.y, reach)]

@@ -29,11 +29,12 @@ MOST_STRIPS = 100_000
 
 
 class Crossing(NamedTuple):
-    """A crossing point: an end of a blocked stretch of the M-line.
+    """A crossing point, by its number on the M-line: an end of a blocked stretch.
 
     ``stop`` is where on straight piece number ``piece`` it lies; ``ends`` is True where the stretch ends.
     """
 
+    number: int
     component: Component
     piece: int
     stop: WayPoint
@@ -99,8 +100,8 @@ class MLine:
                 else:
                     # `_owner` finds none only if both ends are blocked, and this beginning is free.
                     assert component is not None, "a stretch begins at its component"
-                    found.append(Crossing(component, k, gap.begin, False))
-                found.append(Crossing(component, k, gap.end, True))
+                    found.append(Crossing(len(found), component, k, gap.begin, False))
+                found.append(Crossing(len(found), component, k, gap.end, True))
         if found:
             last = found[-1]
             at_end = last.piece == len(self.pieces) - 1 and last.stop.u.rational == 1

@@ -51,7 +51,6 @@ class SeedSpreaderRobot(Robot):
         self.mline = MLine(ground.terrain, radius)
         self._blocking = Blocking(ground, table)
         self._crossings = self.mline.crossings(self._blocking)
-        self._numbers = {id(crossing): n for n, crossing in enumerate(self._crossings)}
         self._of: dict[int, list[int]] = {}
         for n, crossing in enumerate(self._crossings):
             self._of.setdefault(crossing.component.index, []).append(n)
@@ -151,7 +150,7 @@ class SeedSpreaderRobot(Robot):
 
     def resume(self, crossing: Crossing) -> None:
         """Take up the M-line at a leave point, to which the robot has walked."""
-        self.piece, self._next = crossing.piece, self._numbers[id(crossing)] + 1
+        self.piece, self._next = crossing.piece, crossing.number + 1
 
     def head_for(self, goal: Point) -> None:
         """Lay a straight way from here to a point."""

@@ -7,20 +7,21 @@ has walked all around (or from the start), and for nothing else.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Hashable, Iterable
+from collections.abc import Callable, Container, Iterable
 from functools import partial
 from heapq import heappop, heappush
 
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.points import Location, Point
+from exactacq.numbers.float_bounds import margin
 from exactacq.scene.scene import Scene
 from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Piece
 from exactacq.strategies.robot import Robot
 from exactacq.visibility.links import START, Link, Links, Node
 
-SLACK = 1 + 1e-12
-"""Floats of lengths that differ by more tell which is less."""
+SLACK = 1e-12
+"""Floats of lengths that differ by more than this part tell which is less."""
 
 
 class _LinksByLength:
@@ -51,12 +52,12 @@ class _LinksByLength:
     def _next(self, visited: Container[int]) -> list[Link]:
         while self._found and self._found[0][1] in visited:
             heappop(self._found)
-        while self._near and not (self._found and self._near[-1][0] > self._found[0][0] * SLACK):
+        while self._near and not (self._found and self._near[-1][0] > _at_most(self._found[0][0])):
             _, j = self._near.pop()
             link = None if j in visited else self._link(j)
             if link is not None:
                 heappush(self._found, (float(link.length), j, link))
-        least = self._found[0][0] * SLACK if self._found else 0.0
+        least = _at_most(self._found[0][0]) if self._found else 0.0
         close = []
         while self._found and self._found[0][0] <= least:
             _, j, link = heappop(self._found)
@@ -65,6 +66,11 @@ class _LinksByLength:
         close.sort(key=lambda link: link.target)
         close.sort(key=lambda link: link.length)
         return close[::-1]
+
+
+def _at_most(length: float) -> float:
+    """An upper bound of a length, from its float."""
+    return length + margin(SLACK * length)
 
 
 class SightseerRobot(Robot):
@@ -125,17 +131,5 @@ class SightseerRobot(Robot):
     def linear_navigate(self, node: Node, target: Point) -> None:
         """Go straight to a point of *node* along a free segment."""
         if self.position != target:
-            self._move(Piece("straight", None, Segment(self.position, target), self._touches(node, target)))
+            self._move(Piece("straight", None, Segment(self.position, target)))
         self.at, self.position = node, target
-
-    def _touches(self, node: Node, target: Point) -> tuple[Hashable, ...]:
-        """What holds the way to a point of another node."""
-        if isinstance(self.at, int) and isinstance(node, int):
-            link = self._links.between(self.at, node)
-            return () if link is None else link.touches(self.position, target)
-        inner = self.at if isinstance(self.at, int) else node
-        link = self._links.from_point(self.start).get(inner) if isinstance(inner, int) else None
-        if link is None:
-            return ()
-        hit = target if isinstance(node, int) else self.position
-        return link.touches(None, hit)

@@ -19,7 +19,7 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 
 import numpy as np
-from flint import fmpq
+from flint import arb, fmpq
 
 from exactacq.errors import Undecided
 from exactacq.geometry.curve_parameter import Rail
@@ -42,7 +42,7 @@ from exactacq.strategies.seed_spreader.prediction.proposals import Proposals
 from exactacq.strategies.seed_spreader.prediction.sight import (
     Sights,
     VerticalWay,
-    growth_sign,
+    growth,
     hull,
     overlap,
     unique,
@@ -54,6 +54,8 @@ GRID = 8
 """Places of the walk, and points of each target, that are tried first, less one."""
 TRIES = 6
 """Lines of sight of the grid that are tried exactly."""
+HALVINGS = 40
+"""How often a stretch of the walk is halved to prove that lines about a feature are too long."""
 
 
 def sees_later(
@@ -427,15 +429,49 @@ class _LineBatch:
             sight = self._about(cell, y)
             if sight is None or not self.walk.passes(y) or not self.search.sights.is_free(*sight):
                 continue
-            if any(self._is_short(cell, z) for z in (low, y, high)):
+            ends = [self._order(cell, z) for z in (low, high)]
+            if -1 in ends:
                 return True
-            answer = None
+            in_range = self._is_in_range_between(cell, low, high, None not in ends, HALVINGS)
+            if in_range:
+                return True
+            answer = answer if in_range is False else None
         return answer
 
-    def _is_short(self, cell: LineCell, y: Real) -> bool:
-        """Whether a line of a cell is shorter than the range."""
+    def _is_in_range_between(
+        self, cell: LineCell, low: Real, high: Real, is_tested: bool, halvings: int
+    ) -> bool | None:
+        """Whether a line of a cell between two ordinates is as short as the range; None if that is open.
+
+        *is_tested* if the lines at both are known to be no shorter than the range.
+        """
+        y = Real(rational_between(low, high))
         sight = self._about(cell, y)
-        return sight is not None and distance_sq(*sight).compare(self.walk.radius**2) < 0
+        if sight is None:
+            return None
+        square = distance_sq(*sight)
+        if square.compare(self.walk.radius**2) <= 0:
+            return True
+        length, rate = growth(
+            Real(self.walk.x),
+            (low, high),
+            self._shape(cell.touch),
+            self.search.known[cell.target],
+            square.sqrt(),
+        )
+        if length > arb(self.walk.radius) or (is_tested and (rate > 0 or rate < 0)):
+            return False
+        if not halvings:
+            return None
+        answers = [
+            self._is_in_range_between(cell, *part, is_tested, halvings - 1) for part in ((low, y), (y, high))
+        ]
+        return True if True in answers else None if None in answers else False
+
+    def _order(self, cell: LineCell, y: Real) -> int | None:
+        """-1, 0 or 1 as a line of a cell is shorter than the range, as long, or longer; None without one."""
+        sight = self._about(cell, y)
+        return None if sight is None else distance_sq(*sight).compare(self.walk.radius**2)
 
     def _ordinates(self, marks: Sequence[int], lines: Lines) -> list[Real]:
         found = (self._ordinate(mark, lines) for mark in marks)
@@ -461,7 +497,7 @@ class _LineBatch:
         if distance_sq(*sight).compare(self.walk.radius**2) < 0:
             return True
         far = Real(rational(max(part, key=lambda end: abs(end - begin))))
-        length = distance_sq(*sight).sqrt()
-        ends, shape = (bound, far), self._shape(cell.touch)
-        sign = growth_sign(Real(self.walk.x), ends, shape, self.search.known[cell.target], length)
-        return False if sign == inward else None
+        target = self.search.known[cell.target]
+        length, shape = distance_sq(*sight).sqrt(), self._shape(cell.touch)
+        _, rate = growth(Real(self.walk.x), (bound, far), shape, target, length)
+        return False if rate * inward > 0 else None

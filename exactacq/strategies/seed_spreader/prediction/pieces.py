@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.points import Point
+from exactacq.numbers.float_bounds import margin
 
 Floats: TypeAlias = NDArray[np.float64]
 Ints: TypeAlias = NDArray[np.intp]
@@ -60,12 +61,14 @@ class Pieces:
     """Known pieces of boundaries as flat arrays, and where they join.
 
     ``before[k]`` is the piece that ends where piece k starts, ``after[k]`` the one that starts where it ends;
-    -1 where knowledge ends. ``slack`` is the margin of lengths.
+    -1 where knowledge ends. ``slack`` is the margin of lengths, infinite if tests want nothing decided by
+    floats; ``grain`` tells what is too close for lines to be computed in floats.
     """
 
     def __init__(self, curves: Sequence[Curve], size: float) -> None:
         self.curves = curves
-        self.slack = MARGIN * size
+        self.grain = MARGIN * size
+        self.slack = margin(self.grain)
         ends = np.array([(*c.start.xy, *c.end.xy) for c in curves]).reshape(-1, 4)
         self.start, self.end = ends[:, :2], ends[:, 2:]
         self.sense = np.array([c.ccw * 2 - 1 if isinstance(c, Arc) else 0 for c in curves], dtype=float)
@@ -184,7 +187,7 @@ def features_of(pieces: Pieces, goals: set[int]) -> list[KnownFeature]:
             found.append(KnownFeature(curve.start, (x, y), (-x, -y), pivot=True, goal=k in goals, on=(k,)))
         else:
             u, v = last[i]
-            pivot = x * -v + y * u > -ANGLE
+            pivot = x * -v + y * u > -margin(ANGLE)
             goal = k in goals or i in goals
             found.append(KnownFeature(curve.start, (x, y), (-u, -v), True, pivot, goal, on=(i, k)))
         if j < 0:

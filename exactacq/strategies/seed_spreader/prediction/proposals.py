@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from exactacq.geometry.curves import Arc
+from exactacq.numbers.float_bounds import margin
 from exactacq.strategies.seed_spreader.prediction.pieces import (
     ANGLE,
     MARGIN,
@@ -58,7 +59,7 @@ class Proposals:
         self.pieces, self.features, self.x, self.radius = pieces, features, x, radius
         self.low, self.high = walk
         self.fixed = np.array(fixed)
-        self.slack = pieces.slack
+        self.slack, self.grain = pieces.slack, pieces.grain
         self.targets = np.array(targets, dtype=np.intp)
         rows = []
         for f, feature in enumerate(features):
@@ -99,7 +100,7 @@ class Proposals:
         own = self._incident(i, j)
         i, j = i[~own], j[~own]
         gap = norm(self.center[j] - self.center[i])
-        near = gap < 100 * self.slack
+        near = gap < 100 * self.grain
         close = list(zip(i[near].tolist(), j[near].tolist(), strict=True))
         i, j, gap = i[~near], j[~near], gap[~near]
         normal, bend, real = self._normals(self.center[i], self.turn[i], self.center[j], self.turn[j])
@@ -114,7 +115,7 @@ class Proposals:
         level = dot(normal, self.center[i]) + self.turn[i]
         y = (level - normal[:, 0] * self.x) / normal[:, 1]
         far = norm(self.center[i] - np.stack((np.full(len(y), self.x), y), axis=1))
-        error = (self.slack / 1000 + bend * far) / np.abs(normal[:, 1])
+        error = (self.grain / 1000 + bend * far) / np.abs(normal[:, 1])
         lines = Lines(i, j, piece, y, error, np.stack((normal[:, 1], -normal[:, 0]), axis=1), bend)
         return lines[(y + error >= self.low - self.slack) & (y - error <= self.high + self.slack)], close
 
@@ -139,7 +140,7 @@ class Proposals:
 
     def _normals(self, a: Floats, turn: Any, b: Floats, other: Any) -> tuple[Floats, Floats, Flags]:
         """Unit normals n, left of the way from a to b, with n.a + turn = n.b + other; errors; existence."""
-        base = self.slack / 1000
+        base = self.grain / 1000
         d = b - a
         square = dot(d, d)
         k = turn - other
@@ -148,7 +149,7 @@ class Proposals:
         length = np.sqrt(square)
         normal = (k[:, None] * d + root[:, None] * left(d)) / np.maximum(square, TINY)[:, None]
         bend = np.minimum(4 * base / np.maximum(root, TINY), 4 * np.sqrt(base / np.maximum(length, TINY)))
-        return unit(normal), bend, rest > -4 * base * length
+        return unit(normal), bend, (rest > -4 * base * length) | (self.slack == np.inf)
 
     def _with_tangents(self, i: Ints, j: Ints, piece: Ints, normal: Floats, bend: Floats) -> Any:
         """Joined by the tangents of pieces at their ends and at stands."""
@@ -171,7 +172,7 @@ class Proposals:
             np.concatenate((j, np.full(len(g), -1))),
             np.concatenate((piece, k)),
             np.concatenate((normal, across)),
-            np.concatenate((bend, self.slack / 1000 / np.maximum(size, TINY))),
+            np.concatenate((bend, self.grain / 1000 / np.maximum(size, TINY))),
         )
 
     # -- lines of sight along them ---------------------------------------------------------------------
@@ -195,7 +196,7 @@ class Proposals:
 
     def _sights(self, lines: Lines, p: Floats, way: Floats, far: Floats) -> list[ProposedLine]:
         other = np.where(lines.j < 0, lines.i, lines.j)
-        base = self.slack / 1000 + lines.error
+        base = self.grain / 1000 + lines.error
         rows, columns, ts, errors = [], [], [], []
         hit, blur = self._hits(p, way, base + lines.bend * self.radius)
         bound = self.on[:, self.targets] & (
@@ -223,15 +224,15 @@ class Proposals:
         t, error = np.concatenate(ts), np.concatenate(errors) + base[row]
         q = p[row] + t[:, None] * way[row]
         leave, back = self._arrivals(column, q)
-        margin = ANGLE + 4 * error / np.maximum(t, TINY) + lines.bend[row]
-        ok = (t <= self.radius + 2 * error + self.slack) & ~enters(leave, back, -way[row], margin)
+        blur = margin(ANGLE) + 4 * error / np.maximum(t, TINY) + lines.bend[row]
+        ok = (t <= self.radius + 2 * error + self.slack) & ~enters(leave, back, -way[row], blur)
         for k in (lines.i[row], other[row]):
             at = dot(self.center[k] - p[row], way[row])
             through = self.joined[k] & (self.turn[k] == 0)
             ahead = (through & (at < t - error - self.slack)) | self.stand[k]
             behind = through & (at > error + self.slack) & (at < t - error - self.slack)
-            ok &= ~(ahead & enters(self.leave[k], self.back[k], way[row], margin))
-            ok &= ~(behind & enters(self.leave[k], self.back[k], -way[row], margin))
+            ok &= ~(ahead & enters(self.leave[k], self.back[k], way[row], blur))
+            ok &= ~(behind & enters(self.leave[k], self.back[k], -way[row], blur))
         ok[ok] = ~self.pieces.block(p[row[ok]], q[ok], error[ok])
         return [
             ProposedLine(
@@ -316,7 +317,7 @@ class Proposals:
         way, bend, along, real = self._about(touch, p)
         real &= self._may_touch(touch, left(way), bend)
         shake = np.where(gaps.tiny, high - low + 10 * self.slack, 0.0)
-        base = self.slack / 1000 + bend * self.radius
+        base = self.grain / 1000 + bend * self.radius
         base = np.minimum(base + shake * (1 + self.radius / np.maximum(np.abs(along), TINY)), self.radius)
         hit, blur = self._hits(p, way, base)
         ok = real[:, None, None] & (hit > along[:, None, None] - blur - self.slack)
@@ -329,12 +330,12 @@ class Proposals:
         t, error = hit[row, target, branch], blur[row, target, branch] + base[row]
         q = p[row] + t[:, None] * way[row]
         leave, back = self._arrivals(target, q)
-        margin = ANGLE + 4 * error / np.maximum(t, TINY)
-        free = ~enters(leave, back, -way[row], margin)
+        blur = margin(ANGLE) + 4 * error / np.maximum(t, TINY)
+        free = ~enters(leave, back, -way[row], blur)
         k = touch[row]
         passed = self.joined[k] & (self.turn[k] == 0)
         for v in (way[row], -way[row]):
-            free &= ~(passed & enters(self.leave[k], self.back[k], v, margin))
+            free &= ~(passed & enters(self.leave[k], self.back[k], v, blur))
         free[free] = ~self.pieces.block(p[row[free]], q[free], error[free])
         found = [
             gaps.cell(r, int(k), int(b))

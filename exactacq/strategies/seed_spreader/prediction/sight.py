@@ -169,49 +169,47 @@ class Sights:
 BITS = 128
 
 
-def growth_sign(
+def growth(
     x: Real, ordinates: tuple[Real, Real], shape: tuple[Point, Real], target: Curve, length: Real
-) -> int:
-    """The sign of l', how fast a line of sight grows along the walk, at all ordinates between two; 0 if balls
-    do not decide it.
+) -> tuple[arb, arb]:
+    """Balls around l and l', how long a line of sight is and how fast it grows along the walk, at all
+    ordinates between two; no numbers where balls do not tell.
+
+    *shape* is a feature's centre with the signed turn; *length* is l at one of the ordinates: it tells
+    which of the two points of a circle is meant.
 
     The line starts at p = (x, y), has the unit direction e, passes a feature's centre c at the constant
     signed distance n.(c - p) = -turn with n = e turned left, and ends at q = p + l e on a target with tangent
     f. With p' = (0, 1) it turns at the rate w = -n_y / (e.(c - p)), and q' parallel to f gives
     l' = -((p' + l w n) x f) / (e x f).
-
-    *shape* is a feature's centre with the signed turn; *length* is l at one of the ordinates: it tells
-    which of the two points of a circle is meant.
     """
     with workprec(BITS):
-        rate = _rate(_ball(x), _ball(ordinates[0]).union(_ball(ordinates[1])), shape, target, _ball(length))
-    return 0 if rate is None else int(rate > 0) - int(rate < 0)
+        y = _ball(ordinates[0]).union(_ball(ordinates[1]))
+        return _growth(_ball(x), y, shape, target, _ball(length))
 
 
-def _rate(x: arb, y: arb, shape: tuple[Point, Real], target: Curve, near: arb) -> arb | None:
-    """l', or None where the end of the line is not one point."""
+def _growth(x: arb, y: arb, shape: tuple[Point, Real], target: Curve, near: arb) -> tuple[arb, arb]:
     center, turn = shape
     dx, dy, k = _ball(center.x) - x, _ball(center.y) - y, _ball(turn)
     square = dx * dx + dy * dy
-    before = (square - k * k).sqrt()
+    before = (square - k * k).nonnegative_part().sqrt()
     # d = e (before - i turn), as complex numbers.
     ex, ey = (dx * before - dy * k) / square, (dy * before + dx * k) / square
     if isinstance(target, Arc):
         mx, my = _ball(target.center.x) - x, _ball(target.center.y) - y
         foot = mx * ex + my * ey
-        half = (foot * foot - mx * mx - my * my + _ball(Real(target.radius_sq))).sqrt()
+        rest = foot * foot - mx * mx - my * my + _ball(Real(target.radius_sq))
+        half = rest.nonnegative_part().sqrt()
         ends = [end for end in (foot - half, foot + half) if end.overlaps(near)]
-        if len(ends) != 1:
-            return None
-        length = ends[0]
-        fx, fy = -(ey * length - my), ex * length - mx
+        along = ends[0] if len(ends) == 1 else arb.nan()
+        fx, fy = -(ey * along - my), ex * along - mx
     else:
         ax, ay = _ball(target.start.x) - x, _ball(target.start.y) - y
         fx, fy = _ball(target.direction.x), _ball(target.direction.y)
-        length = (ax * fy - ay * fx) / (ex * fy - ey * fx)
+        along = (ax * fy - ay * fx) / (ex * fy - ey * fx)
     turning = -ex / before
-    vx, vy = -ey * length * turning, 1 + ex * length * turning
-    return -(vx * fy - vy * fx) / (ex * fy - ey * fx)
+    vx, vy = -ey * along * turning, 1 + ex * along * turning
+    return along, -(vx * fy - vy * fx) / (ex * fy - ey * fx)
 
 
 def _ball(value: Real) -> arb:

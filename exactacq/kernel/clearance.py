@@ -1,0 +1,113 @@
+"""Which edges a segment, or a whole line, crosses, in floats with bounds (see `kernel.bounded`)."""
+
+from __future__ import annotations
+
+from exactacq.kernel.bounded import TINY, UNIT, cross, dot, product, quotient, root, total, verdict
+from exactacq.kernel.images import STRAIGHT, EdgeImages
+
+Place = tuple[float, float, float]
+"""A point, or a vector: two components that are held with one bound."""
+
+
+def crossed(images: EdgeImages, edges: list[int], start: Place, end: Place) -> list[int]:
+    """For each of some edges 1 if a segment certainly crosses it between the ends of both, -1 if they
+    certainly do not meet, else 0."""
+    along = _offset(start, end)
+    return [_verdict(images, e, start, end, along, False) for e in edges]
+
+
+def met(images: EdgeImages, edges: list[int], place: Place, along: Place) -> list[int]:
+    """Those of some edges that a line through a place along a vector does not certainly miss."""
+    return [e for e in edges if _verdict(images, e, place, place, along, True) >= 0]
+
+
+def _verdict(images: EdgeImages, e: int, start: Place, end: Place, along: Place, whole: bool) -> int:
+    """The verdict of `crossed` for an edge and a segment or, if *whole*, the line along a vector."""
+    if images.kind[e] == STRAIGHT:
+        return _straight(images, e, start, end, along, whole)
+    return _round(images, e, start, along, whole)
+
+
+def _straight(images: EdgeImages, e: int, start: Place, end: Place, along: Place, whole: bool) -> int:
+    """Of a straight edge: both its ends and both ends of the segment lie on different sides, or not."""
+    vertex, following = _vertex(images, e), _vertex(images, images.following[e])
+    one, other = _offset(start, vertex), _offset(start, following)
+    first, last = _side(along, one), _side(along, other)
+    if first and first == last:
+        return -1
+    if whole:
+        return 1 if first and last else 0
+    edge = _offset(vertex, following)
+    near, far = _side(edge, _offset(vertex, start)), _side(edge, _offset(vertex, end))
+    if near and near == far:
+        return -1
+    if first and last and near and far:
+        return 1
+    if _ahead(along, one) < 0 and _ahead(along, other) < 0:
+        return -1
+    is_beyond = _ahead(along, _offset(end, vertex)) > 0 and _ahead(along, _offset(end, following)) > 0
+    return -1 if is_beyond else 0
+
+
+def _round(images: EdgeImages, e: int, start: Place, along: Place, whole: bool) -> int:
+    """Of an arc: from p along d its circle is met at the (d . w -+ sqrt(|d|^2 r^2 - (d x w)^2)) / |d|^2-th
+    parts of d, with w the way to the centre. A point of the circle is on the arc if it is on that side of the
+    chord."""
+    ox, oy, o = _offset(start, _held(images.cx[e], images.cy[e]))
+    dx, dy, d = along
+    radius = images.radius[e]
+    square, square_bound = dot(dx, dy, d, dx, dy, d)
+    h, h_bound = dot(ox, oy, o, dx, dy, d)
+    g, g_bound = cross(dx, dy, d, ox, oy, o)
+    reach, reach_bound = product(*root(square, square_bound), radius, UNIT * radius)
+    plus, plus_bound = total(reach, reach_bound, g, g_bound)
+    minus, minus_bound = total(reach, reach_bound, -g, g_bound)
+    under, under_bound = product(plus, plus_bound, minus, minus_bound)
+    if -under > under_bound:
+        return -1
+    half, half_bound = root(under, under_bound)
+    vertex = _vertex(images, e)
+    chord = _offset(vertex, _vertex(images, images.following[e]))
+    found = -1
+    for sign in (-1.0, 1.0):
+        t, bound = quotient(*total(h, h_bound, sign * half, half_bound), square, square_bound)
+        if not whole and (-t > bound or t - 1.0 > bound + UNIT):
+            continue
+        on = 1
+        if not images.full[e]:
+            px, p = total(start[0], start[2], *product(dx, d, t, bound))
+            py, q = total(start[1], start[2], *product(dy, d, t, bound))
+            on = -images.kind[e] * _side(chord, _offset(vertex, (px, py, max(p, q))))
+        if on < 0:
+            continue
+        is_inside = whole or (t > bound and 1.0 - t > bound + UNIT)
+        if on > 0 and is_inside and under > under_bound:
+            return 1
+        found = 0
+    return found
+
+
+def _vertex(images: EdgeImages, v: int) -> Place:
+    return _held(images.x[v], images.y[v])
+
+
+def _held(x: float, y: float) -> Place:
+    """A point of the scene, each of whose coordinates is the nearest float."""
+    return x, y, UNIT * max(abs(x), abs(y)) + TINY
+
+
+def _offset(a: Place, b: Place) -> Place:
+    """The vector from a point to another."""
+    x, p = total(b[0], b[2], -a[0], a[2])
+    y, q = total(b[1], b[2], -a[1], a[2])
+    return x, y, max(p, q)
+
+
+def _side(a: Place, b: Place) -> int:
+    """1 or -1 if a vector certainly lies to the left or right of another, else 0."""
+    return verdict(*cross(a[0], a[1], a[2], b[0], b[1], b[2]))
+
+
+def _ahead(a: Place, b: Place) -> int:
+    """1 or -1 if a vector certainly points with or against another, else 0."""
+    return verdict(*dot(a[0], a[1], a[2], b[0], b[1], b[2]))

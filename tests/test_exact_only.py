@@ -1,0 +1,100 @@
+"""The switch by which floats decide nothing: runs are the same, whatever the floats say then."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+import exactacq as xa
+from exactacq import kernel
+from exactacq.files.octagons import random_octagons
+from exactacq.kernel.images import EdgeImages
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.study.claims.model import Subject
+from exactacq.study.random_scenes import random_scene
+
+
+def told(run: xa.Run) -> list[object]:
+    """All that is reported of a run, in 40 digits."""
+    events = [
+        [e.kind, e.obstacle, e.after, e.inside, e.occasion, e.reason, e.ending, e.other]
+        + [number.decimal(40) for number in (e.point.x, e.point.y, e.at)]
+        for e in run.events
+    ]
+    known = [
+        (i, k.edge, k.whole, *(v.decimal(40) for p in (k.start, k.end) for v in (p.x, p.y)))
+        for i in run.map.seen
+        for k in run.map.known(i)
+    ]
+    bounds = [(b.name, b.value.decimal(40), b.holds) for b in run.bounds]
+    return [events, known, bounds, run.length.decimal(40), run.visits, run.unseen, run.unvisited]
+
+
+def sightseer(name: str) -> Callable[[], xa.Run]:
+    return lambda: xa.sightseer(xa.load(name))
+
+
+def spreader(name: str, **options: object) -> Callable[[], xa.Run]:
+    return lambda: xa.seed_spreader(xa.load(name), **options)
+
+
+RUNS: dict[str, Callable[[], xa.Run]] = {
+    **{f"sightseer {name}": sightseer(name) for name in ("figure1", "circles", "m8", "m11")},
+    "octagons": lambda: xa.sightseer(random_octagons(5, 1), 5),
+    **{
+        f"random sightseer {seed}": (lambda s=seed: xa.sightseer(random_scene(Subject.SIGHTSEER, s)))
+        for seed in range(10)
+    },
+    "spreader figure4": spreader("figure4"),
+    "spreader figure4, what is visible": spreader("figure4", target="visible"),
+    "spreader figure4, without looking ahead": spreader("figure4", lookahead=False),
+    **{
+        f"random spreader {seed}": (lambda s=seed: xa.seed_spreader(random_scene(Subject.SEED_SPREADER, s)))
+        for seed in range(10)
+    },
+}
+
+
+def spoil(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Tables of edges get wrong coordinates in floats: only what they are made of and boxes stay right."""
+    init, images = EdgeTable.__init__, EdgeTable.images.func
+
+    def wrong(self: EdgeTable, obstacles: object) -> None:
+        init(self, obstacles)  # type: ignore[arg-type]
+        for name in ("start", "end", "center"):
+            places = getattr(self, name)
+            setattr(self, name, np.roll(places, 1, axis=0)[:, ::-1] * 0.75 - 1)
+        self.radius = self.radius * 3 + 1
+
+    def wrong_images(self: EdgeTable) -> EdgeImages:
+        right = images(self)
+        n = len(right.x)
+        xs, ys = ([float((7 * k + s) % 11) for k in range(n)] for s in (1, 5))
+        none = [0.0] * n
+        return EdgeImages(
+            xs,
+            none,
+            ys,
+            none,
+            (ys, none, xs, none),
+            [2.0] * n,
+            right.kind,
+            right.full,
+            right.following,
+            right.previous,
+        )
+
+    monkeypatch.setattr(EdgeTable, "__init__", wrong)
+    monkeypatch.setattr(EdgeTable, "images", property(wrong_images))
+
+
+@pytest.mark.parametrize("name", RUNS)
+def test_floats_decide_nothing(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With the switch a run is the same, even if the floats of the scene's edges are wrong."""
+    usual = told(RUNS[name]())
+    monkeypatch.setattr(kernel, "EXACT_ONLY", True)
+    assert told(RUNS[name]()) == usual
+    spoil(monkeypatch)
+    assert told(RUNS[name]()) == usual
