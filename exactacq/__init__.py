@@ -13,6 +13,7 @@ from exactacq.scene.ports import JSON, SVG, offer
 if TYPE_CHECKING:
     from exactacq.auditing.audit import audit
     from exactacq.errors import AuditError, ExactacqError, FormatError, InvalidScene, Undecided
+    from exactacq.files.formats import formats
     from exactacq.files.load import load
     from exactacq.geometry.curves import Arc, Segment
     from exactacq.geometry.points import Point
@@ -58,6 +59,7 @@ __all__ = [
     "Undecided",
     "audit",
     "figure",
+    "formats",
     "isovist",
     "load",
     "load_run",
@@ -93,6 +95,7 @@ _HOMES = {
     "Undecided": "exactacq.errors",
     "audit": "exactacq.auditing.audit",
     "figure": "exactacq.output.figures",
+    "formats": "exactacq.files.formats",
     "isovist": "exactacq.visibility.isovist",
     "load": "exactacq.files.load",
     "load_run": "exactacq.output.run_json",

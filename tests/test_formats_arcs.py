@@ -11,11 +11,11 @@ from flint import fmpq
 from hypothesis import given
 from hypothesis import strategies as st
 
-from exactacq.files.dxf.chains import Chain, Corner, root_above, scientific_above
-from exactacq.files.dxf.cusps import open_cusps
-from exactacq.files.dxf.load import default_tolerance
-from exactacq.files.dxf.rational_arcs import arc_corners, cosine_sine, simplest_between
-from exactacq.files.dxf.stitching import stitch
+from exactacq.files.loops.assembly import default_tolerance
+from exactacq.files.loops.chains import Chain, Corner, root_above, scientific_above
+from exactacq.files.loops.cusps import open_cusps
+from exactacq.files.loops.rational_arcs import arc_corners, cosine_sine, simplest_between
+from exactacq.files.loops.stitching import stitch
 from exactacq.numbers.rationals import rational
 
 decimals = st.integers(-(10**9), 10**9).map(lambda n: fmpq(n, 10**6))

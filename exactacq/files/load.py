@@ -12,11 +12,11 @@ from exactacq.scene.scene import Scene
 
 
 def load(name: str | os.PathLike[str], **options: Any) -> Scene:
-    """The scene in a .json or .dxf file, or else the gallery scene of that name.
+    """The scene in a file, or else the gallery scene of that name.
 
-    *options* (start, layers, outer, tolerance, union) are for drawings: see `exactacq.files.by_suffix.load`.
-    Raises `FormatError` if there is no such file or scene or the file cannot be read, `InvalidScene` if the
-    scene breaks the rules. Near linear in the size of the file.
+    *options* are the start and those of the file's format: see `exactacq.files.by_suffix.load`. Raises
+    `FormatError` if there is no such file or scene or the file cannot be read, `InvalidScene` if the scene
+    breaks the rules. Near linear in the size of the file.
 
     >>> scene = load("circles")
     >>> scene, scene.start, scene.radius
@@ -27,7 +27,7 @@ def load(name: str | os.PathLike[str], **options: Any) -> Scene:
         return load_file(text, **options)
     if text in gallery.names():
         if options:
-            raise FormatError(f"{text}: a gallery scene takes no options for drawings; leave them out")
+            raise FormatError(f"{text}: a gallery scene takes no options for files; leave them out")
         return gallery.scene(text)
     if os.path.splitext(text)[1]:
         return load_file(text, **options)

@@ -12,7 +12,7 @@ from functools import cache, lru_cache
 
 from flint import fmpq
 
-from exactacq.files.dxf.chains import Corner, root_above
+from exactacq.files.loops.chains import Corner, root_above
 from exactacq.numbers.length import Length
 from exactacq.numbers.rationals import rational
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from flint import fmpq
 
-from exactacq.files.dxf.chains import Chain, Corner, distance_above
+from exactacq.files.loops.chains import Chain, Corner, distance_above
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import contacts
 from exactacq.geometry.points import Point, distance_sq

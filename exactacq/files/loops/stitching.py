@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from flint import fmpq
 from networkx.utils import UnionFind
 
-from exactacq.files.dxf.chains import Chain, Corner, distance_above
+from exactacq.files.loops.chains import Chain, Corner, distance_above
 
 
 @dataclass(slots=True)
