@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from exactacq.numbers.real import Real
     from exactacq.output.figures import figure
     from exactacq.output.run_json import load_run
+    from exactacq.scene.bends import Around, Through
     from exactacq.scene.scene import Scene
     from exactacq.scene.shapes import Circle, Outline, Polygon, Terrain
     from exactacq.sensing.event import Event, EventKind
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Arc",
+    "Around",
     "AuditError",
     "Circle",
     "Event",
@@ -56,6 +58,7 @@ __all__ = [
     "Segment",
     "SightseerRun",
     "Terrain",
+    "Through",
     "Undecided",
     "audit",
     "figure",
@@ -71,6 +74,7 @@ __all__ = [
 
 _HOMES = {
     "Arc": "exactacq.geometry.curves",
+    "Around": "exactacq.scene.bends",
     "AuditError": "exactacq.errors",
     "Circle": "exactacq.scene.shapes",
     "Event": "exactacq.sensing.event",
@@ -92,6 +96,7 @@ _HOMES = {
     "Segment": "exactacq.geometry.curves",
     "SightseerRun": "exactacq.strategies.run",
     "Terrain": "exactacq.scene.shapes",
+    "Through": "exactacq.scene.bends",
     "Undecided": "exactacq.errors",
     "audit": "exactacq.auditing.audit",
     "figure": "exactacq.output.figures",

@@ -12,8 +12,8 @@ from exactacq.errors import FormatError
 from exactacq.files.formats import format_of
 from exactacq.files.source import one_line
 from exactacq.geometry.points import Point
+from exactacq.scene.bends import rational_pair
 from exactacq.scene.scene import Scene
-from exactacq.scene.shapes import rational_pair
 
 
 def load(path: str | Path, *, start: Point | Sequence[object] | None = None, **options: Any) -> Scene:
