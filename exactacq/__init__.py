@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from exactacq.numbers.real import Real
     from exactacq.output.figures import figure
     from exactacq.output.run_json import load_run
-    from exactacq.scene.bends import Around, Through
+    from exactacq.scene.bends import Around, Via
     from exactacq.scene.scene import Scene
     from exactacq.scene.shapes import Circle, Outline, Polygon, Terrain
     from exactacq.sensing.event import Event, EventKind
@@ -58,8 +58,8 @@ __all__ = [
     "Segment",
     "SightseerRun",
     "Terrain",
-    "Through",
     "Undecided",
+    "Via",
     "audit",
     "figure",
     "formats",
@@ -96,8 +96,8 @@ _HOMES = {
     "Segment": "exactacq.geometry.curves",
     "SightseerRun": "exactacq.strategies.run",
     "Terrain": "exactacq.scene.shapes",
-    "Through": "exactacq.scene.bends",
     "Undecided": "exactacq.errors",
+    "Via": "exactacq.scene.bends",
     "audit": "exactacq.auditing.audit",
     "figure": "exactacq.output.figures",
     "formats": "exactacq.files.formats",

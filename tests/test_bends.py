@@ -38,14 +38,14 @@ def test_the_arc_through_three_points_passes_them_in_order(
     s, m, e = (sympy.Point(*map(sympy.Rational, map(str, p))) for p in (start, middle, end))  # type: ignore[call-overload]
     if sympy.Point.is_collinear(s, m, e):
         assume((m - s).dot(e - s) > 0 and (m - e).dot(s - e) > 0)
-        assert isinstance(first_arc(start, xa.Through(middle), end), xa.Segment)
+        assert isinstance(first_arc(start, xa.Via(middle), end), xa.Segment)
         return
-    arc = first_arc(start, xa.Through(middle), end)
+    arc = first_arc(start, xa.Via(middle), end)
     circle = sympy.Circle(s, m, e)
     assert isinstance(arc, xa.Arc) and arc.passes(xa.Point(*middle))  # type: ignore[misc]
     assert str(arc.center.x) == str(circle.center.x) and str(arc.center.y) == str(circle.center.y)
     assert arc == first_arc(start, xa.Around(arc.center.rational, arc.ccw), end)
-    back = first_arc(end, xa.Through(middle), start)
+    back = first_arc(end, xa.Via(middle), start)
     assert back == arc.reversed()
 
 
@@ -71,14 +71,14 @@ def test_a_quarter_circle_has_no_rational_bulge() -> None:
 
 @pytest.mark.parametrize(
     "told",
-    [xa.Through((-1, 0)), xa.Around((0, 0)), xa.Around((0, 0), ccw=False), xa.Through(("-3/5", "4/5"))],
+    [xa.Via((-1, 0)), xa.Around((0, 0)), xa.Around((0, 0), ccw=False), xa.Via(("-3/5", "4/5"))],
 )
 def test_a_full_circle_is_two_halves(told: object) -> None:
     """By a third point that is opposite; another point would make another circle."""
     for ring in ([(1, 0, told)], [(1, 0, told), (1, 0)]):
         (shape,) = xa.Scene([xa.Outline(ring)]).obstacles
         assert len(shape.edges) == 2
-        radius_sq = 1 if told != xa.Through(("-3/5", "4/5")) else Q(4, 5)
+        radius_sq = 1 if told != xa.Via(("-3/5", "4/5")) else Q(4, 5)
         assert shape.area == xa.Length.turns(1, Q(1, 2) * radius_sq)
 
 
@@ -89,16 +89,16 @@ def test_a_full_circle_is_two_halves(told: object) -> None:
             lambda: xa.Outline([(0, 0, xa.Around((1, 1))), (3, 0), (0, 3)]),
             "vertex 0: the centre is",
         ),
-        (lambda: xa.Outline([(0, 0, xa.Through((4, 0))), (3, 0), (0, 3)]), "vertex 0: .* not between them"),
-        (lambda: xa.Outline([(0, 0, xa.Through((0, 0))), (3, 0), (0, 3)]), "vertex 0: .* not between them"),
-        (lambda: xa.Outline([(0, 0, xa.Through((3, 0))), (3, 0), (0, 3)]), "vertex 0: .* not between them"),
-        (lambda: xa.Outline([(0, 0, xa.Through((0, 0)))]), "vertex 0: an arc from a point to itself"),
+        (lambda: xa.Outline([(0, 0, xa.Via((4, 0))), (3, 0), (0, 3)]), "vertex 0: .* not between them"),
+        (lambda: xa.Outline([(0, 0, xa.Via((0, 0))), (3, 0), (0, 3)]), "vertex 0: .* not between them"),
+        (lambda: xa.Outline([(0, 0, xa.Via((3, 0))), (3, 0), (0, 3)]), "vertex 0: .* not between them"),
+        (lambda: xa.Outline([(0, 0, xa.Via((0, 0)))]), "vertex 0: an arc from a point to itself"),
         (lambda: xa.Outline([(0, 0, xa.Around((0, 0)))]), "vertex 0: an arc from a point to itself"),
         (lambda: xa.Outline([(0, 0, "round"), (3, 0), (0, 3)]), "vertex 0: not a number: 'round'"),
         (lambda: xa.Polygon(QUARTER), "a Polygon has no bulges: use Outline"),
         (lambda: xa.Around(3), "a point needs two numbers, not 3"),
         (lambda: xa.Around((0, 0), ccw="yes"), "ccw is True or False, not 'yes'"),
-        (lambda: xa.Through((1, "x")), "not a number: 'x'"),
+        (lambda: xa.Via((1, "x")), "not a number: 'x'"),
     ],
 )
 def test_what_makes_no_arc(make: object, message: str) -> None:
@@ -118,7 +118,7 @@ def rounded() -> xa.Scene:
     square = xa.Outline(
         [(5, 4, xa.Around((5, 5))), (6, 5), (6, 7), (4, 7), (4, 5, xa.Around((5, 5)))], name="rounded"
     )
-    lens = xa.Outline([(10, 4, xa.Through(("23/2", 5))), (12, 8, xa.Through((10, 6)))], name="lens")
+    lens = xa.Outline([(10, 4, xa.Via(("23/2", 5))), (12, 8, xa.Via((10, 6)))], name="lens")
     return xa.Scene([square, lens], start=(1, 1), enclosure=wall, radius=9)
 
 

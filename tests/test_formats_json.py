@@ -164,7 +164,7 @@ BAD = {
     '{"obstacles": [{}]}': 'either a "boundary" or a "circle"',
     '{"obstacles": [{"circle": {"center": [0, 0]}}]}': r'obstacles\[0\].circle: "radius" is missing',
     '{"obstacles": [{"circle": {"center": 1, "radius": 1}}]}': "circle.center: a list is needed",
-    '{"obstacles": [{"boundary": [[1]]}]}': r"boundary\[0\]: \[x, y\] or \[x, y, bulge\] is needed",
+    '{"obstacles": [{"boundary": [[1]]}]}': r"boundary\[0\]: \[x, y\] or \[x, y, bend\] is needed",
     '{"obstacles": [{"boundary": [[1, true]]}]}': r"boundary\[0\]\[1\]: a number is needed, not true",
     '{"obstacles": [{"boundary": [[1, NaN]]}]}': r"boundary\[0\]\[1\]: not a number: 'NaN'",
     '{"obstacles": [], "radius": -Infinity}': "radius: not a number: '-Infinity'",

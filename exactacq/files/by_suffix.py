@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +36,16 @@ def load(path: str | Path, *, start: Point | Sequence[object] | None = None, **o
         return format_of(Path(path)).read(Path(path), _place(start), options)
     except FormatError as error:
         raise FormatError(f"{one_line(path)}: {error}") from None
+
+
+def load_geo(
+    document: Mapping[str, Any], *, start: Point | Sequence[object] | None = None, **options: Any
+) -> Scene:
+    """The scene of areas told as GeoJSON, with the options of that format; errors as those of `load`."""
+    from exactacq.files.geojson import scene_of_geo
+
+    values = format_of(Path("x.geojson")).checked(options)
+    return scene_of_geo(document, None, _place(start), **values)
 
 
 def _place(start: Point | Sequence[object] | None) -> tuple[fmpq, fmpq] | None:

@@ -63,16 +63,19 @@ class Format:
     options: tuple[FileOption, ...] = ()
 
     def read(self, path: Path, start: object, values: Mapping[str, object]) -> Scene:
-        """The scene in a file; `FormatError` for options that the format has not, or of another kind."""
+        """The scene in a file; `FormatError` for wrong options before anything is read."""
+        module, function = self.reader.split(":")
+        read: Callable[..., Any] = getattr(import_module(module), function)
+        scene: Scene = read(path, start, **self.checked(values))
+        return scene
+
+    def checked(self, values: Mapping[str, object]) -> dict[str, Any]:
+        """The options as the reader takes them; `FormatError` for those of other formats or kinds."""
         own = {option.name: option for option in self.options}
         for name, value in values.items():
             if name not in own:
                 _check_unused(name, value, self)
-        checked = {name: own[name].checked(value) for name, value in values.items() if name in own}
-        module, function = self.reader.split(":")
-        read: Callable[..., Any] = getattr(import_module(module), function)
-        scene: Scene = read(path, start, **checked)
-        return scene
+        return {name: own[name].checked(value) for name, value in values.items() if name in own}
 
 
 _FORMATS: dict[str, Format] = {}
@@ -92,7 +95,7 @@ def formats() -> tuple[Format, ...]:
     >>> for known in formats()[:2]:
     ...     print(known.name, *known.suffixes, *(option.name for option in known.options))
     json .json
-    dxf .dxf layers outer tolerance union
+    wkt .wkt .ewkt union
     """
     return tuple(_FORMATS.values())
 
@@ -158,6 +161,24 @@ register(
         title="JSON scenes",
         suffixes=(".json",),
         reader="exactacq.files.scene_json:load_json",
+    )
+)
+register(
+    Format(
+        name="wkt",
+        title="well-known text",
+        suffixes=(".wkt", ".ewkt"),
+        reader="exactacq.files.wkt:load_wkt",
+        options=(UNION,),
+    )
+)
+register(
+    Format(
+        name="geojson",
+        title="GeoJSON",
+        suffixes=(".geojson",),
+        reader="exactacq.files.geojson:load_geojson",
+        options=(UNION,),
     )
 )
 register(

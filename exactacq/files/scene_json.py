@@ -14,9 +14,9 @@ from typing import Any, NoReturn
 from flint import fmpq
 
 from exactacq.errors import FormatError, about
-from exactacq.files.source import MAX_EDGES, check_edges, one_line, read_bytes
+from exactacq.files.source import MAX_EDGES, check_edges, decoded, one_line, read_bytes
 from exactacq.numbers.rationals import rational, valuation
-from exactacq.scene.bends import Around, Bend, Through
+from exactacq.scene.bends import Around, Bend, Via
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle, Outline, Polygon, Shape, Terrain
 
@@ -50,14 +50,12 @@ def parse_json(data: bytes) -> Any:
     """JSON data, numbers as the text that stands in the file; `FormatError` for what is no JSON."""
     try:
         return json.loads(
-            data.decode("utf-8-sig"),
+            decoded(data),
             parse_float=_Literal,
             parse_int=_Literal,
             parse_constant=_Literal,
             object_pairs_hook=_object,
         )
-    except UnicodeDecodeError as error:
-        raise FormatError(f"byte {error.start} is not UTF-8; save the file as UTF-8 JSON") from None
     except json.JSONDecodeError as error:
         place = f"line {error.lineno}, column {error.colno}"
         raise FormatError(f"{place}: not JSON ({one_line(error.msg)}); correct the file") from None
@@ -245,13 +243,13 @@ def _vertex(value: Any, place: str) -> tuple[Any, ...]:
     return x, y, _bend(row[2], f"{place}[2]")
 
 
-def _bend(value: dict[str, Any], place: str) -> Around | Through:
+def _bend(value: dict[str, Any], place: str) -> Around | Via:
     _keys(value, place, BEND_KEYS)
     if ("center" in value) == ("through" in value):
         raise FormatError(f'{place}: an arc has either a "center" or a point "through" which it goes')
     if "through" in value:
         _keys(value, place, ("through",))
-        return Through(_numbers(value["through"], f"{place}.through", (2,)))
+        return Via(_numbers(value["through"], f"{place}.through", (2,)))
     clockwise = value.get("clockwise", False)
     if not isinstance(clockwise, bool):
         _refuse(f"{place}.clockwise", "true or false", clockwise)

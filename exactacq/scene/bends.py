@@ -43,7 +43,7 @@ class Around:
         object.__setattr__(self, "ccw", ccw)
 
     def __neg__(self) -> Around:
-        """The same circle, the other way round.
+        """An arc of that circle in the other sense.
 
         >>> -Around((0, 0))
         Around(center=(0, 0), ccw=False)
@@ -52,14 +52,14 @@ class Around:
 
 
 @dataclass(frozen=True, slots=True, init=False)
-class Through:
+class Via:
     """An edge of an `Outline` that is an arc through a third point, strictly between its ends.
 
     A point of the chord makes the edge straight. Equal ends make a full circle, counterclockwise, of which
     the point is opposite. Raises `FormatError` for what is no pair of numbers.
 
     >>> import exactacq as xa
-    >>> half = xa.Outline([(-1, 0), (1, 0, xa.Through((0, 1)))])
+    >>> half = xa.Outline([(-1, 0), (1, 0, xa.Via((0, 1)))])
     >>> half == xa.Outline([(-1, 0), (1, 0, 1)])
     True
     """
@@ -74,12 +74,12 @@ Bend: TypeAlias = "fmpq | Around"
 """A rational bulge, 0 for a straight edge, or an arc whose bulge is irrational."""
 
 
-def bend(start: Pair, end: Pair, told: fmpq | Around | Through) -> Bend:
+def bend(start: Pair, end: Pair, told: fmpq | Around | Via) -> Bend:
     """The bend of an edge between different points, its bulge if that is rational.
 
     Raises `FormatError` for a centre or a third point that makes no arc from start to end.
     """
-    if isinstance(told, Through):
+    if isinstance(told, Via):
         x, y = told.point
         (ax, ay), (bx, by) = (x - start[0], y - start[1]), (end[0] - start[0], end[1] - start[1])
         turn = ax * by - ay * bx
@@ -113,7 +113,7 @@ def _slope(start: Pair, end: Pair, arc: Around) -> fmpq:
     return 2 * (dx * y - dy * x) / (dx * dx + dy * dy)
 
 
-def opposite(start: Pair, told: fmpq | Around | Through) -> tuple[Pair, fmpq] | None:
+def opposite(start: Pair, told: fmpq | Around | Via) -> tuple[Pair, fmpq] | None:
     """The point opposite to *start* on the full circle that an edge between equal points is told to be.
 
     With it the bulge of both halves; None for a bulge, which tells no circle. Raises `FormatError` for a
@@ -127,7 +127,7 @@ def opposite(start: Pair, told: fmpq | Around | Through) -> tuple[Pair, fmpq] | 
         x, y = told.point
     if (x, y) == start:
         raise FormatError("an arc from a point to itself needs a centre, or a point opposite, elsewhere")
-    return (x, y), fmpq(1 if isinstance(told, Through) or told.ccw else -1)
+    return (x, y), fmpq(1 if isinstance(told, Via) or told.ccw else -1)
 
 
 def rational_pair(pair: Iterable[object]) -> Pair:

@@ -18,7 +18,7 @@ from exactacq.geometry.geo import Geo, polygon
 from exactacq.geometry.intersections import signed_area
 from exactacq.geometry.points import Point
 from exactacq.numbers.rationals import rational
-from exactacq.scene.bends import Around, Bend, Through, bend, entries, opposite, rational_pair
+from exactacq.scene.bends import Around, Bend, Via, bend, entries, opposite, rational_pair
 
 Vertex: TypeAlias = "tuple[fmpq, fmpq, Bend]"
 """(x, y, bend): the bend belongs to the edge that follows. It is a bulge, the tangent of a quarter of the
@@ -59,7 +59,7 @@ class Outline(Loop):
 
     The bend belongs to the edge that follows. A number is a bulge, as in DXF: the tangent of a quarter of the
     edge's angle, positive for counterclockwise arcs, 0 for a straight edge, 1 for a half circle. An arc may
-    also be told by its centre, `Around`, or by a third point, `Through`; it then gets the bulge if that is
+    also be told by its centre, `Around`, or by a third point, `Via`; it then gets the bulge if that is
     rational, and a full circle becomes two halves. At least 3 vertices, or 2 with an arc; a last one that
     repeats the first, without a bend, is left out. Raises `FormatError` for what are no vertices or arcs;
     whether the boundary is a legal one is asked by `Scene`.
@@ -233,7 +233,7 @@ def _vertex(number: int, vertex: Iterable[object]) -> tuple[fmpq, fmpq, Any]:
     told = values[2] if len(values) == 3 else 0
     with about(f"vertex {number}"):
         x, y = map(rational, values[:2])
-        return x, y, told if isinstance(told, Around | Through) else rational(told)
+        return x, y, told if isinstance(told, Around | Via) else rational(told)
 
 
 def _bent(ring: tuple[tuple[fmpq, fmpq, Any], ...]) -> Iterator[Vertex]:

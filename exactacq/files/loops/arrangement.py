@@ -48,6 +48,6 @@ def _named(what: str, shapes: Sequence[Shape], members: list[int]) -> list[str]:
     return [f"{count(len(members), 'loop')} {what}: {names}{more}"]
 
 
-def count(n: int, noun: str) -> str:
-    """``1 end``, ``2 ends``."""
-    return f"{n} {noun}" if n == 1 else f"{n} {noun}s"
+def count(n: int, noun: str, plural: str = "") -> str:
+    """``1 end``, ``2 ends``; the *plural* is that of nouns that have another."""
+    return f"{n} {noun}" if n == 1 else f"{n} {plural or noun + 's'}"
