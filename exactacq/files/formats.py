@@ -41,6 +41,8 @@ class FileOption:
             return value if value is None else _number(self.name, value)
         if self.kind == "names":
             return [value] if isinstance(value, str) else value if value is None else _names(self, value)
+        if value == self.default:
+            return value
         known: tuple[object, ...] = (False, True) if self.kind == "flag" else self.choices
         if value not in known:
             wanted = " or ".join(f'"{k}"' if isinstance(k, str) else str(k) for k in known)
@@ -152,6 +154,19 @@ OUTER = FileOption(
 )
 TOLERANCE = FileOption("tolerance", "number", "Join ends that are this far apart.")
 UNION = FileOption("union", "flag", "Merge overlapping polygons.", False)
+CORNERS = FileOption(
+    "corners",
+    "choice",
+    "Blocked cells that touch in a corner: joined, or parted.",
+    "join",
+    ("join", "part"),
+)
+BORDER = FileOption(
+    "border", "choice", "Beyond the grid all is free, or all is blocked.", None, ("open", "wall")
+)
+UNKNOWN = FileOption("unknown", "choice", "What unknown cells are.", "free", ("free", "blocked"))
+THRESHOLD = FileOption("threshold", "number", "Blocked is what is darker: 0 for black to 1 for white; 1/2.")
+RESOLUTION = FileOption("resolution", "number", "Width of a cell; 1.")
 DRAWING = (LAYERS, OUTER, TOLERANCE, UNION)
 """What drawings of loose lines and arcs take."""
 
@@ -179,6 +194,41 @@ register(
         suffixes=(".geojson",),
         reader="exactacq.files.geojson:load_geojson",
         options=(UNION,),
+    )
+)
+register(
+    Format(
+        name="ros",
+        title="maps of ROS",
+        suffixes=(".yaml", ".yml"),
+        reader="exactacq.files.grids.ros_map:load_ros_map",
+        options=(CORNERS, BORDER, UNKNOWN),
+    )
+)
+register(
+    Format(
+        name="image",
+        title="images",
+        suffixes=(".pgm", ".png", ".bmp", ".gif", ".jpg", ".jpeg"),
+        reader="exactacq.files.grids.image:load_image",
+        options=(THRESHOLD, RESOLUTION, CORNERS, BORDER),
+    )
+)
+register(
+    Format(
+        name="movingai",
+        title="MovingAI maps",
+        suffixes=(".map",),
+        reader="exactacq.files.grids.movingai:load_movingai",
+        options=(CORNERS, BORDER),
+    )
+)
+register(
+    Format(
+        name="visilibity",
+        title="VisiLibity environments",
+        suffixes=(".environment",),
+        reader="exactacq.files.visilibity:load_visilibity",
     )
 )
 register(

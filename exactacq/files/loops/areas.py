@@ -16,6 +16,7 @@ from flint import fmpq
 
 from exactacq.errors import FormatError
 from exactacq.files.loops.arrangement import arranged, count
+from exactacq.files.loops.nesting import Loops
 from exactacq.files.source import check_edges
 from exactacq.geometry.points import Point
 from exactacq.numbers.atoms import rational_sqrt
@@ -45,7 +46,7 @@ class Areas:
     left_out: dict[str, int] = field(default_factory=dict)
     """How often what else was left out."""
 
-    def add(self, rows: Sequence[Row], name: str) -> None:
+    def add(self, rows: Sequence[Row], name: str | None) -> None:
         """A ring by its vertices, of which the last one is the first again."""
         self.edges += len(rows)
         check_edges(self.edges)
@@ -77,20 +78,24 @@ class Areas:
         *,
         union: bool = False,
         terrain: Terrain | None = None,
+        free: int | None = None,
     ) -> Scene:
         """The scene around the start, or with all outermost rings as obstacles if there is none.
 
-        Rings that meet are refused by the scene, or merged if they are polygons and *union* is set. Raises
-        `FormatError` and `InvalidScene`.
+        Rings that meet are refused by the scene, or merged if they are polygons and *union* is set. Around a
+        free place are an even number of rings with *free* 0, an odd one with 1; a start elsewhere is refused.
+        Raises `FormatError` and `InvalidScene`.
         """
-        notes = [*self.notes, *self._mended()]
+        notes = [*self.notes, *self.mended()]
         if not self.rings and (self.flat or self.left_out):
             raise FormatError(f"no area to read ({'; '.join(notes)}); give polygons or closed lines")
         place = None if start is None else Point(*start)
+        if free is not None and place is not None and len(Loops(self.rings).around(place)) % 2 != free:
+            raise FormatError(f"the start {place} lies in a blocked cell; choose one in a free cell")
         obstacles, wall = arranged(self.rings, place, "room", union, notes)
         return Scene(obstacles, start=start, enclosure=wall, name=name, notes=notes, terrain=terrain)
 
-    def _mended(self) -> list[str]:
+    def mended(self) -> list[str]:
         notes = []
         if self.repeated:
             notes.append(f"took out {count(self.repeated, 'vertex', 'vertices')} equal to the one before")
@@ -105,7 +110,7 @@ class Areas:
         return notes
 
 
-def _shape(rows: list[Row], bent: bool, name: str) -> Shape:
+def _shape(rows: list[Row], bent: bool, name: str | None) -> Shape:
     """A polygon, an outline, or a circle if the ring is one full circle of rational radius."""
     if not bent:
         return Polygon([row[:2] for row in rows], name)

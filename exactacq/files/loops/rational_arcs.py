@@ -68,15 +68,43 @@ def _bulge(included: fmpq) -> tuple[fmpq, fmpq]:
     return value, max(high - value, value - low)
 
 
+def rational_turn(degrees: fmpq) -> tuple[tuple[fmpq, fmpq], fmpq]:
+    """Cosine and sine of a rational rotation near an angle in degrees, and a bound of the error in radians.
+
+    With t near the tangent of half the angle these are (1 - t^2) / (1 + t^2) and 2 t / (1 + t^2); the angle
+    is off by 2 |atan t - atan t'| <= 2 |t - t'| / (1 + min(t, t')^2). Multiples of 90 are exact. An angle
+    within 2^-50 of half a turn is taken for one.
+    """
+    (cosine, sine), error = cosine_sine(degrees)
+    if not error:
+        return (cosine, sine), fmpq(0)
+    bottom = 1 + cosine
+    if bottom <= fmpq(1, 1 << (2 * BULGE_BITS + 1)):
+        return (fmpq(-1), fmpq(0)), fmpq(1, 1 << BULGE_BITS)
+    size = abs(sine)
+    low, high = max(fmpq(0), (size - error) / (bottom + error)), (size + error) / (bottom - error)
+    slack = high / 2**BULGE_BITS
+    tangent = simplest_between(low - min(slack, low), high + slack)
+    least = min(low, tangent)
+    far = 2 * max(high - tangent, tangent - low) / (1 + least * least)
+    square = tangent * tangent
+    turned = 2 * tangent / (1 + square)
+    return ((1 - square) / (1 + square), turned if sine > 0 else -turned), far
+
+
 @cache
-def _pi() -> fmpq:
+def nearly_pi() -> fmpq:
+    """A rational less than 2^-`FIXED_BITS` below pi.
+
+    Used for angles in fixed point, see `cosine_sine`.
+    """
     return Length.turns(1, fmpq(1, 2)).enclosure(FIXED_BITS + 8)[0]
 
 
 @lru_cache(maxsize=1 << 12)
 def _first_quadrant(degrees: fmpq) -> tuple[fmpq, fmpq]:
     one = 1 << FIXED_BITS
-    angle = int((_pi() * degrees / 180 * one).floor())
+    angle = int((nearly_pi() * degrees / 180 * one).floor())
     sums, term = [one, 0], one
     for n in range(1, TERMS):
         term = (term * angle >> FIXED_BITS) // n
