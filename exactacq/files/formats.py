@@ -240,3 +240,21 @@ register(
         options=DRAWING,
     )
 )
+register(
+    Format(
+        name="kicad",
+        title="boards of KiCad",
+        suffixes=(".kicad_pcb",),
+        reader="exactacq.files.kicad:load_kicad",
+        options=DRAWING,
+    )
+)
+register(
+    Format(
+        name="svg",
+        title="SVG drawings",
+        suffixes=(".svg",),
+        reader="exactacq.files.svg.load:load_svg",
+        options=DRAWING,
+    )
+)

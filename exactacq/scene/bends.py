@@ -80,29 +80,38 @@ def bend(start: Pair, end: Pair, told: fmpq | Around | Via) -> Bend:
     Raises `FormatError` for a centre or a third point that makes no arc from start to end.
     """
     if isinstance(told, Via):
-        x, y = told.point
-        (ax, ay), (bx, by) = (x - start[0], y - start[1]), (end[0] - start[0], end[1] - start[1])
-        turn = ax * by - ay * bx
-        if turn == 0:
-            along, length = ax * bx + ay * by, bx * bx + by * by
-            if 0 < along < length:
-                return fmpq(0)
-            raise FormatError("the third point lies on the line of the ends, but not between them")
-        a, b = ax * ax + ay * ay, bx * bx + by * by
-        center = start[0] + (by * a - ay * b) / (2 * turn), start[1] + (ax * b - bx * a) / (2 * turn)
-        told = Around(center, bool(turn > 0))
+        around = center_through(start, told.point, end)
+        if around is None:
+            return fmpq(0)
+        told = around
     if isinstance(told, Around):
         (x, y), (u, v) = ((p[0] - told.center[0], p[1] - told.center[1]) for p in (start, end))
         if x * x + y * y != u * u + v * v:
             raise FormatError("the centre is not equally far from both ends")
-        slope = _slope(start, end, told)
+        slope = slope_of(start, end, told)
         root = rational_sqrt(slope * slope + 1)
         if root is not None:
             return root - slope if told.ccw else -root - slope
     return told
 
 
-def _slope(start: Pair, end: Pair, arc: Around) -> fmpq:
+def center_through(start: Pair, middle: Pair, end: Pair) -> Around | None:
+    """The arc through a middle point between different ends; None if that lies on the chord.
+
+    Raises `FormatError` if it lies on the line of the ends elsewhere.
+    """
+    (ax, ay), (bx, by) = ((p[0] - start[0], p[1] - start[1]) for p in (middle, end))
+    turn = ax * by - ay * bx
+    if turn == 0:
+        if 0 < ax * bx + ay * by < bx * bx + by * by:
+            return None
+        raise FormatError("the third point lies on the line of the ends, but not between them")
+    a, b = ax * ax + ay * ay, bx * bx + by * by
+    center = start[0] + (by * a - ay * b) / (2 * turn), start[1] + (ax * b - bx * a) / (2 * turn)
+    return Around(center, bool(turn > 0))
+
+
+def slope_of(start: Pair, end: Pair, arc: Around) -> fmpq:
     """How far the centre lies to the left of the chord, over half of the chord.
 
     A bulge b puts it at (1 - b^2) / (2 b), so b^2 + 2 slope b - 1 = 0: the roots are the bulges of the arc

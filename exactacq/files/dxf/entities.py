@@ -15,6 +15,7 @@ from typing import Any
 
 import ezdxf
 from ezdxf import recover
+from ezdxf.enums import InsertUnits
 from flint import fmpq
 
 from exactacq.errors import FormatError
@@ -61,7 +62,17 @@ def read_drawing(path: Path, layers: Iterable[str] | None) -> Drawing:
     except Exception as error:  # ezdxf reads lazily: a damaged entity shows only here, in many ways
         raise FormatError(f"a damaged entity ({one_line(error)}); save or export it again") from None
     selected.check(drawing)
+    if drawing.layers:
+        drawing.notes.append(f"{_unit(document)}; layers: {drawing.layer_list()}")
     return drawing
+
+
+def _unit(document: Any) -> str:
+    """What the file says of its unit; coordinates stay as they are."""
+    code = document.header.get("$INSUNITS", 0)
+    if not isinstance(code, int) or not 0 < code <= max(InsertUnits):
+        return "the file names no unit"
+    return f"the file's unit: {re.sub('(?<=[a-z])(?=[A-Z])', ' ', InsertUnits(code).name).lower()}"
 
 
 def _open(path: Path, drawing: Drawing) -> Any:

@@ -47,7 +47,7 @@ def scene_of_drawing(
     notes = [*drawing.notes, *_left_out(drawing.dropped)]
     other = f"select other layers of {drawing.layer_list()}" if drawing.layers else "export another drawing"
     if not drawing.chains and not drawing.circles:
-        raise FormatError(f"nothing to read{_because(notes)}; {other}")
+        raise FormatError(f"nothing to read{_because(_left_out(drawing.dropped))}; {other}")
     (x0, y0), (x1, y1) = drawing.extent()
     if start is None:
         raise FormatError(

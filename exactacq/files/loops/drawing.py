@@ -56,5 +56,5 @@ class LayerChoice:
     def check(self, drawing: Drawing) -> None:
         """`FormatError` if a layer that was asked for is not there."""
         missing = [name for key, name in (self.names or {}).items() if key not in self.seen]
-        if missing:
+        if missing and drawing.layers:
             raise FormatError(f"no layer {one_line(repr(missing[0]))}; it has {drawing.layer_list()}")
