@@ -13,6 +13,7 @@ from exactacq import cli
 from exactacq.files.formats import FileOption, Format, format_of, register
 
 FORMATS = xa.formats()
+DATA = Path(__file__).parent / "data"
 
 
 @pytest.mark.parametrize("known", FORMATS, ids=lambda known: known.name)
@@ -76,3 +77,40 @@ def test_the_command_line_offers_every_option(capsys: pytest.CaptureFixture[str]
         assert cli.main([command, "--help"]) == 0
         out = capsys.readouterr().out
         assert all(f"--{option.name}" in out for known in FORMATS for option in known.options)
+
+
+@pytest.mark.parametrize(
+    ("name", "arguments", "words"),
+    [
+        ("inpa.wkt", (), "154"),
+        (
+            "turtlebot3.yaml",
+            ("--start", "-1/2,-1/2", "--corners", "part"),
+            "parted the blocked cells at 1 corner",
+        ),
+        ("turtlebot3.pgm", ("--resolution", "0.05", "--threshold", "0.3"), "obstacles"),
+        ("keyboard.svg", ("--start", "3/2,5", "--outer", "room"), "and the enclosure"),
+        ("board.kicad_pcb", ("--start", "105,-45", "--layers", "Edge.Cuts"), "6, and the enclosure"),
+        ("issue21.dxf", ("--start", "470,0"), "the file's unit: millimeters"),
+    ],
+)
+def test_the_command_line_checks_files_of_all_kinds(
+    capsys: pytest.CaptureFixture[str], name: str, arguments: tuple[str, ...], words: str
+) -> None:
+    assert cli.main(["check", str(DATA / name), *arguments]) == 0
+    out, err = capsys.readouterr()
+    assert words in " ".join(out.split()) and err == ""
+
+
+def test_the_command_line_explores_a_map_and_draws_it(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    target = tmp_path / "map.svg"
+    line = ["explore", str(DATA / "turtlebot3.yaml"), "--start", "-1/2,-1/2", "--radius", "1/2"]
+    assert cli.main([*line, "--figure", str(target), "--audit"]) == 0
+    assert "audit passed" in capsys.readouterr().out
+    assert target.stat().st_size > 1000
+    assert cli.main([*line, "--union"]) == 2
+    assert "union is for" in capsys.readouterr().err
+    assert cli.main([*line, "--corners", "round"]) == 2
+    assert capsys.readouterr().err == 'exactacq: --corners is "join" or "part", not \'round\'\n'

@@ -145,4 +145,7 @@ def _place(chain: Chain) -> tuple[str, str]:
 
 def short(value: fmpq) -> str:
     """Six digits of a number, for messages."""
-    return f"{float(Real(value)):.6g}"
+    try:
+        return f"{float(Real(value)):.6g}"
+    except OverflowError:
+        return Real(value).decimal(6)
