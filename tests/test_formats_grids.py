@@ -236,6 +236,7 @@ def test_pgm_in_text_and_bytes(tmp_path: Path, data: bytes) -> None:
         ("a.pgm", b"P2 3000 3000 9\n9", "save it as P5"),
         ("a.pgm", b"P6 2 2 255\n", "not a readable image"),
         ("a.pgm", b"P5", "not a PGM image"),
+        ("a.pgm", b"P5" + b"\n#" * 2_000_000 + b"x", "not a PGM image"),
         ("a.png", b"\x89PNG\r\n\x1a\n", "not a readable image"),
         ("a.png", b"GIF89a", "not a readable image"),
         ("a.jpg", b"hello", "not a readable image"),

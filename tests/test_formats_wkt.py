@@ -168,6 +168,7 @@ def test_neighbours_are_merged_on_request(tmp_path: Path) -> None:
         ("POLYGON((" + "0 0," * 900_000, "more than 200000 edges"),
         ("POLYGON((0 0, " + "1" * 6000 + " 1))", "a number is needed"),
         ("\x00POLYGON", "a geometry is needed, not "),
+        ("POINT EMPTY " * 2_100_000, "more than 4000000 words"),
     ],
 )
 def test_broken_text_is_one_line_with_the_place(tmp_path: Path, text: str, message: str) -> None:

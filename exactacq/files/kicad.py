@@ -31,7 +31,7 @@ MAX_TOKENS = 40 * MAX_EDGES
 """Most words and parentheses of a file: parsing takes about 100 bytes for each."""
 MAX_DEPTH = 64
 """Deepest nesting of lists."""
-_TOKEN = re.compile(r'\s*(?:([()])|"((?:[^"\\]|\\.)*)"|([^\s()"]+))', re.DOTALL)
+_TOKEN = re.compile(r'\s*(?:([()])|"((?:[^"\\]|\\.)*+)"|([^\s()"]+))', re.DOTALL)
 Item: TypeAlias = "str | list[Any]"
 Pair: TypeAlias = "tuple[fmpq, fmpq]"
 

@@ -23,7 +23,9 @@ from exactacq.scene.bends import Via
 from exactacq.scene.scene import Scene
 
 MAX_COMMAS = 4 * MAX_EDGES
-"""A vertex brings at most two commas (an arc has two points): more than this cannot be a scene."""
+"""A vertex brings at most two commas (an arc has two points): a file of more is no scene that is taken."""
+MAX_TOKENS = 20 * MAX_EDGES
+"""Most words, numbers and signs of a file."""
 MAX_DEPTH = 16
 """Deepest nesting of collections that is followed."""
 _TOKEN = re.compile(r"\s*(?:([A-Za-z]+)|([-+.\d][^\s(),;]*)|([(),;=]))")
@@ -63,7 +65,7 @@ class _WktReader:
     """One pass over the tokens; ``word`` is the next one, in upper case, of a ``kind``: "" at the end."""
 
     def __init__(self, text: str) -> None:
-        self.text, self.areas, self.count = text, Areas(), 0
+        self.text, self.areas, self.count, self.tokens = text, Areas(), 0, 0
         self.place, self.end, self.kind, self.word = 0, 0, "", ""
         self._next()
 
@@ -75,6 +77,9 @@ class _WktReader:
             if self.place < len(self.text):
                 self.refuse("a geometry")
             return
+        self.tokens += 1
+        if self.tokens > MAX_TOKENS:
+            self.reject(f"more than {MAX_TOKENS} words before this; give a smaller part")
         self.kind = ("", "word", "number", "sign")[match.lastindex or 0]
         self.word = match[match.lastindex or 0].upper()
         self.place, self.end = match.start(match.lastindex or 0), match.end()

@@ -19,6 +19,8 @@ from exactacq.files.source import one_line, read_bytes
 
 KINDS = ("PNG", "BMP", "GIF", "JPEG")
 """What pillow is asked to read."""
+MAX_HEADER = 1 << 16
+"""Longest header of a PGM, comments included."""
 MAX_PLAIN = 1 << 22
 """Most pixels of a PGM whose numbers are text."""
 _HEADER = re.compile(rb"P([25])" + 3 * rb"(?:\s+(?:#[^\n]*\n\s*)*)(\d{1,9})" + rb"(?:\s+#[^\n]*\n|\s)")
@@ -43,7 +45,7 @@ def read_pixels(path: Path) -> Pixels:
 
 
 def _pgm(data: bytes) -> Pixels:
-    header = _HEADER.match(data)
+    header = _HEADER.match(data[:MAX_HEADER])
     if header is None:
         raise FormatError("not a PGM image (P2 or P5, width, height, most); save it again")
     width, height, most = (int(number) for number in header.groups()[1:])

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from exactacq.files.loops.nesting import Loops, nest
 from exactacq.files.loops.union import unite
+from exactacq.files.source import one_line
 from exactacq.geometry.points import Point
 from exactacq.scene.shapes import Shape
 
@@ -43,7 +44,7 @@ def arranged(
 def _named(what: str, shapes: Sequence[Shape], members: list[int]) -> list[str]:
     if not members:
         return []
-    names = ", ".join(shapes[i].name or f"loop {i + 1}" for i in members[:NAMED])
+    names = ", ".join(one_line(shapes[i].name or f"loop {i + 1}") for i in members[:NAMED])
     more = f" and {len(members) - NAMED} more" if len(members) > NAMED else ""
     return [f"{count(len(members), 'loop')} {what}: {names}{more}"]
 

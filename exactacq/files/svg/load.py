@@ -29,6 +29,8 @@ from exactacq.numbers.atoms import rational_sqrt
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle
 
+MAX_ELEMENTS = 4 * MAX_EDGES
+"""Most elements of a file: each takes some microseconds."""
 MAX_DEPTH = 64
 """Deepest nesting of elements that is followed."""
 GROUPS = ("svg", "g", "a", "switch")
@@ -94,7 +96,7 @@ class _SvgReader:
     def __init__(self, choice: LayerChoice) -> None:
         self.drawing, self.choice = Drawing(), choice
         self.stack: list[_OpenElement] = []
-        self.order = self.edges = 0
+        self.order = self.edges = self.elements = 0
         self.error = fmpq(0)
 
     def entity(self, name: str, *_: object) -> None:
@@ -104,6 +106,9 @@ class _SvgReader:
     def begin(self, tag: str, attributes: dict[str, str]) -> None:
         """An element begins."""
         kind = tag.removeprefix("svg:")
+        self.elements += 1
+        if self.elements > MAX_ELEMENTS:
+            raise FormatError(f"more than {MAX_ELEMENTS} elements; export only the part that matters")
         if not self.stack:
             if kind != "svg":
                 raise FormatError(f"not an SVG drawing, but one of {one_line(repr(tag))}")

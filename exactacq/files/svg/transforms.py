@@ -12,14 +12,17 @@ from flint import fmpq
 
 from exactacq.errors import FormatError
 from exactacq.files.loops.rational_arcs import rational_turn
-from exactacq.files.source import one_line
-from exactacq.numbers.rationals import rational
+from exactacq.files.source import MAX_EDGES, one_line
+from exactacq.numbers.rationals import MAX_DIGITS, rational
 
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 ZERO, ONE = fmpq(0), fmpq(1)
 MAX_TRANSFORMS = 64
 """Most transforms in one attribute."""
+MAX_BITS = 4 * MAX_DIGITS
+"""Longest numbers of a matrix: rotations within rotations make them longer and longer."""
 _LENGTH = re.compile(rf"\s*({NUMBER})\s*(?:px)?\s*", re.ASCII)
+_PART = re.compile(rf"[\s,]+|({NUMBER})", re.ASCII)
 _CALL = re.compile(r"[\s,]*(\w+)\s*\(([^()]*)\)")
 _COUNTS = {
     "matrix": (6,), "translate": (1, 2), "scale": (1, 2), "rotate": (1, 3), "skewX": (1,), "skewY": (1,),
@@ -44,7 +47,7 @@ class Matrix:
 
     def after(self, m: Matrix) -> Matrix:
         """First another one, then this one."""
-        return Matrix(
+        made = Matrix(
             self.a * m.a + self.c * m.b,
             self.b * m.a + self.d * m.b,
             self.a * m.c + self.c * m.d,
@@ -52,6 +55,9 @@ class Matrix:
             *self(m.e, m.f),
             self.error + m.error,
         )
+        if any(max(v.p.bit_length(), v.q.bit_length()) > MAX_BITS for v in (made.a, made.b, made.e, made.f)):
+            raise FormatError("transforms within transforms need too long numbers; apply them")
+        return made
 
     @property
     def determinant(self) -> fmpq:
@@ -74,20 +80,29 @@ def number(text: str, what: str) -> fmpq:
 
 def numbers(text: str, what: str) -> list[fmpq]:
     """Numbers that are parted by blanks and commas, or by their signs alone."""
-    rest = re.sub(rf"[\s,]*({NUMBER})[\s,]*", " ", text, flags=re.ASCII)
-    if rest.strip():
-        raise FormatError(f"{what}: numbers are needed, not {one_line(repr(text[:40]))}")
-    return [rational(found) for found in re.findall(NUMBER, text, re.ASCII)]
+    found, place = [], 0
+    for match in _PART.finditer(text):
+        if match.start() != place:
+            break
+        place = match.end()
+        if match[1]:
+            found.append(rational(match[1]))
+        if len(found) > 2 * MAX_EDGES:
+            raise FormatError(f"{what}: more than {2 * MAX_EDGES} numbers; export only the part that matters")
+    if place < len(text):
+        raise FormatError(f"{what}: numbers are needed, not {one_line(repr(text[place : place + 20]))}")
+    return found
 
 
 def transform(text: str) -> Matrix:
     """The matrix of a transform attribute; `FormatError` for what is none."""
     matrix, place = Matrix(), 0
-    for count, call in enumerate(_CALL.finditer(text)):
-        name, given = call[1], numbers(call[2], "transform")
-        if call.start() != place or count >= MAX_TRANSFORMS or len(given) not in _COUNTS.get(name, ()):
+    for _ in range(MAX_TRANSFORMS):
+        call = _CALL.match(text, place)
+        given = numbers(call[2], "transform") if call else []
+        if call is None or len(given) not in _COUNTS.get(call[1], ()):
             break
-        matrix, place = matrix.after(_matrix(name, given)), call.end()
+        matrix, place = matrix.after(_matrix(call[1], given)), call.end()
     if text[place:].strip(" \t\r\n,"):
         raise FormatError(f"not a transform: {one_line(repr(text[place : place + 40]))}")
     return matrix
