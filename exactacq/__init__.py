@@ -13,6 +13,7 @@ from exactacq.scene.ports import JSON, SVG, offer
 if TYPE_CHECKING:
     from exactacq.auditing.audit import audit
     from exactacq.errors import AuditError, ExactacqError, FormatError, InvalidScene, Undecided
+    from exactacq.files.formats import formats
     from exactacq.files.load import load
     from exactacq.geometry.curves import Arc, Segment
     from exactacq.geometry.points import Point
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from exactacq.numbers.real import Real
     from exactacq.output.figures import figure
     from exactacq.output.run_json import load_run
+    from exactacq.scene.bends import Around, Via
     from exactacq.scene.bounding import terrain_around
     from exactacq.scene.scene import Scene
     from exactacq.scene.shapes import Circle, Outline, Polygon, Terrain
@@ -35,6 +37,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Arc",
+    "Around",
     "AuditError",
     "Circle",
     "Event",
@@ -57,8 +60,10 @@ __all__ = [
     "SightseerRun",
     "Terrain",
     "Undecided",
+    "Via",
     "audit",
     "figure",
+    "formats",
     "isovist",
     "load",
     "load_run",
@@ -71,6 +76,7 @@ __all__ = [
 
 _HOMES = {
     "Arc": "exactacq.geometry.curves",
+    "Around": "exactacq.scene.bends",
     "AuditError": "exactacq.errors",
     "Circle": "exactacq.scene.shapes",
     "Event": "exactacq.sensing.event",
@@ -93,8 +99,10 @@ _HOMES = {
     "SightseerRun": "exactacq.strategies.run",
     "Terrain": "exactacq.scene.shapes",
     "Undecided": "exactacq.errors",
+    "Via": "exactacq.scene.bends",
     "audit": "exactacq.auditing.audit",
     "figure": "exactacq.output.figures",
+    "formats": "exactacq.files.formats",
     "isovist": "exactacq.visibility.isovist",
     "load": "exactacq.files.load",
     "load_run": "exactacq.output.run_json",

@@ -9,14 +9,14 @@ import json
 import os
 import sys
 from collections.abc import Callable, Sequence
-from enum import StrEnum
 from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from exactacq.errors import AuditError, ExactacqError, FormatError, InvalidScene, Undecided
+from exactacq.file_options import read_from_text, reads_files
 from exactacq.strategies.options import Strategy, TargetChoice
 from exactacq.study.campaign.command import verify
 from exactacq.study.search.command import search
@@ -37,14 +37,7 @@ UsageError: type[Exception] = typer.BadParameter.__bases__[0]
 """What typer raises for a wrong command line; where it lives depends on typer's release."""
 
 
-class Outer(StrEnum):
-    """What becomes of the outermost loop around the start."""
-
-    WALL = "wall"
-    DROP = "drop"
-
-
-SceneName = Annotated[str, typer.Argument(metavar="SCENE", help="A .json or .dxf file, or a gallery name.")]
+SceneName = Annotated[str, typer.Argument(metavar="SCENE", help="A file, or the name of a gallery scene.")]
 Start = Annotated[str | None, typer.Option(metavar="X,Y", help="Start point; required for drawings.")]
 TerrainSize = Annotated[
     str | None,
@@ -53,12 +46,6 @@ TerrainSize = Annotated[
         help="Terrain: B,A or X,Y,B,A (SW corner, width, height) or bbox[:MARGIN]; default: the scene's.",
     ),
 ]
-Layers = Annotated[str | None, typer.Option(metavar="A,B", help="Layers of a drawing to read; default: all.")]
-Outermost = Annotated[Outer, typer.Option(help="The outermost loop of a drawing around the start.")]
-Tolerance = Annotated[
-    str | None, typer.Option(metavar="T", help="Join the ends of a drawing this far apart.")
-]
-Union = Annotated[bool, typer.Option("--union", help="Merge overlapping polygons of a drawing.")]
 Radius = Annotated[str | None, typer.Option(metavar="R", help="Radius of vision; default: the scene's own.")]
 FigureFile = Annotated[str | None, typer.Option(metavar="F", help="Write a figure: .svg, .pdf or .png.")]
 
@@ -90,6 +77,7 @@ def _top(
 
 
 @app.command()
+@reads_files
 def explore(
     scene: SceneName,
     strategy: Annotated[Strategy, typer.Option(help="How to explore.")] = Strategy.SIGHTSEER,
@@ -116,10 +104,7 @@ def explore(
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the exact run as JSON, and no table.")
     ] = False,
-    layers: Layers = None,
-    outer: Outermost = Outer.WALL,
-    tolerance: Tolerance = None,
-    union: Union = False,
+    **options: Any,
 ) -> None:
     """Explore a scene; print a summary, or write the figure and the exact trace.
 
@@ -136,7 +121,7 @@ def explore(
     outputs = [check_output(f, s) for f, s in wanted if f is not None]
     if any(_same_file(path, scene) for path in outputs):
         raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
-    world = _scene(scene, start, layers, outer, tolerance, union, terrain)
+    world = _scene(scene, start, options, terrain)
     if range_ is None and world.radius is None:
         raise FormatError(f"{scene}: the scene has no radius of vision: give one with --radius R")
     trouble: ExactacqError | None = None
@@ -190,16 +175,14 @@ def _audited(run: Run) -> ExactacqError | None:
 
 
 @app.command()
+@reads_files
 def compare(
     scene: SceneName,
     radius: Radius = None,
     start: Start = None,
     terrain: TerrainSize = None,
     figure: FigureFile = None,
-    layers: Layers = None,
-    outer: Outermost = Outer.WALL,
-    tolerance: Tolerance = None,
-    union: Union = False,
+    **options: Any,
 ) -> None:
     """Explore a scene by both strategies, and set what they do side by side.
 
@@ -212,7 +195,7 @@ def compare(
     range_ = _range(radius)
     if figure is not None and _same_file(check_output(figure, FIGURES), scene):
         raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
-    world = _scene(scene, start, layers, outer, tolerance, union, terrain)
+    world = _scene(scene, start, options, terrain)
     if range_ is None and world.radius is None:
         raise FormatError(f"{scene}: the scene has no radius of vision: give one with --radius R")
     corner = _at_corner(world)
@@ -249,18 +232,16 @@ def _at_corner(scene: Scene) -> Scene:
 
 
 @app.command()
+@reads_files
 def check(
     scene: SceneName,
     start: Start = None,
-    layers: Layers = None,
-    outer: Outermost = Outer.WALL,
-    tolerance: Tolerance = None,
-    union: Union = False,
+    **options: Any,
 ) -> None:
     """Validate a scene; print its contents and what the import did."""
     from exactacq.output.report import console, scene_report
 
-    console().print(scene_report(_scene(scene, start, layers, outer, tolerance, union)))
+    console().print(scene_report(_scene(scene, start, options)))
 
 
 @app.command()
@@ -315,38 +296,21 @@ def _draw_gallery(folder: Path) -> None:
         print(f"figure written to {path}")
 
 
-def _scene(
-    name: str,
-    start: str | None,
-    layers: str | None,
-    outer: Outer,
-    tolerance: str | None,
-    union: bool,
-    terrain: str | None = None,
-) -> Scene:
+def _scene(name: str, start: str | None, options: dict[str, Any], terrain: str | None = None) -> Scene:
     """The scene in the file, or else of the gallery, of that name; an error names it too."""
     try:
-        scene = _loaded(name, start, layers, outer, tolerance, union)
+        scene = _loaded(name, start, read_from_text(options))
         return scene if terrain is None else scene.replace(terrain=_terrain(terrain, scene))
     except InvalidScene as error:
         first, *others = error.violations
         raise InvalidScene([f"{name}: {first}", *others]) from None
 
 
-def _loaded(
-    name: str, start: str | None, layers: str | None, outer: Outer, tolerance: str | None, union: bool
-) -> Scene:
+def _loaded(name: str, start: str | None, options: dict[str, object]) -> Scene:
     from exactacq.files.gallery import names
     from exactacq.files.load import load
 
     place = None if start is None else _pair("--start", start)
-    options: dict[str, object] = {"outer": outer.value} if outer is not Outer.WALL else {}
-    if layers is not None:
-        options["layers"] = [layer.strip() for layer in layers.split(",")]
-    if tolerance is not None:
-        options["tolerance"] = _number("--tolerance", tolerance)
-    if union:
-        options["union"] = True
     if place is None:
         return load(name, **options)
     if name not in names() or os.path.lexists(name):

@@ -11,12 +11,13 @@ from flint import fmpq
 from hypothesis import given
 from hypothesis import strategies as st
 
-from exactacq.files.dxf.chains import Chain, Corner, root_above, scientific_above
-from exactacq.files.dxf.cusps import open_cusps
-from exactacq.files.dxf.load import default_tolerance
-from exactacq.files.dxf.rational_arcs import arc_corners, cosine_sine, simplest_between
-from exactacq.files.dxf.stitching import stitch
+from exactacq.files.loops.assembly import default_tolerance
+from exactacq.files.loops.chains import Chain, Corner, root_above, scientific_above
+from exactacq.files.loops.cusps import open_cusps
+from exactacq.files.loops.rational_arcs import arc_around, arc_corners, cosine_sine, simplest_between
+from exactacq.files.loops.stitching import stitch
 from exactacq.numbers.rationals import rational
+from exactacq.scene.bends import Around
 
 decimals = st.integers(-(10**9), 10**9).map(lambda n: fmpq(n, 10**6))
 degrees = st.integers(-720 * 10**6, 720 * 10**6).map(lambda n: fmpq(n, 10**6))
@@ -186,3 +187,35 @@ def test_a_crossing_that_is_no_rounding_stays() -> None:
     before = [(c.x, c.y, c.bulge) for c in loop.corners]
     assert open_cusps(loop, fmpq(1, 10**6)) == 0
     assert [(c.x, c.y, c.bulge) for c in loop.corners] == before
+
+
+def quarter(gap: fmpq) -> Chain:
+    """A quarter disc as an open chain, whose ends are a gap apart; its arc has an irrational bulge."""
+    zero, one = fmpq(0), fmpq(1)
+    arc = arc_around((one, zero), (zero, one), (zero, zero), ccw=True)
+    corners = [Corner(zero, zero, zero), arc, Corner(zero, one, zero), Corner(gap, zero, zero)]
+    return Chain("quarter", corners)
+
+
+def test_an_arc_stays_exact_while_its_ends_stay() -> None:
+    (loop,) = stitch([quarter(fmpq(1, 10**9))], fmpq(1, 10**6)).loops
+    assert loop.shape().vertices[1][2] == Around((0, 0))
+    assert loop.moved() == fmpq(1, 10**9)
+    walked = Chain("back", quarter(fmpq(0)).backwards())
+    (back,) = stitch([walked], fmpq(1, 10**6)).loops
+    assert -Around((0, 0)) in [bend for _, _, bend in back.shape().vertices]
+    assert back.moved() == 0
+
+
+def test_an_arc_whose_end_moves_has_a_bulge_within_the_bound() -> None:
+    zero, one, gap = fmpq(0), fmpq(1), fmpq(1, 10**9)
+    arc = arc_around((one, zero), (zero, one), (zero, zero), ccw=True)
+    pieces = [
+        Chain("lines", [Corner(zero, one + gap, zero), Corner(zero, zero, zero), Corner(one, zero, zero)]),
+        Chain("arc", [arc, Corner(zero, one, zero)]),
+    ]
+    (loop,) = stitch(pieces, fmpq(1, 10**6)).loops
+    (bulge,) = [bend for _, _, bend in loop.shape().vertices if bend]
+    assert isinstance(bulge, fmpq) and abs(bulge + 1) ** 2 != 2
+    assert abs((abs(bulge) + 1) ** 2 - 2) < fmpq(1, 2**45)
+    assert gap <= loop.moved() <= 2 * gap

@@ -107,7 +107,7 @@ def test_slots_with_a_bulge_on_the_closing_edge() -> None:
     scene = load(DATA / "issue21.dxf", start=(470, 0))
     assert [len(s.vertices) for s in scene.shapes] == [4, 4]
     assert all(s.vertices[-1][2] for s in scene.shapes)
-    assert scene.notes == ()
+    assert scene.notes == ("the file's unit: millimeters; layers: '0' (3)",)
     assert len(scene.enclosure.vertices) == 4
 
 

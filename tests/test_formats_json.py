@@ -11,7 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from exactacq.errors import ExactacqError, FormatError, InvalidScene
-from exactacq.files.by_suffix import load, scene_to_json
+from exactacq.files.by_suffix import load
+from exactacq.files.scene_json import scene_to_json
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import rational
 from exactacq.scene.scene import Scene
@@ -163,7 +164,7 @@ BAD = {
     '{"obstacles": [{}]}': 'either a "boundary" or a "circle"',
     '{"obstacles": [{"circle": {"center": [0, 0]}}]}': r'obstacles\[0\].circle: "radius" is missing',
     '{"obstacles": [{"circle": {"center": 1, "radius": 1}}]}': "circle.center: a list is needed",
-    '{"obstacles": [{"boundary": [[1]]}]}': r"boundary\[0\]: \[x, y\] or \[x, y, bulge\] is needed",
+    '{"obstacles": [{"boundary": [[1]]}]}': r"boundary\[0\]: \[x, y\] or \[x, y, bend\] is needed",
     '{"obstacles": [{"boundary": [[1, true]]}]}': r"boundary\[0\]\[1\]: a number is needed, not true",
     '{"obstacles": [{"boundary": [[1, NaN]]}]}': r"boundary\[0\]\[1\]: not a number: 'NaN'",
     '{"obstacles": [], "radius": -Infinity}': "radius: not a number: '-Infinity'",
@@ -221,7 +222,7 @@ def test_a_scene_that_breaks_the_rules_is_invalid_not_malformed(tmp_path: Path) 
     [
         ("missing.json", "no such file"),
         ("folder.json", "is a directory"),
-        ("scene.svg", "unknown file type '.svg'; known are .json and .dxf"),
+        ("scene.doc", "unknown file type '.doc'; known are .json"),
         ("scene", "a file name without a type"),
         ("nul\0.json", "cannot be read"),
         ("x" * 5000 + ".json", "cannot be read"),

@@ -3,31 +3,40 @@
 from __future__ import annotations
 
 import os
-from typing import Any
+from typing import Any, cast
 
 from exactacq.errors import FormatError
 from exactacq.files import gallery
 from exactacq.files.by_suffix import load as load_file
+from exactacq.files.by_suffix import load_geo
 from exactacq.scene.scene import Scene
+from exactacq.scene.shapes import HasGeoInterface
 
 
-def load(name: str | os.PathLike[str], **options: Any) -> Scene:
-    """The scene in a .json or .dxf file, or else the gallery scene of that name.
+def load(name: str | os.PathLike[str] | HasGeoInterface, **options: Any) -> Scene:
+    """The scene in a file, or else the gallery scene of that name, or that of another library's areas.
 
-    *options* (start, layers, outer, tolerance, union) are for drawings: see `exactacq.files.by_suffix.load`.
-    Raises `FormatError` if there is no such file or scene or the file cannot be read, `InvalidScene` if the
-    scene breaks the rules. Near linear in the size of the file.
+    Such areas are all objects with `__geo_interface__`, such as polygons of shapely, and are read like
+    GeoJSON. *options* are the start and those of the format: see `exactacq.files.by_suffix.load`. Raises
+    `FormatError` if there is no such file or scene or the file cannot be read, `InvalidScene` if the scene
+    breaks the rules. Near linear in the size of the file.
 
     >>> scene = load("circles")
     >>> scene, scene.start, scene.radius
     (<Scene 'circles': 2 obstacles>, Point(0, 0), 20)
+    >>> import shapely
+    >>> load(shapely.box(2, 2, 3, 3).union(shapely.box(7, 1, 8, 3)), start=(0, 0))
+    <Scene: 2 obstacles>
     """
-    text = os.fspath(name)
+    geo = getattr(name, "__geo_interface__", None)
+    if geo is not None:
+        return load_geo(geo, **options)
+    text = os.fspath(cast("str | os.PathLike[str]", name))
     if "\0" in text or os.path.lexists(text):
         return load_file(text, **options)
     if text in gallery.names():
         if options:
-            raise FormatError(f"{text}: a gallery scene takes no options for drawings; leave them out")
+            raise FormatError(f"{text}: a gallery scene takes no options for files; leave them out")
         return gallery.scene(text)
     if os.path.splitext(text)[1]:
         return load_file(text, **options)

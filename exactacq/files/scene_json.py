@@ -13,9 +13,10 @@ from typing import Any, NoReturn
 
 from flint import fmpq
 
-from exactacq.errors import FormatError
-from exactacq.files.source import MAX_EDGES, check_edges, one_line, read_bytes
+from exactacq.errors import FormatError, about
+from exactacq.files.source import MAX_EDGES, check_edges, decoded, one_line, read_bytes
 from exactacq.numbers.rationals import plain, rational
+from exactacq.scene.bends import Around, Bend, Via
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle, Outline, Polygon, Shape, Terrain
 
@@ -23,6 +24,7 @@ MAX_COMMAS = 8 * MAX_EDGES
 """A vertex brings at most three commas: more than this in a file cannot be a scene that is taken."""
 SCENE_KEYS = ("name", "start", "radius", "terrain", "enclosure", "obstacles", "notes")
 SHAPE_KEYS = ("name", "boundary", "circle")
+BEND_KEYS = ("center", "clockwise", "through")
 
 
 class _Literal(str):
@@ -48,14 +50,12 @@ def parse_json(data: bytes) -> Any:
     """JSON data, numbers as the text that stands in the file; `FormatError` for what is no JSON."""
     try:
         return json.loads(
-            data.decode("utf-8-sig"),
+            decoded(data),
             parse_float=_Literal,
             parse_int=_Literal,
             parse_constant=_Literal,
             object_pairs_hook=_object,
         )
-    except UnicodeDecodeError as error:
-        raise FormatError(f"byte {error.start} is not UTF-8; save the file as UTF-8 JSON") from None
     except json.JSONDecodeError as error:
         place = f"line {error.lineno}, column {error.colno}"
         raise FormatError(f"{place}: not JSON ({one_line(error.msg)}); correct the file") from None
@@ -141,11 +141,17 @@ def _described(shape: Shape) -> dict[str, Any]:
     if isinstance(shape, Circle):
         document["circle"] = {"center": list(shape.center), "radius": shape.radius}
         return document
-    rows = [list(vertex if vertex[2] else vertex[:2]) for vertex in shape.vertices]
+    rows = [[x, y, _bend_document(told)] if told else [x, y] for x, y, told in shape.vertices]
     if isinstance(shape, Outline) and rows and not any(bulge for _, _, bulge in shape.vertices):
         rows[0].append(fmpq(0))  # a bulge, even 0, says that this is an Outline
     document["boundary"] = rows
     return document
+
+
+def _bend_document(told: Bend) -> Any:
+    if isinstance(told, Around):
+        return {"center": list(told.center), **({} if told.ccw else {"clockwise": True})}
+    return told
 
 
 def _plain(value: Any) -> Any:
@@ -223,10 +229,33 @@ def _shape(value: Any, place: str) -> Shape:
         center = _numbers(circle["center"], f"{inner}.center", (2,))
         return Circle(center, _number(circle["radius"], f"{inner}.radius"), name)
     rows = _list(value["boundary"], f"{place}.boundary")
-    vertices = [_numbers(row, f"{place}.boundary[{i}]", (2, 3)) for i, row in enumerate(rows)]
+    vertices = [_vertex(row, f"{place}.boundary[{i}]") for i, row in enumerate(rows)]
     if any(len(vertex) == 3 for vertex in vertices):
-        return Outline(vertices, name)
+        with about(place):
+            return Outline(vertices, name)
     return Polygon(vertices, name)
+
+
+def _vertex(value: Any, place: str) -> tuple[Any, ...]:
+    """x, y, and what the edge that follows bends by if that is said."""
+    row = _list(value, place)
+    if len(row) != 3 or not isinstance(row[2], dict):
+        return _numbers(row, place, (2, 3))
+    x, y = _numbers(row[:2], place, (2,))
+    return x, y, _bend(row[2], f"{place}[2]")
+
+
+def _bend(value: dict[str, Any], place: str) -> Around | Via:
+    _keys(value, place, BEND_KEYS)
+    if ("center" in value) == ("through" in value):
+        raise FormatError(f'{place}: an arc has either a "center" or a point "through" which it goes')
+    if "through" in value:
+        _keys(value, place, ("through",))
+        return Via(_numbers(value["through"], f"{place}.through", (2,)))
+    clockwise = value.get("clockwise", False)
+    if not isinstance(clockwise, bool):
+        _refuse(f"{place}.clockwise", "true or false", clockwise)
+    return Around(_numbers(value["center"], f"{place}.center", (2,)), not clockwise)
 
 
 def _edge_count(shape: Shape | None) -> int:
@@ -245,7 +274,7 @@ def _number(value: Any, place: str) -> fmpq:
 def _numbers(value: Any, place: str, counts: tuple[int, ...]) -> tuple[fmpq, ...]:
     row = _list(value, place)
     if len(row) not in counts:
-        needed = "[x, y]" if counts == (2,) else "[x, y] or [x, y, bulge]"
+        needed = "[x, y]" if counts == (2,) else "[x, y] or [x, y, bend]"
         raise FormatError(f"{place}: {needed} is needed, not {len(row)} values")
     return tuple(_number(number, f"{place}[{i}]") for i, number in enumerate(row))
 

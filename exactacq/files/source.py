@@ -25,9 +25,9 @@ def read_bytes(path: str | os.PathLike[str]) -> bytes:
     try:
         status = os.stat(path)
         if stat.S_ISDIR(status.st_mode):
-            raise FormatError("this is a directory; give a .json or .dxf file in it")
+            raise FormatError("this is a directory; give a file in it")
         if not stat.S_ISREG(status.st_mode):
-            raise FormatError("not a regular file; give a .json or .dxf file")
+            raise FormatError("not a regular file; give another")
         if status.st_size > MAX_BYTES:
             size = f"{status.st_size >> 20} MB is more than the {MAX_BYTES >> 20} MB that are read"
             raise FormatError(f"{size}; export only the part that matters")
@@ -43,6 +43,19 @@ def read_bytes(path: str | os.PathLike[str]) -> bytes:
     if not data.strip():
         raise FormatError("the file is empty; save or export it again")
     return data
+
+
+def read_text(path: str | os.PathLike[str]) -> str:
+    """The content of a text file in UTF-8; `FormatError` as `read_bytes`, and for other bytes."""
+    return decoded(read_bytes(path))
+
+
+def decoded(data: bytes) -> str:
+    """Bytes in UTF-8 as text; `FormatError` for others."""
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise FormatError(f"byte {error.start} is not UTF-8; save the file as UTF-8") from None
 
 
 def one_line(error: object) -> str:

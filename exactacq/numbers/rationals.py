@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from decimal import Decimal
 from fractions import Fraction
 from math import isfinite
-from numbers import Integral
+from numbers import Rational
 from typing import TYPE_CHECKING, TypeAlias
 
 from flint import arb, fmpq, fmpz
@@ -29,7 +29,7 @@ _LITERAL = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,6})?(/\d+)?", re.AS
 def rational(value: object) -> fmpq:
     """The rational that *value* denotes: int, Fraction, Decimal, finite float (exactly), or a literal.
 
-    Integers and floats of numpy are taken too.
+    Integers and floats of numpy are taken too, and integers and rationals of sympy and others.
 
     Literals are integers, decimals and ``"p/q"``.  Raises `FormatError` for anything else, for NaN and
     infinities, and beyond `MAX_DIGITS` digits.
@@ -53,8 +53,8 @@ def rational(value: object) -> fmpq:
             raise FormatError(f"not a finite number: {value!r}") from None
     if isinstance(value, str):
         return _literal(value.strip())
-    if isinstance(value, Integral):
-        return fmpq(int(value))
+    if isinstance(value, Rational):
+        return fmpq(int(value.numerator), int(value.denominator))
     raise FormatError(f"not a number: {value!r}")
 
 

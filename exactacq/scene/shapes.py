@@ -6,7 +6,7 @@ are no numbers raise `FormatError`.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol, TypeAlias
 
@@ -18,9 +18,11 @@ from exactacq.geometry.geo import Geo, polygon
 from exactacq.geometry.intersections import signed_area
 from exactacq.geometry.points import Point
 from exactacq.numbers.rationals import rational
+from exactacq.scene.bends import Around, Bend, Via, bend, entries, opposite, rational_pair
 
-Vertex: TypeAlias = "tuple[fmpq, fmpq, fmpq]"
-"""(x, y, bulge): the bulge is a quarter-angle tangent and belongs to the edge that follows."""
+Vertex: TypeAlias = "tuple[fmpq, fmpq, Bend]"
+"""(x, y, bend): the bend belongs to the edge that follows. It is a bulge, the tangent of a quarter of the
+edge's angle, or an `Around` where that is irrational."""
 
 
 class HasGeoInterface(Protocol):
@@ -53,12 +55,14 @@ class Loop:
 
 
 class Outline(Loop):
-    """A closed boundary of straight edges and arcs, from vertices ``(x, y)`` or ``(x, y, bulge)``.
+    """A closed boundary of straight edges and arcs, from vertices ``(x, y)`` or ``(x, y, bend)``.
 
-    The bulge, as in DXF, is the tangent of a quarter of the angle of the edge that follows: positive for
-    counterclockwise arcs, 0 for a straight edge, 1 for a half circle. At least 3 vertices, or 2 with an arc;
-    a last one that repeats the first, without a bulge, is left out. Raises `FormatError` for what are no
-    vertices; whether the boundary is a legal one is asked by `Scene`.
+    The bend belongs to the edge that follows. A number is a bulge, as in DXF: the tangent of a quarter of the
+    edge's angle, positive for counterclockwise arcs, 0 for a straight edge, 1 for a half circle. An arc may
+    also be told by its centre, `Around`, or by a third point, `Via`; it then gets the bulge if that is
+    rational, and a full circle becomes two halves. At least 3 vertices, or 2 with an arc; a last one that
+    repeats the first, without a bend, is left out. Raises `FormatError` for what are no vertices or arcs;
+    whether the boundary is a legal one is asked by `Scene`.
 
     >>> half = Outline([(-1, 0), (1, 0, 1)])
     >>> import exactacq as xa
@@ -71,7 +75,7 @@ class Outline(Loop):
     __slots__ = ()
 
     def __init__(self, vertices: Iterable[Iterable[object]], name: str | None = None) -> None:
-        super().__init__(_ring(vertices), as_name(name))
+        super().__init__(tuple(_bent(_ring(vertices))), as_name(name))
 
 
 class Polygon(Loop):
@@ -99,7 +103,7 @@ class Polygon(Loop):
         loop = vertices.vertices if isinstance(vertices, Loop) else _ring(_corners(vertices))
         if any(bulge for _, _, bulge in loop):
             raise FormatError("a Polygon has no bulges: use Outline")
-        super().__init__(loop, as_name(name))
+        super().__init__(tuple((x, y, fmpq(0)) for x, y, _ in loop), as_name(name))
 
 
 @dataclass(frozen=True, slots=True, init=False)
@@ -201,14 +205,6 @@ class Terrain:
         return f"Terrain(width={self.width}, height={self.height}{origin})"
 
 
-def rational_pair(pair: Iterable[object]) -> tuple[fmpq, fmpq]:
-    """Two rationals from any pair of numbers; `FormatError` otherwise."""
-    values = _values(pair)
-    if len(values) != 2:
-        raise FormatError(f"a point needs two numbers, not {shown(pair)}")
-    return rational(values[0]), rational(values[1])
-
-
 def shape_edges(shape: Shape) -> tuple[Curve, ...]:
     """The boundary as curves in the shape's own sense; edge i starts at vertex i, and vertices are shared.
 
@@ -220,10 +216,15 @@ def shape_edges(shape: Shape) -> tuple[Curve, ...]:
         return (Arc(east, east, center, shape.radius * shape.radius, ccw=True, full=True),)
     points = [Point(x, y) for x, y, _ in shape.vertices]
     ends = [*points[1:], *points[:1]]
-    return tuple(
-        Arc.from_bulge(start, end, bulge) if bulge else Segment(start, end)
-        for start, end, (_, _, bulge) in zip(points, ends, shape.vertices, strict=True)
-    )
+    return tuple(map(edge, points, ends, (bend for _, _, bend in shape.vertices)))
+
+
+def edge(start: Point, end: Point, bend: Bend) -> Curve:
+    """The curve from a rational point to another that bends so."""
+    if isinstance(bend, Around):
+        center = Point(*bend.center)
+        return Arc(start, end, center, rational((start - center).norm_sq()), bend.ccw)
+    return Arc.from_bulge(start, end, bend) if bend else Segment(start, end)
 
 
 def _geo_polygon(shape: Shape) -> Geo:
@@ -243,17 +244,17 @@ def _corners(value: Corners) -> Iterable[Iterable[object]]:
         geo = geo.get("geometry") or {}
     if geo.get("type") != "Polygon":
         raise FormatError(f"a boundary is one Polygon, not a {geo.get('type', 'mapping without a type')}")
-    rings = _values(geo.get("coordinates"))
+    rings = entries(geo.get("coordinates"))
     if len(rings) > 1:
         raise FormatError("a boundary is one ring: give a Polygon with holes by its outer ring alone")
-    rows = [_values(row) for ring in rings for row in _values(ring)]
+    rows = [entries(row) for ring in rings for row in entries(ring)]
     if any(len(row) != 2 for row in rows):
         raise FormatError("a boundary lies in the plane: give a Polygon of pairs (x, y)")
     return rows
 
 
-def _ring(vertices: Iterable[Iterable[object]]) -> tuple[Vertex, ...]:
-    """The vertices, without a last one that only closes the ring."""
+def _ring(vertices: Iterable[Iterable[object]]) -> tuple[tuple[fmpq, fmpq, Any], ...]:
+    """The vertices with what their bends are told by, without a last one that only closes the ring."""
     try:
         rows = tuple(vertices)
     except TypeError:
@@ -263,23 +264,28 @@ def _ring(vertices: Iterable[Iterable[object]]) -> tuple[Vertex, ...]:
     return ring[:-1] if closed else ring
 
 
-def _vertex(number: int, vertex: Iterable[object]) -> Vertex:
-    values = _values(vertex)
+def _vertex(number: int, vertex: Iterable[object]) -> tuple[fmpq, fmpq, Any]:
+    values = entries(vertex)
     if len(values) not in (2, 3):
-        raise FormatError(f"vertex {number}: a vertex is (x, y) or (x, y, bulge), not {shown(vertex)}")
-    try:
-        x, y, bulge = map(rational, (*values, 0)[:3])
-    except FormatError as error:
-        raise FormatError(f"vertex {number}: {error}") from None
-    return x, y, bulge
+        raise FormatError(f"vertex {number}: a vertex is (x, y) or (x, y, bend), not {shown(vertex)}")
+    told = values[2] if len(values) == 3 else 0
+    with about(f"vertex {number}"):
+        x, y = map(rational, values[:2])
+        return x, y, told if isinstance(told, Around | Via) else rational(told)
 
 
-def _values(row: Any) -> tuple[Any, ...]:
-    """The entries of a row; none of what has no entries, or is a text."""
-    try:
-        return () if isinstance(row, str) else tuple(row)
-    except TypeError:
-        return ()
+def _bent(ring: tuple[tuple[fmpq, fmpq, Any], ...]) -> Iterator[Vertex]:
+    """The vertices with their bends; a full circle is two halves."""
+    for k, (x, y, told) in enumerate(ring):
+        end = ring[(k + 1) % len(ring)][:2]
+        with about(f"vertex {k}"):
+            if end != (x, y):
+                yield x, y, bend((x, y), end, told)
+            elif (half := opposite((x, y), told)) is None:
+                yield x, y, told
+            else:
+                yield x, y, half[1]
+                yield *half[0], half[1]
 
 
 def as_name(name: str | None) -> str | None:

@@ -97,7 +97,7 @@ class LegSights:
         around = self.leg.rail.around(u)
         if around is None:
             return self.made(end)
-        late = _Place(self, end)
+        late = _LateEnd(self, end)
         return late_point(around, late.point), Real.late(u, late.parameter)
 
     def is_short(self, end: int) -> bool:
@@ -328,7 +328,7 @@ class LegSights:
         return first.start, first.low
 
 
-class _Place:
+class _LateEnd:
     """A place that is made once, for its parameter and its point."""
 
     __slots__ = ("_end", "_pin", "_sights")

@@ -12,6 +12,7 @@ from math import atan, pi
 
 from flint import fmpq
 
+from exactacq.scene.bends import Around
 from exactacq.scene.shapes import Circle, Outline, Shape, Vertex
 from exactacq.study.dice import Dice
 
@@ -111,6 +112,7 @@ def subdivided(dice: Dice, shape: Shape, percent: int) -> Shape:
 def cut(start: Vertex, end: Vertex, share: fmpq) -> tuple[Vertex, Vertex]:
     """The edge from *start* to *end* as two, the first with a share of the chord, or of the bulge."""
     (x, y, bulge), (u, v, _) = start, end
+    assert not isinstance(bulge, Around), "random arcs have bulges"
     if not bulge:
         return start, (x + (u - x) * share, y + (v - y) * share, bulge)
     first = bulge * share

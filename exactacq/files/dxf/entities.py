@@ -8,20 +8,20 @@ from __future__ import annotations
 
 import logging
 import re
-from collections import Counter
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
 from itertools import chain
 from pathlib import Path
 from typing import Any
 
 import ezdxf
 from ezdxf import recover
+from ezdxf.enums import InsertUnits
 from flint import fmpq
 
 from exactacq.errors import FormatError
-from exactacq.files.dxf.chains import Chain, Corner
-from exactacq.files.dxf.rational_arcs import arc_corners
+from exactacq.files.loops.chains import Chain, Corner
+from exactacq.files.loops.drawing import Drawing, LayerChoice
+from exactacq.files.loops.rational_arcs import arc_corners
 from exactacq.files.source import MAX_EDGES, one_line, read_bytes
 from exactacq.numbers.rationals import rational
 from exactacq.scene.shapes import Circle
@@ -40,45 +40,14 @@ _ENTITY = re.compile(rb"\n[ \t]*0[ \t]*\r?\n[ \t]*[A-Z]")
 logging.getLogger("ezdxf").addHandler(logging.NullHandler())
 
 
-@dataclass(slots=True)
-class Drawing:
-    """The contents of a drawing: chains, circles (with their places in the file), other entities by name."""
-
-    path: Path
-    chains: list[Chain] = field(default_factory=list)
-    circles: list[tuple[int, Circle]] = field(default_factory=list)
-    dropped: Counter[str] = field(default_factory=Counter)
-    notes: list[str] = field(default_factory=list)
-    layers: Counter[str] = field(default_factory=Counter)
-    """Number of entities of each layer, in the file's spelling, selected or not."""
-
-    def skip(self, entity: Any, reason: str) -> None:
-        """Count an entity of a block that ezdxf cannot place."""
-        self.dropped[f"{entity.dxftype()} in a block"] += 1
-
-    def extent(self) -> tuple[tuple[fmpq, fmpq], tuple[fmpq, fmpq]]:
-        """The box of all vertices and circles (bulges may reach beyond it)."""
-        corners = [(c.x, c.y) for chain in self.chains for c in chain.corners]
-        for _, circle in self.circles:
-            (x, y), r = circle.center, circle.radius
-            corners += [(x - r, y - r), (x + r, y + r)]
-        xs, ys = [x for x, _ in corners], [y for _, y in corners]
-        return (min(xs), min(ys)), (max(xs), max(ys))
-
-    def layer_list(self) -> str:
-        """The layers with their counts of entities, the fullest first."""
-        named = [f"{one_line(repr(name))} ({count})" for name, count in self.layers.most_common(12)]
-        return ", ".join(named) + (" and others" if len(self.layers) > 12 else "")
-
-
-def read_drawing(path: str | Path, layers: Iterable[str] | None) -> Drawing:
+def read_drawing(path: Path, layers: Iterable[str] | None) -> Drawing:
     """The model space of a DXF file, all layers or those named (in any case).
 
     Raises `FormatError` for what is no complete DXF file, or has no such layer. Linear in the file.
     """
-    drawing = Drawing(Path(path))
+    drawing = Drawing()
     document = _open(path, drawing)
-    selected = None if layers is None else _Layers(layers)
+    selected = LayerChoice(layers)
     count = 0
     try:
         for entity, layer in _entities(document.modelspace(), drawing):
@@ -86,33 +55,27 @@ def read_drawing(path: str | Path, layers: Iterable[str] | None) -> Drawing:
             if count > MAX_ENTITIES:
                 raise FormatError(f"its blocks expand to more than {MAX_ENTITIES} entities; export one part")
             drawing.layers[layer] += 1
-            if selected is None or selected.take(layer):
+            if selected.take(layer):
                 _Reader(drawing, count).read(entity)
     except FormatError:
         raise
     except Exception as error:  # ezdxf reads lazily: a damaged entity shows only here, in many ways
         raise FormatError(f"a damaged entity ({one_line(error)}); save or export it again") from None
-    if selected is not None and (missing := selected.missing()):
-        raise FormatError(f"no layer {one_line(repr(missing[0]))}; it has {drawing.layer_list()}")
+    selected.check(drawing)
+    if drawing.layers:
+        drawing.notes.append(f"{_unit(document)}; layers: {drawing.layer_list()}")
     return drawing
 
 
-class _Layers:
-    """A choice of layers; DXF does not tell upper from lower case."""
-
-    def __init__(self, names: Iterable[str]) -> None:
-        self.names = {name.casefold(): name for name in ([names] if isinstance(names, str) else names)}
-        self.seen: set[str] = set()
-
-    def take(self, layer: str) -> bool:
-        self.seen.add(layer.casefold())
-        return layer.casefold() in self.names
-
-    def missing(self) -> list[str]:
-        return [name for key, name in self.names.items() if key not in self.seen]
+def _unit(document: Any) -> str:
+    """What the file says of its unit; coordinates stay as they are."""
+    code = document.header.get("$INSUNITS", 0)
+    if not isinstance(code, int) or not 0 < code <= max(InsertUnits):
+        return "the file names no unit"
+    return f"the file's unit: {re.sub('(?<=[a-z])(?=[A-Z])', ' ', InsertUnits(code).name).lower()}"
 
 
-def _open(path: str | Path, drawing: Drawing) -> Any:
+def _open(path: Path, drawing: Drawing) -> Any:
     data = read_bytes(path)
     if not data.startswith(BINARY) and not _OPENING.match(data):
         raise FormatError("not a DXF file (no SECTION at its beginning); export the drawing as DXF")
@@ -143,6 +106,11 @@ def _open(path: str | Path, drawing: Drawing) -> Any:
 
 def _entities(layout: Iterable[Any], drawing: Drawing) -> Iterator[tuple[Any, str]]:
     """(entity, layer), blocks expanded; layer "0" in a block is the layer of its reference."""
+
+    def skip(entity: Any, reason: str) -> None:
+        """Count an entity of a block that ezdxf cannot place."""
+        drawing.dropped[f"{entity.dxftype()} in a block"] += 1
+
     expanded = 0
     stack: list[tuple[Iterator[Any], str | None, int]] = [(iter(layout), None, 0)]
     while stack:
@@ -162,8 +130,7 @@ def _entities(layout: Iterable[Any], drawing: Drawing) -> Iterator[tuple[Any, st
             if expanded > MAX_ENTITIES:
                 raise FormatError(f"it refers to blocks more than {MAX_ENTITIES} times; export one part")
             copies = entity.multi_insert() if entity.mcount > 1 else [entity]
-            skipped = drawing.skip
-            content = chain.from_iterable(c.virtual_entities(skipped_entity_callback=skipped) for c in copies)
+            content = chain.from_iterable(c.virtual_entities(skipped_entity_callback=skip) for c in copies)
             stack.append((content, layer, depth + 1))
     if expanded:
         drawing.notes.append(

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from flint import fmpq
 
 from exactacq.errors import FormatError
 from exactacq.files.scene_json import scene_text
 from exactacq.numbers.rationals import nearest_float
+from exactacq.scene.bends import Around
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle, Outline, Polygon, Shape, Terrain, Vertex
 
@@ -50,6 +51,8 @@ class Draft:
             raise FormatError("the scene has no radius of vision")
         if scene.enclosure is not None:
             raise FormatError("the scene has an enclosure: scenes are searched without")
+        if any(isinstance(bend, Around) for shape in scene.shapes for bend in bends(shape)):
+            raise FormatError("the scene has an arc without a rational bulge: scenes are searched without")
         start = None if scene.start is None else scene.start.rational
         terrain = scene.terrain
         seat = None if start is None or terrain is not None else _seat(scene.shapes, start)
@@ -155,6 +158,11 @@ def corners(shape: Shape) -> list[Pair]:
     return [(x, y) for x, y, _ in shape.vertices]
 
 
+def bends(shape: Shape) -> list[Any]:
+    """How the edges bend; a circle's do not say. In a draft these are all bulges."""
+    return [] if isinstance(shape, Circle) else [bend for _, _, bend in shape.vertices]
+
+
 def is_convex(shape: Shape) -> bool:
     """Whether a valid shape is convex: circle, polygon that turns in one sense only, or lens of two arcs.
 
@@ -167,10 +175,10 @@ def is_convex(shape: Shape) -> bool:
     for k in range(len(vertices)):
         (a, b, _), (c, d, _), (e, f, _) = (vertices[k - i] for i in (2, 1, 0))
         turns.append((c - a) * (f - d) - (d - b) * (e - c))
-    bulges = [v[2] for v in vertices]
+    bulges = bends(shape)
     if all(bulge == 0 for bulge in bulges):
         return all(t >= 0 for t in turns) or all(t <= 0 for t in turns)
-    return len(vertices) == 2 and bulges[0] * bulges[1] > 0
+    return len(vertices) == 2 and (bulges[0] > 0) == (bulges[1] > 0) and all(bulges)
 
 
 def rebuilt(shape: Shape, vertices: tuple[Vertex, ...]) -> Shape:

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from flint import fmpq
 from networkx.utils import UnionFind
 
-from exactacq.files.dxf.chains import Chain, Corner, distance_above
+from exactacq.files.loops.chains import Chain, Corner, distance_above
 
 
 @dataclass(slots=True)
@@ -114,7 +114,7 @@ def _merge_corners(kept: Corner, corner: Corner, done: Stitched) -> None:
     """Take out the edge between two corners: the first one's place, the second one's edge."""
     done.short_edges += 1
     done.joint(corner, kept)
-    kept.bulge, kept.bulge_shift = corner.bulge, corner.bulge_shift
+    kept.bulge, kept.bulge_shift, kept.center = corner.bulge, corner.bulge_shift, corner.center
     kept.shift = max(kept.shift, corner.shift)
 
 

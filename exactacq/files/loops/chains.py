@@ -18,6 +18,7 @@ from math import isqrt
 
 from flint import fmpq
 
+from exactacq.scene.bends import Around, Bend
 from exactacq.scene.shapes import Outline, Polygon, Shape
 
 ZERO = fmpq(0)
@@ -25,13 +26,17 @@ ZERO = fmpq(0)
 
 @dataclass(slots=True)
 class Corner:
-    """A vertex and the bulge of the edge that follows; the shifts bound how far both are from the file's."""
+    """A vertex and the bulge of the edge that follows; the shifts bound how far both are from the file's.
+
+    An arc of irrational bulge has its centre beside a bulge near it: exact as long as its ends do not move.
+    """
 
     x: fmpq
     y: fmpq
     bulge: fmpq
     shift: fmpq = ZERO
     bulge_shift: fmpq = ZERO
+    center: tuple[fmpq, fmpq] | None = None
 
     def move_to(self, other: Corner) -> fmpq:
         """Copy another corner's place; an upper bound of the distance moved."""
@@ -66,13 +71,17 @@ class Chain:
         for i in range(len(self.corners) - 1, -1, -1):
             here, before = self.corners[i], self.corners[i - 1] if i else None
             bulge, bulge_shift = (-before.bulge, before.bulge_shift) if before else (fmpq(0), fmpq(0))
-            turned.append(Corner(here.x, here.y, bulge, here.shift, bulge_shift))
+            center = before.center if before else None
+            turned.append(Corner(here.x, here.y, bulge, here.shift, bulge_shift, center))
         return turned
 
     def shape(self) -> Shape:
         """The closed chain as a `Polygon`, or an `Outline` if any edge is an arc."""
         if any(c.bulge for c in self.corners):
-            return Outline([(c.x, c.y, c.bulge) for c in self.corners], self.label)
+            ends = [*self.corners[1:], *self.corners[:1]]
+            return Outline(
+                [(c.x, c.y, bend_of(c, e)) for c, e in zip(self.corners, ends, strict=True)], self.label
+            )
         return Polygon([(c.x, c.y) for c in self.corners], self.label)
 
     def moved(self) -> fmpq:
@@ -81,7 +90,16 @@ class Chain:
         return max((_moved(self.corners[i], self.corners[(i + 1) % n]) for i in range(n)), default=fmpq(0))
 
 
+def bend_of(start: Corner, end: Corner) -> Bend:
+    """How the edge from a corner bends: around its centre where that is still exact."""
+    if start.center is None or start.shift or end.shift:
+        return start.bulge
+    return Around(start.center, bool(start.bulge > 0))
+
+
 def _moved(start: Corner, end: Corner) -> fmpq:
+    if isinstance(bend_of(start, end), Around):
+        return ZERO
     if start.bulge == 0 and start.bulge_shift == 0:
         return max(start.shift, end.shift)
     size = abs(start.bulge) + start.bulge_shift

@@ -111,28 +111,30 @@ class Nested:
     hidden: list[int] = field(default_factory=list)
 
 
-def nest(loops: Loops, start: Point, outer: str = "wall", wall: int | None = None) -> Nested:
+def nest(loops: Loops, start: Point | None, outer: str = "wall", wall: int | None = None) -> Nested:
     """Sort loops into wall, obstacles, those outside the wall and those hidden inside an obstacle.
 
-    The outermost loop that winds round the start becomes the wall, or is dropped with ``outer="drop"``; it is
-    an obstacle like others with ``outer="keep"``, and if *wall* names the wall. A start on a loop is not
-    inside it. A loop counts as outside or hidden only if it has no point in common with the loop that
-    separates it: what crosses or touches stays, for the scene to refuse. Near linear in the edges, quadratic
-    (one numpy comparison a loop) in the loops.
+    The outermost loop that winds round the start becomes the wall, or is dropped with ``outer="drop"``; with
+    ``outer="room"`` the innermost one is the wall, so that the loops may bound areas of any nesting. All
+    loops are obstacles alike with ``outer="keep"``, without a start, and if *wall* names the wall. A start
+    on a loop is not inside it. A loop counts as outside or hidden only if it has no point in common with the
+    loop that separates it: what crosses or touches stays, for the scene to refuse. Near linear in the edges,
+    quadratic (one numpy comparison a loop) in the loops.
     """
     remaining = list(range(len(loops.shapes)))
     outcome = Nested([], wall)
-    around = loops.around(start) if outer != "keep" and wall is None else []
+    around = loops.around(start) if start is not None and outer != "keep" and wall is None else []
     if wall is not None:
         remaining.remove(wall)
     if around:
         depth = {i: len(set(loops.containers(i)) & set(around)) for i in around}
-        outermost = min(around, key=lambda i: (depth[i], i))
-        remaining.remove(outermost)
+        sign = -1 if outer == "room" else 1
+        chosen = min(around, key=lambda i: (sign * depth[i], i))
+        remaining.remove(chosen)
         if outer == "drop":
-            outcome.dropped = outermost
+            outcome.dropped = chosen
         else:
-            outcome.wall = outermost
+            outcome.wall = chosen
     containers = {i: loops.containers(i) for i in remaining}
     inner = outcome.wall
     if inner is not None:

@@ -9,10 +9,11 @@ from __future__ import annotations
 
 from flint import fmpq
 
-from exactacq.files.dxf.chains import Chain, Corner, distance_above
-from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.files.loops.chains import Chain, Corner, bend_of, distance_above
+from exactacq.geometry.curves import Curve
 from exactacq.geometry.intersections import contacts
 from exactacq.geometry.points import Point, distance_sq
+from exactacq.scene.shapes import edge
 
 CUSP_SINE_SQ = fmpq(1, 10**6)
 """Squared sine of the angle between two edges below which a second contact near the joint is looked for."""
@@ -37,16 +38,16 @@ def _open_cusp(loop: Chain, i: int, tolerance: fmpq) -> bool:
     for k in ((i - 1) % n, i):
         corner = loop.corners[k]
         bulge, reach = corner.bulge, distance_above(corner, loop.corners[(k + 1) % n])
-        step = abs(bulge) * FIRST_STEP
+        step, center = abs(bulge) * FIRST_STEP, corner.center
         computed = bool(bulge and (corner.bulge_shift or corner.shift or loop.corners[(k + 1) % n].shift))
         while computed and reach * step / 2 <= tolerance:
             for change in (step, -step):
-                corner.bulge = bulge + change
+                corner.bulge, corner.center = bulge + change, None
                 if not any(_meet_again(loop, j % n, tolerance) for j in (k, k + 1)):
                     corner.bulge_shift += step
                     return True
             step *= 2
-        corner.bulge = bulge
+        corner.bulge, corner.center = bulge, center
     return False
 
 
@@ -78,5 +79,4 @@ def _leaving(start: Corner, end: Corner, bulge: fmpq) -> tuple[fmpq, fmpq]:
 
 
 def _edge(start: Corner, end: Corner) -> Curve:
-    a, b = Point(start.x, start.y), Point(end.x, end.y)
-    return Arc.from_bulge(a, b, start.bulge) if start.bulge else Segment(a, b)
+    return edge(Point(start.x, start.y), Point(end.x, end.y), bend_of(start, end))

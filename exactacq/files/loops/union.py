@@ -16,7 +16,7 @@ from flint import fmpq
 from networkx.utils import UnionFind
 
 from exactacq.errors import FormatError
-from exactacq.files.dxf.nesting import Loops
+from exactacq.files.loops.nesting import Loops
 from exactacq.geometry.box_index import BoxIndex, bounds
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.intersections import contacts, winding
@@ -41,7 +41,7 @@ class Merged:
     notes: list[str] = field(default_factory=list)
 
 
-def unite(shapes: list[Shape], wall: Shape | None, start: Point) -> Merged:
+def unite(shapes: list[Shape], wall: Shape | None, start: Point | None) -> Merged:
     """Merge obstacles that meet each other, or the wall, into their union.
 
     What the wall and the obstacles that meet it leave free around the start becomes the new wall; so does a
@@ -63,7 +63,7 @@ def unite(shapes: list[Shape], wall: Shape | None, start: Point) -> Merged:
     return merged
 
 
-def _merge(members: list[Shape], walled: bool, start: Point, merged: Merged) -> None:
+def _merge(members: list[Shape], walled: bool, start: Point | None, merged: Merged) -> None:
     """One group of meeting loops; the first is the wall if *walled*."""
     names = ", ".join(repr(member.name) for member in members[:NAMED])
     names += f" and {len(members) - NAMED} more" if len(members) > NAMED else ""
@@ -76,7 +76,8 @@ def _merge(members: list[Shape], walled: bool, start: Point, merged: Merged) -> 
     tree = grid.clip(walled)
     rooms = list(_regions(tree, hole=not walled))
     name = f"union of {names}"
-    room = next((node for node in rooms if _inside(grid.polygon(node.Contour), start)), None)
+    around = () if start is None else (n for n in rooms if _inside(grid.polygon(n.Contour), start))
+    room = next(iter(around), None)
     if walled and room is None:
         raise FormatError(f"no union of {names}: the start is not in what it leaves free; choose another")
     merged.notes.append(f"merged {names} into their exact union")

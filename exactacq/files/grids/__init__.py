@@ -1,0 +1,1 @@
+"""Scenes from grids of cells: images, maps of robots, maps of games."""

@@ -1,0 +1,72 @@
+"""Blocked cells become a scene: placed, scaled and turned, exactly."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from flint import fmpq
+
+from exactacq.errors import FormatError
+from exactacq.files.grids.outlines import JOIN, STEPS, Cells, outlines
+from exactacq.files.loops.areas import Areas
+from exactacq.files.loops.arrangement import count
+from exactacq.scene.scene import Scene
+
+ZERO, ONE = fmpq(0), fmpq(1)
+
+
+@dataclass(frozen=True, slots=True)
+class Placement:
+    """Where a grid lies: the width of its cells, its SW corner, and cosine and sine of how it is turned."""
+
+    size: fmpq = ONE
+    origin: tuple[fmpq, fmpq] = (ZERO, ZERO)
+    turn: tuple[fmpq, fmpq] = (ONE, ZERO)
+
+    def __call__(self, x: int, y: int) -> tuple[fmpq, fmpq, fmpq]:
+        """The vertex at a lattice point."""
+        step = self.size / STEPS
+        (cosine, sine), u, v = self.turn, x * step, y * step
+        return self.origin[0] + u * cosine - v * sine, self.origin[1] + u * sine + v * cosine, ZERO
+
+
+def grid_scene(
+    blocked: Cells,
+    placement: Placement,
+    name: str,
+    start: tuple[fmpq, fmpq] | None,
+    *,
+    corners: str = JOIN,
+    border: str = "open",
+    notes: tuple[str, ...] = (),
+) -> Scene:
+    """The scene of the blocked cells, whose rows go up; what is free is told by where the start lies.
+
+    With *border* "wall" nothing beyond the grid is free, and a start is needed. See `outlines` for *corners*,
+    and `exactacq.files.loops.areas` for rings around the start. Raises `FormatError` and `InvalidScene`.
+    """
+    if placement.size <= 0:
+        raise FormatError(f"a cell {placement.size} wide; the width of a cell is positive")
+    walled = border == "wall"
+    if walled and start is None:
+        height, width = blocked.shape
+        (x0, y0, _), (x1, y1, _) = placement(0, 0), placement(STEPS * width, STEPS * height)
+        raise FormatError(
+            "beyond its border all is blocked: give a start with --start X,Y (start=(x, y) in Python); "
+            f"it lies between ({x0}, {y0}) and ({x1}, {y1})"
+        )
+    rings = outlines(np.pad(blocked, 1, constant_values=True) if walled else blocked, corners)
+    if walled:  # of the border of blocked cells around, the outside is none of the grid's
+        rings = [[(x - STEPS, y - STEPS) for x, y in ring] for ring in rings if (0, 0) not in ring]
+    areas = Areas(notes=list(notes))
+    cut = sum(bool(x % STEPS or y % STEPS) for ring in rings for x, y in ring) // 4
+    if cut:
+        how = "joined" if corners == JOIN else "parted"
+        areas.notes.append(
+            f"{how} the blocked cells at {count(cut, 'corner')} in which two of them touch, "
+            f"by cuts of 1/{STEPS} of a cell"
+        )
+    for ring in rings:
+        areas.add([placement(x, y) for x, y in (*ring, ring[0])], None)
+    return areas.scene(name, start, free=int(walled))

@@ -1,0 +1,1 @@
+"""Loops out of loose lines and arcs: what all readers of drawings share."""

@@ -1,0 +1,151 @@
+"""A drawing of chains and circles becomes a scene: joined, arranged around the start, and reported."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+from flint import fmpq
+
+from exactacq.errors import FormatError
+from exactacq.files.loops.arrangement import arranged, count
+from exactacq.files.loops.chains import Chain, scientific_above
+from exactacq.files.loops.cusps import open_cusps
+from exactacq.files.loops.drawing import Drawing
+from exactacq.files.loops.stitching import Stitched, stitch
+from exactacq.files.source import check_edges
+from exactacq.geometry.points import Point
+from exactacq.numbers.real import Real
+from exactacq.scene.scene import Scene
+from exactacq.scene.shapes import Shape
+
+TOLERANCE = fmpq(1, 10**6)
+"""Default tolerance over the drawing's size. Real parts differ at joints by 1e-15 to 1e-7 of their size
+(doubles, or six decimals), and their shortest edges are 1e-5 to 1e-3 of it: 1e-6 lies between."""
+
+
+def scene_of_drawing(
+    drawing: Drawing,
+    name: str,
+    start: tuple[fmpq, fmpq] | None,
+    *,
+    outer: str = "wall",
+    tolerance: fmpq | None = None,
+    union: bool = False,
+) -> Scene:
+    """The scene that a drawing shows.
+
+    *start* is required (a drawing has none). Ends and neighbouring vertices within *tolerance* (default
+    `TOLERANCE` times the larger side of the drawing) are joined. The outermost loop around the start is the
+    wall, or dropped (``outer="drop"``: all other loops then stay); with ``outer="room"`` the innermost one is
+    the wall. Loops outside the wall or inside an obstacle are left out. Loops that overlap or touch are
+    refused by the scene, or merged if they are polygons and *union* is set. Raises `FormatError` and
+    `InvalidScene`.
+    """
+    if tolerance is not None and tolerance < 0:
+        raise FormatError(f"the tolerance is a length of at least 0, not {tolerance}")
+    check_edges(sum(chain.edges for chain in drawing.chains) + len(drawing.circles))
+    notes = [*drawing.notes, *_left_out(drawing.dropped)]
+    other = f"select other layers of {drawing.layer_list()}" if drawing.layers else "export another drawing"
+    if not drawing.chains and not drawing.circles:
+        raise FormatError(f"nothing to read{_because(_left_out(drawing.dropped))}; {other}")
+    (x0, y0), (x1, y1) = drawing.extent()
+    if start is None:
+        raise FormatError(
+            f"a drawing has no start: give one with --start X,Y (start=(x, y) in Python); "
+            f"this one spans x {short(x0)} to {short(x1)}, y {short(y0)} to {short(y1)}"
+        )
+    reach = default_tolerance(max(x1 - x0, y1 - y0)) if tolerance is None else tolerance
+    stitched = stitch(drawing.chains, reach)
+    cusps = sum(open_cusps(loop, reach) for loop in stitched.loops)
+    shapes = _shapes(drawing, stitched)
+    notes += _report(stitched, reach, cusps)
+    if not shapes:
+        raise FormatError(f"no closed loop{_because(notes)}; give a larger --tolerance, or {other}")
+    obstacles, wall = arranged(shapes, Point(*start), outer, union, notes)
+    return Scene(obstacles, start=start, enclosure=wall, name=name, notes=notes)
+
+
+def default_tolerance(size: fmpq) -> fmpq:
+    """`TOLERANCE` of the size, rounded down to a power of ten; 0 for a size of 0."""
+    if not size:
+        return fmpq(0)
+    power = fmpq(1)
+    while power > size:
+        power /= 10
+    while power * 10 <= size:
+        power *= 10
+    return power * TOLERANCE
+
+
+def _shapes(drawing: Drawing, stitched: Stitched) -> list[Shape]:
+    """All loops in the order of the file; a circle drawn twice counts as a duplicate."""
+    placed: list[tuple[int, Shape]] = [(loop.order, loop.shape()) for loop in stitched.loops]
+    seen: set[tuple[object, ...]] = set()
+    for order, circle in drawing.circles:
+        key = (circle.center, circle.radius)
+        if key in seen:
+            stitched.duplicates += 1
+        else:
+            seen.add(key)
+            placed.append((order, circle))
+    return [shape for _, shape in sorted(placed, key=lambda entry: entry[0])]
+
+
+# -- what the notes say ----------------------------------------------------------------------------
+
+
+def _report(stitched: Stitched, tolerance: fmpq, cusps: int) -> list[str]:
+    """One sentence for each thing that was done to the loops, and for all that was left out of them."""
+    moved = max((loop.moved() for loop in stitched.loops), default=fmpq(0))
+    notes = []
+    if stitched.joined:
+        far = scientific_above(stitched.largest)
+        ends = count(stitched.joined, "end")
+        also = ", open chains included" if stitched.open_chains else ""
+        notes.append(f"joined {ends} within {short(tolerance)}{also}; the largest move is at most {far}")
+    if moved:
+        far = scientific_above(moved)
+        notes.append(f"no point of any loop moved by more than {far} (arcs made rational, ends joined)")
+    if cusps:
+        notes.append(
+            f"changed a bulge at {count(cusps, 'cusp')} that rounding had made cross, within that bound"
+        )
+    if stitched.short_edges:
+        notes.append(f"took out {count(stitched.short_edges, 'edge')} not longer than {short(tolerance)}")
+    if stitched.duplicates:
+        notes.append(f"left out {count(stitched.duplicates, 'piece')} drawn twice")
+    if stitched.flat:
+        notes.append(f"left out {count(stitched.flat, 'loop')} without area")
+    if chains := stitched.open_chains:
+        pieces = sum(len(chain) for chain in chains)
+        x, y = _place(chains[0][0])
+        notes.append(
+            f"left out {count(len(chains), 'open chain')} ({count(pieces, 'piece')}), "
+            f"the first {chains[0][0].label} from ({x}, {y})"
+        )
+    if stitched.branches:
+        x, y = (short(c) for c in stitched.branches[0])
+        n = len(stitched.branches)
+        notes.append(f"{count(n, 'branch point')} where three or more ends meet, the first at ({x}, {y})")
+    return notes
+
+
+def _left_out(dropped: Counter[str]) -> list[str]:
+    named = ", ".join(f"{n} {reason}" for reason, n in dropped.most_common())
+    return [f"left out {named}"] if named else []
+
+
+def _because(notes: list[str]) -> str:
+    return f" ({'; '.join(notes)})" if notes else ""
+
+
+def _place(chain: Chain) -> tuple[str, str]:
+    return short(chain.corners[0].x), short(chain.corners[0].y)
+
+
+def short(value: fmpq) -> str:
+    """Six digits of a number, for messages."""
+    try:
+        return f"{float(Real(value)):.6g}"
+    except OverflowError:
+        return Real(value).decimal(6)

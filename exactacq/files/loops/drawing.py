@@ -1,0 +1,60 @@
+"""What a reader makes of a drawing: chains of edges and circles, and what it left out."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from flint import fmpq
+
+from exactacq.errors import FormatError
+from exactacq.files.loops.chains import Chain
+from exactacq.files.source import one_line
+from exactacq.scene.shapes import Circle
+
+
+@dataclass(slots=True)
+class Drawing:
+    """The contents of a drawing: chains, circles (with their places in the file), other entities by name."""
+
+    chains: list[Chain] = field(default_factory=list)
+    circles: list[tuple[int, Circle]] = field(default_factory=list)
+    dropped: Counter[str] = field(default_factory=Counter)
+    notes: list[str] = field(default_factory=list)
+    layers: Counter[str] = field(default_factory=Counter)
+    """Number of entities of each layer, in the file's spelling, selected or not."""
+
+    def extent(self) -> tuple[tuple[fmpq, fmpq], tuple[fmpq, fmpq]]:
+        """The box of all vertices and circles (arcs may reach beyond it)."""
+        corners = [(c.x, c.y) for chain in self.chains for c in chain.corners]
+        for _, circle in self.circles:
+            (x, y), r = circle.center, circle.radius
+            corners += [(x - r, y - r), (x + r, y + r)]
+        xs, ys = [x for x, _ in corners], [y for _, y in corners]
+        return (min(xs), min(ys)), (max(xs), max(ys))
+
+    def layer_list(self) -> str:
+        """The layers with their counts of entities, the fullest first."""
+        named = [f"{one_line(repr(name))} ({count})" for name, count in self.layers.most_common(12)]
+        return ", ".join(named) + (" and others" if len(self.layers) > 12 else "")
+
+
+class LayerChoice:
+    """The layers that are read, all if *names* is None; upper and lower case are one, as in DXF."""
+
+    def __init__(self, names: Iterable[str] | None) -> None:
+        self.names = None if names is None else {name.casefold(): name for name in names}
+        self.seen: set[str] = set()
+
+    def take(self, *layers: str) -> bool:
+        """Whether something on these layers is read."""
+        keys = {layer.casefold() for layer in layers}
+        self.seen |= keys
+        return self.names is None or not keys.isdisjoint(self.names)
+
+    def check(self, drawing: Drawing) -> None:
+        """`FormatError` if a layer that was asked for is not there."""
+        missing = [name for key, name in (self.names or {}).items() if key not in self.seen]
+        if missing and drawing.layers:
+            raise FormatError(f"no layer {one_line(repr(missing[0]))}; it has {drawing.layer_list()}")

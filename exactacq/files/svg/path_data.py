@@ -1,0 +1,136 @@
+"""The path data of SVG: subpaths of lines and circular arcs, in the numbers of the file."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from typing import NoReturn
+
+from flint import fmpq
+
+from exactacq.errors import FormatError
+from exactacq.files.loops.chains import Corner
+from exactacq.files.loops.rational_arcs import arc_of_radius
+from exactacq.files.source import MAX_EDGES, one_line
+from exactacq.files.svg.transforms import NUMBER
+from exactacq.numbers.rationals import rational
+
+Pair = tuple[fmpq, fmpq]
+_GAP = re.compile(r"[\s,]*")
+_COMMAND, _FLAG, _NUMBER = re.compile(r"[A-Za-z]"), re.compile(r"[01]"), re.compile(NUMBER, re.ASCII)
+_ARGUMENTS = {"M": "nn", "L": "nn", "H": "n", "V": "n", "Z": "", "A": "nnnffnn"}
+_CURVES = {"C": "cubic Bézier", "S": "cubic Bézier", "Q": "quadratic Bézier", "T": "quadratic Bézier"}
+
+
+@dataclass(slots=True)
+class Subpath:
+    """Corners, each with the edge that follows; the last one's says nothing if the subpath stays open."""
+
+    corners: list[Corner] = field(default_factory=list)
+    closed: bool = False
+
+    def line(self, end: Pair) -> None:
+        """A straight edge to a point."""
+        self.corners.append(Corner(*end, fmpq(0)))
+
+    def arc(self, edge: Corner, end: Pair) -> None:
+        """An edge that the last corner is to have, to a point."""
+        self.corners[-1] = edge
+        self.line(end)
+
+
+def subpaths(data: str) -> list[Subpath]:
+    """The subpaths of path data; `FormatError` for curves that are not read and for what is no path."""
+    return _PathReader(data).read()
+
+
+class _PathReader:
+    """One pass over the data, from command to command."""
+
+    def __init__(self, data: str) -> None:
+        self.data, self.place = data, 0
+        self.found: list[Subpath] = []
+        self.here = self.first = (fmpq(0), fmpq(0))
+        self.edges = 0
+
+    def read(self) -> list[Subpath]:
+        """All subpaths that have an edge."""
+        command = ""
+        while not self._at_end():
+            letter = self._next(_COMMAND)
+            if letter:
+                command = letter
+            elif not command or command in "Zz":
+                self._refuse("a command")
+            self._step(command)
+            command = {"M": "L", "m": "l"}.get(command, command)
+        return [subpath for subpath in self.found if len(subpath.corners) > 1]
+
+    def _step(self, command: str) -> None:
+        kind, relative = command.upper(), command.islower()
+        if kind in _CURVES:
+            raise FormatError(
+                f"a {_CURVES[kind]} curve is not read: replace it by lines and arcs, or take it out"
+            )
+        if kind not in _ARGUMENTS:
+            self._refuse(f"a command other than {command}")
+        given = [self._argument(which) for which in _ARGUMENTS[kind]]
+        if not self.found and kind != "M":
+            self._refuse("a path that begins with M")
+        self.edges += 1
+        if self.edges > MAX_EDGES:
+            raise FormatError(f"a path of more than {MAX_EDGES} edges; export only the part that matters")
+        x, y = self.here if relative else (fmpq(0), fmpq(0))
+        if kind == "Z":
+            self.found[-1].closed = True
+            self.here = self.first
+            self.found.append(Subpath([Corner(*self.first, fmpq(0))]))
+            return
+        end = {
+            "H": lambda: (x + given[0], self.here[1]),
+            "V": lambda: (self.here[0], y + given[0]),
+        }.get(kind, lambda: (x + given[-2], y + given[-1]))()
+        if kind == "M":
+            self.first = end
+            self.found.append(Subpath([Corner(*end, fmpq(0))]))
+        elif kind == "A" and end != self.here:
+            self._arc(end, given)
+        elif kind != "A":
+            self.found[-1].line(end)
+        self.here = end
+
+    def _arc(self, end: Pair, given: list[fmpq]) -> None:
+        across, along, _, large, sweep = given[:5]
+        if across and along and abs(across) != abs(along):
+            raise FormatError(
+                "an elliptical arc (A of two radii) is not read: replace it by circular ones, or take it out"
+            )
+        if not (across and along):
+            self.found[-1].line(end)
+            return
+        edge = arc_of_radius(self.here, end, abs(across), bool(large), bool(sweep))
+        self.found[-1].arc(edge, end)
+
+    def _argument(self, which: str) -> fmpq:
+        text = self._next(_FLAG if which == "f" else _NUMBER)
+        if text is None:
+            self._refuse("a flag, 0 or 1," if which == "f" else "a number")
+        return rational(text)
+
+    def _next(self, pattern: re.Pattern[str]) -> str | None:
+        self._at_end()
+        match = pattern.match(self.data, self.place)
+        if match is None:
+            return None
+        self.place = match.end()
+        return match[0]
+
+    def _at_end(self) -> bool:
+        gap = _GAP.match(self.data, self.place)
+        self.place = gap.end() if gap else self.place
+        return self.place >= len(self.data)
+
+    def _refuse(self, needed: str) -> NoReturn:
+        rest = self.data[self.place : self.place + 20]
+        found = one_line(repr(rest)) if rest else "the end"
+        raise FormatError(f"path data: {needed} is needed at character {self.place + 1}, not {found}")
