@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from exactacq.numbers.length import Length
     from exactacq.numbers.real import Real
     from exactacq.output.figures import figure
+    from exactacq.output.results import write
     from exactacq.output.run_json import load_run
     from exactacq.scene.bends import Around, Via
     from exactacq.scene.scene import Scene
@@ -70,6 +71,7 @@ __all__ = [
     "sightseer",
     "sweep",
     "visibility_graph",
+    "write",
 ]
 
 _HOMES = {
@@ -108,6 +110,7 @@ _HOMES = {
     "sightseer": "exactacq.strategies.sightseer.strategy",
     "sweep": "exactacq.sensing.view_events",
     "visibility_graph": "exactacq.visibility.links",
+    "write": "exactacq.output.results",
 }
 """Where the names live."""
 

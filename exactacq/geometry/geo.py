@@ -58,14 +58,14 @@ def _along(strokes: Iterable[Stroke]) -> tuple[Position, ...]:
     """The corners of strokes that follow each other; floats that repeat are told once."""
     positions: list[Position] = []
     for stroke in strokes:
-        for k in range(1 + (parts := _chords(stroke))):
+        for k in range(1 + (parts := chords(stroke))):
             position = stroke.at(k / parts)
             if positions[-1:] != [position]:
                 positions.append(position)
     return tuple(positions)
 
 
-def _chords(stroke: Stroke) -> int:
-    """Into how many chords a stroke is cut: n of them stray by about radius * sweep^2 / (8 n^2)."""
+def chords(stroke: Stroke) -> int:
+    """Into how many chords a stroke is cut: n of them stray by at most radius * sweep^2 / (8 n^2)."""
     turn = abs(stroke.sweep)
     return max(1, ceil(turn / sqrt(8 * FLATNESS * min(1.0, turn)))) if turn else 1
