@@ -11,12 +11,13 @@ import sys
 from collections.abc import Callable, Sequence
 from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
 
 from exactacq.errors import ExactacqError, FormatError, InvalidScene
 from exactacq.file_options import read_from_text, reads_files
+from exactacq.files.formats import written_suffixes
 from exactacq.strategies.options import Strategy, TargetChoice
 from exactacq.study.campaign.command import verify
 from exactacq.study.search.command import search
@@ -31,10 +32,13 @@ REFUSED, INTERNAL, INTERRUPTED = 2, 1, 130
 """Exit statuses: bad input or a file that cannot be written; a fault of exactacq itself; control-C."""
 VIOLATIONS = 8
 """Most violations of a scene that the one line of an error names."""
+Result = TypeVar("Result")
 UsageError: type[Exception] = typer.BadParameter.__bases__[0]
 """What typer raises for a wrong command line; where it lives depends on typer's release."""
 
 
+DRAWINGS = tuple(suffix for suffix in written_suffixes() if suffix != ".json")
+"""What a view is written as."""
 SceneName = Annotated[str, typer.Argument(metavar="SCENE", help="A file, or the name of a gallery scene.")]
 Start = Annotated[str | None, typer.Option(metavar="X,Y", help="Start point; required for drawings.")]
 TerrainSize = Annotated[
@@ -120,10 +124,7 @@ def explore(
     if figure is not None:
         from exactacq.output.figures import save
 
-        try:
-            save(run, figure, length)
-        except ValueError as error:
-            raise FormatError(f"--at: {error}") from None
+        _said("--at", lambda: save(run, figure, length))
     if animate is not None:
         from exactacq.output.animation.page import frames_of, page
 
@@ -229,6 +230,76 @@ def gallery(
         print(f"figure written to {figure}")
 
 
+@app.command()
+@reads_files
+def convert(
+    source: Annotated[str, typer.Argument(metavar="IN", help="A scene, or a run that --trace wrote.")],
+    target: Annotated[str, typer.Argument(metavar="OUT", help=f"A file: {', '.join(written_suffixes())}.")],
+    start: Start = None,
+    at: Annotated[
+        str | None, typer.Option(metavar="L", help="Of a run: as it was after this length of the path.")
+    ] = None,
+    only: Annotated[
+        str | None, typer.Option(metavar="A,B", help="Kinds of things to write, as path,links; default: all.")
+    ] = None,
+    **options: Any,
+) -> None:
+    """Write a scene or a run in another format; say how far any point moved at most."""
+    from exactacq.files.whole_files import check_output
+    from exactacq.output.report import console, remarks_report
+    from exactacq.output.results import write
+    from exactacq.output.run_json import is_run_file, load_run
+
+    length = None if at is None else _number("--at", at)
+    kinds = None if only is None else [kind.strip() for kind in only.split(",")]
+    if _same_file(check_output(target, written_suffixes()), source):
+        raise FormatError(f"{source}: would be overwritten by the output; choose another name")
+    given = read_from_text(options)
+    subject: Run | Scene
+    if is_run_file(source):
+        if start is not None or given:
+            raise FormatError(f"{source}: a run takes no options for reading scenes; leave them out")
+        subject = load_run(source)
+    elif at is not None:
+        raise FormatError("--at: names a moment of a run; give a run that explore --trace wrote")
+    else:
+        subject = _scene(source, start, options)
+    remarks = _said("--at", lambda: write(subject, target, at=length, only=kinds))
+    out = console()
+    out.print(f"{target} written", soft_wrap=True)
+    out.print(remarks_report(remarks))
+
+
+@app.command()
+@reads_files
+def isovist(
+    scene: SceneName,
+    at: Annotated[str, typer.Option(metavar="X,Y", help="The place to look from.")],
+    radius: Radius = None,
+    out: Annotated[
+        str | None, typer.Option(metavar="F", help=f"Write the view: {', '.join(DRAWINGS)}.")
+    ] = None,
+    **options: Any,
+) -> None:
+    """What is seen from a place within a radius: area, perimeter and pieces; or a drawing of it."""
+    from exactacq.files.whole_files import check_output
+    from exactacq.output.report import console, view_report
+    from exactacq.output.results import write
+    from exactacq.visibility.isovist import isovist as view_from
+
+    range_, place = _range(radius), _pair("--at", at)
+    if out is not None and _same_file(check_output(out, DRAWINGS), scene):
+        raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
+    world = _scene(scene, at if _needs_start(scene) else None, options)
+    if range_ is None and world.radius is None:
+        raise FormatError(f"{scene}: the scene has no radius of vision: give one with --radius R")
+    view = view_from(world, place, range_)
+    remarks = () if out is None else write(view, out)
+    console().print(view_report(view))
+    if out is not None:
+        print("; ".join((f"view written to {out}", *remarks)))
+
+
 app.command()(verify)
 app.command()(search)
 
@@ -258,6 +329,24 @@ def _scene(name: str, start: str | None, options: dict[str, Any], terrain: str |
     except InvalidScene as error:
         first, *others = error.violations
         raise InvalidScene([f"{name}: {first}", *others]) from None
+
+
+def _needs_start(name: str) -> bool:
+    """Whether a scene is in a file that tells no start, so that the place to look from takes its part."""
+    from exactacq.files.gallery import names
+
+    is_file = name not in names() or os.path.lexists(name)
+    return is_file and Path(name).suffix.lower() != ".json"
+
+
+def _said(option: str, act: Callable[[], Result]) -> Result:
+    """What an action returns; a value that makes no sense is an error that names the option."""
+    try:
+        return act()
+    except FormatError:
+        raise
+    except ValueError as error:
+        raise FormatError(f"{option}: {error}") from None
 
 
 def _loaded(name: str, start: str | None, options: dict[str, object]) -> Scene:

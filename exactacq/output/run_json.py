@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from collections.abc import Hashable, Iterable, Iterator, Sequence
 from typing import Any
 
@@ -74,6 +75,19 @@ def run_to_json(run: Run) -> dict[str, Any]:
     }
     document["numbers"] = out.table
     return document
+
+
+def is_run_file(path: str | os.PathLike[str]) -> bool:
+    """Whether a file is JSON that says that it is a run; False for what cannot be read.
+
+    The text of its ``"format"`` decides: no run is read. Linear in the file.
+    """
+    if os.path.splitext(path)[1].lower() != ".json":
+        return False
+    try:
+        return re.search(rb'"format"\s*:\s*"exactacq run"', read_bytes(path)) is not None
+    except FormatError:
+        return False
 
 
 def load_run(source: str | os.PathLike[str] | dict[str, Any]) -> Run:
