@@ -393,3 +393,12 @@ def test_digits_follow_the_size() -> None:
         assert Precision.of(sheet).places == DIGITS - power - 1
         content = wkt(sheet)
         assert 0 < content.moved < unit / 10**15
+
+
+@pytest.mark.parametrize("scene", [MIXED, ROOM], ids=["mixed", "room"])
+def test_svg_is_the_scene_where_radii_are_decimals(scene: xa.Scene, tmp_path: Path) -> None:
+    kept = [s for s in scene.shapes if s.name not in ("bulged", "quarter", "turned")]
+    wall = scene.enclosure if scene is MIXED else xa.Polygon([(0, 0), (9, 0), (9, "9.5"), (0, "9.5")])
+    plain = xa.Scene(kept, scene.start, enclosure=wall, radius=scene.radius)
+    assert xa.write(plain, tmp_path / "s.svg") == (EXACT,)
+    assert shapes(xa.load(tmp_path / "s.svg", start=scene.start, tolerance=0)) == shapes(plain)

@@ -1,6 +1,7 @@
 """SVG drawings: a group for each kind of thing; arcs are arcs, coordinates are those of the scene, y up.
 
-One transformation turns y up; no coordinate is shifted or scaled, so finite decimals stay as they are.
+The viewBox is that of the scene, and one transformation mirrors all in its middle, which turns y up. No
+coordinate is shifted or scaled otherwise, so finite decimals stay as they are.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from exactacq.files.writing.corners import Corners
 from exactacq.files.writing.decimals import Precision, text
 from exactacq.files.writing.sheet import Item, Sheet, Written
 from exactacq.geometry.curves import Arc
+from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import Real
 
 WIDEST = fmpq(1, 2)
@@ -46,10 +48,12 @@ def written(sheet: Sheet) -> Written:
         style = LOOKS.get(layer, POINT)
         groups.append(f'<g id="{escape(layer)}" style="{style}">\n' + "\n".join(paths) + "\n</g>")
     body = "\n".join(groups)
+    box, size = _frame(sheet)
+    mirror = text(2 * box[1] + box[3])
     lines = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" {_frame(sheet)}>',
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{" ".join(map(text, box))}" {size}>',
         f"<title>{escape(sheet.title)}</title>",
-        '<g transform="scale(1,-1)" stroke-linecap="round" stroke-linejoin="round">',
+        f'<g transform="matrix(1 0 0 -1 0 {mirror})" stroke-linecap="round" stroke-linejoin="round">',
         *([body] if body else []),
         "</g>",
         "</svg>",
@@ -57,20 +61,18 @@ def written(sheet: Sheet) -> Written:
     return Written(("\n".join(lines) + "\n").encode(), writer.moved)
 
 
-def _frame(sheet: Sheet) -> str:
-    """The view, about all that there is, and its size in pixels."""
+def _frame(sheet: Sheet) -> tuple[tuple[fmpq, ...], str]:
+    """The view, about all that there is: left, low, width and height, and its size in pixels."""
     strokes = [curve.stroke() for item in sheet.items for curve in item.curves]
     places = [place for stroke in strokes for place in stroke.points().tolist()]
     places += [item.place.xy for item in sheet.items if item.place is not None]
     xs, ys = zip(*(places or [(0.0, 0.0)]), strict=True)
     size = max(max(xs) - min(xs), max(ys) - min(ys)) or 1.0
-    left, top = min(xs) - MARGIN * size, -max(ys) - MARGIN * size
-    wide, high = (max(side) - min(side) + 2 * MARGIN * size for side in (xs, ys))
-    pixels = " ".join(
-        f'{name}="{PIXELS * side / (size * (1 + 2 * MARGIN)):.0f}"'
-        for name, side in (("width", wide), ("height", high))
-    )
-    return f'viewBox="{left:.9g} {top:.9g} {wide:.9g} {high:.9g}" {pixels}'
+    corner = [min(side) - MARGIN * size for side in (xs, ys)]
+    sides = [max(side) - min(side) + 2 * MARGIN * size for side in (xs, ys)]
+    pixels = (f"{PIXELS * side / max(sides):.0f}" for side in sides)
+    box = tuple(rational(f"{number:.9g}") for number in (*corner, *sides))
+    return box, " ".join(f'{name}="{count}"' for name, count in zip(("width", "height"), pixels, strict=True))
 
 
 class _SvgWriter:
@@ -78,15 +80,28 @@ class _SvgWriter:
         self.precision, self.moved = precision, fmpq(0)
 
     def path(self, item: Item) -> str:
-        """One item; a point is a stroke of no length, which round ends make a dot."""
+        """One item, a full circle as such; a point is a stroke of no length, which round ends make a dot."""
         told = "".join(
             f' data-{key}="{escape(str(value))}"'
             for key, value in item.properties.items()
             if value is not None
         )
         name = item.properties.get("name")
-        inner = f"><title>{escape(str(name))}</title></path>" if name else "/>"
-        return f'<path vector-effect="non-scaling-stroke" d="{self._data(item)}"{told}{inner}'
+        title = f"<title>{escape(str(name))}</title>" if name else ""
+        first = item.curves[0] if item.curves else None
+        element, data = "path", ""
+        if isinstance(first, Arc) and first.full and len(item.curves) == 1:
+            element, data = "circle", self._circle(first)
+        else:
+            data = f'd="{self._data(item)}"'
+        return f'<{element} vector-effect="non-scaling-stroke" {data}{told}>{title}</{element}>'
+
+    def _circle(self, circle: Arc) -> str:
+        """A full circle; where it starts is not told."""
+        values = (circle.center.x, circle.center.y, circle.radius)
+        (x, dx), (y, dy), (radius, error) = map(self.precision.rounded, values)
+        self.moved = max(self.moved, dx + dy + error)
+        return f'cx="{text(x)}" cy="{text(y)}" r="{text(radius)}"'
 
     def _data(self, item: Item) -> str:
         if item.place is not None:
