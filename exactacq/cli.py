@@ -46,6 +46,7 @@ TerrainSize = Annotated[
     typer.Option(metavar="B,A", help="Terrain B wide and A high; default: the scene's own."),
 ]
 Radius = Annotated[str | None, typer.Option(metavar="R", help="Radius of vision; default: the scene's own.")]
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, and no table.")]
 FigureFile = Annotated[str | None, typer.Option(metavar="F", help="Write a figure: .svg, .pdf or .png.")]
 
 app = typer.Typer(
@@ -157,6 +158,7 @@ def compare(
     start: Start = None,
     terrain: TerrainSize = None,
     figure: FigureFile = None,
+    as_json: AsJson = False,
     **options: Any,
 ) -> None:
     """Explore a scene by both strategies, and set what they do side by side.
@@ -165,6 +167,7 @@ def compare(
     """
     from exactacq.files.whole_files import FIGURES, check_output
     from exactacq.output.report import comparison, console
+    from exactacq.output.report_data import comparison_data, text_of
 
     range_ = _range(radius)
     if figure is not None and _same_file(check_output(figure, FIGURES), scene):
@@ -175,11 +178,15 @@ def compare(
     corner = _scene_with(world, start=(0, 0))
     seen = _explored(corner if world.start is None else world, range_, Strategy.SIGHTSEER)
     spread = _explored(corner, range_, Strategy.SEED_SPREADER)
-    console().print(comparison(seen, spread))
     if figure is not None:
         from exactacq.output.figures import save_pair
 
         save_pair(seen, spread, figure)
+    if as_json:
+        sys.stdout.write(text_of(comparison_data(seen, spread)))
+        return
+    console().print(comparison(seen, spread))
+    if figure is not None:
         print(f"figure written to {figure}")
 
 
@@ -188,12 +195,18 @@ def compare(
 def check(
     scene: SceneName,
     start: Start = None,
+    as_json: AsJson = False,
     **options: Any,
 ) -> None:
     """Validate a scene; print its contents and what the import did."""
     from exactacq.output.report import console, scene_report
+    from exactacq.output.report_data import scene_data, text_of
 
-    console().print(scene_report(_scene(scene, start, options)))
+    world = _scene(scene, start, options)
+    if as_json:
+        sys.stdout.write(text_of(scene_data(world)))
+    else:
+        console().print(scene_report(world))
 
 
 @app.command()
@@ -203,6 +216,7 @@ def gallery(
     out: Annotated[
         str | None, typer.Option(metavar="DIR", help="Explore every scene, and write DIR/NAME.svg.")
     ] = None,
+    as_json: AsJson = False,
 ) -> None:
     """List the gallery; draw one scene of it (--figure), or the runs on all of them (--out).
 
@@ -210,7 +224,10 @@ def gallery(
     """
     from exactacq.files import gallery as scenes
     from exactacq.output.report import console, scene_list, scene_report
+    from exactacq.output.report_data import gallery_data, scene_data, text_of
 
+    if as_json and (figure is not None or out is not None):
+        raise FormatError("--json: prints what a scene holds; leave the pictures out")
     if name is None and figure is not None:
         raise FormatError(
             "--figure: name the scene to be drawn, as in: exactacq gallery figure2 --figure F.svg"
@@ -219,6 +236,9 @@ def gallery(
         if name is not None:
             raise FormatError("--out: draws every scene; leave the name out")
         _draw_gallery(Path(out))
+    elif as_json:
+        data = gallery_data(scenes.names()) if name is None else scene_data(scenes.scene(name))
+        sys.stdout.write(text_of(data))
     elif name is None:
         console().print(scene_list(scenes.names()))
     elif figure is None:

@@ -104,3 +104,48 @@ def test_isovist_refuses(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> 
     bare = tmp_path / "s.json"
     bare.write_text('{"obstacles": []}')
     assert "--radius R" in refused(capsys, "isovist", bare, "--at", "0,0")
+
+
+def data(capsys: pytest.CaptureFixture[str], *arguments: object) -> object:
+    return json.loads(answered(capsys, *arguments, "--json"))
+
+
+def test_check_as_json(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    found = data(capsys, "check", "circles")
+    assert found == {
+        "name": "circles", "ok": True, "obstacles": 2, "enclosure": False, "segments": 0, "arcs": 2,
+        "perimeters": {"closed": "10*pi", "decimal": "31.415926535897932385"},
+        "start": ["0", "0"], "radius": "20", "terrain": None, "notes": [],
+    }  # fmt: skip
+    assert found == data(capsys, "gallery", "circles")
+    bare = tmp_path / "bare.json"
+    bare.write_text('{"obstacles": [], "terrain": {"width": 1, "height": "1/3"}}')
+    empty = data(capsys, "check", bare)
+    assert empty["start"] is None and empty["terrain"] == {"width": "1", "height": "1/3"}
+
+
+def test_compare_as_json(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    found = data(capsys, "compare", "case3", "--figure", tmp_path / "pair.svg")
+    assert [run["strategy"] for run in found["runs"]] == ["sightseer", "seed-spreader"]
+    assert [len(run["bounds"]) for run in found["runs"]] == [4, 9]
+    assert found["runs"][0]["diversions"] is None and found["runs"][1]["diversions"] == 1
+    lengths = [float(run["length"]["decimal"]) for run in found["runs"]]
+    assert found["ratio"] == pytest.approx(lengths[1] / lengths[0])
+    assert (tmp_path / "pair.svg").exists()
+
+
+def test_gallery_as_json(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    found = data(capsys, "gallery")
+    assert {"name": "squares", "shows": "two squares in a row: the path is 24 long"} in found
+    assert "leave the pictures out" in refused(capsys, "gallery", "--out", tmp_path / "g", "--json")
+
+
+def test_verify_as_json(capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main(["verify", "--scenes", "1", "--workers", "1", "--strategy", "sightseer", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["scenes"]["passed"] == 1 and found["wrong"] == found["open"] == []
+    assert any(row["tried"] == row["held"] == 1 for row in found["statements"])
+    assert cli.main(["verify", "--replay", "sightseer:0", "--json"]) == 0
+    again = json.loads(capsys.readouterr().out)
+    assert (again["scene"], again["result"]) == ("sightseer:0", "passed")
+    assert again["statements"][0]["claim"]

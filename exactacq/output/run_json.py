@@ -63,11 +63,11 @@ def run_to_json(run: Run) -> dict[str, Any]:
         "strategy": run.strategy,
         "radius": str(run.radius),
         "start": _point(out, run.start),
-        "length": _length(run.length),
+        "length": length_to_json(run.length),
         "visits": list(run.visits),
         "unseen": list(run.unseen),
         "unvisited": list(run.unvisited),
-        "bounds": [_bound(bound) for bound in run.bounds],
+        "bounds": [bound_to_json(bound) for bound in run.bounds],
         **_of_strategy(out, run),
         "path": [_piece(out, piece) for piece in run.path],
         "events": [_event(out, event, positions) for event in run.events],
@@ -173,13 +173,15 @@ def _point(out: Encoder, point: Point) -> list[Number]:
     return [out.number(point.x), out.number(point.y)]
 
 
-def _length(length: Length) -> dict[str, str]:
+def length_to_json(length: Length) -> dict[str, str]:
+    """A length's closed form, if it is short, and its decimal value."""
     closed = readable(length, CLOSED, DIGITS)
     return {"closed": closed[0], "decimal": length.decimal(DIGITS)}
 
 
-def _bound(bound: Bound) -> dict[str, Any]:
-    value = {"value": _length(bound.value), "holds": bound.holds, "ratio": repr(bound.ratio)}
+def bound_to_json(bound: Bound) -> dict[str, Any]:
+    """A bound's name, source and value, and whether it holds."""
+    value = {"value": length_to_json(bound.value), "holds": bound.holds, "ratio": repr(bound.ratio)}
     return {"name": bound.name, "source": bound.source, **value}
 
 
