@@ -30,7 +30,7 @@ def point(position: Position) -> Geo:
 
 def line_string(strokes: Iterable[Stroke]) -> Geo:
     """A LineString along strokes that follow each other; a Point if they do not leave their place."""
-    positions = _along(strokes)
+    positions = corners(strokes)
     return point(positions[0]) if len(positions) == 1 else {"type": "LineString", "coordinates": positions}
 
 
@@ -39,7 +39,7 @@ def polygon(strokes: Iterable[Stroke], clockwise: bool = False) -> Geo:
 
     Empty without strokes; where a loop bounds no area, its ring bounds none.
     """
-    positions = _along(strokes)
+    positions = corners(strokes)
     ring = positions if positions[:1] == positions[-1:] and len(positions) > 1 else positions + positions[:1]
     return {"type": "Polygon", "coordinates": (ring[::-1] if clockwise else ring,) if ring else ()}
 
@@ -54,8 +54,8 @@ def collection(features: Iterable[Geo]) -> Geo:
     return {"type": "FeatureCollection", "features": tuple(features)}
 
 
-def _along(strokes: Iterable[Stroke]) -> tuple[Position, ...]:
-    """The corners of strokes that follow each other; floats that repeat are told once."""
+def corners(strokes: Iterable[Stroke]) -> tuple[Position, ...]:
+    """The corners of strokes that follow each other, arcs as chords; floats that repeat are told once."""
     positions: list[Position] = []
     for stroke in strokes:
         for k in range(1 + (parts := chords(stroke))):

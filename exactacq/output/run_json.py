@@ -173,6 +173,11 @@ def _point(out: Encoder, point: Point) -> list[Number]:
     return [out.number(point.x), out.number(point.y)]
 
 
+def _decimal(point: Point) -> list[float]:
+    """The nearest floats, for readers: they are not read back."""
+    return list(point.xy)
+
+
 def length_to_json(length: Length) -> dict[str, str]:
     """A length's closed form, if it is short, and its decimal value."""
     closed = readable(length, CLOSED, DIGITS)
@@ -191,6 +196,8 @@ def _link(out: Encoder, link: TreeLink) -> dict[str, Any]:
         "target": link.target,
         "leave": _point(out, link.leave),
         "hit": _point(out, link.hit),
+        "leave_decimal": _decimal(link.leave),
+        "hit_decimal": _decimal(link.hit),
         "length": out.number(link.length.algebraic),
         "traversals": link.traversals,
     }
@@ -208,6 +215,8 @@ def _of_strategy(out: Encoder, run: Run) -> dict[str, Any]:
                 "obstacle": d.obstacle,
                 "leave": _point(out, d.leave),
                 "hit": _point(out, d.hit),
+                "leave_decimal": _decimal(d.leave),
+                "hit_decimal": _decimal(d.hit),
                 "reason": d.reason,
                 "first": d.first,
                 "last": d.last,
@@ -223,6 +232,7 @@ def _of_strategy(out: Encoder, run: Run) -> dict[str, Any]:
 def _piece(out: Encoder, piece: Piece) -> dict[str, Any]:
     document: dict[str, Any] = {"kind": piece.kind, "obstacle": piece.obstacle}
     document["start"], document["end"] = _point(out, piece.start), _point(out, piece.end)
+    document["start_decimal"], document["end_decimal"] = _decimal(piece.start), _decimal(piece.end)
     if piece.touches:
         document["touches"] = [list(name) for name in piece.touches]  # type: ignore[call-overload]
     curve = piece.curve
@@ -254,6 +264,7 @@ def _event(out: Encoder, event: Event, positions: list[str]) -> dict[str, Any]:
         "obstacle": event.obstacle,
         **{name: fact for name, fact in facts.items() if fact is not None},
         "point": _place(out, event.point),
+        "point_decimal": _decimal(event.point),
         "after": event.after,
         "inside": event.inside,
         "at": event.at.decimal(DIGITS) if event.inside else positions[event.after],
