@@ -95,7 +95,8 @@ def explore(
         str | None, typer.Option(metavar="L", help="Draw the figure after this length of the path.")
     ] = None,
     animate: Annotated[
-        str | None, typer.Option(metavar="F", help="Write a page that plays the run: .html.")
+        str | None,
+        typer.Option(metavar="F", help="Write a page that plays the run: .html; or a film: .gif, .mp4."),
     ] = None,
     trace: Annotated[str | None, typer.Option(metavar="F", help="Write the exact run as .json.")] = None,
     check_run: Annotated[
@@ -107,15 +108,19 @@ def explore(
     **options: Any,
 ) -> None:
     """Explore a scene; print a summary, or write the figure and the exact trace."""
-    from exactacq.files.whole_files import FIGURES, PAGES, TRACES, check_output, write_whole
+    from exactacq.files.whole_files import FIGURES, FILMS, PAGES, TRACES, check_output, write_whole
     from exactacq.output.report import console, run_report
 
     range_ = _range(radius)
     if at is not None and figure is None:
         raise FormatError("--at: names a moment of a figure; give the figure with --figure F")
     length = None if at is None else _number("--at", at)
-    wanted = ((figure, FIGURES), (trace, TRACES), (animate, PAGES))
+    wanted = ((figure, FIGURES), (trace, TRACES), (animate, (*PAGES, *FILMS)))
     outputs = [check_output(f, s) for f, s in wanted if f is not None]
+    if animate is not None and animate.lower().endswith(FILMS):
+        from exactacq.output.animation.film import check_film
+
+        check_film(animate)
     if any(_same_file(path, scene) for path in outputs):
         raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
     world = _scene(scene, start, options, terrain)
@@ -127,9 +132,7 @@ def explore(
 
         _said("--at", lambda: save(run, figure, length))
     if animate is not None:
-        from exactacq.output.animation.page import frames_of, page
-
-        write_whole(animate, page(run, frames_of(run)).encode())
+        _animate(run, animate)
     if check_run:
         from exactacq.auditing.audit import audit
 
@@ -145,9 +148,31 @@ def explore(
     out.print(run_report(run))
     if check_run:
         out.print("audit passed")
-    for name, path in (("figure", figure), ("page", animate), ("trace", trace)):
+    played = "film" if animate is not None and animate.lower().endswith(FILMS) else "page"
+    for name, path in (("figure", figure), (played, animate), ("trace", trace)):
         if path is not None:
             out.print(f"{name} written to {path}", soft_wrap=True)
+
+
+def _animate(run: Run, path: str) -> None:
+    """Write the page or the film; a film takes time, so a terminal is told how far it is."""
+    from exactacq.files.whole_files import FILMS, write_whole
+
+    if not path.lower().endswith(FILMS):
+        from exactacq.output.animation.page import frames_of, page
+
+        write_whole(path, page(run, frames_of(run)).encode())
+        return
+    from exactacq.output.animation.film import film
+
+    if not sys.stderr.isatty():
+        film(run, path)
+        return
+    from exactacq.output.report import progress_bar
+
+    with progress_bar("drawing") as bar:
+        task = bar.add_task("")
+        film(run, path, lambda done, total: bar.update(task, completed=done, total=total))
 
 
 @app.command()

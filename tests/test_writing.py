@@ -402,3 +402,31 @@ def test_svg_is_the_scene_where_radii_are_decimals(scene: xa.Scene, tmp_path: Pa
     plain = xa.Scene(kept, scene.start, enclosure=wall, radius=scene.radius)
     assert xa.write(plain, tmp_path / "s.svg") == (EXACT,)
     assert shapes(xa.load(tmp_path / "s.svg", start=scene.start, tolerance=0)) == shapes(plain)
+
+
+decimals = st.integers(-900, 900).map(lambda n: Q(n, 1000))
+bulges = st.sampled_from(["0", "0.25", "-0.125", "0.0625", "0.3", "-0.07"])
+
+
+@st.composite
+def rooms_of_triangles(draw: st.DrawFn) -> xa.Scene:
+    """Triangles with bent edges, each in a cell of its own, of decimals with three places."""
+    found = []
+    for k in range(draw(st.integers(1, 4))):
+        corners = [(-1, -1), (1, -1), (0, 1)]
+        moved = [(2 * x + draw(decimals) / 2 + 10 * k, 2 * y + draw(decimals) / 2 + 10) for x, y in corners]
+        found.append(xa.Outline([(x, y, draw(bulges)) for x, y in moved], f"T{k}"))
+    if draw(st.booleans()):
+        found.append(xa.Circle((draw(decimals), draw(decimals) - 10), draw(decimals) + 1, "disc"))
+    return xa.Scene(found, start=("0.5", "-50"), radius=9, name="random")
+
+
+@given(rooms_of_triangles())
+@settings(max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
+def test_round_trips_are_exact(tmp_path: Path, scene: xa.Scene) -> None:
+    for suffix, options in ((".json", {}), (".wkt", {}), (".dxf", {"tolerance": 0})):
+        path = tmp_path / f"s{suffix}"
+        assert xa.write(scene, path)[0] == EXACT
+        again = xa.load(path, start=("0.5", "-50"), **options)
+        assert shapes(again) == shapes(scene)
+        assert suffix != ".json" or again == scene

@@ -177,6 +177,6 @@ class Path(tuple[Piece, ...]):
 
 
 def _turned(angle: float) -> float:
-    """The same direction in (-pi, pi]."""
+    """A direction as an angle in (-pi, pi]."""
     turned = angle - 2 * pi * ceil((angle - pi) / (2 * pi))
     return pi if turned <= -pi else turned
