@@ -99,6 +99,12 @@ def explore(
         typer.Option(metavar="F", help="Write a page that plays the run: .html; or a film: .gif, .mp4."),
     ] = None,
     trace: Annotated[str | None, typer.Option(metavar="F", help="Write the exact run as .json.")] = None,
+    drawing: Annotated[
+        str | None,
+        typer.Option(
+            "--out", metavar="F", help=f"Write the run as a drawing or table: {', '.join(DRAWINGS)}."
+        ),
+    ] = None,
     check_run: Annotated[
         bool, typer.Option("--audit", help="Check the finished run by independent means.")
     ] = False,
@@ -115,7 +121,7 @@ def explore(
     if at is not None and figure is None:
         raise FormatError("--at: names a moment of a figure; give the figure with --figure F")
     length = None if at is None else _number("--at", at)
-    wanted = ((figure, FIGURES), (trace, TRACES), (animate, (*PAGES, *FILMS)))
+    wanted = ((figure, FIGURES), (trace, TRACES), (animate, (*PAGES, *FILMS)), (drawing, DRAWINGS))
     outputs = [check_output(f, s) for f, s in wanted if f is not None]
     if animate is not None and animate.lower().endswith(FILMS):
         from exactacq.output.animation.film import check_film
@@ -131,8 +137,11 @@ def explore(
         from exactacq.output.figures import save
 
         _said("--at", lambda: save(run, figure, length))
-    if animate is not None:
-        _animate(run, animate)
+    played = None if animate is None else _animate(run, animate)
+    if drawing is not None:
+        from exactacq.output.results import write
+
+        write(run, drawing)
     if check_run:
         from exactacq.auditing.audit import audit
 
@@ -148,31 +157,33 @@ def explore(
     out.print(run_report(run))
     if check_run:
         out.print("audit passed")
-    played = "film" if animate is not None and animate.lower().endswith(FILMS) else "page"
-    for name, path in (("figure", figure), (played, animate), ("trace", trace)):
-        if path is not None:
-            out.print(f"{name} written to {path}", soft_wrap=True)
+    written = (("figure", figure), ("trace", trace), ("run", drawing))
+    for line in (played, *(f"{name} written to {path}" for name, path in written if path is not None)):
+        if line is not None:
+            out.print(line, soft_wrap=True)
 
 
-def _animate(run: Run, path: str) -> None:
-    """Write the page or the film; a film takes time, so a terminal is told how far it is."""
+def _animate(run: Run, path: str) -> str:
+    """Write the page or the film, and say so; a film takes time, so a terminal is told how far it is."""
     from exactacq.files.whole_files import FILMS, write_whole
 
     if not path.lower().endswith(FILMS):
         from exactacq.output.animation.page import frames_of, page
 
         write_whole(path, page(run, frames_of(run)).encode())
-        return
+        return f"page written to {path}"
     from exactacq.output.animation.film import film
 
     if not sys.stderr.isatty():
-        film(run, path)
-        return
-    from exactacq.output.report import progress_bar
+        left_out = film(run, path)
+    else:
+        from exactacq.output.report import progress_bar
 
-    with progress_bar("drawing") as bar:
-        task = bar.add_task("")
-        film(run, path, lambda done, total: bar.update(task, completed=done, total=total))
+        with progress_bar("drawing") as bar:
+            task = bar.add_task("")
+            left_out = film(run, path, lambda done, total: bar.update(task, completed=done, total=total))
+    less = f", without {left_out} frames that are beyond the limits" if left_out else ""
+    return f"film written to {path}{less}"
 
 
 @app.command()

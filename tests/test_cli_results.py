@@ -54,6 +54,13 @@ def test_a_run_becomes_a_drawing(capsys: pytest.CaptureFixture[str], trace: Path
     assert {"robot", "view"} <= {feature["properties"]["layer"] for feature in told}
 
 
+def test_a_run_is_drawn_at_once(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    target = tmp_path / "run.csv"
+    assert f"run written to {target}" in answered(capsys, "explore", "squares", "--out", target)
+    assert target.read_text().count("\npath,") == 13
+    assert "must end in .wkt" in refused(capsys, "explore", "squares", "--out", tmp_path / "run.json")
+
+
 def test_options_for_reading(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     answered(capsys, "convert", "circles", tmp_path / "c.dxf")
     target = tmp_path / "c.csv"

@@ -81,6 +81,31 @@ def test_heavy_scenes_get_fewer_frames(run: xa.Run, monkeypatch: pytest.MonkeyPa
 
 
 @pytest.mark.usefixtures("short")
+def test_frames_beyond_the_limits_are_left_out(
+    run: xa.Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn, calls = films.png, iter(range(10))
+
+    def limited(*arguments: object) -> bytes:
+        if next(calls) in (1, 3):
+            raise xa.Undecided("a tie")
+        return drawn(*arguments)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(films, "png", limited)
+    assert film(run, tmp_path / "run.gif") == 2
+    with Image.open(tmp_path / "run.gif") as image:
+        assert image.n_frames == 3
+    monkeypatch.setattr(films, "png", lambda *_: _raise())
+    with pytest.raises(xa.Undecided):
+        film(run, tmp_path / "none.gif")
+    assert not (tmp_path / "none.gif").exists()
+
+
+def _raise() -> None:
+    raise xa.Undecided("a tie")
+
+
+@pytest.mark.usefixtures("short")
 def test_ffmpeg_gets_the_frames(run: xa.Run, tmp_path: Path, recorder: Path) -> None:
     film(run, tmp_path / "run.mp4")
     assert (tmp_path / "run.mp4").read_bytes() == b"film"

@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from exactacq.errors import FormatError
+from exactacq.errors import FormatError, Undecided
 from exactacq.files.extras import extra
 from exactacq.files.whole_files import FILMS, check_output, write_whole
 from exactacq.numbers.length import Length
@@ -51,10 +51,11 @@ def check_film(path: str | os.PathLike[str]) -> Path:
     return target
 
 
-def film(run: Run, path: str | os.PathLike[str], progress: Progress | None = None) -> None:
-    """Write a film of a run to a .gif or .mp4 file, whole or not at all.
+def film(run: Run, path: str | os.PathLike[str], progress: Progress | None = None) -> int:
+    """Write a film of a run to a .gif or .mp4 file, whole or not at all; the number of frames left out.
 
-    *progress* is told how many frames of how many are drawn. Raises `FormatError` as `check_film`. Cost: a
+    These are moments whose map or view is beyond the library's limits. *progress* is told how many frames of
+    how many are drawn. Raises `FormatError` as `check_film`, and `Undecided` if no frame is left. Cost: a
     map, a view and a figure for each of at most `FRAMES` frames; a megabyte of memory for each.
 
     >>> from tempfile import TemporaryDirectory
@@ -63,19 +64,26 @@ def film(run: Run, path: str | os.PathLike[str], progress: Progress | None = Non
     >>> with TemporaryDirectory() as folder:
     ...     film(still, folder + "/run.gif", lambda done, count: print(done, "of", count))
     1 of 1
+    0
     """
     target = check_film(path)
     wanted = moments(run)
-    pictures = []
+    pictures, trouble = [], None
     for number, at in enumerate(wanted, 1):
-        pictures.append(_picture(run, at))
+        try:
+            pictures.append(_picture(run, at))
+        except Undecided as error:
+            trouble = error
         if progress is not None:
             progress(number, len(wanted))
+    if trouble is not None and not pictures:
+        raise trouble
     frames = _of_one_size(pictures)
     if target.suffix.lower() == ".gif":
         write_whole(target, _gif(frames))
     else:
         _mp4(frames, target)
+    return len(wanted) - len(pictures)
 
 
 def moments(run: Run) -> Sequence[Length | Event]:
