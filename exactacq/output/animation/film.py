@@ -35,6 +35,8 @@ PER_SECOND, LAST = 10, 2.5
 """Frames in a second, and how many seconds the last one stands."""
 COLOURS = 256
 """Of a GIF: all frames share those chosen for one in the middle beside the last."""
+SHORT = 4
+"""Digits of a length after those of the whole one's first: titles stay readable."""
 PAPER = (255, 255, 255)
 Progress = Callable[[int, int], None]
 
@@ -87,13 +89,15 @@ def film(run: Run, path: str | os.PathLike[str], progress: Progress | None = Non
 
 
 def moments(run: Run) -> Sequence[Length | Event]:
-    """What the frames show: the start, lengths of the path at equal distances, and the last event."""
+    """What the frames show: the start, lengths at about equal distances as short decimals, the last event."""
     total, last = float(run.length), run.events[-1]
     if not total:
         return [last]
     edges = sum(len(obstacle.edges) for obstacle in run.scene.obstacles)
     count = max(FEWEST, min(FRAMES, FRAMES * LIGHT // max(edges, 1)))
-    return [*(Length(rational(total * k / (count - 1))) for k in range(count - 1)), last]
+    places = max(0, SHORT - int(f"{total:e}".partition("e")[2]))
+    lengths = (f"{total * k / (count - 1):.{places}f}" for k in range(count - 1))
+    return [*(Length(rational(length)) for length in lengths), last]
 
 
 def _picture(run: Run, at: Length | Event) -> Any:
