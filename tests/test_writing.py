@@ -21,14 +21,14 @@ import exactacq as xa
 from exactacq.files import gallery
 from exactacq.files.formats import written_suffixes
 from exactacq.files.writing.corners import bulge_of
-from exactacq.files.writing.decimals import DIGITS, Precision
+from exactacq.files.writing.decimals import DIGITS, Precision, is_decimal
 from exactacq.files.writing.dxf import written as dxf
 from exactacq.files.writing.sheet import Item, Sheet
 from exactacq.files.writing.svg import written as svg
 from exactacq.files.writing.wkt import third_point
 from exactacq.files.writing.wkt import written as wkt
 from exactacq.geometry.curves import Arc, Curve
-from exactacq.numbers.rationals import finite_decimal, rational
+from exactacq.numbers.rationals import rational
 from exactacq.output.sheets import sheet_of
 
 EXACT = "every number is exact"
@@ -256,7 +256,7 @@ roots = st.builds(lambda n, k: xa.Real(abs(n) + 1).sqrt() * k, numbers, st.integ
 @given(st.one_of(numbers.map(xa.Real), roots), st.sampled_from([None, -2, 0, 5, 30]))
 def test_rounding_stays_within_its_bound(value: xa.Real, places: int | None) -> None:
     near, bound = Precision(places).rounded(value)
-    assert finite_decimal(near) is not None
+    assert is_decimal(near)
     assert abs(value - near).compare(bound) <= 0
     if places is not None and bound:
         assert bound < fmpq(10) ** -places
@@ -377,7 +377,7 @@ def test_third_points(first: int, more: int, ccw: bool) -> None:
         assert float(arc.length) < 0.3
     else:
         assert arc.passes(xa.Point(*found)) and xa.Point(*found) not in (a, b)
-        assert all(finite_decimal(c) is not None for c in found)
+        assert all(map(is_decimal, found))
 
 
 def test_bulges() -> None:

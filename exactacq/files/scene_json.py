@@ -16,7 +16,7 @@ from flint import fmpq
 from exactacq.errors import FormatError, about
 from exactacq.files.source import MAX_EDGES, check_edges, decoded, one_line, read_bytes
 from exactacq.files.writing.sheet import Sheet, Written
-from exactacq.numbers.rationals import finite_decimal, rational
+from exactacq.numbers.rationals import plain, rational
 from exactacq.scene.bends import Around, Bend, Via
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle, Outline, Polygon, Shape, Terrain
@@ -194,7 +194,8 @@ def _text_of(value: Any) -> str:
 
 def _number_text(value: fmpq) -> str:
     """A JSON number if the value is a finite decimal, else the string "p/q"."""
-    return finite_decimal(value) or f'"{value.p}/{value.q}"'
+    text = plain(value)
+    return f'"{text}"' if "/" in text else text
 
 
 # -- reading ---------------------------------------------------------------------------------------

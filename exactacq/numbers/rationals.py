@@ -93,18 +93,6 @@ def nearest_float(q: fmpq) -> float:
         raise OverflowError("an exact number beyond the range of floats: use decimal or enclosure") from None
 
 
-def finite_decimal(q: fmpq) -> str | None:
-    """The rational as a decimal without exponent, every digit written; None if it is no finite decimal."""
-    bottom = int(q.q)
-    twos, fives = valuation(bottom, 2), valuation(bottom, 5)
-    if 2**twos * 5**fives != bottom:
-        return None
-    places = max(twos, fives)
-    digits = str(abs(int(q.p)) * 10**places // bottom).rjust(places + 1, "0")
-    point = len(digits) - places
-    return ("-" if q < 0 else "") + digits[:point] + (f".{digits[point:]}" if places else "")
-
-
 def ends(ball: arb) -> tuple[fmpq, fmpq]:
     """The exact ends of a ball (`arb.lower` would round to the global precision)."""
     middle, radius = ball.mid().fmpq(), ball.rad().fmpq()
@@ -194,6 +182,22 @@ def valuation(number: int, base: int) -> int:
         number //= base
         exponent += 1
     return exponent
+
+
+def plain(value: fmpq) -> str:
+    """A rational as people write it, without loss: a decimal if that is finite, else "p/q".
+
+    >>> plain(fmpq(1301, 10)), plain(fmpq(-1, 3)), plain(fmpq(12))
+    ('130.1', '-1/3', '12')
+    """
+    bottom = int(value.q)
+    twos, fives = valuation(bottom, 2), valuation(bottom, 5)
+    if 2**twos * 5**fives != bottom:
+        return f"{value.p}/{value.q}"
+    places = max(twos, fives)
+    digits = str(abs(int(value.p)) * 10**places // bottom).rjust(places + 1, "0")
+    point = len(digits) - places
+    return ("-" if value < 0 else "") + digits[:point] + (f".{digits[point:]}" if places else "")
 
 
 def sympy_rational(q: fmpq) -> sympy.Expr:

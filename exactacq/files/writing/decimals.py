@@ -9,7 +9,7 @@ from flint import fmpq
 
 from exactacq.files.writing.sheet import Sheet
 from exactacq.geometry.curves import Arc
-from exactacq.numbers.rationals import finite_decimal, rational
+from exactacq.numbers.rationals import plain, rational
 from exactacq.numbers.real import Real
 
 DIGITS = 17
@@ -46,9 +46,13 @@ class Precision:
 
 def text(value: fmpq) -> str:
     """A finite decimal as it is written."""
-    found = finite_decimal(value)
-    assert found is not None, "what is written was rounded to a finite decimal"
-    return found
+    assert is_decimal(value), "what is written was rounded to a finite decimal"
+    return plain(value)
+
+
+def is_decimal(value: fmpq) -> bool:
+    """Whether a rational is a finite decimal."""
+    return "/" not in plain(value)
 
 
 def _double(value: Real) -> tuple[fmpq, fmpq]:
@@ -61,8 +65,8 @@ def _double(value: Real) -> tuple[fmpq, fmpq]:
 def _decimal(value: Real, places: int) -> tuple[fmpq, fmpq]:
     q = value.rational
     if q is not None and int(q.q).bit_length() <= 4 * KEPT:
-        full = finite_decimal(q)
-        if full is not None and len(full) <= KEPT:
+        full = plain(q)
+        if "/" not in full and len(full) <= KEPT:
             return q, fmpq(0)
     unit = fmpq(10) ** -places
     bits = SPARE_BITS + max(0, 4 * places)

@@ -13,11 +13,10 @@ from flint import fmpq
 
 from exactacq.files.loops.chains import Corner
 from exactacq.files.writing.corners import Corners, bulge_of
-from exactacq.files.writing.decimals import KEPT, Precision, text
+from exactacq.files.writing.decimals import KEPT, Precision, is_decimal, text
 from exactacq.files.writing.sheet import NO_TERRAIN, TERRAIN, Item, Sheet, Written
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.points import Point
-from exactacq.numbers.rationals import finite_decimal
 
 Place = tuple[fmpq, fmpq]
 WIDEST = fmpq(1)
@@ -128,14 +127,7 @@ def third_point(arc: Arc) -> Place | None:
     (3/5, 4/5)
     """
     start, center = arc.start.rational, arc.center.rational
-    if (
-        start is None
-        or center is None
-        or finite_decimal(center[0]) is None
-        or finite_decimal(center[1]) is None
-    ):
-        return None
-    if finite_decimal(start[0]) is None or finite_decimal(start[1]) is None:
+    if start is None or center is None or not all(map(is_decimal, (*start, *center))):
         return None
     stroke = arc.stroke()
     aim, near = stroke.at(0.5), stroke.length / 4
