@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from exactacq.numbers.length import Length
     from exactacq.numbers.real import Real
     from exactacq.output.figures import figure
+    from exactacq.output.results import write
     from exactacq.output.run_json import load_run
     from exactacq.scene.bends import Around, Via
     from exactacq.scene.bounding import terrain_around
@@ -72,6 +73,7 @@ __all__ = [
     "sweep",
     "terrain_around",
     "visibility_graph",
+    "write",
 ]
 
 _HOMES = {
@@ -111,6 +113,7 @@ _HOMES = {
     "sweep": "exactacq.sensing.view_events",
     "terrain_around": "exactacq.scene.bounding",
     "visibility_graph": "exactacq.visibility.links",
+    "write": "exactacq.output.results",
 }
 """Where the names live."""
 

@@ -11,12 +11,13 @@ import sys
 from collections.abc import Callable, Sequence
 from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
 
 from exactacq.errors import AuditError, ExactacqError, FormatError, InvalidScene, Undecided
 from exactacq.file_options import read_from_text, reads_files
+from exactacq.files.formats import written_suffixes
 from exactacq.strategies.options import Strategy, TargetChoice
 from exactacq.study.campaign.command import verify
 from exactacq.study.search.command import search
@@ -33,10 +34,13 @@ REFUSED, INTERNAL, UNDECIDED, INTERRUPTED = 2, 1, 3, 130
 comparison beyond its limits; control-C."""
 VIOLATIONS = 8
 """Most violations of a scene that the one line of an error names."""
+Result = TypeVar("Result")
 UsageError: type[Exception] = typer.BadParameter.__bases__[0]
 """What typer raises for a wrong command line; where it lives depends on typer's release."""
 
 
+DRAWINGS = tuple(suffix for suffix in written_suffixes() if suffix != ".json")
+"""What a view is written as."""
 SceneName = Annotated[str, typer.Argument(metavar="SCENE", help="A file, or the name of a gallery scene.")]
 Start = Annotated[str | None, typer.Option(metavar="X,Y", help="Start point; required for drawings.")]
 TerrainSize = Annotated[
@@ -47,6 +51,7 @@ TerrainSize = Annotated[
     ),
 ]
 Radius = Annotated[str | None, typer.Option(metavar="R", help="Radius of vision; default: the scene's own.")]
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, and no table.")]
 FigureFile = Annotated[str | None, typer.Option(metavar="F", help="Write a figure: .svg, .pdf or .png.")]
 
 app = typer.Typer(
@@ -95,9 +100,16 @@ def explore(
         str | None, typer.Option(metavar="L", help="Draw the figure after this length of the path.")
     ] = None,
     animate: Annotated[
-        str | None, typer.Option(metavar="F", help="Write a page that plays the run: .html.")
+        str | None,
+        typer.Option(metavar="F", help="Write a page that plays the run: .html; or a film: .gif, .mp4."),
     ] = None,
     trace: Annotated[str | None, typer.Option(metavar="F", help="Write the exact run as .json.")] = None,
+    drawing: Annotated[
+        str | None,
+        typer.Option(
+            "--out", metavar="F", help=f"Write the run as a drawing or table: {', '.join(DRAWINGS)}."
+        ),
+    ] = None,
     check_run: Annotated[
         bool, typer.Option("--audit", help="Check the finished run by independent means.")
     ] = False,
@@ -110,15 +122,19 @@ def explore(
 
     Where a comparison stays undecided, all that is done for the run up to there, and the exit status is 3.
     """
-    from exactacq.files.whole_files import FIGURES, PAGES, TRACES, check_output, write_whole
+    from exactacq.files.whole_files import FIGURES, FILMS, PAGES, TRACES, check_output, write_whole
     from exactacq.output.report import console, run_report
 
     range_ = _range(radius)
     if at is not None and figure is None:
         raise FormatError("--at: names a moment of a figure; give the figure with --figure F")
     length = None if at is None else _number("--at", at)
-    wanted = ((figure, FIGURES), (trace, TRACES), (animate, PAGES))
+    wanted = ((figure, FIGURES), (trace, TRACES), (animate, (*PAGES, *FILMS)), (drawing, DRAWINGS))
     outputs = [check_output(f, s) for f, s in wanted if f is not None]
+    if animate is not None and animate.lower().endswith(FILMS):
+        from exactacq.output.animation.film import check_film
+
+        check_film(animate)
     if any(_same_file(path, scene) for path in outputs):
         raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
     world = _scene(scene, start, options, terrain)
@@ -135,14 +151,12 @@ def explore(
     if figure is not None:
         from exactacq.output.figures import save
 
-        try:
-            save(run, figure, length)
-        except ValueError as error:
-            raise FormatError(f"--at: {error}") from None
-    if animate is not None:
-        from exactacq.output.animation.page import frames_of, page
+        _said("--at", lambda: save(run, figure, length))
+    played = None if animate is None else _animate(run, animate)
+    if drawing is not None:
+        from exactacq.output.results import write
 
-        write_whole(animate, page(run, frames_of(run)).encode())
+        write(run, drawing)
     if check_run and trouble is None:
         trouble = _audited(run)
     if as_json or trace is not None:
@@ -156,9 +170,10 @@ def explore(
         out.print(run_report(run))
         if check_run and trouble is None:
             out.print("audit passed")
-        for name, path in (("figure", figure), ("page", animate), ("trace", trace)):
-            if path is not None:
-                out.print(f"{name} written to {path}", soft_wrap=True)
+        written = (("figure", figure), ("trace", trace), ("run", drawing))
+        for line in (played, *(f"{name} written to {path}" for name, path in written if path is not None)):
+            if line is not None:
+                out.print(line, soft_wrap=True)
     if trouble is not None:
         raise trouble
 
@@ -174,6 +189,29 @@ def _audited(run: Run) -> ExactacqError | None:
     return None
 
 
+def _animate(run: Run, path: str) -> str:
+    """Write the page or the film, and say so; a film takes time, so a terminal is told how far it is."""
+    from exactacq.files.whole_files import FILMS, write_whole
+
+    if not path.lower().endswith(FILMS):
+        from exactacq.output.animation.page import frames_of, page
+
+        write_whole(path, page(run, frames_of(run)).encode())
+        return f"page written to {path}"
+    from exactacq.output.animation.film import film
+
+    if not sys.stderr.isatty():
+        left_out = film(run, path)
+    else:
+        from exactacq.output.report import progress_bar
+
+        with progress_bar("drawing") as bar:
+            task = bar.add_task("")
+            left_out = film(run, path, lambda done, total: bar.update(task, completed=done, total=total))
+    less = f", without {left_out} frames that are beyond the limits" if left_out else ""
+    return f"film written to {path}{less}"
+
+
 @app.command()
 @reads_files
 def compare(
@@ -182,6 +220,7 @@ def compare(
     start: Start = None,
     terrain: TerrainSize = None,
     figure: FigureFile = None,
+    as_json: AsJson = False,
     **options: Any,
 ) -> None:
     """Explore a scene by both strategies, and set what they do side by side.
@@ -191,6 +230,7 @@ def compare(
     """
     from exactacq.files.whole_files import FIGURES, check_output
     from exactacq.output.report import comparison, console, run_report
+    from exactacq.output.report_data import comparison_data, text_of
 
     range_ = _range(radius)
     if figure is not None and _same_file(check_output(figure, FIGURES), scene):
@@ -210,9 +250,12 @@ def compare(
             refusals.append(f"no {strategy.value}: {first}{more}")
     if not runs:
         raise InvalidScene(refusals)
-    console().print(comparison(*runs) if len(runs) == 2 else run_report(runs[0]))
-    for refusal in refusals:
-        console().print(f"\n{refusal}", soft_wrap=True)
+    if as_json:
+        sys.stdout.write(text_of(comparison_data(runs, refusals)))
+    else:
+        console().print(comparison(*runs) if len(runs) == 2 else run_report(runs[0]))
+        for refusal in refusals:
+            console().print(f"\n{refusal}", soft_wrap=True)
     if figure is not None:
         from exactacq.output.figures import save, save_pair
 
@@ -220,7 +263,8 @@ def compare(
             save_pair(runs[0], runs[1], figure)
         else:
             save(runs[0], figure)
-        print(f"figure written to {figure}")
+        if not as_json:
+            print(f"figure written to {figure}")
 
 
 def _at_corner(scene: Scene) -> Scene:
@@ -236,12 +280,18 @@ def _at_corner(scene: Scene) -> Scene:
 def check(
     scene: SceneName,
     start: Start = None,
+    as_json: AsJson = False,
     **options: Any,
 ) -> None:
     """Validate a scene; print its contents and what the import did."""
     from exactacq.output.report import console, scene_report
+    from exactacq.output.report_data import scene_data, text_of
 
-    console().print(scene_report(_scene(scene, start, options)))
+    world = _scene(scene, start, options)
+    if as_json:
+        sys.stdout.write(text_of(scene_data(world)))
+    else:
+        console().print(scene_report(world))
 
 
 @app.command()
@@ -251,6 +301,7 @@ def gallery(
     out: Annotated[
         str | None, typer.Option(metavar="DIR", help="Explore every scene, and write DIR/NAME.svg.")
     ] = None,
+    as_json: AsJson = False,
 ) -> None:
     """List the gallery; draw one scene of it (--figure), or the runs on all of them (--out).
 
@@ -258,7 +309,10 @@ def gallery(
     """
     from exactacq.files import gallery as scenes
     from exactacq.output.report import console, scene_list, scene_report
+    from exactacq.output.report_data import gallery_data, scene_data, text_of
 
+    if as_json and (figure is not None or out is not None):
+        raise FormatError("--json: prints what a scene holds; leave the pictures out")
     if name is None and figure is not None:
         raise FormatError(
             "--figure: name the scene to be drawn, as in: exactacq gallery figure2 --figure F.svg"
@@ -267,6 +321,9 @@ def gallery(
         if name is not None:
             raise FormatError("--out: draws every scene; leave the name out")
         _draw_gallery(Path(out))
+    elif as_json:
+        data = gallery_data(scenes.names()) if name is None else scene_data(scenes.scene(name))
+        sys.stdout.write(text_of(data))
     elif name is None:
         console().print(scene_list(scenes.names()))
     elif figure is None:
@@ -276,6 +333,76 @@ def gallery(
 
         save(scenes.scene(name), figure)
         print(f"figure written to {figure}")
+
+
+@app.command()
+@reads_files
+def convert(
+    source: Annotated[str, typer.Argument(metavar="IN", help="A scene, or a run that --trace wrote.")],
+    target: Annotated[str, typer.Argument(metavar="OUT", help=f"A file: {', '.join(written_suffixes())}.")],
+    start: Start = None,
+    at: Annotated[
+        str | None, typer.Option(metavar="L", help="Of a run: as it was after this length of the path.")
+    ] = None,
+    only: Annotated[
+        str | None, typer.Option(metavar="A,B", help="Kinds of things to write, as path,links; default: all.")
+    ] = None,
+    **options: Any,
+) -> None:
+    """Write a scene or a run in another format; say how far any point moved at most."""
+    from exactacq.files.whole_files import check_output
+    from exactacq.output.report import console, remarks_report
+    from exactacq.output.results import write
+    from exactacq.output.run_json import is_run_file, load_run
+
+    length = None if at is None else _number("--at", at)
+    kinds = None if only is None else [kind.strip() for kind in only.split(",")]
+    if _same_file(check_output(target, written_suffixes()), source):
+        raise FormatError(f"{source}: would be overwritten by the output; choose another name")
+    given = read_from_text(options)
+    subject: Run | Scene
+    if is_run_file(source):
+        if start is not None or given:
+            raise FormatError(f"{source}: a run takes no options for reading scenes; leave them out")
+        subject = load_run(source)
+    elif at is not None:
+        raise FormatError("--at: names a moment of a run; give a run that explore --trace wrote")
+    else:
+        subject = _scene(source, start, options)
+    remarks = _said("--at", lambda: write(subject, target, at=length, only=kinds))
+    out = console()
+    out.print(f"{target} written", soft_wrap=True)
+    out.print(remarks_report(remarks))
+
+
+@app.command()
+@reads_files
+def isovist(
+    scene: SceneName,
+    at: Annotated[str, typer.Option(metavar="X,Y", help="The place to look from.")],
+    radius: Radius = None,
+    out: Annotated[
+        str | None, typer.Option(metavar="F", help=f"Write the view: {', '.join(DRAWINGS)}.")
+    ] = None,
+    **options: Any,
+) -> None:
+    """What is seen from a place within a radius: area, perimeter and pieces; or a drawing of it."""
+    from exactacq.files.whole_files import check_output
+    from exactacq.output.report import console, view_report
+    from exactacq.output.results import write
+    from exactacq.visibility.isovist import isovist as view_from
+
+    range_, place = _range(radius), _pair("--at", at)
+    if out is not None and _same_file(check_output(out, DRAWINGS), scene):
+        raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
+    world = _scene(scene, at if _needs_start(scene) else None, options)
+    if range_ is None and world.radius is None:
+        raise FormatError(f"{scene}: the scene has no radius of vision: give one with --radius R")
+    view = view_from(world, place, range_)
+    remarks = () if out is None else write(view, out)
+    console().print(view_report(view))
+    if out is not None:
+        print("; ".join((f"view written to {out}", *remarks)))
 
 
 app.command()(verify)
@@ -304,6 +431,24 @@ def _scene(name: str, start: str | None, options: dict[str, Any], terrain: str |
     except InvalidScene as error:
         first, *others = error.violations
         raise InvalidScene([f"{name}: {first}", *others]) from None
+
+
+def _needs_start(name: str) -> bool:
+    """Whether a scene is in a file that tells no start, so that the place to look from takes its part."""
+    from exactacq.files.gallery import names
+
+    is_file = name not in names() or os.path.lexists(name)
+    return is_file and Path(name).suffix.lower() != ".json"
+
+
+def _said(option: str, act: Callable[[], Result]) -> Result:
+    """What an action returns; a value that makes no sense is an error that names the option."""
+    try:
+        return act()
+    except FormatError:
+        raise
+    except ValueError as error:
+        raise FormatError(f"{option}: {error}") from None
 
 
 def _loaded(name: str, start: str | None, options: dict[str, object]) -> Scene:

@@ -18,6 +18,9 @@ DATA = Path(__file__).parent / "data"
 
 @pytest.mark.parametrize("known", FORMATS, ids=lambda known: known.name)
 def test_a_reader_takes_the_options_of_its_format(known: Format) -> None:
+    if known.reader is None:
+        assert not known.options and known.writer is not None
+        return
     module, function = known.reader.split(":")
     path, start, *rest = inspect.signature(getattr(import_module(module), function)).parameters.values()
     assert (path.name, start.name) == ("path", "start")

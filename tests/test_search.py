@@ -299,7 +299,7 @@ def test_a_bound_is_a_goal_with_or_without_brackets() -> None:
     for name in ("(11)", "11"):
         finding = goal(name).check(Case(gallery.scene("m20-3")))
         assert (finding.outcome, round(finding.ratio, 6)) == (Outcome.FAILS, 1.042479)
-    assert finding.detail == "P = 1951/50 ≈ 39.02 > 3743/100 ≈ 37.43"
+    assert finding.detail == "P = 39.02 > 37.43"
     corrected = goal("11", corrected=True).check(Case(gallery.scene("m20-3")))
     assert corrected.outcome is Outcome.HOLDS
     assert goal("(4)").check(Case(gallery.scene("m20-3"))).detail == "visits = 3 > 2"

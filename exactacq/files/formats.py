@@ -1,7 +1,7 @@
-"""The registry of file formats: what each is called, what reads it, and which options it takes.
+"""The registry of file formats: what each is called, what reads and writes it, and which options it takes.
 
-Readers are named, not imported: the command line lists all options without loading any of them. A format is
-one file or folder beside this one, and one `register` below.
+Readers and writers are named, not imported: the command line lists all options without loading any of them.
+A format is one file or folder beside this one, perhaps one in `writing`, and one `register` below.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from exactacq.errors import FormatError, shown
 
 if TYPE_CHECKING:
+    from exactacq.files.writing.sheet import Sheet, Written
     from exactacq.scene.scene import Scene
 
 
@@ -52,24 +53,33 @@ class FileOption:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Format:
-    """A file format: its name, what its files are, their suffixes, what reads them, and its options.
+    """A file format: its name, what its files are, their suffixes, what reads and writes them, its options.
 
-    *reader* is "module:function". The function takes the path, the start (two rationals, or None) and the
-    options by name, and returns a `Scene`.
+    *reader* and *writer* are "module:function", or None. A reader takes the path, the start (two rationals,
+    or None) and the options by name, and returns a `Scene`. A writer takes a sheet (see
+    `exactacq.files.writing.sheet`) and returns the content of the file.
     """
 
     name: str
     title: str
     suffixes: tuple[str, ...]
-    reader: str
+    reader: str | None = None
+    writer: str | None = None
     options: tuple[FileOption, ...] = ()
 
     def read(self, path: Path, start: object, values: Mapping[str, object]) -> Scene:
         """The scene in a file; `FormatError` for wrong options before anything is read."""
-        module, function = self.reader.split(":")
-        read: Callable[..., Any] = getattr(import_module(module), function)
-        scene: Scene = read(path, start, **self.checked(values))
+        checked = self.checked(values)
+        if self.reader is None:
+            raise FormatError(f"{self.title} are written, but not read")
+        scene: Scene = _named(self.reader)(path, start, **checked)
         return scene
+
+    def written(self, sheet: Sheet) -> Written:
+        """A sheet as the content of a file of this format, which has a writer."""
+        assert self.writer is not None, "only formats that are written are asked to"
+        content: Written = _named(self.writer)(sheet)
+        return content
 
     def checked(self, values: Mapping[str, object]) -> dict[str, Any]:
         """The options as the reader takes them; `FormatError` for those of other formats or kinds."""
@@ -78,6 +88,13 @@ class Format:
             if name not in own:
                 _check_unused(name, value, self)
         return {name: own[name].checked(value) for name, value in values.items() if name in own}
+
+
+def _named(name: str) -> Callable[..., Any]:
+    """The function of "module:function"."""
+    module, function = name.split(":")
+    found: Callable[..., Any] = getattr(import_module(module), function)
+    return found
 
 
 _FORMATS: dict[str, Format] = {}
@@ -92,7 +109,7 @@ def register(new: Format) -> None:
 
 
 def formats() -> tuple[Format, ...]:
-    """The file formats that `exactacq.load` reads.
+    """The file formats that `exactacq.load` reads, `exactacq.write` writes, or both.
 
     >>> for known in formats()[:2]:
     ...     print(known.name, *known.suffixes, *(option.name for option in known.options))
@@ -105,6 +122,11 @@ def formats() -> tuple[Format, ...]:
 def options() -> dict[str, FileOption]:
     """All options by their names; an option that several formats have is one."""
     return {option.name: option for known in formats() for option in known.options}
+
+
+def written_suffixes() -> tuple[str, ...]:
+    """The suffixes of the formats that are written."""
+    return tuple(suffix for known in formats() if known.writer is not None for suffix in known.suffixes)
 
 
 def format_of(path: Path) -> Format:
@@ -176,6 +198,7 @@ register(
         title="JSON scenes",
         suffixes=(".json",),
         reader="exactacq.files.scene_json:load_json",
+        writer="exactacq.files.scene_json:written",
     )
 )
 register(
@@ -184,6 +207,7 @@ register(
         title="well-known text",
         suffixes=(".wkt", ".ewkt"),
         reader="exactacq.files.wkt:load_wkt",
+        writer="exactacq.files.writing.wkt:written",
         options=(UNION,),
     )
 )
@@ -193,6 +217,7 @@ register(
         title="GeoJSON",
         suffixes=(".geojson",),
         reader="exactacq.files.geojson:load_geojson",
+        writer="exactacq.files.writing.geojson:written",
         options=(UNION,),
     )
 )
@@ -237,6 +262,7 @@ register(
         title="DXF drawings",
         suffixes=(".dxf",),
         reader="exactacq.files.dxf.load:load_dxf",
+        writer="exactacq.files.writing.dxf:written",
         options=DRAWING,
     )
 )
@@ -255,6 +281,15 @@ register(
         title="SVG drawings",
         suffixes=(".svg",),
         reader="exactacq.files.svg.load:load_svg",
+        writer="exactacq.files.writing.svg:written",
         options=DRAWING,
+    )
+)
+register(
+    Format(
+        name="csv",
+        title="CSV tables",
+        suffixes=(".csv",),
+        writer="exactacq.files.writing.csv:written",
     )
 )

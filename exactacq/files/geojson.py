@@ -80,7 +80,8 @@ class _GeoReader:
         role = told.get("kind")
         if kind == "Polygon" and role == "terrain":
             xs, ys = zip(*self._ring(next(iter(self._list(coordinates, "coordinates")), ())), strict=True)
-            self.terrain = Terrain(max(xs), max(ys))
+            west, south = min(xs), min(ys)
+            self.terrain = Terrain(max(xs) - west, max(ys) - south, (west, south))
         elif kind == "Polygon":
             self._polygon(coordinates, told)
         elif kind == "MultiPolygon":

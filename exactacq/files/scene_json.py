@@ -15,6 +15,7 @@ from flint import fmpq
 
 from exactacq.errors import FormatError, about
 from exactacq.files.source import MAX_EDGES, check_edges, decoded, one_line, read_bytes
+from exactacq.files.writing.sheet import Sheet, Written
 from exactacq.numbers.rationals import plain, rational
 from exactacq.scene.bends import Around, Bend, Via
 from exactacq.scene.scene import Scene
@@ -77,12 +78,33 @@ def scene_to_json(scene: Scene) -> dict[str, Any]:
 
     Raises `FormatError` if the start is not rational.
     """
+    parts = scene.radius, scene.terrain, scene.enclosure, scene.name, scene.notes
+    document: dict[str, Any] = _plain(_document(scene.shapes, _rational_start(scene), *parts))
+    return document
+
+
+def whole_text(scene: Scene) -> str:
+    """A scene file that `load_json` reads back as an equal scene, with decimals where they are finite.
+
+    Raises `FormatError` if the start is not rational.
+    """
+    start = _rational_start(scene)
+    parts = scene.radius, scene.terrain, scene.name, scene.enclosure, scene.notes
+    return scene_text(scene.shapes, start, *parts)
+
+
+def written(sheet: Sheet) -> Written:
+    """The exact document of a sheet's subject; `FormatError` if it has none."""
+    if sheet.document is None:
+        raise FormatError("a JSON file holds a whole scene or a whole run; choose another format")
+    return Written(sheet.document().encode())
+
+
+def _rational_start(scene: Scene) -> tuple[fmpq, fmpq] | None:
     start = None if scene.start is None else scene.start.rational
     if start is None and scene.start is not None:
         raise FormatError("the start is not a rational point: a JSON scene cannot hold it")
-    parts = (scene.shapes, start, scene.radius, scene.terrain, scene.enclosure, scene.name, scene.notes)
-    document: dict[str, Any] = _plain(_document(*parts))
-    return document
+    return start
 
 
 def scene_text(
@@ -91,13 +113,15 @@ def scene_text(
     radius: fmpq | None = None,
     terrain: Terrain | None = None,
     name: str | None = None,
+    enclosure: Shape | None = None,
+    notes: tuple[str, ...] = (),
 ) -> str:
     """A scene file that is pleasant to read, for parts that need not make a valid scene.
 
     One obstacle a line; numbers are decimals where these are finite.
     """
     rows = []
-    for key, value in _document(shapes, start, radius, terrain, name=name).items():
+    for key, value in _document(shapes, start, radius, terrain, enclosure, name, notes).items():
         parts = ",\n    ".join(map(_text_of, value)) if key == "obstacles" else ""
         rows.append(f'"{key}": ' + (f"[\n    {parts}\n  ]" if parts else _text_of(value)))
     return "{\n  " + ",\n  ".join(rows) + "\n}\n"

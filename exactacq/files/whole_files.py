@@ -18,6 +18,8 @@ TRACES = (".json",)
 """File types of traces."""
 PAGES = (".html",)
 """File types of animated pages."""
+FILMS = (".gif", ".mp4")
+"""File types of films."""
 
 BITS_PER_CHARACTER = 4
 """More than the 3.33 bits of a decimal digit."""

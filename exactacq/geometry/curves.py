@@ -252,7 +252,7 @@ class Arc:
         """
         fraction = _fraction(u)
         radial = self.start - self.center
-        tangent = Real(fraction) * self._quarter_tangent
+        tangent = Real(fraction) * self.quarter_tangent
         if self.full:
             if fraction > fmpq(1, 2):
                 radial, fraction = -radial, fraction - fmpq(1, 2)
@@ -266,7 +266,8 @@ class Arc:
         return self.center + radial * cosine + radial.left() * sine
 
     @cached_property
-    def _quarter_tangent(self) -> Real:
+    def quarter_tangent(self) -> Real:
+        """The tangent of a quarter of the angle, the size of a bulge; of a full circle that of its halves."""
         if self.full:
             return Real(1)
         cosine, sine = self.turn

@@ -30,7 +30,7 @@ def point(position: Position) -> Geo:
 
 def line_string(strokes: Iterable[Stroke]) -> Geo:
     """A LineString along strokes that follow each other; a Point if they do not leave their place."""
-    positions = _along(strokes)
+    positions = corners(strokes)
     return point(positions[0]) if len(positions) == 1 else {"type": "LineString", "coordinates": positions}
 
 
@@ -39,7 +39,7 @@ def polygon(strokes: Iterable[Stroke], clockwise: bool = False) -> Geo:
 
     Empty without strokes; where a loop bounds no area, its ring bounds none.
     """
-    positions = _along(strokes)
+    positions = corners(strokes)
     ring = positions if positions[:1] == positions[-1:] and len(positions) > 1 else positions + positions[:1]
     return {"type": "Polygon", "coordinates": (ring[::-1] if clockwise else ring,) if ring else ()}
 
@@ -54,18 +54,18 @@ def collection(features: Iterable[Geo]) -> Geo:
     return {"type": "FeatureCollection", "features": tuple(features)}
 
 
-def _along(strokes: Iterable[Stroke]) -> tuple[Position, ...]:
-    """The corners of strokes that follow each other; floats that repeat are told once."""
+def corners(strokes: Iterable[Stroke]) -> tuple[Position, ...]:
+    """The corners of strokes that follow each other, arcs as chords; floats that repeat are told once."""
     positions: list[Position] = []
     for stroke in strokes:
-        for k in range(1 + (parts := _chords(stroke))):
+        for k in range(1 + (parts := chords(stroke))):
             position = stroke.at(k / parts)
             if positions[-1:] != [position]:
                 positions.append(position)
     return tuple(positions)
 
 
-def _chords(stroke: Stroke) -> int:
-    """Into how many chords a stroke is cut: n of them stray by about radius * sweep^2 / (8 n^2)."""
+def chords(stroke: Stroke) -> int:
+    """Into how many chords a stroke is cut: n of them stray by at most radius * sweep^2 / (8 n^2)."""
     turn = abs(stroke.sweep)
     return max(1, ceil(turn / sqrt(8 * FLATNESS * min(1.0, turn)))) if turn else 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator
 
 from flint import fmpq
@@ -21,9 +22,12 @@ from exactacq.scene.scene import Scene
 from exactacq.sensing.event import Ending
 from exactacq.strategies.bounds import census
 from exactacq.strategies.run import Bound, Run, SeedSpreaderRun, SightseerRun
+from exactacq.visibility.isovist import Isovist, ViewKind
 
 CLOSED_FORM = 60
 """Closed forms of at most this many characters are shown; longer ones are in the trace."""
+WORDS = {ViewKind.EDGE: "boundary piece", ViewKind.WINDOW: "window", ViewKind.RANGE: "range arc"}
+"""What the kinds of pieces of a view are called."""
 ROWS = 60
 """Most rows of a table, and most names of a list; a trace has them all."""
 
@@ -111,6 +115,30 @@ def scene_report(scene: Scene) -> RenderableType:
     return Group(Text(f"{scene.name or 'scene'}: OK", style="bold"), table, *_notes(scene))
 
 
+def view_report(view: Isovist) -> RenderableType:
+    """What a view holds."""
+    kinds = Counter(piece.kind.value for piece in view.pieces)
+    seen = sorted({piece.obstacle for piece in view.pieces if piece.obstacle is not None})
+    table = Table.grid(padding=(0, 2))
+    rows = {
+        "area": "  ".join(readable(view.area, CLOSED_FORM, 20)),
+        "perimeter": "  ".join(readable(view.perimeter, CLOSED_FORM, 20)),
+        "pieces": ", ".join(_counted(kinds[kind.value], WORDS[kind]) for kind in ViewKind) or "none",
+        "bounded by": _listed("", (view.scene.obstacles[k].label for k in seen), ", ").strip() or "nothing",
+    }
+    if view.rays:
+        rows["rays"] = str(len(view.rays))
+    for row in rows.items():
+        table.add_row(*row)
+    title = f"View from {_place(view.point)} within {_rational(view.radius)}"
+    return Group(Text(title, style="bold"), table)
+
+
+def remarks_report(remarks: Iterable[str]) -> RenderableType:
+    """Remarks, one a line."""
+    return Group(*(Padding(f"- {remark}", (0, 0, 0, 2), expand=False) for remark in remarks))
+
+
 def scene_list(scenes: dict[str, str]) -> RenderableType:
     """The gallery's names and what they show."""
     table = Table.grid(padding=(0, 2))
@@ -185,8 +213,7 @@ def _notes(scene: Scene) -> Iterator[RenderableType]:
     if scene.notes:
         yield ""
         yield "import notes"
-        for note in scene.notes:
-            yield Padding(f"- {note}", (0, 0, 0, 2), expand=False)
+        yield remarks_report(scene.notes)
 
 
 def _table(*columns: str) -> Table:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from collections.abc import Iterable, Iterator
 from typing import Any
 
@@ -54,11 +55,11 @@ def run_to_json(run: Run) -> dict[str, Any]:
         "strategy": run.strategy,
         "radius": str(run.radius),
         "start": _point(out, run.start),
-        "length": _length(run.length),
+        "length": length_to_json(run.length),
         "visits": list(run.visits),
         "unseen": list(run.unseen),
         "unvisited": list(run.unvisited),
-        "bounds": [_bound(bound) for bound in run.bounds],
+        "bounds": [bound_to_json(bound) for bound in run.bounds],
         **_of_strategy(out, run),
         "path": [_piece(out, piece) for piece in run.path],
         "events": [_event(out, event, positions) for event in run.events],
@@ -66,6 +67,19 @@ def run_to_json(run: Run) -> dict[str, Any]:
     }
     document["numbers"] = out.table
     return document
+
+
+def is_run_file(path: str | os.PathLike[str]) -> bool:
+    """Whether a file is JSON that says that it is a run; False for what cannot be read.
+
+    The text of its ``"format"`` decides: no run is read. Linear in the file.
+    """
+    if os.path.splitext(path)[1].lower() != ".json":
+        return False
+    try:
+        return re.search(rb'"format"\s*:\s*"exactacq run"', read_bytes(path)) is not None
+    except FormatError:
+        return False
 
 
 def load_run(source: str | os.PathLike[str] | dict[str, Any]) -> Run:
@@ -150,14 +164,21 @@ def _point(out: Encoder, point: Point) -> list[Number]:
     return [out.number(point.x), out.number(point.y)]
 
 
-def _length(length: Length) -> dict[str, str]:
+def _decimal(point: Point) -> list[float]:
+    """The nearest floats, for readers: they are not read back."""
+    return list(point.xy)
+
+
+def length_to_json(length: Length) -> dict[str, str]:
+    """A length's closed form, if it is short, and its decimal value."""
     closed = readable(length, CLOSED, DIGITS)
     return {"closed": closed[0], "decimal": length.decimal(DIGITS)}
 
 
-def _bound(bound: Bound) -> dict[str, Any]:
-    value = {"value": _length(bound.value), "holds": bound.holds, "ratio": repr(bound.ratio)}
-    return {"name": bound.name, "source": bound.source, **value}
+def bound_to_json(bound: Bound) -> dict[str, Any]:
+    """A bound's name, source and value, whether it holds, and whether it speaks of the run."""
+    value = {"value": length_to_json(bound.value), "holds": bound.holds, "ratio": repr(bound.ratio)}
+    return {"name": bound.name, "source": bound.source, **value, "applies": bound.applies}
 
 
 def _link(out: Encoder, link: TreeLink) -> dict[str, Any]:
@@ -166,6 +187,8 @@ def _link(out: Encoder, link: TreeLink) -> dict[str, Any]:
         "target": link.target,
         "leave": _point(out, link.leave),
         "hit": _point(out, link.hit),
+        "leave_decimal": _decimal(link.leave),
+        "hit_decimal": _decimal(link.hit),
         "length": out.number(link.length.algebraic),
         "traversals": link.traversals,
     }
@@ -183,6 +206,8 @@ def _of_strategy(out: Encoder, run: Run) -> dict[str, Any]:
                 "obstacle": d.obstacle,
                 "leave": _point(out, d.leave),
                 "hit": _point(out, d.hit),
+                "leave_decimal": _decimal(d.leave),
+                "hit_decimal": _decimal(d.hit),
                 "reason": d.reason,
                 "first": d.first,
                 "last": d.last,
@@ -198,6 +223,7 @@ def _of_strategy(out: Encoder, run: Run) -> dict[str, Any]:
 def _piece(out: Encoder, piece: Piece) -> dict[str, Any]:
     document: dict[str, Any] = {"kind": piece.kind, "obstacle": piece.obstacle}
     document["start"], document["end"] = _point(out, piece.start), _point(out, piece.end)
+    document["start_decimal"], document["end_decimal"] = _decimal(piece.start), _decimal(piece.end)
     curve = piece.curve
     if isinstance(curve, Arc):
         document["arc"] = {
@@ -227,6 +253,7 @@ def _event(out: Encoder, event: Event, positions: list[str]) -> dict[str, Any]:
         "obstacle": event.obstacle,
         **{name: fact for name, fact in facts.items() if fact is not None},
         "point": _place(out, event.point),
+        "point_decimal": _decimal(event.point),
         "after": event.after,
         "inside": event.inside,
         "at": event.at.decimal(DIGITS) if event.inside else positions[event.after],

@@ -2,17 +2,27 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left
+from bisect import bisect_left, bisect_right
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate
+from math import ceil, pi
 from typing import Any
 
+import numpy as np
+
 from exactacq.geometry.curves import Curve
-from exactacq.geometry.geo import Geo, line_string
+from exactacq.geometry.geo import Geo, corners, line_string
 from exactacq.geometry.points import Point
+from exactacq.geometry.strokes import Floats, Stroke
 from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.length import Length
+
+MOST_WAYPOINTS = 10_000_000
+"""Most places at a spacing: an array of 320 MB."""
+ROUNDOFF = 1e-12
+"""Share of a length within which a place counts as a corner, and a rest as nothing."""
 
 
 @dataclass(frozen=True)
@@ -75,6 +85,54 @@ class Path(tuple[Piece, ...]):
         """
         return line_string(piece.curve.stroke() for piece in self)
 
+    def to_numpy(self) -> Floats:
+        """The path as corners: an array of floats of shape (n, 2), columns x and y in the scene's unit.
+
+        Arcs become chords that stray by at most 10^-4 of the radius (`exactacq.geometry.geo.FLATNESS`); a
+        place that repeats stands once. Shape (0, 2) for a path without pieces. Linear in the corners.
+
+        >>> import exactacq as xa
+        >>> xa.sightseer(xa.load("squares")).path.to_numpy()[:3].tolist()
+        [[0.0, 0.0], [2.0, 0.0], [2.0, -1.0]]
+        """
+        return np.array(corners(piece.curve.stroke() for piece in self), dtype=float).reshape(-1, 2)
+
+    def waypoints(self, spacing: object) -> Floats:
+        """Places at equal distances along the path: an array of floats of shape (n, 4).
+
+        The columns are x, y, the direction of travel there as an angle in (-pi, pi], counterclockwise from
+        the x axis, and the length of the path so far; the first three as poses of a robot have them. The
+        first place is the start, the last one the end, which may be nearer to the one before than *spacing*,
+        a positive number in the scene's unit. At a corner the direction is that of the piece that begins.
+        Shape (0, 4) for a path without pieces; one row for a path without length. ValueError for a spacing
+        that is not positive or makes more than `MOST_WAYPOINTS`. Linear in pieces and places.
+
+        >>> import exactacq as xa
+        >>> path = xa.sightseer(xa.load("squares")).path
+        >>> path.waypoints(10).round(3).tolist()
+        [[0.0, 0.0, 0.0, 0.0], [2.0, 0.0, -1.571, 10.0], [9.0, 1.0, 3.142, 20.0], [7.0, -1.0, -1.571, 24.0]]
+        """
+        step = float(Length(spacing))
+        total = self._ends[-1]
+        if not (step > 0 and total / step < MOST_WAYPOINTS):
+            raise ValueError(
+                f"a spacing is positive and makes at most {MOST_WAYPOINTS} places, not {spacing}"
+            )
+        if not self:
+            return np.empty((0, 4))
+        strokes = [piece.curve.stroke() for piece in self]
+        count = ceil(total / step - ROUNDOFF)
+        return np.array([self._pose(strokes, min(k * step, total)) for k in range(count + 1)])
+
+    def _pose(self, strokes: Sequence[Stroke], at: float) -> tuple[float, float, float, float]:
+        """Place, direction and length so far, after about a length."""
+        k = bisect_right(self._ends, at * (1 + ROUNDOFF)) - 1
+        while k and (k >= len(strokes) or not strokes[k].length):
+            k -= 1
+        stroke = strokes[k]
+        share = min(max((at - self._ends[k]) / stroke.length, 0.0), 1.0) if stroke.length else 0.0
+        return (*stroke.at(share), _turned(stroke.heading(share)), at)
+
     def length_after(self, count: int) -> Length:
         """Length of the first *count* pieces. Cost: linear in the pieces since the last place asked for.
 
@@ -113,3 +171,9 @@ class Path(tuple[Piece, ...]):
         if rest.sign() < 0 or (count == len(self) and rest.sign() > 0):
             raise ValueError(f"the path has no place after length {length}: it is {self._ends[-1]:.6g} long")
         return count, rest
+
+
+def _turned(angle: float) -> float:
+    """A direction as an angle in (-pi, pi]."""
+    turned = angle - 2 * pi * ceil((angle - pi) / (2 * pi))
+    return pi if turned <= -pi else turned

@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 
 from flint import fmpq
 
+from exactacq.files.whole_files import readable
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.geo import Geo
 from exactacq.geometry.points import Point, distance
@@ -22,7 +23,11 @@ from exactacq.sensing.event import Ending, Event, EventKind, Reason
 from exactacq.sensing.map import Body, Map
 from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Path
+from exactacq.strategies.tables import Table, event_table
 from exactacq.visibility.isovist import Isovist, isovist
+
+CLOSED_FORM = 60
+"""Closed forms of at most this many characters stand in tables."""
 
 
 @dataclass(frozen=True)
@@ -234,6 +239,33 @@ class Run:
         document: dict[str, Any] = made(JSON, self)
         return document
 
+    @property
+    def event_table(self) -> Table:
+        """The events in rows: what happened, to which obstacle, after which length, where, and why.
+
+        ``number`` is that of the event in `events`, ``at`` the length of the path so far, ``x`` and ``y`` the
+        place, all floats in the scene's unit; ``obstacle`` its number, ``name`` its label. Linear in the
+        path.
+
+        >>> import exactacq as xa
+        >>> row = xa.sightseer(xa.load("circles")).event_table[2]
+        >>> row["kind"], row["name"], row["at"], row["x"], row["y"], row["note"]
+        ('hit', 'O1', 3.0, 3.0, 0.0, 'from S')
+        """
+        return event_table(self.events, list(self.names()))
+
+    @property
+    def bound_table(self) -> Table:
+        """The bounds in rows: name, source, value as a float and closed form if short, and verdicts.
+
+        >>> import exactacq as xa
+        >>> row = xa.sightseer(xa.load("circles")).bound_table[0]
+        >>> row["name"], round(row["value"], 3), row["closed"], row["holds"]
+        ('(1)', 51.124, '4 + 15*pi', True)
+        """
+        columns = ("name", "source", "value", "closed", "holds", "ratio", "applies")
+        return Table(columns, (dict(zip(columns, _told(bound), strict=True)) for bound in self.bounds))
+
     def names(self) -> Iterator[str]:
         """The obstacles' labels: their names, or "O" and the number from 1.
 
@@ -247,6 +279,13 @@ class Run:
 def _again(kind: type[Run], state: dict[str, Any]) -> Run:
     """The run that was pickled or copied."""
     return kind(**state)
+
+
+def _told(bound: Bound) -> tuple[str | float | bool | None, ...]:
+    """A bound's entries in a table."""
+    closed, *rest = readable(bound.value, CLOSED_FORM, 17)
+    form = closed if rest or "≈" not in closed else None
+    return bound.name, bound.source, float(bound.value), form, bound.holds, bound.ratio, bound.applies
 
 
 def _share(curve: Curve, length: Length) -> fmpq:

@@ -114,7 +114,12 @@ def save_pair(first: Run, second: Run, path: str | os.PathLike[str]) -> None:
     write_whole(target, _rendered(lambda: pair(first, second), target.suffix.lower()))
 
 
-def _rendered(draw: Callable[[], Figure], suffix: str) -> bytes:
+def png(subject: Run | Scene, at: Event | Length | object, dots: int) -> bytes:
+    """The figure as a PNG of so many dots per inch; *at* as in `figure`."""
+    return _rendered(lambda: figure(subject, at), ".png", dots)
+
+
+def _rendered(draw: Callable[[], Figure], suffix: str, dots: int = DOTS) -> bytes:
     """A figure as a file's content, without dates, random names or the user's own settings of matplotlib:
     equal subjects give equal bytes."""
     maker: dict[str, str | None] = {"Creator": "exactacq"}
@@ -125,7 +130,7 @@ def _rendered(draw: Callable[[], Figure], suffix: str) -> bytes:
     }
     out = io.BytesIO()
     with style.context(["default", {"svg.hashsalt": "exactacq", "hatch.linewidth": 0.5}]):
-        draw().savefig(out, format=suffix[1:], metadata=metadata[suffix], dpi=DOTS)
+        draw().savefig(out, format=suffix[1:], metadata=metadata[suffix], dpi=dots)
     return out.getvalue()
 
 
@@ -398,9 +403,10 @@ class _Canvas:
 
     def _path(self) -> PathCollection | None:
         """The path in steps of one colour, later traversals narrower and above; None if there is none."""
-        total = sum(stroke.length for stroke in self.strokes)
-        if total == 0:
+        if sum(stroke.length for stroke in self.strokes) == 0:
             return None
+        assert self.run is not None
+        total = float(self.run.length)  # Of all moments of a run, the colours are those of its end.
         steps = Steps.of(self.strokes, COLOURS)
         tolerance = 1e-7 * max(self.width, self.height)
         ranks = steps.ranks(self.strokes, [piece.obstacle for piece in self.pieces], tolerance)

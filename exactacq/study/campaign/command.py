@@ -62,6 +62,7 @@ def verify(
         float, typer.Option(min=0.1, metavar="T", help="Seconds a scene may take; more count as a timeout.")
     ] = 120.0,
     audited: Annotated[bool, typer.Option("--audit/--no-audit", help="Audit every run.")] = True,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON, and no table.")] = False,
 ) -> None:
     """Put random exact scenes to every claim: run, audit, and check each statement.
 
@@ -74,7 +75,7 @@ def verify(
     if replay is not None:
         if out is not None or table is not None or scheduler is not None:
             raise FormatError("--replay: judges one scene here and writes nothing; leave the files out")
-        _replay(_task(replay), Settings(audit=audited))
+        _replay(_task(replay), Settings(audit=audited), as_json)
         return
     chosen = Settings().strategies if strategy is Chosen.BOTH else (strategy.value,)
     settings = Settings(scenes, seed, chosen, audited, timeout)
@@ -85,7 +86,7 @@ def verify(
         check_output(out, FILES)
     if workers is not None and scheduler is not None:
         raise FormatError("--workers: counts processes on this machine; leave it out with --scheduler")
-    if run_campaign(settings, out, workers, scheduler, target):
+    if run_campaign(settings, out, workers, scheduler, target, as_json):
         raise typer.Exit(CONTRADICTED)
 
 
@@ -95,12 +96,14 @@ def run_campaign(
     workers: int | None = None,
     scheduler: str | None = None,
     table: Path | None = None,
+    as_json: bool = False,
 ) -> bool:
     """Judge what is not judged yet, print the summary, and write the table; whether anything went wrong."""
     from exactacq.output.report import console
+    from exactacq.output.report_data import text_of
     from exactacq.study.campaign.coordinator import conduct
     from exactacq.study.campaign.store import Store
-    from exactacq.study.campaign.summary import faults, summary
+    from exactacq.study.campaign.summary import faults, summary, summary_data
     from exactacq.study.campaign.table import export
 
     called = [c for c, _ in parts(claims_at(settings.claims)) if c.strategy in settings.strategies]
@@ -108,9 +111,13 @@ def run_campaign(
         total = sum(1 for _ in settings.tasks())
         with _progress(len(store.done()), total) as report:
             conduct(settings, store, workers, scheduler, report)
-        console().print(summary(store))
-        if table is not None:
-            print(f"{export(store, table)} findings written to {table}")
+        written = None if table is None else export(store, table)
+        if as_json:
+            sys.stdout.write(text_of(summary_data(store)))
+        else:
+            console().print(summary(store))
+            if written is not None:
+                print(f"{written} findings written to {table}")
         return bool(faults(store))
 
 
@@ -121,14 +128,18 @@ def _task(text: str) -> Task:
     return Task(strategy, int(seed))
 
 
-def _replay(task: Task, settings: Settings) -> None:
+def _replay(task: Task, settings: Settings, as_json: bool) -> None:
     from exactacq.output.report import console
+    from exactacq.output.report_data import text_of
     from exactacq.study.campaign.judging import judge
-    from exactacq.study.campaign.summary import is_faulty, record_report
+    from exactacq.study.campaign.summary import is_faulty, record_data, record_report
 
     statements = list(parts(claims_at(settings.claims)))
     record = judge(task, statements, settings.audit)
-    console().print(record_report(record))
+    if as_json:
+        sys.stdout.write(text_of(record_data(record)))
+    else:
+        console().print(record_report(record))
     if is_faulty([called for called, _ in statements], record):
         raise typer.Exit(CONTRADICTED)
 

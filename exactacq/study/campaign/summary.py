@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from rich.console import Group, RenderableType
 from rich.table import Table
@@ -91,6 +91,49 @@ def summary(store: Store) -> RenderableType:
         table.add_row(t.called.claim, t.called.part, t.called.truth, *numbers, *worst)
     wrong, others = _named("wrong", faults(store)), _named("open", unfinished(store))
     return Group(table, "", _counts(store), *wrong, *others)
+
+
+def summary_data(store: Store) -> dict[str, Any]:
+    """What `summary` tells, as JSON data; all scenes that went wrong or are open."""
+    statements = [
+        {
+            "claim": t.called.claim,
+            "statement": t.called.part,
+            "called": t.called.truth,
+            "tried": t.tried,
+            "held": t.held,
+            "failed": t.failed,
+            "silent": t.silent,
+            "unanswered": t.unanswered,
+            "worst": t.worst,
+            "at": None if t.at is None else str(t.at),
+        }
+        for t in tallies(store)
+    ]
+    counts = dict(store.rows("SELECT outcome, count(*) FROM scenes GROUP BY outcome"))
+    return {
+        "statements": statements,
+        "scenes": {result.value: counts.get(result.value, 0) for result in Result},
+        "seconds": store.wall,
+        "wrong": [_told(*found) for found in faults(store)],
+        "open": [_told(*found) for found in unfinished(store)],
+    }
+
+
+def _told(task: Task, what: str, why: str) -> dict[str, str]:
+    return {"scene": str(task), "what": what, "why": why}
+
+
+def record_data(record: Record) -> dict[str, Any]:
+    """What one scene says of every statement, as JSON data."""
+    return {
+        "scene": str(record.task),
+        "result": str(record.result),
+        "detail": record.detail,
+        "length": record.length,
+        "seconds": record.seconds,
+        "statements": [row._asdict() for row in record.rows],
+    }
 
 
 def _counts(store: Store) -> str:

@@ -1,0 +1,1 @@
+"""Writers of drawings and results, one a format."""

@@ -1,0 +1,83 @@
+"""Reports as JSON data, for programs: what `exactacq.output.report` says in tables.
+
+Numbers are exact where they are short: rationals as text "p/q", lengths with their closed form and a decimal.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from exactacq.geometry.curves import Arc
+from exactacq.numbers.length import Length
+from exactacq.output.run_json import bound_to_json, length_to_json
+from exactacq.scene.scene import Scene
+from exactacq.scene.shapes import Terrain
+from exactacq.strategies.run import Run, SeedSpreaderRun
+
+
+def text_of(data: object) -> str:
+    """JSON data as it is printed."""
+    return json.dumps(data, indent=1, ensure_ascii=False) + "\n"
+
+
+def scene_data(scene: Scene) -> dict[str, Any]:
+    """What a valid scene holds. Linear in its edges."""
+    edges = [edge for obstacle in scene.obstacles for edge in obstacle.edges]
+    arcs = sum(isinstance(edge, Arc) for edge in edges)
+    start, terrain = scene.start, scene.terrain
+    return {
+        "name": scene.name,
+        "ok": True,
+        "obstacles": len(scene.shapes),
+        "enclosure": scene.enclosure is not None,
+        "segments": len(edges) - arcs,
+        "arcs": arcs,
+        "perimeters": length_to_json(Length.sum(obstacle.perimeter for obstacle in scene.obstacles)),
+        "start": None if start is None else [str(start.x), str(start.y)],
+        "radius": None if scene.radius is None else str(scene.radius),
+        "terrain": None if terrain is None else _terrain(terrain),
+        "notes": list(scene.notes),
+    }
+
+
+def comparison_data(runs: Sequence[Run], refusals: Sequence[str] = ()) -> dict[str, Any]:
+    """Runs on one scene, and why strategies refused it.
+
+    ``ratio`` is the second one's length over the first one's, None if that is 0 or if there is only one.
+    """
+    lengths = [float(run.length) for run in runs]
+    ratio = lengths[1] / lengths[0] if len(runs) == 2 and lengths[0] else None
+    return {
+        "scene": runs[0].scene.name,
+        "runs": [_run(run) for run in runs],
+        "refused": list(refusals),
+        "ratio": ratio,
+    }
+
+
+def gallery_data(scenes: Mapping[str, str]) -> list[dict[str, str]]:
+    """The gallery's names, and what they show."""
+    return [{"name": name, "shows": line} for name, line in scenes.items()]
+
+
+def _terrain(terrain: Terrain) -> dict[str, Any]:
+    x, y = terrain.origin
+    return {"width": str(terrain.width), "height": str(terrain.height), "origin": [str(x), str(y)]}
+
+
+def _run(run: Run) -> dict[str, Any]:
+    return {
+        "strategy": run.strategy,
+        "start": [str(run.start.x), str(run.start.y)],
+        "radius": str(run.radius),
+        "length": length_to_json(run.length),
+        "obstacles": len(run.obstacles),
+        "visits": list(run.visits),
+        "acquired": list(run.map.acquired),
+        "unseen": list(run.unseen),
+        "unvisited": list(run.unvisited),
+        "diversions": len(run.diversions) if isinstance(run, SeedSpreaderRun) else None,
+        "bounds": [bound_to_json(bound) for bound in run.bounds],
+    }
