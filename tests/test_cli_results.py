@@ -128,7 +128,11 @@ def test_check_as_json(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> No
     bare = tmp_path / "bare.json"
     bare.write_text('{"obstacles": [], "terrain": {"width": 1, "height": "1/3"}}')
     empty = data(capsys, "check", bare)
-    assert empty["start"] is None and empty["terrain"] == {"width": "1", "height": "1/3", "origin": ["0", "0"]}
+    assert empty["start"] is None and empty["terrain"] == {
+        "width": "1",
+        "height": "1/3",
+        "origin": ["0", "0"],
+    }
 
 
 def test_compare_as_json(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

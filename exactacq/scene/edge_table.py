@@ -150,7 +150,7 @@ class EdgeTable:
         return np.array(self.around(low, high, reach), dtype=np.intp)
 
     def around(self, low: tuple[float, float], high: tuple[float, float], reach: float) -> list[int]:
-        """The same edges in a list, which is not to be changed: cheaper than an array if they are few.
+        """The numbers that `near` gives, as a list, which is not to be changed: cheaper if they are few.
 
         These are looked at, whatever decides then. The last answers are kept: all sectors of a corner ask for
         one box, as do ways along an edge.

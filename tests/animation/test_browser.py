@@ -333,10 +333,7 @@ def test_everything_that_acts_has_a_name_and_shows_its_focus(
     assert all(name.strip() for name in names)
     assert browser.run("document.documentElement.lang") == "en"
     assert browser.run("document.getElementById('status').getAttribute('aria-live')") == "polite"
-    assert (
-        browser.run("document.getElementById('slider').getAttribute('aria-valuetext')")
-        == "0 of 1387/10 ≈ 138.7"
-    )
+    assert browser.run("document.getElementById('slider').getAttribute('aria-valuetext')") == "0 of 138.7"
     order = []
     for _ in range(6):
         browser.press("Tab")
