@@ -153,6 +153,9 @@ OUTER = FileOption(
     ("wall", "drop", "room"),
 )
 TOLERANCE = FileOption("tolerance", "number", "Join ends that are this far apart.")
+FLATTEN = FileOption(
+    "flatten", "number", "Ellipses, splines and Bézier curves by arcs, within this distance."
+)
 UNION = FileOption("union", "flag", "Merge overlapping polygons.", False)
 CORNERS = FileOption(
     "corners",
@@ -169,6 +172,8 @@ THRESHOLD = FileOption("threshold", "number", "Blocked is what is darker: 0 for 
 RESOLUTION = FileOption("resolution", "number", "Width of a cell; 1.")
 DRAWING = (LAYERS, OUTER, TOLERANCE, UNION)
 """What drawings of loose lines and arcs take."""
+CURVED = (*DRAWING, FLATTEN)
+"""What drawings take that may hold other curves."""
 
 register(
     Format(
@@ -237,7 +242,7 @@ register(
         title="DXF drawings",
         suffixes=(".dxf",),
         reader="exactacq.files.dxf.load:load_dxf",
-        options=DRAWING,
+        options=CURVED,
     )
 )
 register(
@@ -255,6 +260,6 @@ register(
         title="SVG drawings",
         suffixes=(".svg",),
         reader="exactacq.files.svg.load:load_svg",
-        options=DRAWING,
+        options=CURVED,
     )
 )
