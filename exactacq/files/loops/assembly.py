@@ -12,6 +12,7 @@ from exactacq.files.loops.chains import Chain, scientific_above
 from exactacq.files.loops.cusps import open_cusps
 from exactacq.files.loops.drawing import Drawing
 from exactacq.files.loops.stitching import Stitched, stitch
+from exactacq.files.repairs.gaps import best_tolerance, closings
 from exactacq.files.source import check_edges
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
@@ -59,8 +60,13 @@ def scene_of_drawing(
     cusps = sum(open_cusps(loop, reach) for loop in stitched.loops)
     shapes = _shapes(drawing, stitched)
     notes += _report(stitched, reach, cusps)
+    hint = _what_closes(stitched)
     if not shapes:
-        raise FormatError(f"no closed loop{_because(notes)}; give a larger --tolerance, or {other}")
+        raise FormatError(
+            f"no closed loop{_because(notes)}; give {hint or 'a larger --tolerance'}, or {other}"
+        )
+    if hint:
+        notes.append(f"open chains close with {hint}")
     obstacles, wall = arranged(shapes, Point(*start), outer, union, notes)
     return Scene(obstacles, start=start, enclosure=wall, name=name, notes=notes)
 
@@ -128,6 +134,24 @@ def _report(stitched: Stitched, tolerance: fmpq, cusps: int) -> list[str]:
         n = len(stitched.branches)
         notes.append(f"{count(n, 'branch point')} where three or more ends meet, the first at ({x}, {y})")
     return notes
+
+
+def _what_closes(stitched: Stitched) -> str:
+    """The tolerance that closes most open chains, and where its first gap is; empty if none does."""
+    found = closings(stitched.open_chains)
+    best = best_tolerance(found)
+    if best is None:
+        return ""
+    tolerance, most = best
+    closing = next(c for c in found if c.tolerance == tolerance)
+    gap = max(closing.gaps, key=lambda gap: gap.width)
+    x, y = (short(c) for c in gap.places[0])
+    mate = "its other end" if gap.pieces[0] == gap.pieces[1] else gap.pieces[1]
+    return (
+        f"--tolerance {scientific_above(tolerance)}, which closes {most} of "
+        f"{count(len(stitched.open_chains), 'open chain')}: {gap.pieces[0]} ends at ({x}, {y}), "
+        f"{scientific_above(gap.width)} from {mate}"
+    )
 
 
 def _left_out(dropped: Counter[str]) -> list[str]:
