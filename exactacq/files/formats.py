@@ -170,6 +170,9 @@ BORDER = FileOption(
 UNKNOWN = FileOption("unknown", "choice", "What unknown cells are.", "free", ("free", "blocked"))
 THRESHOLD = FileOption("threshold", "number", "Blocked is what is darker: 0 for black to 1 for white; 1/2.")
 RESOLUTION = FileOption("resolution", "number", "Width of a cell; 1.")
+SIMPLIFY = FileOption(
+    "simplify", "number", "Fewer vertices of outlines, which move by at most this distance."
+)
 DRAWING = (LAYERS, OUTER, TOLERANCE, UNION)
 """What drawings of loose lines and arcs take."""
 CURVED = (*DRAWING, FLATTEN)
@@ -207,7 +210,7 @@ register(
         title="maps of ROS",
         suffixes=(".yaml", ".yml"),
         reader="exactacq.files.grids.ros_map:load_ros_map",
-        options=(CORNERS, BORDER, UNKNOWN),
+        options=(CORNERS, BORDER, UNKNOWN, SIMPLIFY),
     )
 )
 register(
@@ -216,7 +219,7 @@ register(
         title="images",
         suffixes=(".pgm", ".png", ".bmp", ".gif", ".jpg", ".jpeg"),
         reader="exactacq.files.grids.image:load_image",
-        options=(THRESHOLD, RESOLUTION, CORNERS, BORDER),
+        options=(THRESHOLD, RESOLUTION, CORNERS, BORDER, SIMPLIFY),
     )
 )
 register(
@@ -225,7 +228,7 @@ register(
         title="MovingAI maps",
         suffixes=(".map",),
         reader="exactacq.files.grids.movingai:load_movingai",
-        options=(CORNERS, BORDER),
+        options=(CORNERS, BORDER, SIMPLIFY),
     )
 )
 register(

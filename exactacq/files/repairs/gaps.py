@@ -24,7 +24,7 @@ NEAR_TIE = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
-class Gap:
+class LooseGap:
     """Two loose ends that are nearest to each other: their pieces, places, and a bound of their distance.
 
     The *width* is at least the distance, and at most a billionth of it more.
@@ -43,10 +43,10 @@ class Closing:
     """
 
     chains: tuple[int, ...]
-    gaps: tuple[Gap, ...]
+    gaps: tuple[LooseGap, ...]
     tolerance: fmpq | None
     below: fmpq | None
-    """The squared distance of the nearest third end, if any: a tolerance that reaches it makes a branch point."""
+    """The squared distance of the nearest third end: a tolerance that reaches it makes a branch point."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,10 +107,8 @@ def best_tolerance(found: Sequence[Closing]) -> tuple[fmpq, int] | None:
 def _ends(k: int, path: Sequence[Chain]) -> tuple[_LooseEnd, _LooseEnd]:
     """The ends of a path of pieces: those that no other piece of it meets."""
     first, last = path[0], path[-1]
-    if len(path) == 1:
-        sides = (0, 1)
-    else:
-        sides = 1 - _meeting(first, path[1]), 1 - _meeting(last, path[-2])
+    alone = len(path) == 1
+    sides = (0, 1) if alone else (1 - _meeting(first, path[1]), 1 - _meeting(last, path[-2]))
     return (
         _LooseEnd(k, 0, first.corners[-sides[0]], first.label),
         _LooseEnd(k, 1, last.corners[-sides[1]], last.label),
@@ -166,7 +164,7 @@ def _closing(
     for i in ring:
         one, other = ends[i], ends[mates[i]]
         places = ((one.corner.x, one.corner.y), (other.corner.x, other.corner.y))
-        gaps.append(Gap((one.label, other.label), places, distance_above(one.corner, other.corner)))
+        gaps.append(LooseGap((one.label, other.label), places, distance_above(one.corner, other.corner)))
         limits += [s for s in (second[i], second[mates[i]]) if s is not None]
     widest, below = max(gap.width for gap in gaps), min(limits, default=None)
     short = rational(scientific_above(widest))
