@@ -156,7 +156,7 @@ TOLERANCE = FileOption("tolerance", "number", "Join ends that are this far apart
 FLATTEN = FileOption(
     "flatten", "number", "Ellipses, splines and Bézier curves by arcs, within this distance."
 )
-UNION = FileOption("union", "flag", "Merge overlapping polygons.", False)
+UNION = FileOption("union", "flag", "Merge loops that overlap.", False)
 CORNERS = FileOption(
     "corners",
     "choice",

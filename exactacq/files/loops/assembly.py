@@ -39,7 +39,7 @@ def scene_of_drawing(
     `TOLERANCE` times the larger side of the drawing) are joined. The outermost loop around the start is the
     wall, or dropped (``outer="drop"``: all other loops then stay); with ``outer="room"`` the innermost one is
     the wall. Loops outside the wall or inside an obstacle are left out. Loops that overlap or touch are
-    refused by the scene, or merged if they are polygons and *union* is set. Raises `FormatError` and
+    refused by the scene, or merged if *union* is set. Raises `FormatError` and
     `InvalidScene`.
     """
     if tolerance is not None and tolerance < 0:
