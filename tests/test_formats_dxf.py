@@ -102,7 +102,7 @@ def test_union_of_loops_with_arcs_is_within_its_bound() -> None:
     scene = load(DATA / "issue39.dxf", start=(2915, 3183), union=True)
     assert scene.enclosure is not None
     assert len(scene.obstacles) == 3
-    assert "no point moved by more than 3.6e-15" in note(scene, "merged")
+    assert "moved by more than 3.6e-15" in note(scene, "no point of a union")
 
 
 def test_slots_with_a_bulge_on_the_closing_edge() -> None:

@@ -135,6 +135,7 @@ def test_a_ring_of_shapes_has_a_hole() -> None:
 
 def test_the_note_bounds_the_move() -> None:
     merged = unite([Circle((0, 0), 2), Circle((1, 0), 2)], None, None)
-    assert "no point moved by more than" in merged.notes[0]
+    assert merged.notes[0] == "merged None into their union"
+    assert "no point of a union moved by more than" in merged.notes[1]
     exact = unite([Circle((0, 0), 5), Circle((6, 0), 5)], None, None)
-    assert exact.notes == ["merged None, None into their exact union"]
+    assert exact.notes == ["merged None into their exact union"]

@@ -173,7 +173,8 @@ RESOLUTION = FileOption("resolution", "number", "Width of a cell; 1.")
 SIMPLIFY = FileOption(
     "simplify", "number", "Fewer vertices of outlines, which move by at most this distance."
 )
-DRAWING = (LAYERS, OUTER, TOLERANCE, UNION)
+THICKEN = FileOption("thicken", "number", "Walls so thick for lines that stay open.")
+DRAWING = (LAYERS, OUTER, TOLERANCE, UNION, THICKEN)
 """What drawings of loose lines and arcs take."""
 CURVED = (*DRAWING, FLATTEN)
 """What drawings take that may hold other curves."""

@@ -27,6 +27,7 @@ def load_dxf(
     outer: str = "wall",
     tolerance: fmpq | None = None,
     union: bool = False,
+    thicken: fmpq | None = None,
     flatten: fmpq | None = None,
 ) -> Scene:
     """The scene in a DXF drawing; *layers* selects by name, all by default.
@@ -36,4 +37,6 @@ def load_dxf(
     """
     flattening = None if flatten is None else Flattening(flatten)
     drawing = read_drawing(path, layers, flattening)
-    return scene_of_drawing(drawing, path.stem, start, outer=outer, tolerance=tolerance, union=union)
+    return scene_of_drawing(
+        drawing, path.stem, start, outer=outer, tolerance=tolerance, union=union, thickness=thicken
+    )

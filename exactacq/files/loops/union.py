@@ -9,10 +9,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+from flint import fmpq
 from networkx.utils import UnionFind
 
 from exactacq.errors import FormatError
-from exactacq.files.loops.chains import scientific_above
+from exactacq.files.loops.chains import ZERO, scientific_above
 from exactacq.files.loops.nesting import Loops
 from exactacq.files.repairs.overlay import overlay
 from exactacq.geometry.intersections import winding
@@ -22,6 +23,8 @@ from exactacq.scene.shapes import Shape, shape_edges
 
 NAMED = 6
 """How many loops of a group a message names."""
+LISTED_GROUPS = 8
+"""How many groups are told one by one."""
 
 
 @dataclass(slots=True)
@@ -30,7 +33,26 @@ class Merged:
 
     obstacles: list[Shape]
     wall: Shape | None
-    notes: list[str] = field(default_factory=list)
+    groups: list[str] = field(default_factory=list)
+    """The names of the loops that were merged, group by group."""
+    moved: fmpq = ZERO
+    """A bound of how far any point is from the exact unions."""
+    closed: list[str] = field(default_factory=list)
+    """What is told of places that are closed in."""
+
+    @property
+    def notes(self) -> list[str]:
+        """What to tell of it, with the bound; nothing if no loops met."""
+        kind = "union" if self.moved else "exact union"
+        told = [f"merged {names} into their {kind}" for names in self.groups[:LISTED_GROUPS]]
+        if len(self.groups) > LISTED_GROUPS:
+            told.append(f"merged {len(self.groups) - LISTED_GROUPS} more groups of loops that overlap")
+        if self.moved:
+            far = scientific_above(self.moved)
+            told.append(
+                f"no point of a union moved by more than {far}, where crossings of arcs were made rational"
+            )
+        return [*told, *self.closed]
 
 
 def unite(shapes: list[Shape], wall: Shape | None, start: Point | None) -> Merged:
@@ -38,8 +60,8 @@ def unite(shapes: list[Shape], wall: Shape | None, start: Point | None) -> Merge
 
     What the wall and the obstacles that meet it leave free around the start becomes the new wall; so does a
     hole of a union that holds the start; other holes are filled, for the robot cannot see them. Raises
-    `FormatError` if a group of meeting loops holds an arc or has no common grid, or the start is in none of
-    its free places, and `InvalidScene` if one of its polygons crosses itself.
+    `FormatError` if the start is in none of the places that a group with the wall leaves free, and
+    `InvalidScene` if one of the loops crosses itself.
     """
     every = [*([] if wall is None else [wall]), *shapes]
     merged = Merged([], wall)
@@ -57,8 +79,8 @@ def unite(shapes: list[Shape], wall: Shape | None, start: Point | None) -> Merge
 
 def _merge(members: list[Shape], walled: bool, start: Point | None, merged: Merged) -> None:
     """One group of meeting loops; the first is the wall if *walled*."""
-    names = ", ".join(repr(member.name) for member in members[:NAMED])
-    names += f" and {len(members) - NAMED} more" if len(members) > NAMED else ""
+    named = list(dict.fromkeys(repr(member.name) for member in members))
+    names = ", ".join(named[:NAMED]) + (f" and {len(named) - NAMED} more" if len(named) > NAMED else "")
     for member in members:
         Scene([member])
     rings = overlay(members, _is_free if walled else any)
@@ -69,14 +91,8 @@ def _merge(members: list[Shape], walled: bool, start: Point | None, merged: Merg
     room = next((r for r in rooms if start is not None and _inside(r, start)), None)
     if walled and room is None:
         raise FormatError(f"no union of {names}: the start is not in what it leaves free; choose another")
-    far = max(ring.chain.moved() for ring in rings)
-    if far:
-        off = (
-            f"no point moved by more than {scientific_above(far)}, where crossings of arcs were made rational"
-        )
-        merged.notes.append(f"merged {names} into their union; {off}")
-    else:
-        merged.notes.append(f"merged {names} into their exact union")
+    merged.groups.append(names)
+    merged.moved = max(merged.moved, *(ring.chain.moved() for ring in rings))
     if room is None:
         merged.obstacles += solids
     else:
@@ -85,7 +101,7 @@ def _merge(members: list[Shape], walled: bool, start: Point | None, merged: Merg
         merged.obstacles += [solid for solid in solids if _inside(room, shape_edges(solid)[0].start)]
     closed = len(rooms) - (room is not None)
     if closed:
-        merged.notes.append(f"left out {closed} free places closed in by {name} (the robot cannot see them)")
+        merged.closed.append(f"left out {closed} free places closed in by {name} (the robot cannot see them)")
 
 
 def _is_free(held: Sequence[bool]) -> bool:

@@ -19,12 +19,13 @@ from functools import cmp_to_key
 from itertools import pairwise
 from math import atan2, pi
 
+import numpy as np
 from flint import fmpq
 
 from exactacq.errors import FormatError
 from exactacq.files.loops.chains import Chain, Corner
 from exactacq.files.loops.rational_arcs import arc_around, simplest_between
-from exactacq.geometry.box_index import BoxIndex, bounds
+from exactacq.geometry.box_index import BoxIndex, bounds, united
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import contacts, signed_area, winding
@@ -67,8 +68,11 @@ def overlay(shapes: Sequence[Shape], holds: Callable[[Sequence[bool]], bool]) ->
     (True, 8)
     """
     loops = [_counterclockwise(shape) for shape in shapes]
+    if not loops:
+        return []
     cuts = _cuts(loops)
-    parts = [part for k in range(len(loops)) for part in _parts_of(k, loops, cuts, holds)]
+    hulls = BoxIndex(np.array([_hull(loop) for loop in loops]))
+    parts = [part for k in range(len(loops)) for part in _parts_of(k, loops, hulls, cuts, holds)]
     unit = DIGITS
     while any(abs(c) * DIGITS > unit for loop in loops for e in loop for c in (e.start.x, e.start.y)):
         unit *= 2
@@ -110,7 +114,11 @@ def _cuts(loops: Sequence[Sequence[Curve]]) -> Cuts:
 
 
 def _parts_of(
-    k: int, loops: Sequence[Sequence[Curve]], cuts: Cuts, holds: Callable[[Sequence[bool]], bool]
+    k: int,
+    loops: Sequence[Sequence[Curve]],
+    hulls: BoxIndex,
+    cuts: Cuts,
+    holds: Callable[[Sequence[bool]], bool],
 ) -> list[Curve]:
     """The pieces of a loop that are boundary; one that other loops share is the first loop's."""
     found = []
@@ -121,7 +129,7 @@ def _parts_of(
         for (low, start), (high, end) in pairwise(marks):
             middle = rail.point(_between(low, high))
             if known is None or (k, i) in cuts:
-                left, right, shared = _sides(k, middle, edge, loops)
+                left, right, shared = _sides(k, middle, edge, loops, hulls)
                 known = None if (k, i) in cuts else right
             else:
                 left, right, shared = [*known[:k], True, *known[k + 1 :]], known, False
@@ -162,21 +170,28 @@ def _between(low: Real, high: Real) -> fmpq:
 
 
 def _sides(
-    k: int, middle: Point, edge: Curve, loops: Sequence[Sequence[Curve]]
+    k: int, middle: Point, edge: Curve, loops: Sequence[Sequence[Curve]], hulls: BoxIndex
 ) -> tuple[list[bool], list[bool], bool]:
     """Which loops hold the left and the right of a piece, and whether an earlier loop runs along it."""
-    left, right, shared = [], [], False
-    for other, loop in enumerate(loops):
-        turns = 1 if other == k else winding(loop, middle)
-        if other != k and turns is not None:
-            left.append(bool(turns))
-            right.append(bool(turns))
+    left, right, shared = [False] * len(loops), [False] * len(loops), False
+    left[k] = True
+    for other in hulls.query(*bounds([Segment(middle, middle)])[0].tolist()).tolist():
+        if other == k:
             continue
-        same = other == k or _same_way(edge, next(e for e in loop if e.passes(middle)), middle)
-        left.append(same)
-        right.append(not same)
+        turns = winding(loops[other], middle)
+        if turns is not None:
+            left[other] = right[other] = bool(turns)
+            continue
+        left[other] = _same_way(edge, next(e for e in loops[other] if e.passes(middle)), middle)
+        right[other] = not left[other]
         shared = shared or other < k
     return left, right, shared
+
+
+def _hull(loop: Sequence[Curve]) -> list[float]:
+    """The box of a loop, rounded outward."""
+    found: list[float] = united(bounds(loop), [0])[0].tolist()
+    return found
 
 
 def _same_way(one: Curve, other: Curve, place: Point) -> bool:

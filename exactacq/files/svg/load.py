@@ -51,6 +51,7 @@ def load_svg(
     outer: str = "wall",
     tolerance: fmpq | None = None,
     union: bool = False,
+    thicken: fmpq | None = None,
     flatten: fmpq | None = None,
 ) -> Scene:
     """The scene in an SVG drawing; *layers* are names of groups or elements, all by default.
@@ -67,7 +68,9 @@ def load_svg(
     if reader.error:
         far = scientific_above(reader.error)
         drawing.notes.append(f"rotated by rational rotations, off by at most {far} radians in sum")
-    return scene_of_drawing(drawing, path.stem, start, outer=outer, tolerance=tolerance, union=union)
+    return scene_of_drawing(
+        drawing, path.stem, start, outer=outer, tolerance=tolerance, union=union, thickness=thicken
+    )
 
 
 def _parse(data: bytes, reader: _SvgReader) -> None:
