@@ -149,3 +149,9 @@ def test_the_message_of_a_curve_names_the_option(tmp_path: Path) -> None:
 def test_a_length_is_needed(tmp_path: Path, value: int) -> None:
     with pytest.raises(FormatError, match=re.escape(f"flatten: a length above 0 is needed, not {value}")):
         load(svg(tmp_path, '<path d="M10 10 C10 30 30 30 30 10 Z"/>'), start=(90, 90), flatten=fmpq(value))
+
+
+def test_a_drawing_of_too_many_arcs_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("exactacq.files.repairs.flattened.MAX_EDGES", 3)
+    with pytest.raises(FormatError, match="flatten: more than 3 arcs"):
+        load(svg(tmp_path, '<path d="M10 10 C10 30 30 30 30 10 Z"/>'), start=(90, 90), flatten="1/100")

@@ -17,6 +17,8 @@ from exactacq.files.loops.rational_arcs import arc_corners, nearly_pi
 from exactacq.files.repairs.bezier import BezierPiece, Pair, arc_pieces
 from exactacq.files.repairs.flatten import flatten
 
+MAX_EDGES = 20_000
+"""Most arcs and segments that stand for the curves of one file: more would take minutes."""
 MAX_PART = 90
 """Degrees of an ellipse in one piece."""
 DECIMALS = 10**10
@@ -45,6 +47,8 @@ class Flattening:
         self.curves[kind] += 1
         self.arcs += chain.arcs
         self.segments += len(chain.edges) - chain.arcs
+        if self.arcs + self.segments > MAX_EDGES:
+            raise FormatError(f"flatten: more than {MAX_EDGES} arcs; give a larger length, or one part")
         if chain.end is None:
             return []
         return [*(Corner(*edge) for edge in chain.edges), Corner(*chain.end, fmpq(0))]
