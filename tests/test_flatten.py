@@ -263,9 +263,12 @@ def test_a_tolerance_is_a_length(tolerance: fmpq) -> None:
         flatten([polynomial(pairs(SQUARE))], tolerance)
 
 
-def test_too_small_a_tolerance_is_refused() -> None:
-    with pytest.raises(FormatError, match="too many arcs"):
+def test_too_small_a_tolerance_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    with pytest.raises(FormatError, match="too short for so large a curve"):
         flatten([polynomial(pairs(SQUARE))], fmpq(1, 10**16))
+    monkeypatch.setattr("exactacq.files.repairs.flatten.MAX_PIECES", 9)
+    with pytest.raises(FormatError, match="too many arcs"):
+        flatten([polynomial(pairs(SQUARE))], fmpq(1, 10**6))
 
 
 @pytest.mark.parametrize(

@@ -21,7 +21,7 @@ import numpy as np
 from flint import fmpq
 from numpy.typing import NDArray
 
-from exactacq.errors import FormatError
+from exactacq.errors import FormatError, shown
 from exactacq.files.loops.rational_arcs import simplest_between
 from exactacq.files.repairs.bezier import BezierPiece, Pair
 from exactacq.files.repairs.biarcs import Biarc, biarc, fits_biarc, fits_segment
@@ -29,6 +29,8 @@ from exactacq.numbers.rationals import rational
 
 MAX_PIECES = 2_000
 """Most arcs and segments of one curve: a tolerance that needs more is a mistake."""
+MAX_RATIO = 10**11
+"""Largest size of a curve over the tolerance: floats, which propose, have digits for no more."""
 SAMPLES = 33
 """Points at which floats compare curve and biarc."""
 JOINTS = (0.3, 0.4, 0.5, 0.6, 0.7)
@@ -70,8 +72,8 @@ def flatten(pieces: Sequence[BezierPiece], tolerance: fmpq) -> FlatChain:
     """A chain of arcs and segments within *tolerance* > 0 of a curve, which is given as joined pieces.
 
     The bound holds for each piece and its part of the chain, see above. Raises `FormatError` for a tolerance
-    that is not positive, and if `MAX_PIECES` do not suffice. A piece that is a point adds nothing. Time grows
-    with the number of arcs: some milliseconds for each.
+    that is not positive, or less than the size over `MAX_RATIO`, and if `MAX_PIECES` do not suffice. A piece
+    that is a point adds nothing. Time grows with the number of arcs: some milliseconds for each.
 
     >>> from exactacq.files.repairs.bezier import polynomial
     >>> points = [(fmpq(x), fmpq(y)) for x, y in ((0, 0), (0, 2), (2, 2), (2, 0))]
@@ -83,6 +85,10 @@ def flatten(pieces: Sequence[BezierPiece], tolerance: fmpq) -> FlatChain:
         raise FormatError(f"flatten: a length above 0 is needed, not {tolerance}")
     chain = FlatChain()
     sizes = [_size(piece) for piece in pieces]
+    if max(sizes, default=fmpq(0)) > tolerance * MAX_RATIO:
+        raise FormatError(
+            f"flatten: {shown(tolerance)} is too short for so large a curve; give a larger length"
+        )
     bits = 6
     while tolerance * 2**bits < 8 * max(sizes, default=fmpq(0)):
         bits += 1
@@ -111,7 +117,7 @@ class _Fit:
     ) -> None:
         self.piece, self.size, self.tolerance, self.slack, self.chain = piece, size, tolerance, slack, chain
         self.image = _Image(piece, size)
-        self.limit = float(tolerance / size)
+        self.limit = float(min(tolerance / size, fmpq(4)))
         self.known: dict[fmpq, Direction] = {}
 
     def run(self, last: Direction | None) -> Direction:
@@ -130,7 +136,9 @@ class _Fit:
                 for arc in (found.first, found.second):
                     self.chain.add(arc.start, arc.bulge, arc.end)
             if len(self.chain.edges) > MAX_PIECES:
-                raise FormatError(f"flatten: {self.tolerance} needs too many arcs; give a larger length")
+                raise FormatError(
+                    f"flatten: {shown(self.tolerance)} needs too many arcs; give a larger length"
+                )
             low += width
         return self._direction(fmpq(1))
 
@@ -226,7 +234,8 @@ class _Image:
     def __init__(self, piece: BezierPiece, size: fmpq) -> None:
         self.origin, self.size = piece.point(fmpq(0)), size
         degree = len(piece.rows) - 1
-        rows = [(*self.local((x / w, y / w)), float(w)) for x, y, w in piece.rows]
+        most = max(w for _, _, w in piece.rows)
+        rows = [(*self.local((x / w, y / w)), float(w / most)) for x, y, w in piece.rows]
         weights = np.array([w for _, _, w in rows])
         self.rows = np.array([(x, y, 1.0) for x, y, _ in rows]) * weights[:, None]
         self.powers = np.arange(degree + 1)

@@ -135,7 +135,8 @@ def _neighbours(
     Floats choose those that exact distances compare.
     """
     (x0, y0) = ends[0].corner.x, ends[0].corner.y
-    places = np.array([(float(e.corner.x - x0), float(e.corner.y - y0)) for e in ends])
+    size = max(max(abs(e.corner.x - x0), abs(e.corner.y - y0)) for e in ends) or fmpq(1)
+    places = np.array([(float((e.corner.x - x0) / size), float((e.corner.y - y0) / size)) for e in ends])
     nearest: list[int | None] = []
     second: list[fmpq | None] = []
     for i, end in enumerate(ends):
