@@ -98,9 +98,11 @@ def test_keyholes_that_cross_the_outer_loop_are_refused_with_all_pairs() -> None
     assert any("start" in text for text in caught.value.violations) or len(caught.value.violations) == 20
 
 
-def test_union_of_loops_with_arcs_is_refused_with_the_reason() -> None:
-    with pytest.raises(FormatError, match=r"no union of 'LWPOLYLINE no. 15', .*: it has arcs"):
-        load(DATA / "issue39.dxf", start=(2915, 3183), union=True)
+def test_union_of_loops_with_arcs_is_within_its_bound() -> None:
+    scene = load(DATA / "issue39.dxf", start=(2915, 3183), union=True)
+    assert scene.enclosure is not None
+    assert len(scene.obstacles) == 3
+    assert "moved by more than 3.6e-15" in note(scene, "no point of a union")
 
 
 def test_slots_with_a_bulge_on_the_closing_edge() -> None:
@@ -125,7 +127,9 @@ def test_gear_with_an_open_bore() -> None:
     scene = load(DATA / "gear.dxf", start=(20, 0))
     assert edges(scene) == 360
     assert "(4 pieces), the first ARC 31B" in note(scene, "left out 3 open chains")
-    with pytest.raises(FormatError, match=r"no closed loop .*larger --tolerance"):
+    with pytest.raises(
+        FormatError, match=r"no closed loop .*--tolerance 0.00014, which closes 64 of 64 open"
+    ):
         load(DATA / "gear.dxf", start=(20, 0), tolerance=0)
 
 
@@ -406,9 +410,7 @@ def test_a_common_edge_disappears(tmp_path: Path) -> None:
     assert canonical(shape) == canonical(Polygon(box(0, 0, 4, 2)))
 
 
-def test_neighbours_that_clipper_leaves_apart_are_joined(tmp_path: Path) -> None:
-    """One pass of pyclipper 1.4 gives two polygons with a common edge here, which the scene would refuse."""
-
+def test_neighbours_with_a_common_edge_are_joined(tmp_path: Path) -> None:
     def draw(space: ezdxf.layouts.Modelspace) -> None:
         for part in (box(2, 1, 1, 5), box(2, 1, 2, 5), box(3, 6, 1, 1)):
             space.add_lwpolyline(part, close=True)
@@ -456,18 +458,6 @@ def test_obstacles_that_cross_the_wall_become_part_of_it(tmp_path: Path) -> None
     assert [canonical(s) for s in scene.shapes] == [canonical(Polygon(box(7, 7, 1, 1)))]
     with pytest.raises(FormatError, match="start is not in what it leaves free"):
         load(path, start=(5, 1), union=True)
-
-
-def test_crossings_off_every_grid_are_refused(tmp_path: Path) -> None:
-    rng = Random(7)
-    spiky = [[(rng.uniform(0, 1), y + rng.uniform(0, 0.1)) for y in (0, 1)] + [(k, 0.5)] for k in (3, -3)]
-
-    def draw(space: ezdxf.layouts.Modelspace) -> None:
-        for triangle in spiky:
-            space.add_lwpolyline(triangle, close=True)
-
-    with pytest.raises(FormatError, match="no common grid of 61 bits"):
-        load(drawing(tmp_path, draw), start=FAR, union=True)
 
 
 @given(

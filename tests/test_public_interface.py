@@ -210,7 +210,7 @@ class TestImports:
         assert not self.loaded("pass") & {"numpy", "flint", "networkx", "sympy"}
 
     def test_a_length_needs_no_pictures_files_or_graphs(self) -> None:
-        heavy = {"networkx", "sympy", "matplotlib", "ezdxf", "typer", "rich", "pyclipper"}
+        heavy = {"networkx", "sympy", "matplotlib", "ezdxf", "typer", "rich"}
         assert not self.loaded("xa.Length") & heavy
         assert not self.loaded("xa.sightseer; xa.audit; xa.isovist") & (heavy - {"networkx"})
 
@@ -219,12 +219,12 @@ class TestImports:
     )
     def test_the_command_line_says_what_it_takes_without_what_it_does(self, line: str) -> None:
         loaded = self.loaded(f"from exactacq.cli import main; assert main({line.split()}) == 0")
-        heavy = {"numpy", "flint", "networkx", "sympy", "matplotlib", "ezdxf", "pyclipper", "hypothesis"}
+        heavy = {"numpy", "flint", "networkx", "sympy", "matplotlib", "ezdxf", "hypothesis"}
         assert "typer" in loaded and not loaded & heavy
 
     def test_a_command_loads_what_it_uses(self) -> None:
         loaded = self.loaded("from exactacq.cli import main; assert main(['explore', 'squares']) == 0")
-        assert {"networkx", "rich"} <= loaded and not loaded & {"sympy", "matplotlib", "ezdxf", "pyclipper"}
+        assert {"networkx", "rich"} <= loaded and not loaded & {"sympy", "matplotlib", "ezdxf"}
 
     def test_names_that_are_not_there(self) -> None:
         with pytest.raises(AttributeError, match="no attribute 'sightseeing'"):

@@ -23,7 +23,7 @@ def load(path: str | Path, *, start: Point | Sequence[object] | None = None, **o
     are depends on the format: `exactacq.formats` tells. Those of drawings are *layers* (a name or several;
     all by default), *outer* (what becomes of the outermost loop around the start: "wall" or "drop"; with
     "room" the innermost one is the wall), *tolerance* (how far apart ends are joined, in the drawing's unit),
-    *union* (merge overlapping polygons). What an importer did is in the scene's ``notes``.
+    *union* (merge loops that overlap). What an importer did is in the scene's ``notes``.
 
     Raises `FormatError` for a file that cannot be read or an option that makes no sense, and `InvalidScene`
     for a scene that breaks the rules; each message is one line. Near linear in the file.

@@ -175,7 +175,10 @@ OUTER = FileOption(
     ("wall", "drop", "room"),
 )
 TOLERANCE = FileOption("tolerance", "number", "Join ends that are this far apart.")
-UNION = FileOption("union", "flag", "Merge overlapping polygons.", False)
+FLATTEN = FileOption(
+    "flatten", "number", "Ellipses, splines and Bézier curves by arcs, within this distance."
+)
+UNION = FileOption("union", "flag", "Merge loops that overlap.", False)
 CORNERS = FileOption(
     "corners",
     "choice",
@@ -189,8 +192,14 @@ BORDER = FileOption(
 UNKNOWN = FileOption("unknown", "choice", "What unknown cells are.", "free", ("free", "blocked"))
 THRESHOLD = FileOption("threshold", "number", "Blocked is what is darker: 0 for black to 1 for white; 1/2.")
 RESOLUTION = FileOption("resolution", "number", "Width of a cell; 1.")
-DRAWING = (LAYERS, OUTER, TOLERANCE, UNION)
+SIMPLIFY = FileOption(
+    "simplify", "number", "Fewer vertices of outlines, which move by at most this distance."
+)
+THICKEN = FileOption("thicken", "number", "Walls so thick for lines that stay open.")
+DRAWING = (LAYERS, OUTER, TOLERANCE, UNION, THICKEN)
 """What drawings of loose lines and arcs take."""
+CURVED = (*DRAWING, FLATTEN)
+"""What drawings take that may hold other curves."""
 
 register(
     Format(
@@ -227,7 +236,7 @@ register(
         title="maps of ROS",
         suffixes=(".yaml", ".yml"),
         reader="exactacq.files.grids.ros_map:load_ros_map",
-        options=(CORNERS, BORDER, UNKNOWN),
+        options=(CORNERS, BORDER, UNKNOWN, SIMPLIFY),
     )
 )
 register(
@@ -236,7 +245,7 @@ register(
         title="images",
         suffixes=(".pgm", ".png", ".bmp", ".gif", ".jpg", ".jpeg"),
         reader="exactacq.files.grids.image:load_image",
-        options=(THRESHOLD, RESOLUTION, CORNERS, BORDER),
+        options=(THRESHOLD, RESOLUTION, CORNERS, BORDER, SIMPLIFY),
     )
 )
 register(
@@ -245,7 +254,7 @@ register(
         title="MovingAI maps",
         suffixes=(".map",),
         reader="exactacq.files.grids.movingai:load_movingai",
-        options=(CORNERS, BORDER),
+        options=(CORNERS, BORDER, SIMPLIFY),
     )
 )
 register(
@@ -263,7 +272,7 @@ register(
         suffixes=(".dxf",),
         reader="exactacq.files.dxf.load:load_dxf",
         writer="exactacq.files.writing.dxf:written",
-        options=DRAWING,
+        options=CURVED,
     )
 )
 register(
@@ -282,7 +291,7 @@ register(
         suffixes=(".svg",),
         reader="exactacq.files.svg.load:load_svg",
         writer="exactacq.files.writing.svg:written",
-        options=DRAWING,
+        options=CURVED,
     )
 )
 register(

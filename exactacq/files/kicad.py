@@ -44,6 +44,7 @@ def load_kicad(
     outer: str = "wall",
     tolerance: fmpq | None = None,
     union: bool = False,
+    thicken: fmpq | None = None,
 ) -> Scene:
     """The scene of a board: its outline is the wall around the start, its cut-outs are obstacles.
 
@@ -64,7 +65,9 @@ def load_kicad(
     if reader.error:
         far = scientific_above(reader.error)
         reader.drawing.notes.append(f"rotated footprints by rational rotations, off by at most {far} radians")
-    return scene_of_drawing(reader.drawing, path.stem, start, outer=outer, tolerance=tolerance, union=union)
+    return scene_of_drawing(
+        reader.drawing, path.stem, start, outer=outer, tolerance=tolerance, union=union, thickness=thicken
+    )
 
 
 def _parsed(text: str) -> list[Item]:

@@ -1,7 +1,8 @@
 """The entities of a DXF file, read through ezdxf, as chains of edges and circles with rational data.
 
 LWPOLYLINE and POLYLINE with their bulges, LINE, ARC and CIRCLE of the model space are read, also inside
-blocks (INSERT). Other kinds, such as ELLIPSE, SPLINE, TEXT and DIMENSION, are left out and counted by name.
+blocks (INSERT), and on request ELLIPSE and SPLINE by arcs near them. Other kinds, such as TEXT and DIMENSION,
+are left out and counted by name.
 """
 
 from __future__ import annotations
@@ -19,9 +20,11 @@ from ezdxf.enums import InsertUnits
 from flint import fmpq
 
 from exactacq.errors import FormatError
-from exactacq.files.loops.chains import Chain, Corner
+from exactacq.files.loops.chains import ZERO, Chain, Corner
 from exactacq.files.loops.drawing import Drawing, LayerChoice
 from exactacq.files.loops.rational_arcs import arc_corners
+from exactacq.files.repairs.bezier import BezierPiece, spline
+from exactacq.files.repairs.flattened import Flattening, ellipse
 from exactacq.files.source import MAX_EDGES, one_line, read_bytes
 from exactacq.numbers.rationals import rational
 from exactacq.scene.shapes import Circle
@@ -40,7 +43,7 @@ _ENTITY = re.compile(rb"\n[ \t]*0[ \t]*\r?\n[ \t]*[A-Z]")
 logging.getLogger("ezdxf").addHandler(logging.NullHandler())
 
 
-def read_drawing(path: Path, layers: Iterable[str] | None) -> Drawing:
+def read_drawing(path: Path, layers: Iterable[str] | None, flattening: Flattening | None = None) -> Drawing:
     """The model space of a DXF file, all layers or those named (in any case).
 
     Raises `FormatError` for what is no complete DXF file, or has no such layer. Linear in the file.
@@ -56,12 +59,18 @@ def read_drawing(path: Path, layers: Iterable[str] | None) -> Drawing:
                 raise FormatError(f"its blocks expand to more than {MAX_ENTITIES} entities; export one part")
             drawing.layers[layer] += 1
             if selected.take(layer):
-                _Reader(drawing, count).read(entity)
+                _Reader(drawing, count, flattening).read(entity)
     except FormatError:
         raise
     except Exception as error:  # ezdxf reads lazily: a damaged entity shows only here, in many ways
         raise FormatError(f"a damaged entity ({one_line(error)}); save or export it again") from None
     selected.check(drawing)
+    if flattening is not None:
+        drawing.notes += flattening.notes()
+    elif drawing.dropped["ELLIPSE"] or drawing.dropped["SPLINE"]:
+        drawing.notes.append(
+            "ellipses and splines are read with --flatten LENGTH, by arcs within that length"
+        )
     if drawing.layers:
         drawing.notes.append(f"{_unit(document)}; layers: {drawing.layer_list()}")
     return drawing
@@ -141,8 +150,8 @@ def _entities(layout: Iterable[Any], drawing: Drawing) -> Iterator[tuple[Any, st
 class _Reader:
     """One entity into the drawing."""
 
-    def __init__(self, drawing: Drawing, order: int) -> None:
-        self.drawing, self.order = drawing, order
+    def __init__(self, drawing: Drawing, order: int, flattening: Flattening | None) -> None:
+        self.drawing, self.order, self.flattening = drawing, order, flattening
 
     def read(self, entity: Any) -> None:
         kind = entity.dxftype()
@@ -152,6 +161,7 @@ class _Reader:
             "CIRCLE": self._arc_or_circle,
             "LWPOLYLINE": self._lwpolyline,
             "POLYLINE": self._polyline,
+            **({} if self.flattening is None else {"ELLIPSE": self._ellipse, "SPLINE": self._spline}),
         }.get(kind)
         reason = kind if read is None else read(entity)
         if reason:
@@ -185,6 +195,39 @@ class _Reader:
             self.drawing.circles.append((self.order, Circle(center, radius, self._label(entity))))
         else:
             self._add(entity, corners, stated=False)
+        return None
+
+    def _ellipse(self, entity: Any) -> str | None:
+        flip = _mirror(entity)
+        if flip is None:
+            return "ELLIPSE in a tilted plane"
+        center, major = ((_exact(p.x), _exact(p.y)) for p in (entity.dxf.center, entity.dxf.major_axis))
+        ratio = _exact(entity.dxf.ratio) * flip
+        start, end = _exact(entity.dxf.start_param), _exact(entity.dxf.end_param)
+        minor = (-major[1] * ratio, major[0] * ratio)
+        if major == (0, 0) or not ratio:
+            return "ELLIPSE of no size"
+        pieces, whole, error = ellipse(center, major, minor, start, end)
+        return self._curve(entity, pieces, whole, error)
+
+    def _spline(self, entity: Any) -> str | None:
+        points = [(_exact(x), _exact(y)) for x, y, _ in entity.control_points]
+        if not points:
+            return "SPLINE of fit points only"
+        knots, weights = ([_exact(v) for v in values] for values in (entity.knots, entity.weights))
+        try:
+            pieces = spline(int(entity.dxf.degree), knots, points, weights)
+        except FormatError as error:
+            return f"SPLINE ({error})"
+        return self._curve(entity, pieces, pieces[0].point(fmpq(0)) == pieces[-1].point(fmpq(1)))
+
+    def _curve(self, entity: Any, pieces: list[BezierPiece], closed: bool, error: fmpq = ZERO) -> str | None:
+        """A curve by arcs; its ends stay, and where it is closed the last one is left out."""
+        assert self.flattening is not None
+        corners = self.flattening.corners(entity.dxftype(), pieces, error)
+        if not corners:
+            return f"{entity.dxftype()} of no size"
+        self._add(entity, corners[:-1] if closed else corners, closed, stated=not error)
         return None
 
     def _lwpolyline(self, entity: Any) -> str | None:

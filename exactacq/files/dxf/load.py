@@ -15,6 +15,7 @@ from flint import fmpq
 
 from exactacq.files.dxf.entities import read_drawing
 from exactacq.files.loops.assembly import scene_of_drawing
+from exactacq.files.repairs.flattened import Flattening
 from exactacq.scene.scene import Scene
 
 
@@ -26,10 +27,16 @@ def load_dxf(
     outer: str = "wall",
     tolerance: fmpq | None = None,
     union: bool = False,
+    thicken: fmpq | None = None,
+    flatten: fmpq | None = None,
 ) -> Scene:
     """The scene in a DXF drawing; *layers* selects by name, all by default.
 
-    The other options are those of `scene_of_drawing`. Raises `FormatError` and `InvalidScene`.
+    With *flatten* arcs stand for ellipses and splines, within that distance. The other options are those of
+    `scene_of_drawing`. Raises `FormatError` and `InvalidScene`.
     """
-    drawing = read_drawing(path, layers)
-    return scene_of_drawing(drawing, path.stem, start, outer=outer, tolerance=tolerance, union=union)
+    flattening = None if flatten is None else Flattening(flatten)
+    drawing = read_drawing(path, layers, flattening)
+    return scene_of_drawing(
+        drawing, path.stem, start, outer=outer, tolerance=tolerance, union=union, thickness=thicken
+    )

@@ -23,11 +23,12 @@ def load_image(
     resolution: fmpq | None = None,
     corners: str = JOIN,
     border: str | None = None,
+    simplify: fmpq | None = None,
 ) -> Scene:
     """The scene of an image whose SW corner is (0, 0) and whose pixels are *resolution* (1) wide.
 
     Blocked are pixels whose brightness, from 0 for black to 1 for white, is below *threshold* (1/2); what is
-    see-through is free. Raises `FormatError` and `InvalidScene`.
+    see-through is free. See `grid_scene` for the others. Raises `FormatError` and `InvalidScene`.
     """
     level = HALF if threshold is None else threshold
     if not 0 <= level <= 1:
@@ -37,4 +38,6 @@ def load_image(
     if pixels.clear is not None:
         blocked &= ~pixels.clear
     place = Placement(fmpq(1) if resolution is None else resolution)
-    return grid_scene(blocked[::-1], place, path.stem, start, corners=corners, border=border or "open")
+    return grid_scene(
+        blocked[::-1], place, path.stem, start, corners=corners, border=border or "open", tolerance=simplify
+    )

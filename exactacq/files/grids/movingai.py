@@ -23,11 +23,16 @@ _HEADER = re.compile(rb"\s*type\s+(\w+)\s+height\s+(\d{1,9})\s+width\s+(\d{1,9})
 
 
 def load_movingai(
-    path: Path, start: tuple[fmpq, fmpq] | None, *, corners: str = JOIN, border: str | None = None
+    path: Path,
+    start: tuple[fmpq, fmpq] | None,
+    *,
+    corners: str = JOIN,
+    border: str | None = None,
+    simplify: fmpq | None = None,
 ) -> Scene:
     """The scene of a map; nothing beyond its border is free, unless *border* is "open".
 
-    Raises `FormatError` and `InvalidScene`.
+    See `grid_scene` for the others. Raises `FormatError` and `InvalidScene`.
     """
     data = read_bytes(path)
     header = _HEADER.match(data)
@@ -50,4 +55,12 @@ def load_movingai(
         row, column = odd[0].tolist()
         letter = one_line(repr(chr(cells[row, column])))
         raise FormatError(f"row {row}, column {column}: {letter} is none of . G S @ O T W")
-    return grid_scene(blocked[::-1], Placement(), path.stem, start, corners=corners, border=border or "wall")
+    return grid_scene(
+        blocked[::-1],
+        Placement(),
+        path.stem,
+        start,
+        corners=corners,
+        border=border or "wall",
+        tolerance=simplify,
+    )

@@ -39,8 +39,11 @@ def load_ros_map(
     corners: str = JOIN,
     border: str | None = None,
     unknown: str = "free",
+    simplify: fmpq | None = None,
 ) -> Scene:
     """The scene of a map: occupied cells block, and with *unknown* "blocked" unknown ones do too.
+
+    See `grid_scene` for *corners*, *border* and *simplify*.
 
     Raises `FormatError` and `InvalidScene`.
     """
@@ -72,6 +75,7 @@ def load_ros_map(
         start,
         corners=corners,
         border=border or "open",
+        tolerance=simplify,
         notes=notes,
     )
 

@@ -11,6 +11,8 @@ from exactacq.errors import FormatError
 from exactacq.files.grids.outlines import JOIN, STEPS, Cells, outlines
 from exactacq.files.loops.areas import Areas
 from exactacq.files.loops.arrangement import count
+from exactacq.files.loops.chains import scientific_above
+from exactacq.files.repairs.simplify import simplify
 from exactacq.scene.scene import Scene
 
 ZERO, ONE = fmpq(0), fmpq(1)
@@ -30,6 +32,12 @@ class Placement:
         (cosine, sine), u, v = self.turn, x * step, y * step
         return self.origin[0] + u * cosine - v * sine, self.origin[1] + u * sine + v * cosine, ZERO
 
+    def steps(self, place: tuple[fmpq, fmpq]) -> tuple[fmpq, fmpq]:
+        """The point of the lattice, in steps, that lies at a place."""
+        (cosine, sine), step = self.turn, self.size / STEPS
+        x, y = place[0] - self.origin[0], place[1] - self.origin[1]
+        return (x * cosine + y * sine) / step, (y * cosine - x * sine) / step
+
 
 def grid_scene(
     blocked: Cells,
@@ -39,12 +47,15 @@ def grid_scene(
     *,
     corners: str = JOIN,
     border: str = "open",
+    tolerance: fmpq | None = None,
     notes: tuple[str, ...] = (),
 ) -> Scene:
     """The scene of the blocked cells, whose rows go up; what is free is told by where the start lies.
 
-    With *border* "wall" nothing beyond the grid is free, and a start is needed. See `outlines` for *corners*,
-    and `exactacq.files.loops.areas` for rings around the start. Raises `FormatError` and `InvalidScene`.
+    With *border* "wall" nothing beyond the grid is free, and a start is needed. With a *tolerance* outlines
+    get fewer vertices and stay within that length of what they were, see `exactacq.files.repairs.simplify`;
+    the start stays on its side. See `outlines` for *corners*, and `exactacq.files.loops.areas` for rings
+    around the start. Raises `FormatError` and `InvalidScene`.
     """
     if placement.size <= 0:
         raise FormatError(f"a cell {placement.size} wide; the width of a cell is positive")
@@ -66,6 +77,16 @@ def grid_scene(
         areas.notes.append(
             f"{how} the blocked cells at {count(cut, 'corner')} in which two of them touch, "
             f"by cuts of 1/{STEPS} of a cell"
+        )
+    if tolerance is not None:
+        before = sum(map(len, rings))
+        rings = simplify(
+            rings, tolerance * STEPS / placement.size, [] if start is None else [placement.steps(start)]
+        )
+        far = scientific_above(tolerance)
+        areas.notes.append(
+            f"took out {before - sum(map(len, rings))} of {before} vertices of outlines: no point of an "
+            f"outline, new or old, is farther than {far} from the other; none meet, each lies where it lay"
         )
     for ring in rings:
         areas.add([placement(x, y) for x, y in (*ring, ring[0])], None)

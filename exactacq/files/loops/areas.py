@@ -82,7 +82,7 @@ class Areas:
     ) -> Scene:
         """The scene around the start, or with all outermost rings as obstacles if there is none.
 
-        Rings that meet are refused by the scene, or merged if they are polygons and *union* is set. Around a
+        Rings that meet are refused by the scene, or merged if *union* is set. Around a
         free place are an even number of rings with *free* 0, an odd one with 1; a start elsewhere is refused.
         Raises `FormatError` and `InvalidScene`.
         """

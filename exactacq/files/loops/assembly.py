@@ -12,11 +12,13 @@ from exactacq.files.loops.chains import Chain, scientific_above
 from exactacq.files.loops.cusps import open_cusps
 from exactacq.files.loops.drawing import Drawing
 from exactacq.files.loops.stitching import Stitched, stitch
+from exactacq.files.repairs.gaps import best_tolerance, closings
+from exactacq.files.repairs.thicken import thicken
 from exactacq.files.source import check_edges
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
 from exactacq.scene.scene import Scene
-from exactacq.scene.shapes import Shape
+from exactacq.scene.shapes import Loop, Shape
 
 TOLERANCE = fmpq(1, 10**6)
 """Default tolerance over the drawing's size. Real parts differ at joints by 1e-15 to 1e-7 of their size
@@ -31,6 +33,7 @@ def scene_of_drawing(
     outer: str = "wall",
     tolerance: fmpq | None = None,
     union: bool = False,
+    thickness: fmpq | None = None,
 ) -> Scene:
     """The scene that a drawing shows.
 
@@ -38,7 +41,8 @@ def scene_of_drawing(
     `TOLERANCE` times the larger side of the drawing) are joined. The outermost loop around the start is the
     wall, or dropped (``outer="drop"``: all other loops then stay); with ``outer="room"`` the innermost one is
     the wall. Loops outside the wall or inside an obstacle are left out. Loops that overlap or touch are
-    refused by the scene, or merged if they are polygons and *union* is set. Raises `FormatError` and
+    refused by the scene, or merged if *union* is set. With a *thickness* chains that stay open are walls so
+    thick, merged where they overlap and with what they meet. Raises `FormatError` and
     `InvalidScene`.
     """
     if tolerance is not None and tolerance < 0:
@@ -58,9 +62,21 @@ def scene_of_drawing(
     stitched = stitch(drawing.chains, reach)
     cusps = sum(open_cusps(loop, reach) for loop in stitched.loops)
     shapes = _shapes(drawing, stitched)
-    notes += _report(stitched, reach, cusps)
+    notes += _report(stitched, reach, cusps, thickness)
+    hint = "" if thickness else _what_closes(stitched)
+    if thickness is not None:
+        thick = thicken([piece for path in stitched.open_chains for piece in path], thickness)
+        check_edges(sum(len(s.vertices) if isinstance(s, Loop) else 2 for s in thick.shapes))
+        union = union or bool(thick.shapes)
+        shapes += thick.shapes
+        if thick.off:
+            notes.append(f"no outline of these walls is off by more than {scientific_above(thick.off)}")
     if not shapes:
-        raise FormatError(f"no closed loop{_because(notes)}; give a larger --tolerance, or {other}")
+        raise FormatError(
+            f"no closed loop{_because(notes)}; give {hint or 'a larger --tolerance'}, or {other}"
+        )
+    if hint:
+        notes.append(f"open chains close with {hint}")
     obstacles, wall = arranged(shapes, Point(*start), outer, union, notes)
     return Scene(obstacles, start=start, enclosure=wall, name=name, notes=notes)
 
@@ -94,7 +110,7 @@ def _shapes(drawing: Drawing, stitched: Stitched) -> list[Shape]:
 # -- what the notes say ----------------------------------------------------------------------------
 
 
-def _report(stitched: Stitched, tolerance: fmpq, cusps: int) -> list[str]:
+def _report(stitched: Stitched, tolerance: fmpq, cusps: int, thickness: fmpq | None) -> list[str]:
     """One sentence for each thing that was done to the loops, and for all that was left out of them."""
     moved = max((loop.moved() for loop in stitched.loops), default=fmpq(0))
     notes = []
@@ -119,8 +135,11 @@ def _report(stitched: Stitched, tolerance: fmpq, cusps: int) -> list[str]:
     if chains := stitched.open_chains:
         pieces = sum(len(chain) for chain in chains)
         x, y = _place(chains[0][0])
+        done = (
+            "left out" if thickness is None else f"made walls {short(thickness)} thick, with round ends, of"
+        )
         notes.append(
-            f"left out {count(len(chains), 'open chain')} ({count(pieces, 'piece')}), "
+            f"{done} {count(len(chains), 'open chain')} ({count(pieces, 'piece')}), "
             f"the first {chains[0][0].label} from ({x}, {y})"
         )
     if stitched.branches:
@@ -128,6 +147,24 @@ def _report(stitched: Stitched, tolerance: fmpq, cusps: int) -> list[str]:
         n = len(stitched.branches)
         notes.append(f"{count(n, 'branch point')} where three or more ends meet, the first at ({x}, {y})")
     return notes
+
+
+def _what_closes(stitched: Stitched) -> str:
+    """The tolerance that closes most open chains, and where its first gap is; empty if none does."""
+    found = closings(stitched.open_chains)
+    best = best_tolerance(found)
+    if best is None:
+        return ""
+    tolerance, most = best
+    closing = next(c for c in found if c.tolerance == tolerance)
+    gap = max(closing.gaps, key=lambda gap: gap.width)
+    x, y = (short(c) for c in gap.places[0])
+    mate = "its other end" if gap.pieces[0] == gap.pieces[1] else gap.pieces[1]
+    return (
+        f"--tolerance {scientific_above(tolerance)}, which closes {most} of "
+        f"{count(len(stitched.open_chains), 'open chain')}: {gap.pieces[0]} ends at ({x}, {y}), "
+        f"{scientific_above(gap.width)} from {mate}"
+    )
 
 
 def _left_out(dropped: Counter[str]) -> list[str]:

@@ -1,9 +1,10 @@
 """SVG drawings: the lines of paths and basic shapes become loops, as in other drawings; y goes up.
 
 Lines and circular arcs are read, through nested groups and their transforms; what is filled or how lines are
-drawn does not matter. Ellipses and Bézier curves are refused by name. Numbers are the decimals of the file.
-The drawing is mirrored in the middle of its viewBox, so that it fills the same box with y going up; without a
-viewBox in half its height, or in y = 0. Names of layers are the labels and ids of groups and elements.
+drawn does not matter. Ellipses and Bézier curves are refused by name, or arcs stand for them. Numbers are the
+decimals of the file. The drawing is mirrored in the middle of its viewBox, so that it fills the same box with
+y going up; without a viewBox in half its height, or in y = 0. Names of layers are the labels and ids of
+groups and elements.
 """
 
 from __future__ import annotations
@@ -19,12 +20,13 @@ from flint import fmpq
 
 from exactacq.errors import FormatError, about
 from exactacq.files.loops.assembly import scene_of_drawing
-from exactacq.files.loops.chains import Chain, Corner, scientific_above
+from exactacq.files.loops.chains import Chain, Corner, root_above, scientific_above
 from exactacq.files.loops.drawing import Drawing, LayerChoice
 from exactacq.files.loops.rational_arcs import arc_around
+from exactacq.files.repairs.flattened import Flattening
 from exactacq.files.source import MAX_EDGES, check_edges, one_line, read_bytes
-from exactacq.files.svg.path_data import Subpath, subpaths
-from exactacq.files.svg.transforms import Matrix, number, numbers, transform
+from exactacq.files.svg.path_data import DrawnCurve, Subpath, oval_arc, subpaths
+from exactacq.files.svg.transforms import ZERO, Matrix, number, numbers, transform
 from exactacq.numbers.atoms import rational_sqrt
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle
@@ -49,20 +51,26 @@ def load_svg(
     outer: str = "wall",
     tolerance: fmpq | None = None,
     union: bool = False,
+    thicken: fmpq | None = None,
+    flatten: fmpq | None = None,
 ) -> Scene:
     """The scene in an SVG drawing; *layers* are names of groups or elements, all by default.
 
-    The other options are those of `scene_of_drawing`. Raises `FormatError` and `InvalidScene`. No entity is
-    expanded and nothing outside the file is read.
+    With *flatten* arcs stand for ellipses and Bézier curves, within that distance. The other options are
+    those of `scene_of_drawing`. Raises `FormatError` and `InvalidScene`. No entity is expanded and nothing
+    outside the file is read.
     """
-    reader = _SvgReader(LayerChoice(layers))
+    reader = _SvgReader(LayerChoice(layers), None if flatten is None else Flattening(flatten))
     _parse(read_bytes(path), reader)
     drawing = reader.drawing
     reader.choice.check(drawing)
+    drawing.notes += [] if reader.flattening is None else reader.flattening.notes()
     if reader.error:
         far = scientific_above(reader.error)
         drawing.notes.append(f"rotated by rational rotations, off by at most {far} radians in sum")
-    return scene_of_drawing(drawing, path.stem, start, outer=outer, tolerance=tolerance, union=union)
+    return scene_of_drawing(
+        drawing, path.stem, start, outer=outer, tolerance=tolerance, union=union, thickness=thicken
+    )
 
 
 def _parse(data: bytes, reader: _SvgReader) -> None:
@@ -93,8 +101,8 @@ class _OpenElement:
 class _SvgReader:
     """The elements of a document, as they come."""
 
-    def __init__(self, choice: LayerChoice) -> None:
-        self.drawing, self.choice = Drawing(), choice
+    def __init__(self, choice: LayerChoice, flattening: Flattening | None) -> None:
+        self.drawing, self.choice, self.flattening = Drawing(), choice, flattening
         self.stack: list[_OpenElement] = []
         self.order = self.edges = self.elements = 0
         self.error = fmpq(0)
@@ -151,7 +159,7 @@ class _SvgReader:
             return
         self.error = max(self.error, frame.matrix.error)
         if kind == "path":
-            found = subpaths(attributes.get("d", ""))
+            found = subpaths(attributes.get("d", ""), curved=self.flattening is not None)
         elif kind in ("circle", "ellipse"):
             self._circle(kind, attributes, frame.matrix, label)
             return
@@ -159,7 +167,40 @@ class _SvgReader:
             found = _basic(kind, attributes)
         for n, subpath in enumerate(found, 1):
             name = label if len(found) == 1 else f"{label}, part {n}"
-            self._add(Chain(name, _moved(subpath, frame.matrix), self.order, subpath.closed))
+            if self.flattening is None or not (subpath.curves or _made_oval(subpath, frame.matrix)):
+                corners = _moved(subpath, frame.matrix)
+            else:
+                corners = self._flattened(subpath, frame.matrix)
+            self._add(Chain(name, corners, self.order, subpath.closed))
+
+    def _flattened(self, subpath: Subpath, matrix: Matrix) -> list[Corner]:
+        """The corners where a matrix puts them, with arcs for the curves, and for arcs that it makes oval."""
+        assert self.flattening is not None
+        oval, frame = (
+            _made_oval(subpath, matrix),
+            (matrix(ZERO, ZERO), (matrix.a, matrix.b), (matrix.c, matrix.d)),
+        )
+        stretch = root_above(matrix.a**2 + matrix.b**2 + matrix.c**2 + matrix.d**2)
+        moved = _moved(subpath, matrix, oval)
+        count = len(moved) if subpath.closed else len(moved) - 1
+        corners: list[Corner] = []
+        run: list[DrawnCurve] = []
+        for k in range(count):
+            here, there = subpath.corners[k], subpath.corners[(k + 1) % len(moved)]
+            curve = subpath.curves.get(k)
+            if curve is None and here.bulge and oval:
+                curve = oval_arc(here, there)
+            if curve is None:
+                corners.append(moved[k])
+                continue
+            run.append(curve)
+            self.error = max(self.error, matrix.error + curve.turned)
+            if k + 1 == count or not (k + 1 in subpath.curves or (oval and there.bulge)):
+                pieces = [piece.image(*frame) for drawn in run for piece in drawn.pieces]
+                error = max(drawn.error for drawn in run) * stretch
+                corners += self.flattening.corners(curve.kind, pieces, error)[:-1]
+                run = []
+        return corners if subpath.closed else [*corners, moved[-1]]
 
     def _add(self, chain: Chain) -> None:
         self.edges += chain.edges
@@ -169,10 +210,19 @@ class _SvgReader:
     def _circle(self, kind: str, attributes: dict[str, str], matrix: Matrix, label: str) -> None:
         x, y = (number(attributes.get(key, "0"), key) for key in ("cx", "cy"))
         radii = [number(attributes.get(k, "0"), k) for k in (("r",) if kind == "circle" else ("rx", "ry"))]
-        if radii[0] != radii[-1] or not matrix.is_similar():
-            raise FormatError("an ellipse is not read: replace it by arcs, or leave it out")
-        if radii[0] <= 0:
+        round_one = radii[0] == radii[-1] and matrix.is_similar()
+        if not round_one and self.flattening is None:
+            raise FormatError(
+                "an ellipse is not read: replace it by arcs, or have it read by arcs within a distance, "
+                "with --flatten LENGTH"
+            )
+        if min(radii) <= 0:
             self.drawing.dropped[f"{kind} of no radius"] += 1
+            return
+        if not round_one:
+            placed = matrix.after(Matrix(a=radii[0], d=radii[-1], e=x, f=y))
+            unit = Subpath([Corner(fmpq(side), ZERO, fmpq(1)) for side in (1, -1)], closed=True)
+            self._add(Chain(label, self._flattened(unit, placed), self.order, closed=True))
             return
         scale = rational_sqrt(matrix.a**2 + matrix.b**2)
         if scale is not None:
@@ -193,11 +243,19 @@ def _upright(attributes: dict[str, str]) -> Matrix:
         return Matrix(d=fmpq(-1))
 
 
-def _moved(subpath: Subpath, matrix: Matrix) -> list[Corner]:
-    """The corners where a matrix puts them; `FormatError` for arcs that do not stay circular."""
+def _made_oval(subpath: Subpath, matrix: Matrix) -> bool:
+    """Whether a matrix makes arcs of a subpath elliptical."""
+    return any(c.bulge for c in subpath.corners) and not matrix.is_similar()
+
+
+def _moved(subpath: Subpath, matrix: Matrix, oval: bool = False) -> list[Corner]:
+    """The corners where a matrix puts them; `FormatError` for arcs made elliptical, if not *oval*."""
     sense = 1 if matrix.determinant > 0 else -1
-    if any(c.bulge for c in subpath.corners) and not matrix.is_similar():
-        raise FormatError("its transform makes arcs elliptical, which are not read; apply another one")
+    if not oval and _made_oval(subpath, matrix):
+        raise FormatError(
+            "its transform makes arcs elliptical, which are not read; apply another one, or have them read "
+            "by arcs within a distance, with --flatten LENGTH"
+        )
     return [
         Corner(
             *matrix(c.x, c.y),

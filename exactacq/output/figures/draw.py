@@ -32,6 +32,7 @@ from matplotlib.transforms import Affine2D
 
 from exactacq.files.whole_files import FIGURES, check_output, readable, write_whole
 from exactacq.numbers.length import Length
+from exactacq.numbers.rationals import plain
 from exactacq.output.figures.sweep import SweptTerrain, window
 from exactacq.output.regions import Region, Room, Steps, clearance, closed, part
 from exactacq.output.snapshot import Snapshot
@@ -574,7 +575,8 @@ class _Canvas:
         """The circle of radius R about S, labelled where it is in view; else a word in the legend."""
         if self.radius is None:
             return
-        label = f"R = {self.scene.radius if self.run is None else self.run.radius}"
+        radius = self.scene.radius if self.run is None else self.run.radius
+        label = f"R = {self.radius if radius is None else plain(radius)}"
         label = label if len(label) <= 16 else f"R ≈ {self.radius:.6g}"
         line: dict[str, Any] = {"linestyle": (0, (5, 4)), "color": VIEW, "linewidth": 0.8}
         if self.start is None:
