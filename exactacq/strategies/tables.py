@@ -19,7 +19,7 @@ class Table(Sequence[Row]):
     >>> import exactacq as xa
     >>> table = xa.sightseer(xa.load("circles")).bound_table
     >>> table.columns
-    ('name', 'source', 'value', 'closed', 'holds', 'ratio')
+    ('name', 'source', 'value', 'closed', 'holds', 'ratio', 'applies')
     >>> len(table), table[0]["closed"]
     (4, '4 + 15*pi')
     """
