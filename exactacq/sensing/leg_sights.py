@@ -228,7 +228,10 @@ class LegSights:
     def _is_whole(self, single: SingleLine) -> bool:
         """Whether a single line shows a whole straight edge end on."""
         curve = self.complex.table.curves[single.shown]
-        return isinstance(curve, Segment) and {*map(id, single.run)} == {id(curve.start), id(curve.end)}
+        if not isinstance(curve, Segment):
+            return False
+        first, last = single.run
+        return (first is curve.start and last is curve.end) or (first is curve.end and last is curve.start)
 
     def _keys(self, single: SingleLine) -> list[int]:
         """The number of a single line, if it runs along an edge."""
