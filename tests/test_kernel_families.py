@@ -1,4 +1,4 @@
-"""Images of families in the kernel: the numbers of lines, and which families matter."""
+"""Images of families in the kernel: what is at an edge, and which families matter."""
 
 from __future__ import annotations
 
@@ -17,7 +17,6 @@ from exactacq.kernel.extents import Extent, Span
 from exactacq.kernel.images import ROLLING
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.complex_edges import FamilySweeper
-from exactacq.sensing.line_family import family_of
 from exactacq.visibility.sensor_range import Range
 
 
@@ -64,24 +63,6 @@ def test_an_arc_sees_from_all_of_it() -> None:
     found = FamilySweeper(table, Range(xa.Real(2).rational)).of(1)
     tangents = [one for one in found.images if one.frame[0] == ROLLING]
     assert any(table.owner[e] == 1 for one in tangents for e in one.edges if e >= 0)
-
-
-@pytest.mark.parametrize("seed", range(8))
-def test_lines_have_one_number_for_each_name(seed: int) -> None:
-    """Whatever feature a line is found from, it has the numbers of its names, and no other line has them."""
-    sweeper = sweeper_of(seed)
-    numbers: dict[object, int] = {}
-    for e in range(len(sweeper.table.curves)):
-        for image in sweeper.of(e).images:
-            family = family_of(image)
-            for names, keys in zip(family.names, (image.first_keys, image.last_keys), strict=True):
-                if names:
-                    assert len(keys) == len(names)
-                    for (name, _), key in zip(names, keys, strict=True):
-                        assert numbers.setdefault(name, key) == key and key >= 0
-                else:
-                    assert len(keys) == 1 and keys[0] < 0
-    assert len(set(numbers.values())) == len(numbers) > 0
 
 
 BLUR = 1 / 1024

@@ -108,7 +108,7 @@ def test_inside_an_edge_there_is_no_other() -> None:
 
 
 def test_what_a_way_touches_is_found() -> None:
-    """Corners on its line, pairs of these, and circles; along irrational and nearly touching ways too."""
+    """Corners on its line, and circles; along irrational and nearly touching ways too."""
     shapes = [
         Circle((0, -2), 2),
         Circle((5, 1), 1),
@@ -119,19 +119,18 @@ def test_what_a_way_touches_is_found() -> None:
     (one, other) = (table.edges_of(k).start for k in (0, 1))
     corner, last = table.edges_of(2).start, table.edges_of(3).start
 
-    def touched(start: Point, end: Point) -> list[set[object]]:
+    def touched(start: Point, end: Point) -> list[set[int]]:
         found = legs_of(table, [], None, Segment(start, end))
         return [set(leg.touches) for leg in found]
 
-    all_ = {("circle", one), ("circle", other), ("corner", corner)}
-    both = all_ | {("corner", last), ("corners", corner, last)}
-    assert touched(Point(-3, 0), Point(7, 0)) == [{("circle", one), ("circle", other)}]
-    assert touched(Point(-3, 0), Point(10, 0)) == [all_, all_]
-    assert touched(Point(12, 0), Point(-3, 0)) == [both, both]
+    circles = {len(table.curves) + one, len(table.curves) + other}
+    assert touched(Point(-3, 0), Point(7, 0)) == [circles]
+    assert touched(Point(-3, 0), Point(10, 0)) == [{*circles, corner}] * 2
+    assert touched(Point(12, 0), Point(-3, 0)) == [{*circles, corner, last}] * 2
     tiny = fmpq(1, 10**50)
     assert touched(Point(-3, tiny), Point(10, tiny)) == [set()]
     # From 2 sqrt(2) away of its centre a circle of radius 2 is touched under 45 degrees.
     root = Real(2).sqrt()
     place = Point(0, root * 2 - 2)
-    assert touched(place, place + Point(3, -3)) == [{("circle", one)}]
+    assert touched(place, place + Point(3, -3)) == [{len(table.curves) + one}]
     assert touched(place, place + Point(3, tiny - 3)) == [set()]

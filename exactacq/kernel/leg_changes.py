@@ -95,9 +95,9 @@ class Group:
         self.lows, self.highs, self.before, self.after = lows, highs, before, after
 
 
-def name_of(number: int, is_round: bool, there: int) -> int:
-    """A number for a corner or a circle and where on the lines what they show is."""
-    return (2 * number + int(is_round)) * 3 + there + 1
+def name_of(feature: int, there: int) -> int:
+    """A number for a feature, by its own, and where on the lines what they show is."""
+    return feature * 3 + there + 1
 
 
 def corner_normals(extents: list[Extent], crossing: list[FamilyImage]) -> list[FamilyImage]:
@@ -186,7 +186,7 @@ def _bounded_by(family: FamilyImage, there: int, circles: list[int]) -> int:
     kind, contact = family.frame[0], family.edges[1]
     if not family.goes_back or kind not in (TURNING, ROLLING):
         return NONE
-    return name_of(circles[contact] if kind == ROLLING else contact, kind == ROLLING, there)
+    return name_of(len(circles) + circles[contact] if kind == ROLLING else contact, there)
 
 
 def _cut(

@@ -1,7 +1,9 @@
-"""Numbers for lines that touch two features, the same however such a line is found.
+"""Numbers for features and for lines that touch two of them, the same however such a line is found.
 
-A line is known by two vertices; by a vertex, a circle and the side of the circle; or by two circles and the
-kind of common tangent (see `exactacq.visibility.line_names`, which names them likewise).
+Corner v has the number v, the circle whose first arc is c the number *count* + c, where *count* is that of
+the edges. A line is known by two corners (kind 0); by a corner, a circle and on which side of it the circle
+lies (1 and 2); or by two circles and which of their common tangents it is (3 to 6). Its number is
+(a *count* + b) 8 + kind, where a and b are a corner and a corner or first arc, or two first arcs.
 """
 
 from __future__ import annotations
@@ -13,7 +15,7 @@ from exactacq.kernel.bound_lines import Passed
 
 @final
 class LineNumbers:
-    """Numbers the lines of one scene; *circles* are the numbers of the circles of its arcs.
+    """Numbers the lines of one scene; *circles* has for every arc the first on its circle, else itself.
 
     A line that passes nothing has a number of its own, which is negative.
     """
@@ -22,20 +24,34 @@ class LineNumbers:
         self.circles, self.count = circles, len(circles)
         self.used = 0
 
+    def feature(self, number: int, is_round: bool) -> int:
+        """The number of a corner, or of the circle of an arc."""
+        return self.count + self.circles[number] if is_round else number
+
+    def is_circle(self, feature: int) -> bool:
+        """Whether a feature is a circle."""
+        return feature >= self.count
+
+    def first_arc(self, circle: int) -> int:
+        """The first arc of a circle, which is given as a feature."""
+        return circle - self.count
+
     def fresh(self, count: int) -> int:
         """The first of some numbers that were not given before, and go down from it."""
         first = -1 - self.used
         self.used += count
         return first
 
-    def keys(self, own: int, is_round: bool, passed: Passed) -> list[int]:
-        """The numbers of a tangent line of corner or circle *own*, by all that it passes."""
+    def keys(self, feature: int, passed: Passed) -> list[int]:
+        """The numbers of a feature's tangent line, by all that it passes but arcs of the same circle."""
         found: list[int] = []
+        is_round = self.is_circle(feature)
+        own = self.first_arc(feature) if is_round else feature
         for number, side, sign in passed:
             if side == 0 and is_round:
                 found.append(self._mixed(number, own, sign < 0))
             elif side == 0:
-                found.append(self._number(min(own, number), max(own, number), 0))
+                found.append(self.corners(own, number))
             elif not is_round:
                 found.append(self._mixed(own, self.circles[number], sign > 0))
             elif self.circles[number] != own:
@@ -44,6 +60,24 @@ class LineNumbers:
                 kind = 3 + 2 * int(side > 0) + int(turn > 0)
                 found.append(self._number(min(own, other), max(own, other), kind))
         return found
+
+    def corners(self, a: int, b: int) -> int:
+        """The number of the line through two corners."""
+        return self._number(min(a, b), max(a, b), 0)
+
+    def features(self, key: int) -> tuple[int, int]:
+        """The two features that a line touches, by its number."""
+        kind, pair = key % 8, key // 8
+        a, b = pair // self.count, pair % self.count
+        if kind == 0:
+            return a, b
+        return (a if kind < 3 else self.count + a), self.count + b
+
+    def touches(self, key: int, edge: int) -> bool:
+        """Whether a line touches the circle of an edge; a straight edge has none, nor has a way."""
+        if key % 8 == 0 or edge >= self.count:
+            return False
+        return self.count + self.circles[edge] in self.features(key)
 
     def _mixed(self, vertex: int, circle: int, is_left: bool) -> int:
         return self._number(vertex, circle, 1 + int(is_left))

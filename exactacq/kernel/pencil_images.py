@@ -17,7 +17,7 @@ def pencil_images(
     frame: Frame,
     at: tuple[int, bool],
     goes_back: bool,
-    name: tuple[int, bool],
+    feature: int,
     numbers: LineNumbers,
     curves: list[CurveImage],
     following: list[int],
@@ -25,8 +25,8 @@ def pencil_images(
 ) -> list[FamilyImage]:
     """The images of the cells of a pencil, and where their lines meet *curves*; without these, not where.
 
-    *at* is the edge at the contact, and whether that stays at a corner; *name* the number of the corner or
-    circle that names the lines, `NONE` if they have no names, and whether it is a circle.
+    *at* is the edge at the contact, and whether that stays at a corner; *feature* the number of the corner
+    or circle by which lines are numbered, or `NONE`.
     """
     contact, fixed = at
     found: list[FamilyImage] = []
@@ -36,8 +36,8 @@ def pencil_images(
     last: EndLine | None = None
     for k in range(len(rows)):
         row = rows[k]
-        first = _end(row.first, frame, name, numbers) if last is None else last
-        last = _end(row.last, frame, name, numbers)
+        first = _end(row.first, frame, feature, numbers) if last is None else last
+        last = _end(row.last, frame, feature, numbers)
         edges = (row.behind if goes_back else NONE, contact, row.ahead)
         image = FamilyImage(frame, (first, last), edges, fixed, goes_back, corner, origin, k)
         if curves:
@@ -47,15 +47,14 @@ def pencil_images(
     return found
 
 
-def _end(bound: BoundLine, frame: Frame, name: tuple[int, bool], numbers: LineNumbers) -> EndLine:
+def _end(bound: BoundLine, frame: Frame, feature: int, numbers: LineNumbers) -> EndLine:
     """A line that bounds cells: the middle of its interval, and half its length.
 
     Rounding moves the middle by UNIT times its size.
     """
-    own, is_round = name
     passed = bound.passed
     middle = 0.5 * (bound.low + bound.high)
     error = 0.5 * (bound.high - bound.low) * (1.0 + 4.0 * UNIT) + 2.0 * UNIT * abs(middle)
-    keys = numbers.keys(own, is_round, passed) if own >= 0 else []
+    keys = numbers.keys(feature, passed) if feature >= 0 else []
     corners = [number for number, side, _ in passed if side == 0]
     return EndLine(frame, middle, error, corners, keys if keys else [numbers.fresh(1)])

@@ -23,6 +23,7 @@ from exactacq.kernel import images
 from exactacq.kernel.box_tree import BoxNode, box_tree
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.images import EdgeImages
+from exactacq.kernel.line_keys import LineNumbers
 from exactacq.numbers.float_bounds import margin
 from exactacq.scene.scene import Obstacle
 
@@ -93,6 +94,11 @@ class EdgeTable:
             for e, curve in enumerate(self.curves)
             if isinstance(curve, Arc)
         }
+
+    @cached_property
+    def line_numbers(self) -> LineNumbers:
+        """What numbers corners, circles, and lines that touch two of them."""
+        return LineNumbers([self.circles.get(e, e) for e in range(len(self.curves))])
 
     @cached_property
     def images(self) -> EdgeImages:

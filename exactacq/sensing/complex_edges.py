@@ -22,7 +22,6 @@ from exactacq.geometry.points import Point, distance_sq
 from exactacq.kernel.bound_lines import BoundLine
 from exactacq.kernel.extents import EVERYTHING
 from exactacq.kernel.family_images import NONE, FamilyImage, by_edge
-from exactacq.kernel.line_keys import LineNumbers
 from exactacq.kernel.near_edges import NearEdges
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import CONVEX, EdgeTable
@@ -68,9 +67,9 @@ class FamilySweeper:
     def __init__(self, table: EdgeTable, range_: Range) -> None:
         self.table, self.range = table, range_
         rails = [Rail(curve) for curve in table.curves]
-        self.clipper = FamilyClipper(rails, range_, table.roundoff, table.circles)
+        self.clipper = FamilyClipper(rails, range_, table.roundoff, table.line_numbers)
         self.images = LineImages(table, range_)
-        self._namer, self._numbers = Namer(table), LineNumbers(self.images.circles)
+        self._namer, self._numbers = Namer(table), table.line_numbers
 
     @cached_property
     def _features(self) -> dict[int, list[Feature]]:

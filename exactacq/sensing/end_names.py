@@ -26,7 +26,8 @@ from exactacq.sensing.view_families import End, FreeViews, ViewFamily
 from exactacq.visibility.sensor_range import Range
 from exactacq.visibility.visible_boundary import BoundaryView, Hold
 
-RANGE = "range"
+RANGE = -1
+"""In place of a feature's number."""
 BITS = 128
 """Signs are read from balls of this precision, or not at all."""
 
@@ -151,12 +152,12 @@ class Seen:
             yield e, RANGE, self._onward(e, point)
         if free_views is None or free_views.anchor is None:
             return
-        kind, number = free_views.anchor
-        if kind == "circle":
-            yield e, free_views.anchor, self._turn(number, point)
+        numbers, feature = self.table.line_numbers, free_views.anchor
+        if numbers.is_circle(feature):
+            yield e, feature, self._turn(numbers.first_arc(feature), point)
         elif not any(one.fixed for one in free_views.sides):
             # Only past the corner: from there the lines of the family show different points.
-            yield e, free_views.anchor, 0
+            yield e, feature, 0
 
     def _onward(self, e: int, point: Point) -> int:
         """1 or -1 as a point of an edge lies to one side or the other from here; 0 if balls do not tell."""

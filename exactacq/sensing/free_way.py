@@ -101,10 +101,7 @@ class WayViews:
     def along(self, single: SingleLine) -> Iterator[ViewFamily]:
         """A single line that crosses the way between its place and the run that it shows."""
         direction = single.run[0] - single.place
-        met = line_contacts(single.place, direction, self.way.piece)
-        if not met:
-            return
-        for place in {id(m): m for m in (met[0], met[-1])}.values():
+        for place in line_contacts(single.place, direction, self.way.piece):
             if place.sign() < 0 or place.compare(1) > 0:
                 continue
             point = single.place + direction * place

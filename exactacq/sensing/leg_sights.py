@@ -40,7 +40,6 @@ from exactacq.kernel.leg_changes import (
     normal_sights,
     sights,
 )
-from exactacq.kernel.line_keys import LineNumbers
 from exactacq.kernel.lines import meets_straight
 from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real
@@ -70,9 +69,8 @@ class LegSights:
         self.complex, self.leg = complex_, leg
         self._view, self._clipper = view, complex_.clipper
         self._rail = None if leg.edge is None else leg.rail
-        images = complex_.images
-        self._scene = complex_.table.curve_images, images.circles, images.reach
-        self._numbers = LineNumbers(complex_.images.circles)
+        self._numbers = complex_.table.line_numbers
+        self._scene = complex_.table.curve_images, self._numbers.circles, complex_.images.reach
         self._span = LegSpan(bounds(leg.span.low, None), bounds(leg.span.high, None))
         self._made: dict[int, list[Share]] = {}
         self._sights = [*(self._on_way() if leg.edge is None else self._on_edge(leg.edge))]
@@ -179,7 +177,7 @@ class LegSights:
     def _normals_at(self, images: Iterable[FamilyImage]) -> dict[int, int]:
         """Second keys of normals of corners that are normals of the edges there too, by the first key."""
         found: dict[int, int] = {}
-        table, count = self.complex.table, len(self.complex.images.circles)
+        table, count = self.complex.table, self._numbers.count
         for image in images:
             assert isinstance(image.origin, PencilFamilies), "families come from pencils"
             corner, lines = image.corner, image.origin.lines
@@ -228,14 +226,17 @@ class LegSights:
     def _is_whole(self, single: SingleLine) -> bool:
         """Whether a single line shows a whole straight edge end on."""
         curve = self.complex.table.curves[single.shown]
-        return isinstance(curve, Segment) and {*map(id, single.run)} == {id(curve.start), id(curve.end)}
+        if not isinstance(curve, Segment):
+            return False
+        first, last = single.run
+        return (first is curve.start and last is curve.end) or (first is curve.end and last is curve.start)
 
     def _keys(self, single: SingleLine) -> list[int]:
         """The number of a single line, if it runs along an edge."""
         if not self._is_whole(single) or self.complex.table.curve_images[self.leg.edge or 0].sense:
             return []
         e = single.shown
-        return self._numbers.keys(e, False, [(int(self.complex.table.next[e]), 0, 1)])
+        return [self._numbers.corners(e, int(self.complex.table.next[e]))]
 
     # -- what is made exactly ----------------------------------------------------------------------
 
@@ -257,8 +258,7 @@ class LegSights:
                 first, last = last, first
             free_views = family.free_views
             if free_views is not None and free_views.anchor is not None:
-                kind, number = free_views.anchor
-                name = name_of(number, kind == "circle", free_views.sides[1 - share.side].role)
+                name = name_of(free_views.anchor, free_views.sides[1 - share.side].role)
             low, high = self._bounds(source.low), self._bounds(source.high)
             yield Sight(share.edge, name, low, high, first, last, (EITHER, EITHER), share)
 

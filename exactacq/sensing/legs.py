@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import combinations, pairwise
+from itertools import pairwise
 
 import numpy as np
 
@@ -27,15 +27,15 @@ BITS = 256
 class Leg:
     """A way along one rail: of boundary edge ``edge``, or in free space if None.
 
-    ``ahead`` tells whether the rail's parameter grows along the way; ``touches`` names what the line of a
-    straight way touches (see `line_names`).
+    ``ahead`` tells whether the rail's parameter grows along the way; ``touches`` has the numbers of the
+    features that the line of a straight way touches (see `line_keys`).
     """
 
     rail: Rail
     edge: int | None
     span: Interval
     ahead: bool
-    touches: tuple[Hashable, ...] = ()
+    touches: tuple[int, ...] = ()
 
     @property
     def start(self) -> Point:
@@ -237,15 +237,14 @@ def _on_edge(rail: Rail, e: int, piece: Segment) -> Leg:
 def _through_space(table: EdgeTable, way: Segment) -> list[Leg]:
     """The legs of a free way, each on a rail with rational ends if its line is seen to be rational."""
     corners = _corners_on(table, way)
-    names: list[Hashable] = [("corner", number) for number, _ in corners]
-    names += [("corners", *pair) for pair in combinations((number for number, _ in corners), 2)]
-    names += [("circle", number) for number in _circles_beside(table, way)]
+    touches = [table.line_numbers.feature(number, False) for number, _ in corners]
+    touches += [table.line_numbers.feature(number, True) for number in _circles_beside(table, way)]
     legs = []
     for piece in _between_corners(way, corners):
         rail = Rail(_rational_carrier(piece) or piece)
         low, high = rail.parameter(piece.start), rail.parameter(piece.end)
         span = Interval(low, piece.start, high, piece.end)
-        legs.append(Leg(rail, None, span, True, tuple(names)))
+        legs.append(Leg(rail, None, span, True, tuple(touches)))
     return legs
 
 

@@ -27,7 +27,7 @@ from exactacq.sensing.line_points import Role, Side
 from exactacq.sensing.view_families import FamilyClipper, FreeViews, ViewFamily
 from exactacq.visibility.features import Feature
 from exactacq.visibility.line_families import Sector
-from exactacq.visibility.line_names import Anchor, Namer, Names
+from exactacq.visibility.line_names import Namer, Names
 from exactacq.visibility.rotational_sweep import Passed, Pencil
 
 Reached: TypeAlias = "tuple[Point, Real | None]"
@@ -40,8 +40,8 @@ class LineFamily:
 
     Normals have nothing ``behind`` and do not go back: they start at the contact, which lies on an edge. So
     does the contact of a convex arc; a corner counts as the start of the edge that follows it. ``anchor``
-    names what tangents touch, ``names`` the first and the last line (see `line_names`), ``passed`` what they
-    pass.
+    is the number of what tangents touch (see `line_keys`), ``names`` are those of the first and the last line
+    (see `line_names`), ``passed`` is what they pass.
     """
 
     sector: Sector
@@ -51,7 +51,7 @@ class LineFamily:
     contact: Side
     ahead: Side | None
     goes_back: bool
-    anchor: Anchor | None = None
+    anchor: int | None = None
     names: tuple[Names, Names] = ((), ())
     passed: tuple[Passed, Passed] = ((), ())
     _views: dict[tuple[int, int], list[ViewFamily]] = field(default_factory=dict)
@@ -111,11 +111,9 @@ class PencilFamilies:
         """The families in floats, with *numbers* for their lines. They know this; it does not keep them."""
         lines, feature, contact = self.lines, self._feature, self.contact
         own = NONE if feature is None or not self.goes_back else self._namer.number(feature)
-        is_round = feature is not None and feature.round
         frame, at = lines.sector.image, (contact.edge, contact.fixed)
         curves, following = images.curves, images.table.images.following
-        name = own, is_round
-        found = pencil_images(lines.rows, frame, at, self.goes_back, name, numbers, curves, following, self)
+        found = pencil_images(lines.rows, frame, at, self.goes_back, own, numbers, curves, following, self)
         images.unroll(found, lines)
         return found
 
@@ -145,7 +143,7 @@ class PencilFamilies:
             self.contact,
             ahead,
             self.goes_back,
-            None if feature is None else self._namer.anchor(feature),
+            None if feature is None else self._namer.number(feature),
             names,
             cell.bounds,
         )

@@ -30,11 +30,6 @@ class LineImages:
         self.reach = range_.below, range_.above
 
     @cached_property
-    def circles(self) -> list[int]:
-        """For every arc the number of the first one on its circle; for a segment its own."""
-        return [self.table.circles.get(e, e) for e in range(len(self.table.curves))]
-
-    @cached_property
     def curves(self) -> list[CurveImage]:
         """The curves in floats; none if floats are to decide nothing."""
         return [] if kernel.EXACT_ONLY else self.table.curve_images

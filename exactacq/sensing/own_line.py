@@ -52,14 +52,15 @@ class OwnLine:
     def _touched(self) -> Iterator[tuple[int, Point]]:
         """The corners and the tangent points of wanted edges on the way's line, named or not."""
         table, start, touches = self.table, self.line.start, self.way.touches
+        numbers = table.line_numbers
         along = self.line.end - start
         for e in on_line(table, self.wanted, start, along, self._slack):
             curve = table.curves[e]
             for number, corner in ((e, curve.start), (int(table.next[e]), curve.end)):
-                if ("corner", number) in touches or along.cross(corner - start).sign() == 0:
+                if numbers.feature(number, False) in touches or along.cross(corner - start).sign() == 0:
                     yield e, corner
             if isinstance(curve, Arc):
-                named = ("circle", table.circles[e]) in touches
+                named = numbers.feature(e, True) in touches
                 if named or self.way.is_tangent(curve.center, curve.radius_sq):
                     foot = start + along * ((curve.center - start).dot(along) / along.norm_sq())
                     if curve.contains(foot):

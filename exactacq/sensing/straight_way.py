@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any
 
 from flint import fmpq
 
@@ -23,14 +22,14 @@ from exactacq.sensing.visibility_complex import VisibilityComplex
 class StraightWay:
     """A leg through free space. ``number`` is that of its rail for ``clipper``, ``line`` the rail's curve.
 
-    ``touches`` names what it is known to touch (see `line_names`).
+    ``touches`` has the numbers of the features that it is known to touch (see `line_keys`).
     """
 
     def __init__(self, complex_: VisibilityComplex, leg: Leg) -> None:
         self.complex, self.table = complex_, complex_.table
         self.span, self.rail = leg.span, leg.rail
         self.line = leg.rail.curve
-        self.touches: frozenset[Any] = frozenset(leg.touches)
+        self.touches: frozenset[int] = frozenset(leg.touches)
         self.piece = Segment(leg.span.start, leg.span.end)
         self.clipper = complex_.clipper.with_way(leg.rail, leg.touches)
         self.number = len(self.clipper.rails) - 1

@@ -12,16 +12,15 @@ to the range, and the results are `ViewFamily` objects.
 from __future__ import annotations
 
 from collections import ChainMap
-from collections.abc import Collection, Hashable, Iterator, Mapping, MutableMapping, Sequence
+from collections.abc import Collection, Iterator, MutableMapping, Sequence
 from dataclasses import dataclass
 from functools import cmp_to_key, partial
 from itertools import pairwise
 from math import inf
-from typing import Any, TypeAlias, overload
+from typing import TypeAlias, overload
 
 from flint import arb, fmpq
 
-from exactacq.geometry.coordinates import dot, raw
 from exactacq.geometry.curve_images import held_point
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve
@@ -31,6 +30,7 @@ from exactacq.geometry.late import Balls, Pin, balls, late_point
 from exactacq.geometry.points import Point
 from exactacq.kernel.extents import in_range, sagitta
 from exactacq.kernel.family_images import EdgePlace, EdgePlaces
+from exactacq.kernel.line_keys import LineNumbers
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.real import Real
@@ -39,7 +39,7 @@ from exactacq.sensing.view_length import of_length_on
 from exactacq.visibility.chords import of_length
 from exactacq.visibility.line_balls import CurveBalls, Line, line
 from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes
-from exactacq.visibility.line_names import Anchor, Names
+from exactacq.visibility.line_names import Names
 from exactacq.visibility.rotational_sweep import Passed
 from exactacq.visibility.sensor_range import Range
 
@@ -48,7 +48,8 @@ BITS = 128
 PINS_KEPT = 10_000
 """Points of named lines that are remembered: those of a wide neighbourhood."""
 
-PinName: TypeAlias = "tuple[Hashable, int, int]"
+PinName: TypeAlias = "tuple[int, int, int]"
+"""The number of a line, an edge, and where on the line it is met."""
 
 
 @dataclass(slots=True)
@@ -72,8 +73,8 @@ class End:
 class FreeViews:
     """The views between two sides along the lines of a sector from ``low`` to ``high``.
 
-    ``names`` are what else the first and the last line are called (see `line_names`); ``pinned`` are their
-    points on the first side, where these are known; ``passed`` tells what they pass. ``anchor`` names the
+    ``names`` are those of the first and the last line (see `line_names`); ``pinned`` are their points on the
+    first side, where these are known; ``passed`` tells what they pass. ``anchor`` is the number of the
     feature that tangents touch; the views along normals, without, bound nothing of what is seen. ``in_range``
     if all are known to be within range.
     """
@@ -85,7 +86,7 @@ class FreeViews:
     names: tuple[Names, Names] = ((), ())
     pinned: tuple[Pin | None, Pin | None] = (None, None)
     passed: tuple[Passed, Passed] = ((), ())
-    anchor: Anchor | None = None
+    anchor: int | None = None
     in_range: bool = False
 
 
@@ -116,7 +117,7 @@ class NamedPins:
         self._base = base
 
     def get(self, name: PinName) -> Pin | None:
-        """The point of a name: of the line, the edge, and where on the line it is met."""
+        """The point of a name."""
         pin = self._of.get(name)
         return pin if pin is not None or self._base is None else self._base.get(name)
 
@@ -151,28 +152,25 @@ class RailsAndWay(Sequence[Rail]):
 class FamilyClipper:
     """Cuts free views to a range and finds their views; holds the rails of the scene's edges by number."""
 
-    def __init__(
-        self, rails: Sequence[Rail], range_: Range, roundoff: float, circles: Mapping[int, int]
-    ) -> None:
-        self.rails, self.range, self.roundoff, self.circles = rails, range_, roundoff, circles
+    def __init__(self, rails: Sequence[Rail], range_: Range, roundoff: float, numbers: LineNumbers) -> None:
+        self.rails, self.range, self.roundoff, self.numbers = rails, range_, roundoff, numbers
         self._points = LinePoints(rails)
         self._pins = NamedPins()
         self._balls: MutableMapping[int, CurveBalls] = {}
-        self._touched: set[Hashable] = set()
+        self._touched: Collection[int] = ()
 
-    def with_way(self, way: Rail, touches: Collection[Any] = ()) -> FamilyClipper:
-        """These and one more curve, a way through free space that touches what is named (`line_names`)."""
+    def with_way(self, way: Rail, touches: Collection[int] = ()) -> FamilyClipper:
+        """These and one more curve, a way through free space, with the numbers of the features it touches."""
         extent = max(abs(v) for p in (way.curve.start, way.curve.end) for v in p.xy)
         clipper = FamilyClipper(
             RailsAndWay(self.rails, way),
             self.range,
             max(self.roundoff, margin(2.0**-50 * extent)),
-            self.circles,
+            self.numbers,
         )
         clipper._pins = NamedPins(self._pins)
         clipper._balls = ChainMap({}, self._balls)
-        arcs = [self.curve(name[1]) for name in touches if name[0] == "circle"]
-        clipper._touched = {(*raw(arc.center), arc.radius_sq) for arc in arcs if isinstance(arc, Arc)}
+        clipper._touched = touches
         return clipper
 
     def curve(self, e: int) -> Curve:
@@ -256,10 +254,14 @@ class FamilyClipper:
         return End(t, (pins[0][0], pins[1][0]), (pins[0][1], pins[1][1]))
 
     def _pin(self, sector: Sector, t: Real, side: Side, names: Names, passed: Passed) -> Pin:
-        """Where a line meets an edge: the same point as on the same line under another name."""
+        """Where a line meets an edge: the same point as on the same line under another name.
+
+        A line that touches the edge's circle meets it at the contact, in either sense.
+        """
         role = side.role
         keys = [
-            (name, side.edge, 0 if self._touches(name, side.edge) else role * sense) for name, sense in names
+            (name, side.edge, 0 if self.numbers.touches(name, side.edge) else role * sense)
+            for name, sense in names
         ]
         for key in keys:
             known = self._pins.get(key)
@@ -303,16 +305,6 @@ class FamilyClipper:
         vertex = self.curve(number).start
         return number == edge or (
             not touching and vertex.rational in (curve.start.rational, curve.end.rational)
-        )
-
-    def _touches(self, name: Any, edge: int) -> bool:
-        """Whether a named line touches an edge's circle: then it meets the edge at the contact."""
-        circle = self.circles.get(edge)
-        if circle is None:
-            return False
-        kind, *features = name
-        return (kind == "circles" and circle in features[:2]) or (
-            kind == "corner, circle" and circle == features[1]
         )
 
     def clipped(self, family: ViewFamily, side: int, span: Interval) -> ViewFamily | None:
@@ -432,8 +424,8 @@ class FamilyClipper:
             if _is_rational(behind) and _is_rational(ahead):
                 yield from of_length(sector, behind, ahead, self.range.square)
             else:
-                circle = (*sector.center, dot(sector.base, sector.base)) if sector.round else None
-                way = self.rails[-1].curve if circle in self._touched else None
+                is_touched = sector.round and free_views.anchor in self._touched
+                way = self.rails[-1].curve if is_touched else None
                 span = free_views.low, free_views.high
                 longer_at = partial(self._longer_at, low, high)
                 yield from of_length_on(sector, behind, ahead, self.range.square, *span, way, longer_at)

@@ -68,6 +68,15 @@ class WayCuts:
             kept = self._through[id(sector)] = sector, through
         return kept[1]
 
+    def _is_along(self, names: Names) -> bool:
+        """Whether a line is known to be the way's own, as it passes two corners that the way's line passes.
+
+        Circles do not tell: two lines touch a corner and a circle, and up to four touch two circles.
+        """
+        numbers, touches = self.way.table.line_numbers, self.way.touches
+        pairs = (numbers.features(key) for key, _ in names)
+        return any(a in touches and b in touches and not numbers.is_circle(b) for a, b in pairs)
+
     def _is_own(self, sector: Sector, t: Real, other: Real) -> bool:
         """Whether the lines through the way's ends, which look the same, are one: the way's own line."""
         if isinstance(sector, Rolling):
@@ -85,7 +94,7 @@ class WayCuts:
             (line_family.high, -1, line_family.names[1]),
         ):
             if t.overlaps(bound):
-                if any(name in self.way.touches for name, _ in names):
+                if self._is_along(names):
                     return False
                 contact, direction = line_family.sector.touch(bound)
                 if direction.cross(pin[0] - contact).sign() == 0:
@@ -96,7 +105,7 @@ class WayCuts:
 
     def _pin_at(self, line_family: LineFamily, t: Real, names: Names) -> Pin | None:
         """The point of the way on a line that bounds a line family, where it need not be computed."""
-        is_own = any(name in self.way.touches for name, _ in names)
+        is_own = self._is_along(names)
         # No parameter: the end may be the point about which the lines turn.
         near = [
             pin

@@ -8,7 +8,6 @@ through the point itself, and corners touched on the way.
 
 from __future__ import annotations
 
-from collections.abc import Hashable
 from dataclasses import dataclass
 from functools import cached_property, cmp_to_key
 from math import inf
@@ -26,8 +25,8 @@ from exactacq.visibility.sensor_range import Range
 from exactacq.visibility.view_ends import AT_RANGE, ViewEnds
 
 LAST = 1 << 60
-Hold: TypeAlias = "tuple[int, Hashable, int]"
-"""An edge, the name of what the line to its point touches (see `line_names`) or of the range, and a side."""
+Hold: TypeAlias = "tuple[int, int, int]"
+"""An edge, the number of what the line to its point touches (see `line_keys`) or of the range, and a side."""
 Placed: TypeAlias = "tuple[int, int, Part]"
 """A part with its face and the position on it."""
 
@@ -191,10 +190,8 @@ class BoundaryView:
         return [] if rank is None or rank == AT_RANGE else self._holds(e, rank)
 
     def _holds(self, e: int, rank: int) -> list[Hold]:
-        return [
-            (e, ("circle", self.table.circles[number]) if side else ("corner", number), side)
-            for number, side in self._touched(rank)
-        ]
+        numbers = self.table.line_numbers
+        return [(e, numbers.feature(number, side != 0), side) for number, side in self._touched(rank)]
 
     def _touched(self, rank: int) -> list[tuple[int, int]]:
         """What a ray touches: vertices with 0, arcs with 1 if the circle is to its left, else -1."""
