@@ -26,7 +26,7 @@ class WayCuts:
 
     def __init__(self, way: StraightWay) -> None:
         self.way = way
-        self._through: dict[int, tuple[Sector, list[tuple[Pin, list[Real]]]]] = {}
+        self._through: dict[Sector, list[tuple[Pin, list[Real]]]] = {}
 
     def of(self, line_family: LineFamily) -> list[Cut]:
         """The ends of a family and, between them, the lines through the way's ends: parameters in order."""
@@ -62,11 +62,10 @@ class WayCuts:
 
     def _through_ends(self, sector: Sector) -> list[tuple[Pin, list[Real]]]:
         """The way's ends, with the parameters of a sector's lines through them; families share sectors."""
-        kept = self._through.get(id(sector))
+        kept = self._through.get(sector)
         if kept is None:
-            through = [(pin, sector.through(pin[0])) for pin in self.way.ends]
-            kept = self._through[id(sector)] = sector, through
-        return kept[1]
+            kept = self._through[sector] = [(pin, sector.through(pin[0])) for pin in self.way.ends]
+        return kept
 
     def _is_along(self, names: Names) -> bool:
         """Whether a line is known to be the way's own, as it passes two corners that the way's line passes.

@@ -41,9 +41,12 @@ BITS = 64
 """Precision of the balls from which floats are taken."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Sector(ABC):
-    """A family of lines: t runs from low to high, at most a quarter turn where lines turn."""
+    """A family of lines: t runs from low to high, at most a quarter turn where lines turn.
+
+    It is equal to itself alone, as what is found for its lines is kept by it.
+    """
 
     center: Vector
     base: Vector
@@ -203,7 +206,7 @@ class Rolling(Sector):
         return value
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Sliding(Sector):
     """The normals of the segment from C to C + e, going to its left or right."""
 
@@ -234,7 +237,7 @@ class Sliding(Sector):
         return value
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Spokes(Turning):
     """The normals of an arc about C, going away from C (``outward``) or through it."""
 
