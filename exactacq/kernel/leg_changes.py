@@ -17,6 +17,7 @@ from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import Extent, Span, bent, extent
 from exactacq.kernel.family_images import AHEAD, CONTACT, NONE, FamilyImage
 from exactacq.kernel.images import ROLLING, SLIDING, TURNING
+from exactacq.kernel.line_keys import key_of_corners, key_of_normal
 from exactacq.kernel.lines import Line, meets_straight
 from exactacq.kernel.range_cuts import range_cut
 
@@ -112,11 +113,6 @@ def corner_normals(extents: list[Extent], crossing: list[FamilyImage]) -> list[F
     return found
 
 
-def key_of_normal(edge: int, vertex: int, count: int) -> int:
-    """The key of the normal of a straight edge through a vertex, beside those of `kernel.line_keys`."""
-    return (edge * count + vertex) * 8 + 7
-
-
 def _all_keys(keys: list[int], family: FamilyImage, also: dict[int, int], count: int) -> list[int]:
     """The keys of a line, and if it is a normal, those by which other families know it."""
     if family.goes_back or not keys:
@@ -124,7 +120,7 @@ def _all_keys(keys: list[int], family: FamilyImage, also: dict[int, int], count:
     passed = family.first_corners if keys is family.first_keys else family.last_corners
     own = family.corner
     if own >= 0:
-        found = keys + [(min(own, v) * count + max(own, v)) * 8 for v in passed]
+        found = keys + [key_of_corners(own, v, count) for v in passed]
         return [*found, also[keys[0]]] if keys[0] in also else found
     if family.frame[0] == SLIDING:
         return keys + [key_of_normal(family.edges[1], v, count) for v in passed]

@@ -63,7 +63,7 @@ class LineNumbers:
 
     def corners(self, a: int, b: int) -> int:
         """The number of the line through two corners."""
-        return self._number(min(a, b), max(a, b), 0)
+        return key_of_corners(a, b, self.count)
 
     def features(self, key: int) -> tuple[int, int]:
         """The two features that a line touches, by its number."""
@@ -84,3 +84,13 @@ class LineNumbers:
 
     def _number(self, a: int, b: int, kind: int) -> int:
         return (a * self.count + b) * 8 + kind
+
+
+def key_of_corners(a: int, b: int, count: int) -> int:
+    """The number of the line through two corners of a scene with so many edges."""
+    return (min(a, b) * count + max(a, b)) * 8
+
+
+def key_of_normal(edge: int, vertex: int, count: int) -> int:
+    """The number of the normal of a straight edge through a vertex: kind 7, of no line that touches two."""
+    return (edge * count + vertex) * 8 + 7

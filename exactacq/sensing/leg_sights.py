@@ -35,11 +35,11 @@ from exactacq.kernel.leg_changes import (
     between,
     corner_normals,
     in_reach,
-    key_of_normal,
     name_of,
     normal_sights,
     sights,
 )
+from exactacq.kernel.line_keys import key_of_normal
 from exactacq.kernel.lines import meets_straight
 from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real
