@@ -64,7 +64,7 @@ def places(line: FollowedLine) -> list[set[tuple[int, str, str]]]:
 
 @pytest.mark.parametrize("name", SCENES)
 def test_names_tell_what_exact_contacts_tell(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Every line at which a cell of a pencil ends, with reaches that are no gaps: there either may be told."""
+    """Every line at which a cell of a pencil ends; reaches are no gaps, where either may be told."""
     scene = SCENES[name]
     table = EdgeTable(scene.obstacles)
     told = grazing = blocked = 0
