@@ -11,10 +11,10 @@ from math import inf
 from typing import Final, final
 
 from exactacq.kernel.bound_lines import NOTHING
-from exactacq.kernel.bounded import TINY, UNIT, cross, dot, product, quotient, root, total, verdict
+from exactacq.kernel.bounded import UNIT, cross, dot, product, quotient, root, total, verdict
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.images import CONVEX, STRAIGHT, EdgeImages
-from exactacq.kernel.lines import Line, meets_straight, side_of
+from exactacq.kernel.lines import Line, meets_straight, rounding, side_of
 
 TOUCHED: Final = -1
 CROSSED: Final = -2
@@ -110,8 +110,8 @@ class WalkedLine:
         """Where the line crosses an arc that it does not touch, as far as its circle is met on the arc."""
         images, curve = self._images, self._curves[e]
         x, y, dx, dy, ce, de = self._line
-        ox, p = total(curve.x, _rounding(curve.x, curve.y), -x, ce)
-        oy, q = total(curve.y, _rounding(curve.x, curve.y), -y, ce)
+        ox, p = total(curve.x, rounding(curve.x, curve.y), -x, ce)
+        oy, q = total(curve.y, rounding(curve.x, curve.y), -y, ce)
         height, bound = quotient(*cross(dx, dy, de, ox, oy, max(p, q)), *self._size)
         radius, blur = curve.radius, UNIT * curve.radius
         under, under_bound = product(
@@ -144,8 +144,8 @@ class WalkedLine:
         py, q = total(y, ce, *product(dy, de, step, step_bound))
         ax, ay = self._images.x[e], self._images.y[e]
         ux, uy, u = self._vector(e, self._images.following[e])
-        vx, r = total(px, p, -ax, _rounding(ax, ay))
-        vy, s = total(py, q, -ay, _rounding(ax, ay))
+        vx, r = total(px, p, -ax, rounding(ax, ay))
+        vy, s = total(py, q, -ay, rounding(ax, ay))
         return -self._images.kind[e] * verdict(*cross(ux, uy, u, vx, vy, max(r, s)))
 
     def _side(self, v: int) -> int:
@@ -155,15 +155,15 @@ class WalkedLine:
         side = self._sides.get(v, 0)
         if side == 0:
             x, y = self._images.x[v], self._images.y[v]
-            side = self._sides[v] = side_of(self._line, x, y, _rounding(x, y), 0.0)
+            side = self._sides[v] = side_of(self._line, x, y, rounding(x, y), 0.0)
             self.is_told = self.is_told and side != 0
         return side
 
     def _along(self, x: float, y: float) -> tuple[float, float]:
         """How far along the line the foot of a place of the scene is, in lengths."""
         cx, cy, dx, dy, ce, de = self._line
-        ox, p = total(x, _rounding(x, y), -cx, ce)
-        oy, q = total(y, _rounding(x, y), -cy, ce)
+        ox, p = total(x, rounding(x, y), -cx, ce)
+        oy, q = total(y, rounding(x, y), -cy, ce)
         return quotient(*dot(ox, oy, max(p, q), dx, dy, de), *self._size)
 
     def _add_vertex(self, v: int, e: int) -> None:
@@ -252,8 +252,8 @@ class WalkedLine:
     def _vector(self, v: int, w: int) -> tuple[float, float, float]:
         """The vector from a vertex to another."""
         ax, ay, bx, by = self._images.x[v], self._images.y[v], self._images.x[w], self._images.y[w]
-        x, p = total(bx, _rounding(bx, by), -ax, _rounding(ax, ay))
-        y, q = total(by, _rounding(bx, by), -ay, _rounding(ax, ay))
+        x, p = total(bx, rounding(bx, by), -ax, rounding(ax, ay))
+        y, q = total(by, rounding(bx, by), -ay, rounding(ax, ay))
         return x, y, max(p, q)
 
     def _is_behind(self, v: int, w: int, sense: int) -> bool:
@@ -267,8 +267,3 @@ class WalkedLine:
             self.is_told = False
             return 0.0
         return self._at[v].low
-
-
-def _rounding(x: float, y: float) -> float:
-    """How far off the nearest floats of a place of the scene are."""
-    return UNIT * max(abs(x), abs(y)) + TINY

@@ -63,6 +63,11 @@ def _moved(
     return x, y, max(p, q)
 
 
+def rounding(x: float, y: float) -> float:
+    """How far off the nearest floats of a place of the scene may be."""
+    return UNIT * max(abs(x), abs(y)) + TINY
+
+
 def side_of(line: Line, x: float, y: float, error: float, least: float) -> int:
     """1 or -1 if a place is certainly left of a line, by more than *least*, or right of it; else 0.
 

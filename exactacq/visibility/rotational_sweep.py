@@ -19,6 +19,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, cmp_to_key, partial
 from math import isnan
+from operator import itemgetter
 from typing import TypeAlias
 
 from flint import arb, fmpq
@@ -38,7 +39,7 @@ from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.features import directions_at, enters
-from exactacq.visibility.line_families import Sector, Vector, held
+from exactacq.visibility.line_families import Rolling, Sector, Sliding, Vector, held
 
 Passed: TypeAlias = "tuple[tuple[int, int, int], ...]"
 """The events at one line, each with number (a vertex, or an arc), side and sign: see `Sector.exact`."""
@@ -222,26 +223,50 @@ class _Decisions:
 
     def _resolved(self, cluster: list[BoundLine], has_low: bool, has_high: bool) -> Iterator[BoundLine]:
         """The distinct lines of a cluster, from the low bound on or up to the high one, in exact order."""
-        values = [(value_of(self.table, self.sector, event), event) for event in cluster]
-        if all(value.rational is not None for value, _ in values):
-            values.sort(key=_rational)
-        else:
+        low, high = self.sector.low, self.sector.high
+        values: list[tuple[fmpq | Real, BoundLine]] = []
+        for event in cluster:
+            value = self._rational(event)
+            values.append((value_of(self.table, self.sector, event) if value is None else value, event))
+        if any(isinstance(value, Real) for value, _ in values):
             values.sort(key=cmp_to_key(_by_value))
-        low, high = Real(self.sector.low), Real(self.sector.high)
-        current: Real | None = None
+        else:
+            values.sort(key=itemgetter(0))
+        current: fmpq | Real | None = None
         passed: list[tuple[int, int, int]] = []
         for value, event in values:
-            if has_low and value.compare(low) < 0:
+            if has_low and value < low:
                 continue
-            if has_high and value.compare(high) > 0:
+            if has_high and value > high:
                 break
-            if current is not None and value.compare(current) != 0:
+            if current is not None and value != current:
                 yield _known(current, passed)
                 current, passed = None, []
             current = value if current is None else current
             passed += event.passed
         if current is not None:
             yield _known(current, passed)
+
+    def _rational(self, event: BoundLine) -> fmpq | None:
+        """The exact parameter of a line, if it is seen to be rational."""
+        value = event.value
+        if value is None and event.side == 0:
+            value = event.value = self._through_vertex(event.number)
+        if isinstance(value, Real):
+            return None if value.is_late else value.rational
+        assert value is None or isinstance(value, fmpq), "values are exact"
+        return value
+
+    def _through_vertex(self, v: int) -> fmpq | None:
+        """The parameter of the line through a vertex, where it is one quotient of rationals."""
+        (x, y), (cx, cy), (ex, ey) = self.table.vertices[v], self.sector.center, self.sector.base
+        if isinstance(self.sector, Rolling) or not (isinstance(cx, fmpq) and isinstance(ex, fmpq)):
+            return None
+        dx, dy = x - cx, y - cy
+        along = ex * dx + ey * dy
+        if isinstance(self.sector, Sliding):
+            return along / (ex * ex + ey * ey)
+        return (ex * dy - ey * dx) / along if along else None
 
     # -- lines of the cells ----------------------------------------------------------------------
 
@@ -340,11 +365,5 @@ def _known(value: fmpq | Real, passed: Sequence[tuple[int, int, int]] = ()) -> B
     return known_line(*held(value), list(passed), value)
 
 
-def _rational(a: tuple[Real, BoundLine]) -> fmpq:
-    value = a[0].rational
-    assert value is not None, "only rational values are sorted so"
-    return value
-
-
-def _by_value(a: tuple[Real, BoundLine], b: tuple[Real, BoundLine]) -> int:
-    return a[0].compare(b[0])
+def _by_value(a: tuple[fmpq | Real, BoundLine], b: tuple[fmpq | Real, BoundLine]) -> int:
+    return Real(a[0]).compare(b[0])
