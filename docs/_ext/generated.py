@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from shutil import rmtree
+from shutil import copytree, rmtree
 from typing import Any
 
 import claims_page
@@ -69,8 +69,16 @@ def generate(app: Any) -> None:
     tightest.write(folder, _cases())
 
 
+def take_along(app: Any, failure: Exception | None) -> None:
+    """Copy the pages that play runs beside the built ones; called once when a build ends."""
+    if failure is None and app.builder.format == "html":
+        made = Path(app.srcdir) / FOLDER / claims_page.PLAYED
+        copytree(made, Path(app.outdir) / claims_page.PLAYED, dirs_exist_ok=True)
+
+
 def setup(app: Any) -> dict[str, bool]:
     """Hook into Sphinx."""
     app.add_config_value("claims_scenes", SCENES, "env")
     app.connect("builder-inited", generate)
+    app.connect("build-finished", take_along)
     return {"parallel_read_safe": True}

@@ -129,7 +129,7 @@ def _report(target: Goal, referee: Referee, found: Ruling | None, out: str | Non
 
     show = console()
     dropped = ", ".join(f"{count} {kind}" for kind, count in sorted(referee.dropped.items()))
-    show.print(f"{target.name}: {target.statement.text}")
+    show.print(f"{target.name}: {target.statement.words}")
     show.print(f"judged {referee.judged} scenes" + (f", dropped: {dropped}" if dropped else ""))
     for fault in referee.faults[:1]:
         show.print(f"first fault: {fault.reason} on {' '.join(fault.draft.text().split())}", soft_wrap=True)
