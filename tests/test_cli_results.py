@@ -11,6 +11,7 @@ import pytest
 
 import exactacq as xa
 from exactacq import cli
+from exactacq.cli.arguments import DRAWINGS
 
 
 def answered(capsys: pytest.CaptureFixture[str], *arguments: object) -> str:
@@ -95,7 +96,7 @@ def test_a_view_is_described(capsys: pytest.CaptureFixture[str]) -> None:
 def test_a_view_is_written(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     """A drawing needs no start: the place to look from says where the room is."""
     answered(capsys, "convert", "plate", tmp_path / "plate.wkt")
-    for suffix in cli.DRAWINGS:
+    for suffix in DRAWINGS:
         target = tmp_path / f"view{suffix}"
         place = ("--at=-30,-60", "--radius", "60")
         out = answered(capsys, "isovist", tmp_path / "plate.wkt", *place, "--out", target)

@@ -1,0 +1,123 @@
+"""The arguments and options that several commands share, and what their texts mean."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
+
+import typer
+
+from exactacq.cli.file_options import read_from_text
+from exactacq.errors import FormatError, InvalidScene
+from exactacq.files.formats import written_suffixes
+
+if TYPE_CHECKING:
+    from flint import fmpq
+
+    from exactacq.scene.scene import Scene
+    from exactacq.scene.shapes import Terrain
+
+Result = TypeVar("Result")
+DRAWINGS = tuple(suffix for suffix in written_suffixes() if suffix != ".json")
+"""What a view is written as."""
+SceneName = Annotated[str, typer.Argument(metavar="SCENE", help="A file, or the name of a gallery scene.")]
+Start = Annotated[str | None, typer.Option(metavar="X,Y", help="Start point; required for drawings.")]
+TerrainSize = Annotated[
+    str | None,
+    typer.Option(
+        metavar="B,A",
+        help="Terrain: B,A or X,Y,B,A (SW corner, width, height) or bbox[:MARGIN]; default: the scene's.",
+    ),
+]
+Radius = Annotated[str | None, typer.Option(metavar="R", help="Radius of vision; default: the scene's own.")]
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, and no table.")]
+FigureFile = Annotated[str | None, typer.Option(metavar="F", help="Write a figure: .svg, .pdf or .png.")]
+
+
+def scene_of(name: str, start: str | None, options: dict[str, Any], terrain: str | None = None) -> Scene:
+    """The scene in the file, or else of the gallery, of that name; an error names it too."""
+    try:
+        scene = _loaded(name, start, read_from_text(options))
+        return scene if terrain is None else scene.replace(terrain=_terrain(terrain, scene))
+    except InvalidScene as error:
+        first, *others = error.violations
+        raise InvalidScene([f"{name}: {first}", *others]) from None
+
+
+def _loaded(name: str, start: str | None, options: dict[str, object]) -> Scene:
+    from exactacq.files.gallery import names
+    from exactacq.files.load import load
+
+    place = None if start is None else place_of("--start", start)
+    if place is None:
+        return load(name, **options)
+    if name not in names() or os.path.lexists(name):
+        return load(name, start=place, **options)
+    return load(name, **options).replace(start=place)
+
+
+def needs_start(name: str) -> bool:
+    """Whether a scene is in a file that tells no start, so that the place to look from takes its part."""
+    from exactacq.files.gallery import names
+
+    is_file = name not in names() or os.path.lexists(name)
+    return is_file and Path(name).suffix.lower() != ".json"
+
+
+def _terrain(text: str, scene: Scene) -> Terrain:
+    """The terrain of an option: its sides, with its SW corner or without, or the rectangle about a scene."""
+    from exactacq.scene.bounding import terrain_around
+    from exactacq.scene.shapes import Terrain
+
+    word, _, margin = text.partition(":")
+    if word == "bbox":
+        return terrain_around(scene, number_of("--terrain bbox", margin or "0"))
+    parts = text.split(",")
+    if len(parts) not in (2, 4):
+        forms = "B,A or X,Y,B,A without spaces, or bbox:MARGIN"
+        raise FormatError(f"--terrain: not two or four numbers: {text!r}; give {forms}")
+    *corner, width, height = (number_of("--terrain", part) for part in parts)
+    return Terrain(width, height, corner or (0, 0))
+
+
+def range_of(radius: str | None) -> fmpq | None:
+    """The radius of an option, if it is given."""
+    range_ = None if radius is None else number_of("--radius", radius)
+    if range_ is not None and range_ <= 0:
+        raise FormatError(f"--radius: must be positive, not {radius}")
+    return range_
+
+
+def number_of(option: str, text: str) -> fmpq:
+    from exactacq.numbers.rationals import rational
+
+    try:
+        return rational(text)
+    except FormatError as error:
+        raise FormatError(f"{option}: {error}; give a number like 10, 0.1 or 21/2") from None
+
+
+def place_of(option: str, text: str) -> tuple[fmpq, fmpq]:
+    parts = text.split(",")
+    if len(parts) != 2:
+        raise FormatError(f"{option}: not two numbers: {text!r}; give X,Y without spaces, like 0,21/2")
+    return number_of(option, parts[0]), number_of(option, parts[1])
+
+
+def naming(option: str, act: Callable[[], Result]) -> Result:
+    """What an action returns; a value that makes no sense is an error that names the option."""
+    try:
+        return act()
+    except FormatError:
+        raise
+    except ValueError as error:
+        raise FormatError(f"{option}: {error}") from None
+
+
+def same_file(path: Path, scene: str) -> bool:
+    try:
+        return path.samefile(scene)
+    except (OSError, ValueError):
+        return False

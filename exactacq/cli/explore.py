@@ -1,0 +1,160 @@
+"""The command ``exactacq explore``; what it needs is imported when it runs."""
+
+from __future__ import annotations
+
+import json
+import sys
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from exactacq.cli.arguments import (
+    DRAWINGS,
+    FigureFile,
+    Radius,
+    SceneName,
+    Start,
+    TerrainSize,
+    naming,
+    number_of,
+    range_of,
+    same_file,
+    scene_of,
+)
+from exactacq.cli.file_options import reads_files
+from exactacq.cli.runs import at_corner, explored
+from exactacq.errors import AuditError, ExactacqError, FormatError, Undecided
+from exactacq.strategies.options import Strategy, TargetChoice
+
+if TYPE_CHECKING:
+    from exactacq.strategies.run import Run
+
+
+@reads_files
+def explore(
+    scene: SceneName,
+    strategy: Annotated[Strategy, typer.Option(help="How to explore.")] = Strategy.SIGHTSEER,
+    radius: Radius = None,
+    start: Start = None,
+    terrain: TerrainSize = None,
+    lookahead: Annotated[
+        bool, typer.Option(help="Seed Spreader: look ahead on the map before a diversion.")
+    ] = True,
+    target: Annotated[
+        TargetChoice, typer.Option(help="Seed Spreader: what a diversion aims at.")
+    ] = TargetChoice.KNOWN,
+    figure: FigureFile = None,
+    at: Annotated[
+        str | None, typer.Option(metavar="L", help="Draw the figure after this length of the path.")
+    ] = None,
+    animate: Annotated[
+        str | None,
+        typer.Option(metavar="F", help="Write a page that plays the run: .html; or a film: .gif, .mp4."),
+    ] = None,
+    trace: Annotated[str | None, typer.Option(metavar="F", help="Write the exact run as .json.")] = None,
+    drawing: Annotated[
+        str | None,
+        typer.Option(
+            "--out", metavar="F", help=f"Write the run as a drawing or table: {', '.join(DRAWINGS)}."
+        ),
+    ] = None,
+    check_run: Annotated[
+        bool, typer.Option("--audit", help="Check the finished run by independent means.")
+    ] = False,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the exact run as JSON, and no table.")
+    ] = False,
+    **options: Any,
+) -> None:
+    """Explore a scene; print a summary, or write the figure and the exact trace.
+
+    Where a comparison stays undecided, all that is done for the run up to there, and the exit status is 3.
+    """
+    from exactacq.files.whole_files import FIGURES, FILMS, PAGES, TRACES, check_output, write_whole
+    from exactacq.output.report import console, run_report
+
+    range_ = range_of(radius)
+    if at is not None and figure is None:
+        raise FormatError("--at: names a moment of a figure; give the figure with --figure F")
+    length = None if at is None else number_of("--at", at)
+    wanted = ((figure, FIGURES), (trace, TRACES), (animate, (*PAGES, *FILMS)), (drawing, DRAWINGS))
+    outputs = [check_output(f, s) for f, s in wanted if f is not None]
+    if animate is not None and animate.lower().endswith(FILMS):
+        from exactacq.output.animation.film import check_film
+
+        check_film(animate)
+    if any(same_file(path, scene) for path in outputs):
+        raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
+    world = scene_of(scene, start, options, terrain)
+    if range_ is None and world.radius is None:
+        raise FormatError(f"{scene}: the scene has no radius of vision: give one with --radius R")
+    trouble: ExactacqError | None = None
+    try:
+        sweeps = strategy is Strategy.SEED_SPREADER and start is None
+        run = explored(at_corner(world) if sweeps else world, range_, strategy, lookahead, target)
+    except Undecided as error:
+        if error.run is None:
+            raise
+        run, trouble = error.run, error
+    if figure is not None:
+        from exactacq.output.figures import save
+
+        naming("--at", lambda: save(run, figure, length))
+    played = None if animate is None else _animate(run, animate)
+    if drawing is not None:
+        from exactacq.output.results import write
+
+        write(run, drawing)
+    if check_run and trouble is None:
+        trouble = _audited(run)
+    if as_json or trace is not None:
+        text = json.dumps(run.to_json(), indent=1, ensure_ascii=False) + "\n"
+        if trace is not None:
+            write_whole(trace, text.encode())
+        if as_json:
+            sys.stdout.write(text)
+    if not as_json:
+        out = console()
+        out.print(run_report(run))
+        if check_run and trouble is None:
+            out.print("audit passed")
+        written = (("figure", figure), ("trace", trace), ("run", drawing))
+        for line in (played, *(f"{name} written to {path}" for name, path in written if path is not None)):
+            if line is not None:
+                out.print(line, soft_wrap=True)
+    if trouble is not None:
+        raise trouble
+
+
+def _audited(run: Run) -> ExactacqError | None:
+    """What the audit has found, if anything: it is told after the report."""
+    from exactacq.auditing.audit import audit
+
+    try:
+        audit(run)
+    except (AuditError, Undecided) as error:
+        return error
+    return None
+
+
+def _animate(run: Run, path: str) -> str:
+    """Write the page or the film, and say so; a film takes time, so a terminal is told how far it is."""
+    from exactacq.files.whole_files import FILMS, write_whole
+
+    if not path.lower().endswith(FILMS):
+        from exactacq.output.animation.page import frames_of, page
+
+        write_whole(path, page(run, frames_of(run)).encode())
+        return f"page written to {path}"
+    from exactacq.output.animation.film import film
+
+    if not sys.stderr.isatty():
+        left_out = film(run, path)
+    else:
+        from exactacq.output.report import progress_bar
+
+        with progress_bar("drawing") as bar:
+            task = bar.add_task("")
+            left_out = film(run, path, lambda done, total: bar.update(task, completed=done, total=total))
+    less = f", without {left_out} frames that are beyond the limits" if left_out else ""
+    return f"film written to {path}{less}"

@@ -1,0 +1,48 @@
+"""The runs that commands make."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from exactacq.strategies.options import Strategy, TargetChoice
+
+if TYPE_CHECKING:
+    from flint import fmpq
+
+    from exactacq.scene.scene import Scene
+    from exactacq.strategies.run import Run
+
+
+def explored(
+    scene: Scene,
+    radius: fmpq | None,
+    strategy: Strategy,
+    lookahead: bool = True,
+    target: TargetChoice = TargetChoice.KNOWN,
+) -> Run:
+    """The run; with a progress bar if it is long and a terminal watches."""
+    from exactacq.strategies.seed_spreader.strategy import seed_spreader
+    from exactacq.strategies.sightseer.strategy import sightseer
+
+    def run(progress: Callable[[int, int], None] | None) -> Run:
+        if strategy is Strategy.SIGHTSEER:
+            return sightseer(scene, radius, progress=progress)
+        return seed_spreader(scene, radius, lookahead=lookahead, target=target.value, progress=progress)
+
+    if not sys.stderr.isatty():
+        return run(None)
+    from exactacq.output.report import progress_bar
+
+    with progress_bar("exploring") as bar:
+        task = bar.add_task("", total=len(scene.obstacles))
+        return run(lambda done, total: bar.update(task, completed=done, total=total))
+
+
+def at_corner(scene: Scene) -> Scene:
+    """The scene with its start in the SW corner of what the Seed Spreader sweeps, if there is such."""
+    from exactacq.scene.bounding import rectangular_room
+
+    terrain = scene.terrain or rectangular_room(scene)
+    return scene if terrain is None else scene.replace(start=terrain.south_west)
