@@ -31,7 +31,6 @@ UsageError: type[Exception] = typer.BadParameter.__bases__[0]
 app = typer.Typer(
     name="exactacq",
     help="Exact sensor-based terrain acquisition. Numbers are exact: 10, 0.1 or 21/2.",
-    add_completion=False,
     pretty_exceptions_enable=False,
 )
 
@@ -65,11 +64,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if hasattr(stream, "reconfigure"):  # Names of files and obstacles may be beyond the encoding.
             stream.reconfigure(errors="backslashreplace")
     try:
-        status = app(args=arguments, prog_name="exactacq", standalone_mode=False)
+        status = _perform(arguments)
         sys.stdout.flush()
     except (KeyboardInterrupt, typer.Abort):
         status = INTERRUPTED
-    except (BrokenPipeError, SystemExit):  # The reader has seen enough; spare the interpreter its own flush.
+    except BrokenPipeError:  # The reader has seen enough; spare the interpreter its own flush.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return REFUSED
     except Undecided as error:
@@ -86,6 +85,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if status == INTERRUPTED:  # Raised, or returned: typer's releases differ.
         return _refuse("interrupted", INTERRUPTED)
     return status if isinstance(status, int) else 0
+
+
+def _perform(arguments: Sequence[str] | None) -> object:
+    """Run a command, or tell a shell how to complete one; the status, if typer returns one."""
+    try:
+        return app(args=arguments, prog_name="exactacq", standalone_mode=False)
+    except (
+        SystemExit
+    ) as end:  # Typer ends so after completing, and with a code if the reader has seen enough.
+        if end.code:
+            raise BrokenPipeError from None
+        return 0
 
 
 def _one_line(error: BaseException) -> str:
