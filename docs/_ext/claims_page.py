@@ -192,7 +192,7 @@ def shown(name: str, subject: Subject) -> Iterator[str]:
     title = f"The run of the {STRATEGIES[subject]} on {name}"
     yield from (
         "```{raw} html",
-        f"<details><summary>Play this run ({name})</summary>",
+        f'<details style="margin-bottom: 1.2rem"><summary>Play this run ({name})</summary>',
         f'<iframe src="{played(name, subject)}" title="{title}" loading="lazy" style="{FRAME}"></iframe>',
         "</details>",
         "```",

@@ -16,13 +16,13 @@ from exactacq.cli.convert import convert
 from exactacq.cli.explore import explore
 from exactacq.cli.gallery import gallery
 from exactacq.cli.isovist import isovist
+from exactacq.cli.manual import epilog, statuses
 from exactacq.errors import ExactacqError, InvalidScene, Undecided
 from exactacq.study.campaign.command import verify
 from exactacq.study.search.command import search
 
 REFUSED, INTERNAL, UNDECIDED, INTERRUPTED = 2, 1, 3, 130
-"""Exit statuses: bad input, a file that cannot be written or a failed audit; a fault of exactacq itself; a
-comparison beyond its limits; control-C."""
+"""Exit statuses; `exactacq.cli.manual.STATUSES` has their words."""
 VIOLATIONS = 8
 """Most violations of a scene that the one line of an error names."""
 UsageError: type[Exception] = typer.BadParameter.__bases__[0]
@@ -31,6 +31,7 @@ UsageError: type[Exception] = typer.BadParameter.__bases__[0]
 app = typer.Typer(
     name="exactacq",
     help="Exact sensor-based terrain acquisition. Numbers are exact: 10, 0.1 or 21/2.",
+    epilog=statuses(),
     pretty_exceptions_enable=False,
 )
 
@@ -55,7 +56,7 @@ def _top(
 
 
 for command in (explore, compare, check, gallery, convert, isovist, verify, search):
-    app.command()(command)
+    app.command(epilog=epilog(command.__name__))(command)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
