@@ -22,6 +22,7 @@ from exactacq.study.claims.model import Case, Claim, Finding, Outcome, Statement
 
 DOCS = Path(__file__).parent.parent / "docs"
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in DOCS.glob("*.md")}
+LABELS = {label for text in PAGES.values() for label in re.findall(r"^\(([\w-]+)\)=$", text, re.MULTILINE)}
 FENCE = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 NAMED = re.compile(
@@ -73,6 +74,7 @@ def broken_links(text: str, made: set[str]) -> list[str]:
             continue
         page = PAGES.get(path.removesuffix(".md")) if path.endswith(".md") else None
         known = page is not None or (path != "" and (DOCS / path).is_file()) or target.startswith("#")
+        known = known or target in LABELS
         if not known or (part and part not in slugs(text if not path else page or "")):
             broken.append(target)
     return broken
