@@ -54,7 +54,7 @@ def distances(lines: list[tuple[Point, Point]], place: Point) -> list[float]:
 
 def of_lines(start: Point, end: Point) -> SingleImage:
     """The line from one point through another."""
-    return SingleImage(curve_image(Segment(start, end)), NO_SPOT, NO_SPOT)
+    return SingleImage(NO_SPOT, NO_SPOT, curve_image(Segment(start, end)))
 
 
 def family(sector: Sector, low: Real, high: Real) -> FamilyImage:

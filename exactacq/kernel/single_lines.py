@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf
 from typing import final
 
-from exactacq.kernel.bounded import TINY, UNIT
+from exactacq.kernel.bounded import TINY, UNIT, total
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import EVERYTHING, Span
 from exactacq.kernel.lines import Line, meets_straight, side_of
@@ -17,14 +17,22 @@ Spot = tuple[float, float, float]
 
 @final
 class SingleImage:
-    """A line from a place to the nearest point of the run that it shows, along a segment."""
+    """A line from a place to the nearest point of what it shows: a run along a segment, or a point."""
 
-    def __init__(self, segment: CurveImage, place: Spot, near: Spot) -> None:
-        self.line, self.place, self.near = line_along(segment), place, near
+    def __init__(self, place: Spot, near: Spot, run: CurveImage | None) -> None:
+        self.line = _line_through(place, near) if run is None else line_along(run)
+        self.place, self.near = place, near
 
     def side(self, x: float, y: float, error: float) -> int:
         """1 or -1 if a place is certainly left or right of the line, else 0."""
         return side_of(self.line, x, y, error, 0.0)
+
+
+def _line_through(place: Spot, near: Spot) -> Line:
+    """The line from a place to another."""
+    x, p = total(near[0], near[2], -place[0], place[2])
+    y, q = total(near[1], near[2], -place[1], place[2])
+    return place[0], place[1], x, y, place[2], max(p, q)
 
 
 def line_along(segment: CurveImage) -> Line:

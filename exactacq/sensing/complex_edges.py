@@ -7,32 +7,26 @@ sides and shows what no neighbouring line does.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from functools import cached_property, partial
 from typing import TypeAlias
 
-from flint import arb, fmpq
+from flint import fmpq
 
 from exactacq.geometry.coordinates import Vector, cross, dot, minus, raw
-from exactacq.geometry.curve_parameter import Rail
+from exactacq.geometry.curve_parameter import ZERO, Rail
 from exactacq.geometry.curves import Curve, Segment
-from exactacq.geometry.late import late_point
-from exactacq.geometry.points import Point, distance_sq
 from exactacq.kernel.bound_lines import BoundLine
 from exactacq.kernel.extents import EVERYTHING
 from exactacq.kernel.family_images import NONE, FamilyImage, by_edge
 from exactacq.kernel.near_edges import NearEdges
-from exactacq.numbers.real import Real
-from exactacq.scene.edge_table import CONVEX, EdgeTable
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.sensing.followed_lines import FeatureLine, FollowedLine, LineFollower, Met
 from exactacq.sensing.line_family import PencilFamilies, Reached, SingleLine
 from exactacq.sensing.line_images import LineImages
 from exactacq.sensing.line_points import Role, Side
 from exactacq.sensing.view_families import FamilyClipper
-from exactacq.visibility.chords import meet
 from exactacq.visibility.features import Feature, features, leaving
-from exactacq.visibility.free_segment import LineWalk, walk_line
-from exactacq.visibility.line_balls import line
 from exactacq.visibility.line_families import Sector, Sliding, Spokes, corner_sectors, quarters
 from exactacq.visibility.line_names import Namer
 from exactacq.visibility.pinched_lines import may_be_pinched
@@ -70,6 +64,7 @@ class FamilySweeper:
         self.clipper = FamilyClipper(rails, range_, table.roundoff, table.line_numbers)
         self.images = LineImages(table, range_)
         self._namer, self._numbers = Namer(table), table.line_numbers
+        self.follower = LineFollower(table, range_, self.clipper, self._namer)
 
     @cached_property
     def _features(self) -> dict[int, list[Feature]]:
@@ -109,7 +104,7 @@ class FamilySweeper:
             for s, _ in sweeps:
                 for t, passed in s.pinches:
                     if may_be_pinched(self.table, feature, s.sector, t, passed):
-                        single_lines += self._pinched(s.sector, t, feature.edges)
+                        single_lines += self._pinched(FeatureLine(feature, s.sector, t, passed))
             single_lines += self._end_on(feature, sweeps[0], sweeps[-1])
             if not feature.round:
                 for sector in self._corner_normals(feature):
@@ -170,54 +165,28 @@ class FamilySweeper:
             image = images[0] if ahead else images[-1]
             row = sweep.rows[image.number]
             bound = row.first if ahead else row.last
-            run = (edge.end, edge.start) if ahead else (edge.start, edge.end)
+            ends = (edge.start, ZERO), (edge.end, self.clipper.rails[e].top)
+            run = (ends[1], ends[0]) if ahead else ends
             if any(side or number not in (e, self.table.next[e]) for number, side, _ in bound.passed):
                 # The line grazes what may block its neighbours: it goes on by itself.
-                yield SingleLine(*self._walked(sweep.sector, sweep.value(bound), role), run, e)
+                at = FeatureLine(feature, sweep.sector, sweep.value(bound), tuple(bound.passed))
+                end = self.follower.follow(at).end(role)
+                reached = (self.follower.at_range(at, role), None) if end is None else end.pin
+                yield SingleLine(reached, None if end is None else end.edge, run, e)
                 continue
             met = image.edge(role) if image.edge(role) != NONE else None
-            make = partial(self._reached, sweep, bound, role, met)
+            make = partial(self._reached, feature, sweep, bound, role, met)
             low, high, *_ = image.places(role)[0 if ahead else 1]
             yield SingleLine(make, met, run, e, (low, high) if image.is_known else EVERYTHING)
 
-    def _walked(self, sector: Sector, t: Real, role: Role) -> tuple[Reached, int | None]:
-        """Where a line that may run along edges meets the first that blocks it, and that edge.
-
-        If none does, a place in free space.
-        """
-        walk = walk_line(self.table, sector, t, self.range.above)[role is Role.AHEAD]
-        if not walk.blocked:
-            return (self._at_range(sector, t, role), None), None
-        contact, direction = sector.touch(t)
-        far, met = walk.hits[-1]
-        return (contact + direction * (abs(far) * int(role)), None), met
-
-    def _reached(self, sweep: Pencil, bound: BoundLine, role: Role, met: int | None) -> Reached:
+    def _reached(
+        self, feature: Feature, sweep: Pencil, bound: BoundLine, role: Role, met: int | None
+    ) -> Reached:
         """Where a line that touches a feature meets an edge, or is as long as the range if it meets none."""
-        sector, t = sweep.sector, sweep.value(bound)
+        at = FeatureLine(feature, sweep.sector, sweep.value(bound), tuple(bound.passed))
         if met is None:
-            return self._at_range(sector, t, role), None
-        hit = self.clipper.balls(met).met(line(sector, t.ball(64)), role)
-        make = partial(self._met, sector, t, role, met)
-        place = make() if hit is None else late_point(hit[1], make)
-        return place, self.clipper.rails[met].parameter(place)
-
-    def _at_range(self, sector: Sector, t: Real, role: Role) -> Point:
-        """The end of a line that is as long as the range."""
-        x, y, dx, dy = line(sector, t.ball(64))
-        away = role * arb(self.range.radius) / (dx * dx + dy * dy).sqrt()
-        return late_point((x + dx * away, y + dy * away), partial(self._at_range_exactly, sector, t, role))
-
-    def _at_range_exactly(self, sector: Sector, t: Real, role: Role) -> Point:
-        contact, direction = sector.touch(t)
-        reached: Point = contact + direction * (int(role) * self.range.radius / direction.norm_sq().sqrt())
-        return reached
-
-    def _met(self, sector: Sector, t: Real, role: Role, edge: int) -> Point:
-        contact, direction = sector.touch(t)
-        onward: Point = direction * int(role)
-        reached: Point = contact + onward * meet(contact, onward, self.table.curves[edge], 1)
-        return reached
+            return self.follower.at_range(at, role), None
+        return self.follower.meeting(at, role, met)
 
     def _beside(self, feature: Feature) -> tuple[int, int]:
         """The edges into and out of a feature; an arc's neighbours only where they go on in its direction.
@@ -234,47 +203,35 @@ class FamilySweeper:
         ends = leaving(curves[e], at_end=True), leaving(curves[after], at_end=False)
         return incoming, after if _continues(*ends) else e
 
-    def _pinched(self, sector: Sector, t: Real, own: tuple[int, ...]) -> Iterator[SingleLine]:
+    def _pinched(self, at: FeatureLine) -> Iterator[SingleLine]:
         """What the touched points and edges of a line that grazes several features show of each other."""
-        behind, ahead = walk_line(self.table, sector, t, self.range.above)
-        contact, direction = sector.touch(t)
-        met = [*reversed(behind.hits), (Real(0), own[-1]), *ahead.hits]
-        others = self._touched_arcs(behind, ahead) - {own[-1]}
-        runs: list[tuple[int, Point, Point]] = []
-        for e in dict.fromkeys(e for _, e in met):
-            points = [contact + direction * tau for tau, f in met if f == e]
-            if isinstance(self.table.curves[e], Segment):
-                runs.append((e, points[0], points[-1]))
-            else:
-                runs += [(e, point, point) for point in points]
-        for e, start, end in runs:
-            for f, low, high in runs:
-                if e == f or f in others:
-                    continue
-                for place in (start, end) if start != end else (start,):
-                    near, far = (low, high) if _nearer(place, low, high) else (high, low)
-                    if place != near:
-                        yield SingleLine((place, None), e, (near, far), f)
-        step = direction * (self.range.radius / direction.norm_sq().sqrt())
-        for walk, place in ((behind, contact - step), (ahead, contact + step)):
-            if not walk.blocked:
-                for f, low, high in runs:
-                    if f in others:
-                        continue
-                    near, far = (low, high) if _nearer(place, low, high) else (high, low)
-                    if place != near:
-                        yield SingleLine((place, None), None, (near, far), f)
+        line = self.follower.follow(at)
+        shown = list(self._runs(line))
+        for here in line.met:
+            for first, last in shown:
+                near, far = (first, last) if here.place <= first.place else (last, first)
+                if here.edge != first.edge and here.place != near.place:
+                    yield SingleLine(here.pin, here.edge, (near.pin, far.pin), near.edge)
+        for role in (Role.BEHIND, Role.AHEAD):
+            if line.end(role) is None:
+                place = self.follower.at_range(at, role)
+                for first, last in shown:
+                    near, far = (first, last) if role is Role.BEHIND else (last, first)
+                    if place != near.pin[0]:
+                        yield SingleLine((place, None), None, (near.pin, far.pin), near.edge)
 
-    def _touched_arcs(self, *walks: LineWalk) -> set[int]:
-        """The convex arcs that a line touches once, between their ends: they tell who sees them along it."""
-        met = [hit for walk in walks for hit in walk.hits]
-        blocking = {walk.hits[-1][1] for walk in walks if walk.blocked and walk.hits}
-        times = Counter(e for _, e in met)
-        return {
-            e
-            for e, count in times.items()
-            if count == 1 and e not in blocking and self.table.images.kind[e] == CONVEX
-        }
+    def _runs(self, line: FollowedLine) -> Iterator[tuple[Met, Met]]:
+        """The first and the last place of each edge that a line meets; of an arc place by place."""
+        at: dict[int, list[Met]] = {}
+        for met in line.met:
+            if met.edge not in line.blind:
+                at.setdefault(met.edge, []).append(met)
+        for e, places in at.items():
+            if isinstance(self.table.curves[e], Segment):
+                yield places[0], places[-1]
+            else:
+                for met in places:
+                    yield met, met
 
 
 def normals(curve: Curve) -> Iterator[Sector]:
@@ -293,7 +250,3 @@ def normals(curve: Curve) -> Iterator[Sector]:
 
 def _continues(a: Vector, b: Vector) -> bool:
     return bool(cross(a, b) == 0 and dot(a, b) > 0)
-
-
-def _nearer(place: Point, a: Point, b: Point) -> bool:
-    return a is b or distance_sq(place, a).compare(distance_sq(place, b)) <= 0

@@ -100,7 +100,7 @@ class WayViews:
 
     def along(self, single: SingleLine) -> Iterator[ViewFamily]:
         """A single line that crosses the way between its place and the run that it shows."""
-        direction = single.run[0] - single.place
+        direction = single.points[0] - single.place
         for place in line_contacts(single.place, direction, self.way.piece):
             if place.sign() < 0 or place.compare(1) > 0:
                 continue

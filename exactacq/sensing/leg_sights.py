@@ -138,7 +138,7 @@ class LegSights:
 
     def _single_on_edge(self, one: Extent, single: SingleLine) -> Iterator[Sight]:
         """The sights of a single line from the leg's edge: from its place, or from the run that it shows."""
-        reach, (near, far) = self.complex.images.reach, single.run
+        reach, (near, far) = self.complex.images.reach, single.points
         place = _spot(single.place)
         at_near = in_reach(place, _spot(near), reach)
         if at_near < 0:
@@ -228,7 +228,7 @@ class LegSights:
         curve = self.complex.table.curves[single.shown]
         if not isinstance(curve, Segment):
             return False
-        first, last = single.run
+        first, last = single.points
         return (first is curve.start and last is curve.end) or (first is curve.end and last is curve.start)
 
     def _keys(self, single: SingleLine) -> list[int]:

@@ -11,8 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from exactacq.geometry.curve_images import curve_image
-from exactacq.geometry.curves import Segment
+from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
 from exactacq.kernel.cells import LineCells
 from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent, Span
@@ -168,7 +167,7 @@ class SingleLine:
         self,
         reached: Reached | Callable[[], Reached],
         edge: int | None,
-        run: tuple[Point, Point],
+        run: tuple[Pin, Pin],
         shown: int,
         spot: Span | None = None,
     ) -> None:
@@ -184,6 +183,12 @@ class SingleLine:
         return self._made[0]
 
     @property
+    def points(self) -> tuple[Point, Point]:
+        """The nearest and the farthest point of the run."""
+        (near, _), (far, _) = self.run
+        return near, far
+
+    @property
     def u(self) -> Real | None:
         """The parameter of the place on its edge, if it is known."""
         return self._made[1]
@@ -197,11 +202,9 @@ class SingleLine:
     def image(self, images: LineImages) -> SingleImage:
         """The line in floats, from a segment on it: a run is the whole edge that is shown, or one point."""
         if self._image is None:
-            first, last = self.run
-            curve = images.table.curve_images[self.shown]
-            if first is last:
-                curve = curve_image(Segment(self.place, first))
-            self._image = SingleImage(curve, _spot(self.place), _spot(first))
+            first, last = self.points
+            run = None if first is last else images.table.curve_images[self.shown]
+            self._image = SingleImage(_spot(self.place), _spot(first), run)
         return self._image
 
     def extent(self, images: LineImages, here: int = 0) -> Extent:
@@ -210,7 +213,7 @@ class SingleLine:
             place = self.spot
             if place is None:
                 place = EVERYTHING if self.edge is None else images.hull(self.edge, (self.place,))
-            self._hulls = images.hull(self.shown, self.run), place
+            self._hulls = images.hull(self.shown, self.points), place
         (shown, source), edge = self._hulls, self.shown
         if here and self.edge is not None:
             edge, shown, source = self.edge, source, shown

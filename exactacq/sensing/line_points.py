@@ -9,9 +9,12 @@ from typing import TypeGuard
 
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.late import Balls, balls, from_to
 from exactacq.geometry.points import Point
+from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.visibility.chords import meet
+from exactacq.visibility.line_balls import Line
 from exactacq.visibility.line_families import Sector, Spokes
 from exactacq.visibility.rotational_sweep import Passed
 
@@ -69,6 +72,30 @@ class LinePoints:
                 ):
                     return end
         return None
+
+    def passed_in_balls(self, side: Side, at: Line, passed: Passed) -> tuple[bool, Point | Balls | None]:
+        """Where a line in balls meets an edge, if that is an event of the line: a corner, or balls around it.
+
+        None if it is no event; before it whether balls tell.
+        """
+        if side.role is Role.CONTACT:
+            return True, None
+        x, y, dx, dy = at
+        curve = self._rails[side.edge].curve
+        for number, touching, _ in passed:
+            if touching and number == side.edge and isinstance(curve, Arc):
+                cx, cy = balls(curve.center)
+                foot = ((cx - x) * dx + (cy - y) * dy) / (dx * dx + dy * dy)
+                return True, (x + dx * foot, y + dy * foot)
+            vertex = self._rails[number].curve.start
+            for end in (curve.start, curve.end):
+                if not touching and end.rational == vertex.rational:
+                    sense = _sense((dx, dy), curve, end)
+                    if not sense:
+                        return False, None
+                    if isinstance(curve, Segment) or sense == (-side.role if curve.ccw else side.role):
+                        return True, end
+        return True, None
 
     def at(self, sector: Sector, side: Side, contact: Point, direction: Point) -> Point:
         """Where a line, given by its contact and direction, meets an edge."""
@@ -134,3 +161,15 @@ def _is_met(direction: Point, curve: Curve, end: Point, role: Role) -> bool:
         return direction.cross(curve.direction).clear_sign(BITS) != 0
     far = -role if curve.ccw else role
     return (end - curve.center).dot(direction).clear_sign(BITS) == far
+
+
+def _sense(direction: Balls, curve: Curve, end: Point) -> int:
+    """1 or -1 as a line through a point of an edge goes left or right of it, or out of an arc's circle or in.
+
+    0 if balls do not tell.
+    """
+    if isinstance(curve, Segment):
+        (dx, dy), (wx, wy) = direction, from_to(balls(curve.start), balls(curve.end))
+        return ball_sign(dx * wy - dy * wx)
+    (dx, dy), (ox, oy) = direction, from_to(balls(curve.center), balls(end))
+    return ball_sign(ox * dx + oy * dy)

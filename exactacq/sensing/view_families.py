@@ -33,11 +33,12 @@ from exactacq.kernel.family_images import EdgePlace, EdgePlaces
 from exactacq.kernel.line_keys import LineNumbers
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.float_bounds import margin
+from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.sensing.line_points import LinePoints, Role, Side, along_normal
 from exactacq.sensing.view_length import of_length_on
 from exactacq.visibility.chords import of_length
-from exactacq.visibility.line_balls import CurveBalls, Line, line
+from exactacq.visibility.line_balls import CurveBalls, Line, line, through
 from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes
 from exactacq.visibility.line_names import Names
 from exactacq.visibility.rotational_sweep import Passed
@@ -227,16 +228,16 @@ class FamilyClipper:
             elif not before and not after and self.range.order(*end.points) <= 0:
                 yield ViewFamily(edges, end, end, free_views)
 
-    def along(self, pin: Pin, run: tuple[Point, Point], shown: int) -> Iterator[tuple[End, End]]:
+    def along(self, pin: Pin, run: tuple[Pin, Pin], shown: int) -> Iterator[tuple[End, End]]:
         """The views along one line from a place to a run on an edge, as far as it is within range."""
-        (place, here), (first, last) = pin, run
-        if self.range.order(place, first) > 0:
+        (place, here), (near, far) = pin, run
+        if self.range.order(place, near[0]) > 0:
             return
-        if self.range.order(place, last) > 0:
-            along = last - place
+        if self.range.order(place, far[0]) > 0:
+            along = far[0] - place
             last = place + along * (self.range.radius / along.norm_sq().sqrt())
-        far = self.rails[shown]
-        one, other = (End(Real(0), (place, p), (here, far.parameter(p))) for p in (first, last))
+            far = last, self.rails[shown].parameter(last)
+        one, other = (End(Real(0), (place, point), (here, u)) for point, u in (near, far))
         yield one, other
 
     def end(self, free_views: FreeViews, t: Real) -> End:
@@ -248,19 +249,20 @@ class FamilyClipper:
             if t is bound:
                 names, pin, passed = free_views.names[k], free_views.pinned[k], free_views.passed[k]
         pins = [
-            pin if pin is not None and k == 0 else self._pin(free_views.sector, t, side, names, passed)
+            pin if pin is not None and k == 0 else self.pin(free_views.sector, t, side, names, passed)
             for k, side in enumerate(free_views.sides)
         ]
         return End(t, (pins[0][0], pins[1][0]), (pins[0][1], pins[1][1]))
 
-    def _pin(self, sector: Sector, t: Real, side: Side, names: Names, passed: Passed) -> Pin:
+    def pin(self, sector: Sector, t: Real, side: Side, names: Names, passed: Passed) -> Pin:
         """Where a line meets an edge: the same point as on the same line under another name.
 
         A line that touches the edge's circle meets it at the contact, in either sense.
         """
         role = side.role
+        touches = any(touching and number == side.edge for number, touching, _ in passed)
         keys = [
-            (name, side.edge, 0 if self.numbers.touches(name, side.edge) else role * sense)
+            (name, side.edge, 0 if touches or self.numbers.touches(name, side.edge) else role * sense)
             for name, sense in names
         ]
         for key in keys:
@@ -279,11 +281,12 @@ class FamilyClipper:
             return curve.start, self.rails[side.edge].parameter(curve.start)
         rail, make = self.rails[side.edge], partial(self._points.exact, sector, t, side, passed)
         at = line(sector, t.ball(64))
-        is_end = side.role is not Role.CONTACT and any(
-            self._is_at(number, touching, side.edge) for number, touching, _ in passed
-        )
-        spot = None if is_end else self._spot(at, side)
-        point = make() if spot is None else late_point(spot, make)
+        is_told, found = self._points.passed_in_balls(side, at, passed)
+        if isinstance(found, Point):
+            return found, rail.parameter(found)
+        if found is None and is_told:
+            found = self._spot(at, side)
+        point = make() if found is None else late_point(found, make)
         return point, rail.parameter(point)
 
     def _spot(self, at: Line, side: Side) -> Balls | None:
@@ -298,14 +301,6 @@ class FamilyClipper:
         if e not in self._balls:
             self._balls[e] = CurveBalls(self.curve(e))
         return self._balls[e]
-
-    def _is_at(self, number: int, touching: int, edge: int) -> bool:
-        """Whether what a line passes may be its place on an edge: an end of the edge, or the edge itself."""
-        curve = self.curve(edge)
-        vertex = self.curve(number).start
-        return number == edge or (
-            not touching and vertex.rational in (curve.start.rational, curve.end.rational)
-        )
 
     def clipped(self, family: ViewFamily, side: int, span: Interval) -> ViewFamily | None:
         """The part of a family whose one side lies in an interval of that side's rail."""
@@ -341,8 +336,36 @@ class FamilyClipper:
 
     def view_from(self, family: ViewFamily, side: int, point: Point) -> End:
         """The view of a family from a point of one of its sides, strictly between its extreme views."""
-        free_views = family.free_views
-        assert free_views is not None
+        assert family.free_views is not None
+        late = self._late_view(family, family.free_views, side, point)
+        return self._exact_view(family, family.free_views, side, point) if late is None else late
+
+    def _late_view(self, family: ViewFamily, free_views: FreeViews, side: int, point: Point) -> End | None:
+        """The view from a point, with numbers made when they are read; None if balls leave it open."""
+        sector, (here, there) = free_views.sector, (free_views.sides[side], free_views.sides[1 - side])
+        if isinstance(sector, Spokes) or (here.role is Role.CONTACT and isinstance(sector, Rolling)):
+            return None
+        x, y = balls(point)
+        for k, t in enumerate(through(sector, (x, y)) or ()):
+            after, before = ball_sign(t - family.first.t.ball(64)), ball_sign(family.last.t.ball(64) - t)
+            if min(after, before) < 0:
+                continue
+            at = line(sector, t)
+            ahead = ball_sign((x - at[0]) * at[2] + (y - at[1]) * at[3])
+            if not (after and before and (ahead or here.role is Role.CONTACT)):
+                return None
+            if here.role in (ahead, Role.CONTACT):
+                found = Real.late(t, partial(_line_through, sector, point, k))
+                far, _ = self._late_pin(sector, found, there, ())
+                points = (point, far) if side == 0 else (far, point)
+                one, other = (
+                    self.rails[s.edge].parameter(p) for s, p in zip(free_views.sides, points, strict=True)
+                )
+                return End(found, points, (one, other))
+        return None
+
+    def _exact_view(self, family: ViewFamily, free_views: FreeViews, side: int, point: Point) -> End:
+        """The view from a point, by exact numbers."""
         role = free_views.sides[side].role
         sector = free_views.sector
         if role == 0 and isinstance(sector, Rolling):
@@ -453,6 +476,11 @@ class FamilyClipper:
             away: Real = radius + self.range.radius if sector.outward else radius - self.range.radius
             return away * away
         return Real(self.range.square)
+
+
+def _line_through(sector: Sector, point: Point, k: int) -> Real:
+    """One of the lines of a sector through a point."""
+    return sector.through(point)[k]
 
 
 def _held(point: Point) -> EdgePlace:

@@ -95,8 +95,9 @@ def walk_line(table: EdgeTable, sector: Sector, t: Real, reach: float) -> tuple[
     hits = [(tau, e) for e in edges_met for tau in line_contacts(contact, direction, table.curves[e])]
     hits.sort(key=cmp_to_key(_by_parameter))
     far = reach * (1 + 1e-9) / size
-    ahead = _as_far([hit for hit in hits if hit[0].sign() > 0], table, far)
-    behind = _as_far([hit for hit in reversed(hits) if hit[0].sign() < 0], table, far)
+    begun = {e for tau, e in hits if abs(float(tau)) <= far and not table.kind[e]}
+    ahead = _as_far([hit for hit in hits if hit[0].sign() > 0], begun, far)
+    behind = _as_far([hit for hit in reversed(hits) if hit[0].sign() < 0], begun, far)
     # Beyond the last contact nothing changes within reach: a parameter just short of that tells of the rest.
     end = rational(reach * (1 - 1e-9) / size)
     here = {table.owners[e] for tau, e in hits if tau.sign() == 0}
@@ -139,13 +140,12 @@ def _as_far_as_walls(
     return kept, walls
 
 
-def _as_far(hits: list[tuple[Real, int]], table: EdgeTable, far: float) -> list[tuple[Real, int]]:
-    """The contacts up to a distance, or to the end of an edge along the line that begins before.
+def _as_far(hits: list[tuple[Real, int]], begun: set[int], far: float) -> list[tuple[Real, int]]:
+    """The contacts on one side up to a distance, or to the end of an edge along the line that has *begun*.
 
     Farther away only some edges were looked at; along an edge nothing else can be.
     """
-    within = {e for tau, e in hits if abs(float(tau)) <= far and not table.kind[e]}
-    ends = (abs(float(tau)) for tau, e in hits if e in within)
+    ends = (abs(float(tau)) for tau, e in hits if e in begun)
     limit = max(far, *ends, 0.0)
     return [hit for hit in hits if abs(float(hit[0])) <= limit]
 

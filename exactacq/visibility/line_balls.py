@@ -13,6 +13,7 @@ from flint import arb
 from exactacq.geometry.coordinates import minus, raw
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.late import Balls, ball_of, balls
+from exactacq.numbers.rationals import ball_sign
 from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes
 
 Line: TypeAlias = "tuple[arb, arb, arb, arb]"
@@ -37,6 +38,22 @@ def line(sector: Sector, t: arb) -> Line:
         x, y = cx + dx * away, cy + dy * away
         return (x, y, dx, dy) if sector.outward else (x, y, -dx, -dy)
     return cx, cy, dx, dy
+
+
+def through(sector: Sector, point: Balls) -> list[arb] | None:
+    """The parameters of the lines through a point, as `Sector.through` has them; None if that is open."""
+    (x, y), (cx, cy, ex, ey) = point, sector.balls
+    ox, oy, size = x - cx, y - cy, ex * ex + ey * ey
+    along, across = ex * ox + ey * oy, ex * oy - ey * ox
+    if isinstance(sector, Sliding):
+        return [along / size]
+    if not isinstance(sector, Rolling):
+        return [across / along] if ball_sign(along) else None
+    square, below = along * along + across * across - size * size, size + along
+    if not (square > 0 and ball_sign(below)):
+        return None
+    root = square.sqrt()
+    return [(across + root) / below, (across - root) / below]
 
 
 class CurveBalls:

@@ -223,7 +223,10 @@ class _Decisions:
     def _resolved(self, cluster: list[BoundLine], has_low: bool, has_high: bool) -> Iterator[BoundLine]:
         """The distinct lines of a cluster, from the low bound on or up to the high one, in exact order."""
         values = [(value_of(self.table, self.sector, event), event) for event in cluster]
-        values.sort(key=cmp_to_key(_by_value))
+        if all(value.rational is not None for value, _ in values):
+            values.sort(key=_rational)
+        else:
+            values.sort(key=cmp_to_key(_by_value))
         low, high = Real(self.sector.low), Real(self.sector.high)
         current: Real | None = None
         passed: list[tuple[int, int, int]] = []
@@ -335,6 +338,12 @@ def target(table: EdgeTable, number: int, side: int) -> tuple[Vector, fmpq]:
 
 def _known(value: fmpq | Real, passed: Sequence[tuple[int, int, int]] = ()) -> BoundLine:
     return known_line(*held(value), list(passed), value)
+
+
+def _rational(a: tuple[Real, BoundLine]) -> fmpq:
+    value = a[0].rational
+    assert value is not None, "only rational values are sorted so"
+    return value
 
 
 def _by_value(a: tuple[Real, BoundLine], b: tuple[Real, BoundLine]) -> int:

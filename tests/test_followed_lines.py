@@ -1,0 +1,117 @@
+"""Lines that graze several features, followed by names: against their exact contacts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from random import Random
+
+import pytest
+from flint import fmpq
+from strategies import arc_terrain, build, circle_grid, degenerate_terrain, square_grid
+
+import exactacq as xa
+from exactacq.geometry.points import Point
+from exactacq.kernel import line_walks
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.sensing import followed_lines
+from exactacq.sensing.complex_edges import FamilySweeper
+from exactacq.sensing.followed_lines import FeatureLine, FollowedLine
+from exactacq.visibility.features import features
+from exactacq.visibility.rotational_sweep import pencil
+from exactacq.visibility.sensor_range import Range
+
+MILL = [xa.Polygon([(k, 0), (k + 1, 0), (k + 1, 1), (k, 1)]) for k in (0, 3, 6)]
+SLOTS = [xa.Outline([(k, 0, 0), (k + 2, 0, 1), (k + 2, 1, 0), (k, 1, 1)]) for k in (0, 5, 10)]
+ROOM = xa.Polygon([(-9, -9), (30, -9), (30, 9), (-9, 9)])
+
+
+def scenes() -> dict[str, xa.Scene]:
+    """Grids, where lines pass many corners or touch many circles, and drawings with smooth joints."""
+    found = {
+        "squares": build(square_grid(4, 3)),
+        "discs": build(circle_grid(4, 2)),
+        "a mill in a room": xa.Scene([*MILL, xa.Circle((12, "1/2"), "1/2")], enclosure=ROOM),
+        "slots": xa.Scene(SLOTS, enclosure=ROOM),
+    }
+    for seed in range(6):
+        terrain = (degenerate_terrain if seed % 2 else arc_terrain)(Random(seed))
+        found[f"random {seed}"] = build(terrain.shapes)
+    return found
+
+
+SCENES = scenes()
+
+
+def lines(sweeper: FamilySweeper, reach: float) -> Iterator[FeatureLine]:
+    """All lines at which cells end."""
+    table = sweeper.table
+    for feature in features(table):
+        for sector in feature.sectors:
+            found = pencil(table, sector, feature.edges, reach)
+            for row in found.rows:
+                for bound in (row.first, row.last):
+                    yield FeatureLine(feature, sector, found.value(bound), tuple(bound.passed))
+
+
+def places(line: FollowedLine) -> list[set[tuple[int, str, str]]]:
+    """What is met in each place, in order, in 30 digits."""
+    found: dict[int, set[tuple[int, str, str]]] = {}
+    for met in line.met:
+        point: Point = met.pin[0]
+        found.setdefault(met.place, set()).add((met.edge, point.x.decimal(30), point.y.decimal(30)))
+    return [found[k] for k in sorted(found)]
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_names_tell_what_exact_contacts_tell(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every line at which a cell of a pencil ends; reaches are no gaps, where either may be told."""
+    scene = SCENES[name]
+    table = EdgeTable(scene.obstacles)
+    told = grazing = blocked = 0
+    for radius in (fmpq(3, 2), fmpq(7, 2), fmpq(17, 2)):
+        sweeper = FamilySweeper(table, Range(radius))
+        for line in lines(sweeper, sweeper.range.above):
+            by_names = sweeper.follower.follow(line)
+            with monkeypatch.context() as patch:
+                patch.setattr(followed_lines, "WalkedLine", Untold)
+                exact = sweeper.follower.follow(line)
+            assert by_names.is_blocked == exact.is_blocked
+            assert places(by_names) == places(exact)
+            assert by_names.blind == exact.blind
+            told += 1
+            grazing += len(places(exact)) > 2
+            blocked += exact.is_blocked[0] + exact.is_blocked[1]
+    assert told > 20
+    assert blocked > 1
+    assert grazing > 1
+
+
+class Untold:
+    """A line of which floats tell nothing."""
+
+    is_told = False
+
+    def __init__(self, *_: object) -> None:
+        pass
+
+
+def test_most_lines_are_told_of() -> None:
+    """Else the exact way would hide what the floats get wrong."""
+    table = EdgeTable(SCENES["squares"].obstacles)
+    sweeper = FamilySweeper(table, Range(fmpq(8)))
+    count = 0
+    told = []
+    walked = line_walks.WalkedLine
+
+    def kept(*arguments: object) -> line_walks.WalkedLine:
+        made = walked(*arguments)
+        told.append(made.is_told)
+        return made
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(followed_lines, "WalkedLine", kept)
+        for line in lines(sweeper, sweeper.range.above):
+            sweeper.follower.follow(line)
+            count += 1
+    assert len(told) == count
+    assert sum(told) > 0.9 * count
