@@ -6,11 +6,13 @@ A robot with a limited radius of vision maps unknown obstacles by one of two str
 """
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
 
 from exactacq.scene.ports import JSON, SVG, offer
 
+TYPE_CHECKING = False  # That of typing, whose import takes as long as all else here.
 if TYPE_CHECKING:
+    from typing import Any
+
     from exactacq.auditing.audit import audit
     from exactacq.errors import AuditError, ExactacqError, FormatError, InvalidScene, Undecided
     from exactacq.files.formats import formats
@@ -123,7 +125,7 @@ offer(SVG, "exactacq.visibility.isovist.Isovist", "exactacq.output.isovist_svg",
 offer(JSON, "exactacq.strategies.run.Run", "exactacq.output.run_json", "run_to_json")
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> "Any":
     """Load the module where a name lives; from then on it is a name of this one."""
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

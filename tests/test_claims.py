@@ -14,6 +14,7 @@ from exactacq.files import gallery
 from exactacq.sensing.event import Occasion
 from exactacq.study.claims import CLAIMS, Case, Outcome, Statement, Status, Subject, claim, verdict
 from exactacq.study.claims.coverage import times_walked
+from exactacq.study.claims.formulas import spoken
 from exactacq.study.claims.model import SILENT, found
 from exactacq.study.claims.sights import overlooked
 from exactacq.study.claims.sightseer import farthest_keeps_the_bound
@@ -45,6 +46,16 @@ class TestRegistry:
                 assert statement.text.endswith(".")
                 assert statement.check or statement.trial
                 assert not (statement.is_called_false and statement.argument)
+
+    def test_formulas_have_plain_words(self) -> None:
+        """Formulas are between dollars, and nothing of their TeX is left in the words for terminals."""
+        texts = [text for c in CLAIMS for text in (c.place, c.note, *(s.text for s in c.statements))]
+        for text in texts:
+            assert text.count("$") % 2 == 0
+            assert not set(spoken(text)) & set("\\{}$")
+            assert not set(text) & set("\\{}") or "$" in text
+        assert claim("L3").printed.words == "The visits are at most n + n n_0 + 1/2 sum n_j (n_j - 1)."
+        assert spoken(r"$\lvert DQ \rvert - c_{k+1}^2 \ge p_{\text{last}}$") == "|DQ| - c_(k+1)^2 >= p_last"
 
     def test_what_is_called_false_has_its_scene(self) -> None:
         for c in CLAIMS:

@@ -22,6 +22,7 @@ from exactacq.study.claims.model import Case, Claim, Finding, Outcome, Statement
 
 DOCS = Path(__file__).parent.parent / "docs"
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in DOCS.glob("*.md")}
+LABELS = {label for text in PAGES.values() for label in re.findall(r"^\(([\w-]+)\)=$", text, re.MULTILINE)}
 FENCE = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 NAMED = re.compile(
@@ -41,7 +42,7 @@ def monkeypatch_module() -> Iterator[pytest.MonkeyPatch]:
     with pytest.MonkeyPatch.context() as patch:
         patch.syspath_prepend(DOCS / "_ext")
         yield patch
-    for name in ("claims_page", "generated"):
+    for name in ("claims_page", "generated", "cut_out"):
         sys.modules.pop(name, None)
 
 
@@ -73,6 +74,7 @@ def broken_links(text: str, made: set[str]) -> list[str]:
             continue
         page = PAGES.get(path.removesuffix(".md")) if path.endswith(".md") else None
         known = page is not None or (path != "" and (DOCS / path).is_file()) or target.startswith("#")
+        known = known or target in LABELS
         if not known or (part and part not in slugs(text if not path else page or "")):
             broken.append(target)
     return broken
@@ -169,6 +171,41 @@ def test_a_false_claim_and_what_holds_instead(extension: ModuleType) -> None:
     assert "[The argument](_generated/arguments/stops.md)" in text
     assert "see the\\_next\\|one" in text and "a `run` stops" in text
     assert listed(text) == ["_generated/arguments/stops", "_generated/arguments/why"]
+
+
+def test_formulas_stay_as_they_are(extension: ModuleType) -> None:
+    text = r"at most $n_0 \le 2$ * [one], `a_b`"
+    assert extension.plain(text) == r"at most $n_0 \le 2$ \* \[one\], `a_b`"
+
+
+def test_long_formulas_can_end_a_line(extension: ModuleType) -> None:
+    """Before a plus sign, but not within brackets."""
+    text = r"$P \le A + k (2n\,n_0 + p_{\max}) + 1.5 \sum p_i - 1$ for $n + 1$"
+    assert extension.plain(text) == (
+        r"$P \le A$ ${}+ k (2n\,n_0 + p_{\max})$ ${}+ 1.5 \sum p_i - 1$ for $n + 1$"
+    )
+
+
+def test_a_counterexample_can_be_played(extension: ModuleType, tmp_path: Path) -> None:
+    text = page_of(extension, SHORT, circles)
+    assert '<iframe src="played/circles-sightseer.html" title="The run of the Sightseer on circles"' in text
+    assert text.count('loading="lazy"') == 1
+    extension.write(tmp_path, [SHORT], 0, tmp_path)
+    played = (tmp_path / "played" / "circles-sightseer.html").read_text()
+    assert "Sightseer Strategy: circles" in played and "default-src 'none'" in played
+
+
+def test_a_part_of_a_figure_is_drawn_large(extension: ModuleType, tmp_path: Path) -> None:
+    """The part lies in its scene, and shows the obstacles that are numbered in it, in the order of visits."""
+    for name, part in extension.cut_out.CUT_OUTS.items():
+        run = extension.example(name).sightseer
+        shown = dict(extension.cut_out.in_window(run, part))
+        assert list(shown) == list(range(3, 13))
+        extension.cut_out.draw(run, part, tmp_path / "part.svg")
+        assert (tmp_path / "part.svg").read_text().count("<path") > len(shown)
+        assert f"![A part of the figure of {name}](_generated/scenes/{name}-part.svg)" in "\n".join(
+            extension.shown(name, Subject.SIGHTSEER)
+        )
 
 
 def test_a_verdict_is_computed_not_told(extension: ModuleType) -> None:

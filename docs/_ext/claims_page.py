@@ -9,8 +9,12 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
+import cut_out
+
 from exactacq.errors import Undecided
 from exactacq.files import gallery
+from exactacq.output.animation.page import frames_of
+from exactacq.output.animation.page import page as player
 from exactacq.output.figures import draw as figures
 from exactacq.strategies.run import Run
 from exactacq.study.claims.model import (
@@ -29,14 +33,22 @@ from exactacq.study.random_scenes import random_scene
 STRATEGIES = {Subject.SIGHTSEER: "Sightseer", Subject.SEED_SPREADER: "Seed Spreader"}
 FOLDER = "_generated"
 """The generated folder, as the page of claims sees it."""
+PLAYED = "played"
+"""The folder of the pages that play a run: in the generated one, and beside the built page of claims."""
 CONTENTS, DEFINITIONS = "README", "definitions"
 """The argument that lists the others, and the page beside their folder with the rules that they cite."""
+FRAME = "width: 100%; height: 46rem; border: 1px solid #c9ccd0"
+"""How the page that plays a run is framed."""
+LONG = 40
+"""Characters of formulas that are taken apart at the end of a line."""
 DETAILS, FAILURES = 3, 5
 """Most findings, and most failing scenes, of one statement that the page quotes."""
 _LINK = re.compile(r"(?<!!)\[([^\]\n]+)\]\(([^)\s]+)\)")
 _DISPLAY = re.compile(r"\s*\$\$(.+?)\$\$\s*", re.DOTALL)
 _HEADING = re.compile(r"^#+ .*$", re.MULTILINE)
 _SPECIAL = re.compile(r"([\\*_<>\[\]|$#~])")
+_KEPT = re.compile(r"(`[^`]*`|\$[^$]+\$)")
+"""Code in backticks and formulas between dollars, which Markdown takes as they are."""
 
 
 @cache
@@ -63,13 +75,22 @@ def write(folder: Path, claims: Sequence[Claim], count: int, arguments: Path) ->
     (folder / "verdicts.md").write_text(page(judged, count, list(texts)), encoding="utf-8")
     statements = [statement for claim in claims for statement in claim.statements]
     (folder / "scenes").mkdir()
+    (folder / PLAYED).mkdir()
     for name, subject in {(n, s.subject) for s in statements for n in s.counterexamples}:
-        figures.save(run_on(example(name), subject), folder / picture(name, subject))
+        _show(run_on(example(name), subject), name, subject, folder)
     (folder / "arguments").mkdir()
     for name, text in texts.items():
         below = "\n".join(["", *_below(n for n in texts if n != CONTENTS)]) if name == CONTENTS else ""
         page_of_it = portable(text, set(texts)) + below
         (folder / "arguments" / f"{name}.md").write_text(page_of_it, encoding="utf-8")
+
+
+def _show(run: Run, name: str, subject: Subject, folder: Path) -> None:
+    """Write the figure of a counterexample's run, the part of it drawn large, and the page that plays it."""
+    figures.save(run, folder / picture(name, subject))
+    if name in cut_out.CUT_OUTS:
+        cut_out.draw(run, cut_out.CUT_OUTS[name], folder / part_of(name))
+    (folder / played(name, subject)).write_text(player(run, frames_of(run)), encoding="utf-8")
 
 
 def judge(
@@ -156,10 +177,27 @@ def _section(claim: Claim, verdicts: Sequence[Verdict]) -> Iterator[str]:
         if statement.argument is not None:
             yield from (f"[The argument]({FOLDER}/arguments/{statement.argument}.md)", "")
         for name in statement.counterexamples:
-            caption = plain(f"The {STRATEGIES[statement.subject]} on {name}: {gallery.names()[name]}")
-            yield from (f"![{caption}]({FOLDER}/{picture(name, statement.subject)})", "", caption, "")
+            yield from shown(name, statement.subject)
     if claim.note:
         yield from (plain(claim.note), "")
+
+
+def shown(name: str, subject: Subject) -> Iterator[str]:
+    """The figure of a counterexample, the part of it that is drawn large, and its run to be played."""
+    caption = plain(f"The {STRATEGIES[subject]} on {name}: {gallery.names()[name]}")
+    yield from (f"![{caption}]({FOLDER}/{picture(name, subject)})", "", caption, "")
+    if name in cut_out.CUT_OUTS:
+        words = plain(cut_out.CUT_OUTS[name].words)
+        yield from (f"![A part of the figure of {name}]({FOLDER}/{part_of(name)})", "", words, "")
+    title = f"The run of the {STRATEGIES[subject]} on {name}"
+    yield from (
+        "```{raw} html",
+        f'<details style="margin-bottom: 1.2rem"><summary>Play this run ({name})</summary>',
+        f'<iframe src="{played(name, subject)}" title="{title}" loading="lazy" style="{FRAME}"></iframe>',
+        "</details>",
+        "```",
+        "",
+    )
 
 
 def _telling(found: Verdict) -> list[str]:
@@ -191,10 +229,31 @@ def picture(scene: str, subject: Subject) -> str:
     return f"scenes/{scene}-{subject.value}.svg"
 
 
+def part_of(scene: str) -> str:
+    """Where the part of that picture is which is drawn large."""
+    return f"scenes/{scene}-part.svg"
+
+
+def played(scene: str, subject: Subject) -> str:
+    """Where the page is that plays the run on a counterexample."""
+    return f"{PLAYED}/{scene}-{subject.value}.html"
+
+
 def plain(text: str) -> str:
-    """Text in which Markdown sees no markup but code in backticks."""
-    parts = " ".join(text.split()).split("`")
-    return "`".join(_SPECIAL.sub(r"\\\1", part) if k % 2 == 0 else part for k, part in enumerate(parts))
+    """Text in which Markdown sees no markup but code in backticks and formulas between dollars."""
+    parts = _KEPT.split(" ".join(text.split()))
+    return "".join(_parted(p) if k % 2 else _SPECIAL.sub(r"\\\1", p) for k, p in enumerate(parts))
+
+
+def _parted(kept: str) -> str:
+    """A long formula as several that begin with the plus signs outside of brackets: there a line may end."""
+    if not kept.startswith("$") or len(kept) <= LONG:
+        return kept
+    found, depth = "", 0
+    for k, sign in enumerate(kept):
+        depth += (sign in "({") - (sign in ")}")
+        found += "$ ${}+" if sign == "+" and depth == 0 and kept[k - 1] == " " else sign
+    return found.replace(" $ $", "$ $")
 
 
 def portable(text: str, known: set[str]) -> str:

@@ -1,17 +1,19 @@
 """What the documentation shows and does not store: pictures and verdicts, computed when it is built.
 
 ``docs/_generated`` receives the SVG files of `PICTURES`, the text of the page of claims with its pictures and
-arguments, and the table of bounds. ``-D claims_scenes=N`` tries the claims on N random scenes of each kind.
+arguments, the table of bounds, and the help of all commands with what their examples print.
+``-D claims_scenes=N`` tries the claims on N random scenes of each kind.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from shutil import rmtree
+from shutil import copytree, rmtree
 from typing import Any
 
 import claims_page
+import command_page
 import tightest
 
 import exactacq as xa
@@ -53,7 +55,7 @@ PICTURES: dict[str, Callable[[Path], None]] = {
     "polygon_limit.svg": lambda path: limit_figure().savefig(path),
 }
 """The pictures that pages name, each with what draws it."""
-TEXTS = ("verdicts.md", "tightest.md")
+TEXTS = ("verdicts.md", "tightest.md", "commands.md")
 """The texts that pages include."""
 
 
@@ -67,10 +69,19 @@ def generate(app: Any) -> None:
     arguments = Path(app.srcdir).parent / "proofs" / "arguments"
     claims_page.write(folder, claims.CLAIMS, int(app.config.claims_scenes), arguments)
     tightest.write(folder, _cases())
+    command_page.write(folder)
+
+
+def take_along(app: Any, failure: Exception | None) -> None:
+    """Copy the pages that play runs beside the built ones; called once when a build ends."""
+    if failure is None and app.builder.format == "html":
+        made = Path(app.srcdir) / FOLDER / claims_page.PLAYED
+        copytree(made, Path(app.outdir) / claims_page.PLAYED, dirs_exist_ok=True)
 
 
 def setup(app: Any) -> dict[str, bool]:
     """Hook into Sphinx."""
     app.add_config_value("claims_scenes", SCENES, "env")
     app.connect("builder-inited", generate)
+    app.connect("build-finished", take_along)
     return {"parallel_read_safe": True}

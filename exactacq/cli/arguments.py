@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
 
+from exactacq.cli.completion import scenes
 from exactacq.cli.file_options import read_from_text
 from exactacq.errors import FormatError, InvalidScene
 from exactacq.files.formats import written_suffixes
@@ -22,7 +23,10 @@ if TYPE_CHECKING:
 Result = TypeVar("Result")
 DRAWINGS = tuple(suffix for suffix in written_suffixes() if suffix != ".json")
 """What a view is written as."""
-SceneName = Annotated[str, typer.Argument(metavar="SCENE", help="A file, or the name of a gallery scene.")]
+SceneName = Annotated[
+    str,
+    typer.Argument(metavar="SCENE", help="A file, or the name of a gallery scene.", autocompletion=scenes),
+]
 Start = Annotated[str | None, typer.Option(metavar="X,Y", help="Start point; required for drawings.")]
 TerrainSize = Annotated[
     str | None,

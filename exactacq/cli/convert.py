@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from exactacq.cli.arguments import Start, naming, number_of, same_file, scene_of
+from exactacq.cli.completion import scenes
 from exactacq.cli.file_options import read_from_text, reads_files
 from exactacq.errors import FormatError
 from exactacq.files.formats import written_suffixes
@@ -18,7 +19,9 @@ if TYPE_CHECKING:
 
 @reads_files
 def convert(
-    source: Annotated[str, typer.Argument(metavar="IN", help="A scene, or a run that --trace wrote.")],
+    source: Annotated[
+        str, typer.Argument(metavar="IN", help="A scene, or a run that --trace wrote.", autocompletion=scenes)
+    ],
     target: Annotated[str, typer.Argument(metavar="OUT", help=f"A file: {', '.join(written_suffixes())}.")],
     start: Start = None,
     at: Annotated[

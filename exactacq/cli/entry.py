@@ -16,13 +16,13 @@ from exactacq.cli.convert import convert
 from exactacq.cli.explore import explore
 from exactacq.cli.gallery import gallery
 from exactacq.cli.isovist import isovist
+from exactacq.cli.manual import epilog, statuses
 from exactacq.errors import ExactacqError, InvalidScene, Undecided
 from exactacq.study.campaign.command import verify
 from exactacq.study.search.command import search
 
 REFUSED, INTERNAL, UNDECIDED, INTERRUPTED = 2, 1, 3, 130
-"""Exit statuses: bad input, a file that cannot be written or a failed audit; a fault of exactacq itself; a
-comparison beyond its limits; control-C."""
+"""Exit statuses; `exactacq.cli.manual.STATUSES` has their words."""
 VIOLATIONS = 8
 """Most violations of a scene that the one line of an error names."""
 UsageError: type[Exception] = typer.BadParameter.__bases__[0]
@@ -31,7 +31,7 @@ UsageError: type[Exception] = typer.BadParameter.__bases__[0]
 app = typer.Typer(
     name="exactacq",
     help="Exact sensor-based terrain acquisition. Numbers are exact: 10, 0.1 or 21/2.",
-    add_completion=False,
+    epilog=statuses(),
     pretty_exceptions_enable=False,
 )
 
@@ -56,7 +56,7 @@ def _top(
 
 
 for command in (explore, compare, check, gallery, convert, isovist, verify, search):
-    app.command()(command)
+    app.command(epilog=epilog(command.__name__))(command)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -65,11 +65,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if hasattr(stream, "reconfigure"):  # Names of files and obstacles may be beyond the encoding.
             stream.reconfigure(errors="backslashreplace")
     try:
-        status = app(args=arguments, prog_name="exactacq", standalone_mode=False)
+        status = _perform(arguments)
         sys.stdout.flush()
     except (KeyboardInterrupt, typer.Abort):
         status = INTERRUPTED
-    except (BrokenPipeError, SystemExit):  # The reader has seen enough; spare the interpreter its own flush.
+    except BrokenPipeError:  # The reader has seen enough; spare the interpreter its own flush.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return REFUSED
     except Undecided as error:
@@ -86,6 +86,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if status == INTERRUPTED:  # Raised, or returned: typer's releases differ.
         return _refuse("interrupted", INTERRUPTED)
     return status if isinstance(status, int) else 0
+
+
+def _perform(arguments: Sequence[str] | None) -> object:
+    """Run a command, or tell a shell how to complete one; the status, if typer returns one."""
+    try:
+        return app(args=arguments, prog_name="exactacq", standalone_mode=False)
+    except (
+        SystemExit
+    ) as end:  # Typer ends so after completing, and with a code if the reader has seen enough.
+        if end.code:
+            raise BrokenPipeError from None
+        return 0
 
 
 def _one_line(error: BaseException) -> str:

@@ -8,6 +8,7 @@ from typing import Annotated, Any, TypeVar
 
 import typer
 
+from exactacq.cli.completion import among
 from exactacq.errors import FormatError
 from exactacq.files.formats import FileOption, formats, options
 
@@ -40,7 +41,11 @@ def _annotation(option: FileOption) -> Any:
     if option.kind == "flag":
         return Annotated[bool, typer.Option(f"--{option.name}", help=text, rich_help_panel=PANEL)]
     metavar = {"number": "N", "names": "A,B", "choice": "|".join(option.choices)}[option.kind]
-    return Annotated[str | None, typer.Option(metavar=metavar, help=text, rich_help_panel=PANEL)]
+    offered = among(option.choices) if option.kind == "choice" else None
+    return Annotated[
+        str | None,
+        typer.Option(metavar=metavar, help=text, rich_help_panel=PANEL, autocompletion=offered),
+    ]
 
 
 def read_from_text(values: Mapping[str, Any]) -> dict[str, object]:

@@ -9,13 +9,17 @@ from typing import Annotated
 import typer
 
 from exactacq.cli.arguments import AsJson, FigureFile
+from exactacq.cli.completion import gallery_scenes
 from exactacq.cli.runs import explored
 from exactacq.errors import FormatError
 from exactacq.strategies.options import Strategy
 
 
 def gallery(
-    name: Annotated[str | None, typer.Argument(metavar="[NAME]", help="A scene to describe or draw.")] = None,
+    name: Annotated[
+        str | None,
+        typer.Argument(metavar="[NAME]", help="A scene to describe or draw.", autocompletion=gallery_scenes),
+    ] = None,
     figure: FigureFile = None,
     out: Annotated[
         str | None, typer.Option(metavar="DIR", help="Explore every scene, and write DIR/NAME.svg.")

@@ -4,10 +4,11 @@ A module imports only from below, so a scene cannot import what draws it. It loo
 port's name; the package's `__init__` registers that function, and its module is loaded on first use.
 """
 
-from __future__ import annotations
-
 from importlib import import_module
-from typing import Any
+
+TYPE_CHECKING = False  # The package begins with this file, so it does not wait for typing.
+if TYPE_CHECKING:
+    from typing import Any
 
 SVG, JSON = "svg", "json"
 _MAKERS: dict[tuple[str, str], tuple[str, str]] = {}
@@ -18,7 +19,7 @@ def offer(port: str, kind: str, module: str, function: str) -> None:
     _MAKERS[port, kind] = module, function
 
 
-def made(port: str, value: object) -> Any:
+def made(port: str, value: object) -> "Any":
     """What a port of an object gives. Only types that `offer` names, and types derived from them, have it."""
     kinds = ((port, f"{kind.__module__}.{kind.__qualname__}") for kind in type(value).__mro__)
     module, function = next(_MAKERS[kind] for kind in kinds if kind in _MAKERS)

@@ -83,4 +83,4 @@ def parts(claims: tuple[Claim, ...]) -> Iterator[tuple[Called, Statement]]:
         for part, statement in zip(("printed", "corrected"), claim.statements, strict=False):
             if statement.check is not None:
                 truth = "false" if statement.is_called_false else "true"
-                yield Called(claim.name, part, statement.subject.value, truth, statement.text), statement
+                yield Called(claim.name, part, statement.subject.value, truth, statement.words), statement

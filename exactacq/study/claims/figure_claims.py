@@ -153,8 +153,8 @@ CLAIMS = (
         "F2",
         "Figure 2, and section 3.3, after Theorem 1",
         Statement(
-            "On a terrain of eleven obstacles the Sightseer circles all of them, and P is close to "
-            "nR + 1.5 sum p_i, well below the bound.",
+            r"On a terrain of eleven obstacles the Sightseer circles all of them, and $P$ is close to "
+            r"$nR + 1.5 \sum p_i$, well below the bound.",
             SIGHTSEER,
             trial=near_n_radii,
         ),

@@ -19,6 +19,7 @@ from exactacq.strategies.run import SeedSpreaderRun, SightseerRun
 from exactacq.strategies.seed_spreader.strategy import seed_spreader
 from exactacq.strategies.sightseer.strategy import sightseer
 from exactacq.study.claims.farthest import farthest_first
+from exactacq.study.claims.formulas import spoken
 from exactacq.visibility.links import START, visibility_graph
 
 Made = TypeVar("Made")
@@ -142,6 +143,7 @@ class Subject(Enum):
 class Statement:
     """A claim in words of this study, and what decides it.
 
+    ``text`` has its formulas in TeX, between dollars; ``words`` is the same in plain characters.
     ``check`` decides one case. ``trial`` decides what no single scene can, or puts an argument to the
     test. ``counterexamples`` are gallery scenes that must fail the check exactly; a statement with one is
     classified as false. ``is_false`` classifies it as false where no single scene shows it: then the
@@ -155,6 +157,11 @@ class Statement:
     counterexamples: tuple[str, ...] = ()
     argument: str | None = None
     is_false: bool = False
+
+    @property
+    def words(self) -> str:
+        """The text as a terminal shows it, with formulas in plain characters."""
+        return spoken(self.text)
 
     @property
     def is_called_false(self) -> bool:

@@ -148,7 +148,7 @@ CLAIMS = (
             moves_straight,
             argument="SS-2",
         ),
-        note="With v as the weight: of what a segment met first, the first would be nearer. It may graze "
+        note="With $v$ as the weight: of what a segment met first, the first would be nearer. It may graze "
         "visited obstacles.",
     ),
     Claim(
@@ -183,8 +183,8 @@ CLAIMS = (
         "SS-5",
         "section 3.3, before Lemma 1",
         Statement(
-            "In model (a) the segments walked are a spanning tree, the stack holds at most n - 1 "
-            "obstacles, and at most n - 2 visits are returns.",
+            "In model (a) the segments walked are a spanning tree, the stack holds at most $n - 1$ "
+            "obstacles, and at most $n - 2$ visits are returns.",
             SIGHTSEER,
             walks_a_tree,
             argument="SS-5",
@@ -196,15 +196,15 @@ CLAIMS = (
         "SS-6",
         "section 3.3, before Theorem 1",
         Statement(
-            "Each segment between obstacles is at most min(R, d_max) long, d_max the largest closest "
-            "distance between two obstacles.",
+            r"Each segment between obstacles is at most $\min(R, d_{\max})$ long, $d_{\max}$ the largest "
+            "closest distance between two obstacles.",
             SIGHTSEER,
             edges_within_distance,
             counterexamples=("m8",),
         ),
         Statement(
-            "Each segment from i to j is the shortest visible one, v(i, j), and so at most min(R, v_max) "
-            "long.",
+            r"Each segment from $i$ to $j$ is the shortest visible one, $v(i, j)$, and so at most "
+            r"$\min(R, v_{\max})$ long.",
             SIGHTSEER,
             edges_within_sight,
             argument="SS-6",
@@ -221,7 +221,7 @@ CLAIMS = (
             farthest_keeps_the_bound,
             argument="SS-7",
         ),
-        note="v_max is then that of the other tree.",
+        note=r"$v_{\max}$ is then that of the other tree.",
     ),
     Claim(
         "L1",
@@ -235,13 +235,13 @@ CLAIMS = (
         "L2",
         "Lemma 2",
         Statement(
-            "In model (a) n obstacles get at most 2(n - 1) visits, those on the way back included.",
+            "In model (a) $n$ obstacles get at most $2(n - 1)$ visits, those on the way back included.",
             SIGHTSEER,
             visits_few,
             counterexamples=("l2",),
         ),
         Statement(
-            "The same for n >= 2.",
+            r"The same for $n \ge 2$.",
             SIGHTSEER,
             visits_few_of_several,
             argument="L2",

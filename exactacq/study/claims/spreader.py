@@ -336,13 +336,13 @@ CLAIMS = (
         "section 4.3, before Case 1",
         Statement(
             "For convex obstacles every diversion circles an unvisited occluder besides its target, so "
-            "there are at most n / 2 diversions.",
+            "there are at most $n / 2$ diversions.",
             SPREADER,
             diverts_for_occluders,
             counterexamples=("m15", "sss5"),
         ),
         Statement(
-            "There are at most n diversions, and for every n there are n obstacles that take n.",
+            "There are at most $n$ diversions, and for every $n$ there are $n$ obstacles that take $n$.",
             SPREADER,
             diverts_once_each,
             diverts_to_each_pocket,
@@ -350,32 +350,35 @@ CLAIMS = (
         ),
         "The occluder can be known already (m15), or lie beside the way to the target (sss5): there two "
         "diversions are made for three obstacles, by any option. The like scene m18 needs one diversion "
-        "only. It takes obstacles with pockets to reach n; seven convex ones can take six (tight-sss5-fan).",
+        "only. It takes obstacles with pockets to reach $n$; seven convex ones can take six "
+        "(tight-sss5-fan).",
     ),
     Claim(
         "SSS-6",
-        "section 4.3, before Theorem 2: the term 2nw of (5)",
+        "section 4.3, before Theorem 2: the term $2nw$ of (5)",
         Statement(
-            "The straight parts of a diversion add up to at most 2w, w the width of a strip.",
+            "The straight parts of a diversion add up to at most $2w$, $w$ the width of a strip.",
             SPREADER,
             diversions_within_width,
             counterexamples=("sss6", "relay"),
         ),
         Statement(
-            "They add up to at most 2 |DQ|, which is at most 2R for a diversion because of sight or reach.",
+            r"They add up to at most $2\,\lvert DQ \rvert$, which is at most $2R$ for a diversion because "
+            "of sight or reach.",
             SPREADER,
             diversions_within_radius,
             argument="ways",
         ),
-        "Even 2R is too little for an obstacle that was first seen on another diversion: on relay |DQ| "
-        "grows to 5.8 R, and with it the sum of all diversions grows quadratically in n.",
+        "Even $2R$ is too little for an obstacle that was first seen on another diversion: on relay "
+        r"$\lvert DQ \rvert$ grows to $5.8\,R$, and with it the sum of all diversions grows quadratically "
+        "in $n$.",
     ),
     Claim(
         "SSS-7",
         "section 4.3, before Theorem 2",
         Statement(
-            "To acquire an obstacle and leave it costs at most 3p of its boundary, 1.5p clear of the "
-            "border; to pass around it p, or p/2.",
+            "To acquire an obstacle and leave it costs at most $3p$ of its boundary, $1.5p$ clear of the "
+            "border; to pass around it $p$, or $p/2$.",
             SPREADER,
             costs_three_perimeters,
             argument="SSS-7",
@@ -413,14 +416,15 @@ CLAIMS = (
         "E3",
         "section 4.1, equation (3)",
         Statement(
-            "The robot leaves an obstacle at the crossing point after its hit point: H = c_k, L = c_(k+1).",
+            "The robot leaves an obstacle at the crossing point after its hit point: $H = c_k$, "
+            "$L = c_{k+1}$.",
             SPREADER,
             leaves_at_the_next_crossing,
             counterexamples=("e3",),
         ),
         Statement(
             "That holds clear of the border, where the crossing points are even in number; at the border "
-            "L is the next one at which the M-line goes on and that the robot can walk to.",
+            "$L$ is the next one at which the M-line goes on and that the robot can walk to.",
             SPREADER,
             leaves_where_it_can,
             argument="E3",

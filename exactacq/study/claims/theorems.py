@@ -88,35 +88,36 @@ CLAIMS = (
         "T1",
         "Theorem 1, bounds (1) and (2)",
         Statement(
-            "In model (a), P <= 2(n - 1) min(R, d_max) + 1.5 sum p_i + (n - 2) p_max / 2.",
+            r"In model (a), $P \le 2(n - 1) \min(R, d_{\max}) + 1.5 \sum p_i + (n - 2) p_{\max} / 2$.",
             SIGHTSEER,
             keeps_theorem_1,
             counterexamples=("m9",),
         ),
         Statement(
-            "In model (a), P <= S-S1 + (2n - 3) min(R, v_max) + 1.5 sum p_i - p_last / 2 + (n - 2) p_max / 2 "
-            "for n >= 2; P = S-S1 + p for n = 1.",
+            r"In model (a), $P \le \lvert S S_1 \rvert + (2n - 3) \min(R, v_{\max}) + 1.5 \sum p_i - "
+            r"p_{\text{last}} / 2 + (n - 2) p_{\max} / 2$ for $n \ge 2$; $P = \lvert S S_1 \rvert + p$ for "
+            "$n = 1$.",
             SIGHTSEER,
             keeps_corrected_theorem_1,
             argument="T1",
         ),
-        "What is visible only past something can be farther than any two obstacles are apart. S-S1 is "
-        "the way from a free start to the first obstacle, v_max the longest tree edge.",
+        r"What is visible only past something can be farther than any two obstacles are apart. $\lvert S "
+        r"S_1 \rvert$ is the way from a free start to the first obstacle, $v_{\max}$ the longest tree edge.",
     ),
     Claim(
         "L3",
         "Lemma 3, bound (4)",
         Statement(
-            "The visits are at most n + n n_0 + 1/2 sum n_j (n_j - 1).",
+            r"The visits are at most $n + n\,n_0 + \tfrac{1}{2} \sum n_j (n_j - 1)$.",
             SPREADER,
             keeps_lemma_3,
             counterexamples=("m20-3",),
         ),
         Statement(
-            "The visits are at most n + n n_0 + 1/2 sum n_j (n_j - 1) + sum re_i + s, re_i the number of "
-            "times that obstacle i blocks the M-line after it was acquired, s the number of aims that are "
-            "acquired on the way to them and still in the way; n + n(n - 1)/2 + sum re_i + s if a diversion "
-            "meets obstacles of another strip.",
+            r"The visits are at most $n + n\,n_0 + \tfrac{1}{2} \sum n_j (n_j - 1) + \sum \mathit{re}_i + "
+            r"s$, $\mathit{re}_i$ the number of times that obstacle $i$ blocks the M-line after it was "
+            "acquired, $s$ the number of aims that are acquired on the way to them and still in the way; "
+            r"$n + n(n - 1)/2 + \sum \mathit{re}_i + s$ if a diversion meets obstacles of another strip.",
             SPREADER,
             keeps_corrected_lemma_3,
             argument="L3",
@@ -128,17 +129,17 @@ CLAIMS = (
         "T2",
         "Theorem 2, bounds (5), (6) and (9)-(11)",
         Statement(
-            "P is at most (5) and (6); at most (9) if diversions meet no known obstacle, (10) if none "
+            "$P$ is at most (5) and (6); at most (9) if diversions meet no known obstacle, (10) if none "
             "meets the border, (11) if both.",
             SPREADER,
             keeps_theorem_2,
             counterexamples=("m20-3", "m20-6", "m20-8", "m20-16", "relay"),
         ),
         Statement(
-            "P <= A + B + rA + 2nR + 2 sum max(0, |DQ| - R) + a sum p_i + k (2n n_0 p_max + p_max sum "
-            "n_j (n_j - 1)) + k sum re_i p_i + k sum of p over overtaken aims; a = 3/2 and k = 1/2 if no "
-            "obstacle meets the border, else 3 and 1; with n^2 p_max for the bracket if a diversion meets "
-            "obstacles of another strip.",
+            r"$P \le A + B + rA + 2nR + 2 \sum \max(0, \lvert DQ \rvert - R) + a \sum p_i + k "
+            r"(2n\,n_0\,p_{\max} + p_{\max} \sum n_j (n_j - 1)) + k \sum \mathit{re}_i\,p_i + k \sum$ of "
+            "$p$ over overtaken aims; $a = 3/2$ and $k = 1/2$ if no obstacle meets the border, else 3 and "
+            r"1; with $n^2 p_{\max}$ for the bracket if a diversion meets obstacles of another strip.",
             SPREADER,
             keeps_corrected_theorem_2,
             argument="T2",
@@ -151,7 +152,7 @@ CLAIMS = (
         "C8",
         "section 4.3, Case 1, equation (8)",
         Statement(
-            "If nothing blocks the M-line and nothing is diverted to, P = A + B + rA.",
+            "If nothing blocks the M-line and nothing is diverted to, $P = A + B + rA$.",
             SPREADER,
             is_the_m_line,
             argument="C8",

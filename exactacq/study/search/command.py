@@ -41,8 +41,18 @@ class Wording(StrEnum):
     CORRECTED = "corrected"
 
 
+def claims(incomplete: str) -> list[str]:
+    """The claims that begin so, for a shell to offer."""
+    from exactacq.study.claims import CLAIMS
+
+    return [claim.name for claim in CLAIMS if claim.name.startswith(incomplete)]
+
+
 def search(
-    claim: Annotated[str, typer.Argument(metavar="CLAIM", help="A claim, or a bound like (6) or 6.")],
+    claim: Annotated[
+        str,
+        typer.Argument(metavar="CLAIM", help="A claim, or a bound like (6) or 6.", autocompletion=claims),
+    ],
     statement: Annotated[Wording, typer.Option(help="As printed, or as corrected.")] = Wording.PRINTED,
     strategy: Annotated[
         Strategy | None, typer.Option(help="Checks that the claim speaks of this strategy.")
@@ -129,7 +139,7 @@ def _report(target: Goal, referee: Referee, found: Ruling | None, out: str | Non
 
     show = console()
     dropped = ", ".join(f"{count} {kind}" for kind, count in sorted(referee.dropped.items()))
-    show.print(f"{target.name}: {target.statement.text}")
+    show.print(f"{target.name}: {target.statement.words}")
     show.print(f"judged {referee.judged} scenes" + (f", dropped: {dropped}" if dropped else ""))
     for fault in referee.faults[:1]:
         show.print(f"first fault: {fault.reason} on {' '.join(fault.draft.text().split())}", soft_wrap=True)
