@@ -206,7 +206,7 @@ register(
         name="json",
         title="JSON scenes",
         suffixes=(".json",),
-        reader="exactacq.files.scene_json:load_json",
+        reader="exactacq.files.json_dialects:load_json",
         writer="exactacq.files.scene_json:written",
     )
 )

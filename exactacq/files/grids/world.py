@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from flint import fmpq
 
-from exactacq.errors import FormatError
+from exactacq.errors import FormatError, shown
 from exactacq.files.grids.outlines import JOIN, STEPS, Cells, outlines
 from exactacq.files.loops.areas import Areas
 from exactacq.files.loops.arrangement import count
@@ -58,7 +58,7 @@ def grid_scene(
     around the start. Raises `FormatError` and `InvalidScene`.
     """
     if placement.size <= 0:
-        raise FormatError(f"a cell {placement.size} wide; the width of a cell is positive")
+        raise FormatError(f"a cell {shown(placement.size)} wide; the width of a cell is positive")
     walled = border == "wall"
     if walled and start is None:
         height, width = blocked.shape
