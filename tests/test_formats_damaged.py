@@ -118,3 +118,29 @@ def test_curves_under_transforms_of_long_numbers(tmp_path: Path) -> None:
     with pytest.raises(xa.FormatError, match="more than 4000 arcs"):
         svg(tmp_path, turned + '<path d="M1 1C15 30 30 30 30 10"/>' + "</g>" * 30, flatten="1e-3")
     assert time.process_time() - begun < SECONDS
+
+
+def test_one_loop_over_and_over(tmp_path: Path) -> None:
+    """All pairs of edges meet, at few places: the search for violations stops, and nothing is merged."""
+    path = put(KINDS["wkt"], tmp_path, f"POLYGON({','.join(['(0 0, 4 0, 1 3, 0 0)'] * 5000)})".encode())
+    begun = time.process_time()
+    with pytest.raises(xa.ExactacqError, match="pairs of edges nearly meet; select|were not looked for"):
+        xa.load(path, start=(9, 9), union=True)
+    path = put(KINDS["visilibity"], tmp_path, b"//\n0 0\n9 0\n9 9\n0 9\n" + b"//\n1 1\n2 1\n2 2\n" * 5000)
+    with pytest.raises(xa.InvalidScene) as error:
+        xa.load(path, start=(8, 8))
+    assert len(error.value.violations) < 60
+    assert time.process_time() - begun < 2 * SECONDS
+
+
+def test_the_union_with_an_arc_that_is_nearly_straight(tmp_path: Path) -> None:
+    """Its bulge was enclosed too widely to tell that it is positive."""
+    text = (
+        "MULTISURFACE(CURVEPOLYGON(CIRCULARSTRING(1 1e-99, 2 1, 1 1, 0 1, 1 1e-99)), "
+        "CURVEPOLYGON(COMPOUNDCURVE((0 0, 4 0), CIRCULARSTRING(4 0, 1e9 1, 4 2), (4 2, 0 2, 0 0))))"
+    )
+    path = put(KINDS["wkt"], tmp_path, text.encode())
+    try:
+        assert xa.load(path, start=(-9, 9), union=True).obstacles
+    except xa.ExactacqError as error:
+        assert "\n" not in str(error)
