@@ -65,7 +65,7 @@ def grid_scene(
         (x0, y0, _), (x1, y1, _) = placement(0, 0), placement(STEPS * width, STEPS * height)
         raise FormatError(
             "beyond its border all is blocked: give a start with --start X,Y (start=(x, y) in Python); "
-            f"it lies between ({x0}, {y0}) and ({x1}, {y1})"
+            f"it lies between ({shown(x0)}, {shown(y0)}) and ({shown(x1)}, {shown(y1)})"
         )
     rings = outlines(np.pad(blocked, 1, constant_values=True) if walled else blocked, corners)
     if walled:  # of the border of blocked cells around, the outside is none of the grid's

@@ -20,8 +20,8 @@ MAX_CANDIDATES = 5_000_000
 """Pairs of edges with overlapping boxes beyond which a drawing is refused: a minute's work, and no clean part
 comes near it (a real plan of 1854 edges has some thousand)."""
 MAX_COMPARED = 100_000
-"""Most pairs of edges of different loops that are compared exactly: each takes some 0.03 milliseconds. Loops of
-a drawing are apart but for a few."""
+"""Most pairs of edges of different loops that are compared exactly: each takes some 0.03 milliseconds. Loops
+of a drawing are apart but for a few."""
 
 
 class Loops:
@@ -67,7 +67,8 @@ class Loops:
                 compared += 1
                 if compared > MAX_COMPARED:
                     raise FormatError(
-                        f"more than {MAX_COMPARED} pairs of edges nearly meet; select layers that hold one part"
+                        f"more than {MAX_COMPARED} pairs of edges nearly meet; "
+                        "select layers that hold one part"
                     )
                 if contacts(flat[a], flat[b]):
                     found.add((pair[0], pair[1]))
