@@ -306,17 +306,21 @@ def corners(scene: xa.Scene) -> list[tuple[float, float, float, float]]:
         (NESTED.format("<rect width='50%' height='100%'/>"), [(10, 30, 20, 50)]),
         ("<svg x='5' y='6' width='9' height='9'><rect width='4' height='3'/></svg>", [(5, 6, 9, 9)]),
         ("<defs><rect id='a' width='4' height='3'/></defs><use href='#a' x='5' y='6'/>", [(5, 6, 9, 9)]),
-        ("<use xlink:href='#a' transform='scale(2)'/><g display='none'><rect id='a' x='1' width='4' height='3'/></g>",
+        ("<use xlink:href='#a' transform='scale(2)'/><g display='none'>"
+         "<rect id='a' x='1' width='4' height='3'/></g>",
          [(2, 0, 10, 6)]),
         (SYMBOL, []),
-        (SYMBOL + "<use href='#s' x='20' width='20' height='20'/><use href='#s' y='50' width='5' height='5'/>",
+        (SYMBOL + "<use href='#s' x='20' width='20' height='20'/>"
+         "<use href='#s' y='50' width='5' height='5'/>",
          [(20, 0, 40, 20), (0, 50, 5, 55)]),
         ("<g id='a'><rect width='1' height='1'/></g><g id='b'><use href='#a' x='2'/></g><use href='#b' y='3'/>",
          [(0, 0, 1, 1), (2, 0, 3, 1), (2, 3, 3, 4)]),
         ("<rect x='1in' y='6pt' width='10%' height='25%'/>", [(96, 8, 106, 33)]),
-        ("<g visibility='hidden'><rect width='9' height='9'/><rect style='visibility: visible' width='2' height='3'/></g>",
+        ("<g visibility='hidden'><rect width='9' height='9'/>"
+         "<rect style='visibility: visible' width='2' height='3'/></g>",
          [(0, 0, 2, 3)]),
-        ("<svg width='0' height='5'><rect width='9' height='9'/></svg><rect width='2' height='3'/>", [(0, 0, 2, 3)]),
+        ("<svg width='0' height='5'><rect width='9' height='9'/></svg><rect width='2' height='3'/>",
+         [(0, 0, 2, 3)]),
     ],
 )  # fmt: skip
 def test_where_things_are_drawn(tmp_path: Path, content: str, boxes: list[tuple[float, ...]]) -> None:
