@@ -19,8 +19,8 @@ def load(name: str | os.PathLike[str] | HasGeoInterface | Mapping[str, Any], **o
 
     Such areas are all objects with `__geo_interface__`, such as polygons of shapely, lists of them, and dicts
     that are GeoJSON; they are read like GeoJSON. *options* are the start and those of the format: see
-    `exactacq.files.by_suffix.load`. Raises `FormatError` if there is no such file or scene or the file cannot be
-    read, `InvalidScene` if the scene breaks the rules. Near linear in the size of the file.
+    `exactacq.files.by_suffix.load`. Raises `FormatError` if there is no such file or scene or the file cannot
+    be read, `InvalidScene` if the scene breaks the rules. Near linear in the size of the file.
 
     >>> scene = load("circles")
     >>> scene, scene.start, scene.radius

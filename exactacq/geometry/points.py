@@ -58,7 +58,7 @@ class Point:
         if isinstance(value, Point):
             return value
         try:
-            x, y = (None,) if isinstance(value, str) else point_pair(value)
+            x, y = point_pair(None if isinstance(value, str) else value)
         except (TypeError, ValueError):
             raise FormatError(f"a point needs two numbers, not {shown(value)}") from None
         return cls(x, y)

@@ -82,9 +82,9 @@ class Polygon(Loop):
     """A closed boundary of straight edges, from at least 3 vertices ``(x, y)``.
 
     These are pairs of numbers, an array of two columns, or a polygon of another library, such as shapely's:
-    anything whose ``__geo_interface__`` is a Polygon without holes, a closed line, or a Feature with one. A last
-    vertex that repeats the first is left out. Raises `FormatError` for anything else; whether the boundary is a legal
-    one is asked by `Scene`.
+    anything whose ``__geo_interface__`` is a Polygon without holes, a closed line, or a Feature with one. A
+    last vertex that repeats the first is left out. Raises `FormatError` for anything else; whether the
+    boundary is a legal one is asked by `Scene`.
 
     >>> square = Polygon([(0, 0), (1, 0), (1, 1), (0, 1)], name="square")
     >>> import exactacq as xa
