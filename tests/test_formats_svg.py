@@ -313,7 +313,8 @@ def corners(scene: xa.Scene) -> list[tuple[float, float, float, float]]:
         (SYMBOL + "<use href='#s' x='20' width='20' height='20'/>"
          "<use href='#s' y='50' width='5' height='5'/>",
          [(20, 0, 40, 20), (0, 50, 5, 55)]),
-        ("<g id='a'><rect width='1' height='1'/></g><g id='b'><use href='#a' x='2'/></g><use href='#b' y='3'/>",
+        ("<g id='a'><rect width='1' height='1'/></g><g id='b'><use href='#a' x='2'/></g>"
+         "<use href='#b' y='3'/>",
          [(0, 0, 1, 1), (2, 0, 3, 1), (2, 3, 3, 4)]),
         ("<rect x='1in' y='6pt' width='10%' height='25%'/>", [(96, 8, 106, 33)]),
         ("<g visibility='hidden'><rect width='9' height='9'/>"
@@ -332,7 +333,8 @@ def test_where_things_are_drawn(tmp_path: Path, content: str, boxes: list[tuple[
 def test_what_is_done_and_not_done_is_told(tmp_path: Path) -> None:
     content = (
         "<style>a {fill: red}</style><clipPath id='c'><circle r='9'/></clipPath>"
-        "<g clip-path='url(#c)' style='mask: url(#m)'><rect id='a' width='4' height='3'/></g><use href='#a' x='9'/>"
+        "<g clip-path='url(#c)' style='mask: url(#m)'><rect id='a' width='4' height='3'/></g>"
+        "<use href='#a' x='9'/>"
         "<use href='other.svg#b'/><image/>"
     )
     used, left = read(tmp_path, content).notes

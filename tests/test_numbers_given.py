@@ -17,8 +17,8 @@ import exactacq as xa
 
 SQUARE = [(0, 0), (0, 1), (1, 1), (1, 0)]  # clockwise
 NUMBERS = (
-    int, float, np.int16, np.int64, np.float32, np.float64, np.longdouble, np.array, sympy.Integer, Decimal, Fraction,
-    fmpq, str,
+    int, float, np.int16, np.int64, np.float32, np.float64, np.longdouble, np.array, sympy.Integer, Decimal,
+    Fraction, fmpq, str,
 )  # fmt: skip
 HALVES = (
     float,
