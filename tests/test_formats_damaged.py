@@ -1,6 +1,6 @@
 """Damaged files of every format: each is read, or refused in one line, in bounded time.
 
-`EXACTACQ_MUTATIONS` asks for more than the everyday number; `fuzz_files` reads ten thousand of each format,
+`EXACTACQ_MUTATIONS` asks for more than the everyday number; `fuzz_files` reads thousands of each format,
 within limits of memory and time. What that found is in the cases below.
 """
 
@@ -82,7 +82,7 @@ def test_no_entity_is_expanded(tmp_path: Path, data: bytes) -> None:
         read("svg", put(KINDS["svg"], tmp_path, data), {})
 
 
-# -- what ten thousand of each format found --------------------------------------------------------------
+# -- what thousands of each format found --------------------------------------------------------------
 
 
 def svg(tmp_path: Path, body: str, **options: object) -> xa.Scene:
