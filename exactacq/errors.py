@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from reprlib import repr as short
 from typing import Any
@@ -23,15 +23,20 @@ class ExactacqError(Exception):
 class InvalidScene(ExactacqError, ValueError):
     """A scene breaks a rule of `exactacq.scene.validation`: all violations found are in ``violations``.
 
+    Of a scene from a file, ``cure`` says what may help, such as an option of the file's format.
+
     >>> import exactacq as xa
     >>> xa.Scene([xa.Circle((0, 0), 1)], start=(0, 0))
     Traceback (most recent call last):
     exactacq.errors.InvalidScene: start (0, 0) lies inside obstacle 0: it must lie in free space
     """
 
-    def __init__(self, violations: list[str]) -> None:
-        self.violations = tuple(violations)
-        super().__init__("; ".join(violations))
+    def __init__(self, violations: Iterable[str], cure: str = "") -> None:
+        self.violations, self.cure = tuple(violations), cure
+        super().__init__("; ".join((*self.violations, cure) if cure else self.violations))
+
+    def __reduce__(self) -> tuple[type[InvalidScene], tuple[tuple[str, ...], str]]:
+        return type(self), (self.violations, self.cure)
 
 
 class FormatError(ExactacqError, ValueError):

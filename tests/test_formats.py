@@ -47,6 +47,14 @@ def test_foreign_options_are_refused_in_one_line(known: Format, tmp_path: Path) 
         xa.load(path, colour=1)
 
 
+def test_why_drawings_are_not_simplified(tmp_path: Path) -> None:
+    """A staircase that was drawn may be one; those that cells make say nothing."""
+    path = tmp_path / "stairs.wkt"
+    path.write_text("POLYGON((0 0, 3 0, 3 1, 2 1, 2 2, 1 2, 1 3, 0 3, 0 0))")
+    with pytest.raises(xa.FormatError, match=r"not for well-known text; leave it out \(it smooths the steps"):
+        xa.load(path, simplify=1)
+
+
 def test_options_of_one_name_are_one_option() -> None:
     seen: dict[str, FileOption] = {}
     for known in FORMATS:

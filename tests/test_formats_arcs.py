@@ -7,6 +7,7 @@ from itertools import pairwise
 from random import Random
 
 import mpmath
+import pytest
 from flint import fmpq
 from hypothesis import given
 from hypothesis import strategies as st
@@ -15,7 +16,7 @@ from exactacq.files.loops.assembly import default_tolerance
 from exactacq.files.loops.chains import Chain, Corner, root_above, scientific_above
 from exactacq.files.loops.cusps import open_cusps
 from exactacq.files.loops.rational_arcs import arc_around, arc_corners, cosine_sine, simplest_between
-from exactacq.files.loops.stitching import stitch
+from exactacq.files.loops.stitching import _least_turned, stitch
 from exactacq.numbers.rationals import rational
 from exactacq.scene.bends import Around
 
@@ -219,3 +220,19 @@ def test_an_arc_whose_end_moves_has_a_bulge_within_the_bound() -> None:
     assert isinstance(bulge, fmpq) and abs(bulge + 1) ** 2 != 2
     assert abs((abs(bulge) + 1) ** 2 - 2) < fmpq(1, 2**45)
     assert gap <= loop.moved() <= 2 * gap
+
+
+@pytest.mark.parametrize("power", [-12000, -400, -299, -17, -1, 0, 1, 2, 17, 299, 400, 12000])
+@pytest.mark.parametrize("value", ["1", "9.9", "9.91", "2.65", "7/3"])
+def test_bounds_are_told_in_two_digits_rounded_up(power: int, value: str) -> None:
+    """Also of numbers with more digits than Python likes to write out, which transforms can make."""
+    exact = rational(value) * fmpq(10) ** power
+    digits, _, exponent = scientific_above(exact).partition("e")
+    told = rational(digits) * fmpq(10) ** int(exponent or 0)
+    assert exact <= told <= exact * fmpq(11, 10)
+    assert len(digits.replace(".", "").strip("0")) <= 2
+
+
+@given(st.lists(st.integers(0, 2), min_size=1, max_size=9))
+def test_the_least_rotation(rows: list[int]) -> None:
+    assert _least_turned(rows) == min(rows[i:] + rows[:i] for i in range(len(rows)))  # type: ignore[arg-type]

@@ -12,6 +12,9 @@ from flint import fmpq
 
 from exactacq.errors import FormatError
 from exactacq.files.by_suffix import load
+from exactacq.files.repairs.bezier import polynomial
+from exactacq.files.repairs.flattened import Flattening
+from exactacq.numbers.rationals import rational
 from exactacq.scene.scene import Scene
 
 
@@ -155,3 +158,23 @@ def test_a_drawing_of_too_many_arcs_is_refused(tmp_path: Path, monkeypatch: pyte
     monkeypatch.setattr("exactacq.files.repairs.flattened.MAX_EDGES", 3)
     with pytest.raises(FormatError, match="flatten: more than 3 arcs"):
         load(svg(tmp_path, '<path d="M10 10 C10 30 30 30 30 10 Z"/>'), start=(90, 90), flatten="1/100")
+
+
+def test_curves_that_are_alike_are_flattened_once(tmp_path: Path) -> None:
+    """A page of letters, or a megabyte of one ellipse over and over: only the first takes time."""
+    shape = "M{0} {1}c0 {2} 4 {2} 4 0z"
+    path = tmp_path / "a.svg"
+    places = [(10 * x, 7 * y) for x in range(5) for y in range(4)]
+    path.write_text(f'<svg><path d="{"".join(shape.format(*place, 3) for place in places)}"/></svg>')
+    obstacles = load(path, start=(-5, -5), flatten="0.001").shapes
+    first = obstacles[0].vertices
+    assert len(obstacles) == len(places)
+    for shape, (x, y) in zip(obstacles, places, strict=True):
+        assert shape.vertices == tuple((u + x, v - y, bend) for u, v, bend in first)
+    reader = Flattening(rational("0.001"))
+    piece = polynomial([(rational(x), rational(y)) for x, y in ((0, 0), (0, 3), (4, 3), (4, 0))])
+    made = []
+    for _ in range(3):
+        reader.corners("Bézier curves", [piece])
+        made.append(reader.made)
+    assert made[0] == made[2] > 0 and reader.arcs == 3 * 10

@@ -148,7 +148,8 @@ def test_y_goes_up_in_the_same_box(tmp_path: Path) -> None:
         ('viewBox="0 0 10 8"', {(1, 7), (3, 7), (1, 6)}),
         ('viewBox="0 -2 10 8"', {(1, 3), (3, 3), (1, 2)}),
         ('width="10" height="8px"', {(1, 7), (3, 7), (1, 6)}),
-        ('width="10mm" height="8mm"', {(1, -1), (3, -1), (1, -2)}),
+        ('width="10in" height="8in"', {(1, 767), (3, 767), (1, 766)}),
+        ('width="100%" height="100%"', {(1, -1), (3, -1), (1, -2)}),
     ):
         (shape,) = read(tmp_path, triangle, root=root).shapes
         assert {(x, y) for x, y, _ in shape.vertices} == wanted
@@ -184,7 +185,8 @@ def test_what_is_hidden_or_not_drawn_is_left_out(tmp_path: Path) -> None:
     scene = read(tmp_path, content)
     assert areas(scene) == ["pi"]
     assert set(scene.notes[0].removeprefix("left out ").split(", ")) == {
-        "1 text", "2 hidden element", "1 use", "1 circle of no radius", "1 flattened rect",
+        "1 text", "2 hidden element", "1 use of what the file does not have", "1 circle of no radius",
+        "1 flattened rect",
     }  # fmt: skip
 
 
@@ -202,7 +204,11 @@ BOMB = '<!DOCTYPE svg [<!ENTITY a "aaaa"><!ENTITY b "&a;&a;">]><svg><text>&b;</t
         ('<path d="M0 0a1 1 0 0 1 2 0z" transform="skewX(10)"/>', "its transform makes arcs elliptical"),
         ('<rect width="4" height="3" rx="9"/>', "a rectangle with elliptical corners"),
         ('<rect width="4" height="3" rx="1" ry="2"/>', "a rectangle with elliptical corners"),
-        ('<rect width="4mm" height="3"/>', "width: a number without a unit is needed, not '4mm'"),
+        (
+            '<rect width="4em" height="3"/>',
+            "width: a number, perhaps with px in cm mm pt pc q or %, is needed",
+        ),
+        ('<rect width="50%" height="3"/>', "rect: width: 50% of what is not told; give a number"),
         ('<circle r="1e9999999"/>', "circle: not a number"),
         ('<path d="L0 0"/>', "a path that begins with M is needed at character 5"),
         ('<path d="M0 0L1"/>', "a number is needed at character 7, not the end"),
@@ -216,13 +222,19 @@ BOMB = '<!DOCTYPE svg [<!ENTITY a "aaaa"><!ENTITY b "&a;&a;">]><svg><text>&b;</t
         ('<rect transform="' + "scale(2)" * 99 + '" width="1" height="1"/>', "not a transform"),
         ('<polygon points="1,2 x"/>', "points: numbers are needed"),
         ("<g>" * 5000, "nested more than 64 deep"),
-        ('<svg viewBox="0 0 1 1"/>', "a drawing within the drawing"),
+        ('<svg viewBox="0 0 1 1"/>', "a drawing within the drawing without width and height is not placed"),
+        ('<svg width="1" height="1" viewBox="0 0 1"/>', "viewBox: four numbers are needed, not 3"),
+        (
+            '<svg width="1" height="1" viewBox="0 0 1 1" preserveAspectRatio="x"/>',
+            "preserveAspectRatio: xMidYMid",
+        ),
+        ('<g id="a"><use href="#a"/></g>', "uses are nested more than 64 deep .one in itself"),
         ("<g>", "not XML .mismatched tag"),
         ("&nbsp;", "not XML .undefined entity"),
         ("", "nothing to read; export another drawing"),
         ('<polygon points="' + "1 " * 500_000 + '"/>', "more than 400000 numbers"),
-        (('<g transform="' + "rotate(1.234567)" * 60 + '">') * 40, "need too long numbers"),
-        ("<g/>" * 900_000, "more than 800000 elements"),
+        (('<g transform="' + "rotate(1.234567)" * 60 + '">') * 40 + "</g>" * 40, "need too long numbers"),
+        ("<g/>" * 500_000, "more than 400000 elements"),
         ('<g transform="' + "a" * 5_000_000 + '"/>', "not a transform"),
         ('<line x2="4"/>', "no closed loop"),
         ('<path d="' + "M0 0" + "h1" * 300_000 + '"/>', "more than 200000 edges"),
@@ -260,3 +272,89 @@ def test_the_same_decimals_meet(tmp_path: Path) -> None:
     assert (shape.vertices[0][0], len(shape.vertices)) == (fmpq(3, 10), 40)
     xs = [x for x, _, _ in shape.vertices]
     assert all(b - a in (0, fmpq(1, 10), fmpq(-1, 10)) for a, b in pairwise(xs))
+
+
+# -- what is used again, nested, and measured ------------------------------------------------------------
+
+NESTED = "<svg x='10' y='20' width='20' height='40' viewBox='0 0 10 10'>{}</svg>"
+SYMBOL = "<symbol id='s' viewBox='0 0 10 10'><rect width='10' height='10'/></symbol>"
+
+
+def corners(scene: xa.Scene) -> list[tuple[float, float, float, float]]:
+    """The boxes of the obstacles as drawn, with y down: west, top, east, bottom, in a page 100 high."""
+    found = []
+    for shape in scene.shapes:
+        xs, ys = zip(*((float(x), 100 - float(y)) for x, y, _ in shape.vertices), strict=True)
+        found.append((min(xs), min(ys), max(xs), max(ys)))
+    return found
+
+
+@pytest.mark.parametrize(
+    ("content", "boxes"),
+    [
+        (NESTED.format("<rect width='10' height='10'/>"), [(10, 30, 30, 50)]),  # in the middle of the rest
+        (
+            NESTED.format("<rect width='10' height='10'/>").replace("'>", "' preserveAspectRatio='none'>", 1),
+            [(10, 20, 30, 60)],
+        ),
+        (
+            NESTED.format("<rect width='10' height='10'/>").replace(
+                "'>", "' preserveAspectRatio='xMaxYMin slice'>", 1
+            ),
+            [(-10, 20, 30, 60)],
+        ),
+        (NESTED.format("<rect width='50%' height='100%'/>"), [(10, 30, 20, 50)]),
+        ("<svg x='5' y='6' width='9' height='9'><rect width='4' height='3'/></svg>", [(5, 6, 9, 9)]),
+        ("<defs><rect id='a' width='4' height='3'/></defs><use href='#a' x='5' y='6'/>", [(5, 6, 9, 9)]),
+        ("<use xlink:href='#a' transform='scale(2)'/><g display='none'>"
+         "<rect id='a' x='1' width='4' height='3'/></g>",
+         [(2, 0, 10, 6)]),
+        (SYMBOL, []),
+        (SYMBOL + "<use href='#s' x='20' width='20' height='20'/>"
+         "<use href='#s' y='50' width='5' height='5'/>",
+         [(20, 0, 40, 20), (0, 50, 5, 55)]),
+        ("<g id='a'><rect width='1' height='1'/></g><g id='b'><use href='#a' x='2'/></g>"
+         "<use href='#b' y='3'/>",
+         [(0, 0, 1, 1), (2, 0, 3, 1), (2, 3, 3, 4)]),
+        ("<rect x='1in' y='6pt' width='10%' height='25%'/>", [(96, 8, 106, 33)]),
+        ("<g visibility='hidden'><rect width='9' height='9'/>"
+         "<rect style='visibility: visible' width='2' height='3'/></g>",
+         [(0, 0, 2, 3)]),
+        ("<svg width='0' height='5'><rect width='9' height='9'/></svg><rect width='2' height='3'/>",
+         [(0, 0, 2, 3)]),
+    ],
+)  # fmt: skip
+def test_where_things_are_drawn(tmp_path: Path, content: str, boxes: list[tuple[float, ...]]) -> None:
+    content += "<polygon points='90,90 99,90 99,99'/>"  # that something is there
+    scene = read(tmp_path, content, root='viewBox="0 0 100 100" xmlns:xlink="http://www.w3.org/1999/xlink"')
+    assert corners(scene)[:-1] == boxes
+
+
+def test_what_is_done_and_not_done_is_told(tmp_path: Path) -> None:
+    content = (
+        "<style>a {fill: red}</style><clipPath id='c'><circle r='9'/></clipPath>"
+        "<g clip-path='url(#c)' style='mask: url(#m)'><rect id='a' width='4' height='3'/></g>"
+        "<use href='#a' x='9'/>"
+        "<use href='other.svg#b'/><image/>"
+    )
+    used, left = read(tmp_path, content).notes
+    assert set(left.removeprefix("left out ").split(", ")) == {
+        "1 style", "1 clip-path", "1 mask", "1 use of what the file does not have", "1 image",
+    }  # fmt: skip
+    assert used == "drew 1 element by use"
+
+
+def test_a_rectangle_with_elliptical_corners_by_arcs(tmp_path: Path) -> None:
+    content = '<rect x="3" y="4" width="40" height="30" rx="10" ry="5"/>'
+    (room,) = read(tmp_path, content, flatten="0.001").obstacles
+    assert float(room.area) == pytest.approx(40 * 30 - 200 + 50 * math.pi, abs=0.1)
+    (auto,) = read(tmp_path, '<rect width="4" height="3" rx="1" ry="auto"/>').obstacles
+    assert str(auto.area) == "pi + 8"
+
+
+def test_uses_of_uses_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Twenty groups that each use the one before ten times would draw 10^20 elements."""
+    groups = "".join(f"<g id='g{k}'>" + f"<use href='#g{k - 1}'/>" * 10 + "</g>" for k in range(1, 20))
+    monkeypatch.setattr("exactacq.files.svg.load.MAX_ELEMENTS", 4000)
+    with pytest.raises(xa.FormatError, match="more than 4000 elements are drawn; export only one part"):
+        read(tmp_path, f"<defs><g id='g0'/>{groups}</defs><use href='#g19'/>")

@@ -231,7 +231,7 @@ HOLED = shapely.Polygon([(0, 0), (9, 0), (9, 9), (0, 9)], [[(1, 1), (2, 1), (1, 
     [
         (HOLED, "a boundary is one ring: give a Polygon with holes by its outer ring alone"),
         (shapely.MultiPolygon([shapely.Polygon(TRIANGLE)]), "a boundary is one Polygon, not a MultiPolygon"),
-        (shapely.LineString(TRIANGLE), "a boundary is one Polygon, not a LineString"),
+        (shapely.LineString(TRIANGLE), "a boundary is closed: its last vertex is the first one"),
         (shapely.Point(1, 2), "a boundary is one Polygon, not a Point"),
         (shapely.Polygon([(*place, 1) for place in TRIANGLE]), "a boundary lies in the plane"),
         (

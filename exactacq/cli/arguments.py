@@ -47,7 +47,7 @@ def scene_of(name: str, start: str | None, options: dict[str, Any], terrain: str
         return scene if terrain is None else scene.replace(terrain=_terrain(terrain, scene))
     except InvalidScene as error:
         first, *others = error.violations
-        raise InvalidScene([f"{name}: {first}", *others]) from None
+        raise InvalidScene([f"{name}: {first}", *others], error.cure) from None
 
 
 def _loaded(name: str, start: str | None, options: dict[str, object]) -> Scene:

@@ -107,6 +107,7 @@ def _one_line(error: BaseException) -> str:
     elif isinstance(error, InvalidScene) and len(error.violations) > VIOLATIONS:
         shown = "; ".join(error.violations[:VIOLATIONS])
         text = f"{len(error.violations)} violations: {shown}; and {len(error.violations) - VIOLATIONS} more"
+        text += f"; {error.cure}" if error.cure else ""
     elif isinstance(error, OSError) and error.strerror is not None:
         place = "" if error.filename is None else f"{error.filename}: "
         text = f"{place}{error.strerror}"

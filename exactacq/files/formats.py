@@ -31,6 +31,8 @@ class FileOption:
     help: str
     default: object = None
     choices: tuple[str, ...] = ()
+    why: str = ""
+    """Why other formats do not take it, where that may be asked."""
 
     def of_text(self, text: str) -> object:
         """The value that a text on the command line stands for; names are parted by commas."""
@@ -147,7 +149,8 @@ def _check_unused(name: str, value: object, used: Format) -> None:
     if value != options()[name].default:
         *others, last = owners
         whom = f"{', '.join(others)} and {last}" if others else last
-        raise FormatError(f"{name} is for {whom}, not for {used.title}; leave it out")
+        why = f" ({options()[name].why})" if options()[name].why else ""
+        raise FormatError(f"{name} is for {whom}, not for {used.title}; leave it out{why}")
 
 
 def _number(name: str, value: object) -> object:
@@ -193,7 +196,10 @@ UNKNOWN = FileOption("unknown", "choice", "What unknown cells are.", "free", ("f
 THRESHOLD = FileOption("threshold", "number", "Blocked is what is darker: 0 for black to 1 for white; 1/2.")
 RESOLUTION = FileOption("resolution", "number", "Width of a cell; 1.")
 SIMPLIFY = FileOption(
-    "simplify", "number", "Fewer vertices of outlines, which move by at most this distance."
+    "simplify",
+    "number",
+    "Fewer vertices of outlines, which move by at most this distance.",
+    why="it smooths the steps that cells make; vertices of other files are taken as they were meant",
 )
 THICKEN = FileOption("thicken", "number", "Walls so thick for lines that stay open.")
 DRAWING = (LAYERS, OUTER, TOLERANCE, UNION, THICKEN)
@@ -206,7 +212,7 @@ register(
         name="json",
         title="JSON scenes",
         suffixes=(".json",),
-        reader="exactacq.files.scene_json:load_json",
+        reader="exactacq.files.json_dialects:load_json",
         writer="exactacq.files.scene_json:written",
     )
 )

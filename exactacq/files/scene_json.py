@@ -35,16 +35,12 @@ class _Literal(str):
     is_json_number = True
 
 
-def load_json(path: str | Path, start: tuple[fmpq, fmpq] | None = None) -> Scene:
-    """The scene in a JSON file; *start*, if given, overrides the file's.
-
-    Raises `FormatError` (with the place in the file) for what is no such JSON, `InvalidScene` for a scene
-    that breaks the rules. Linear in the file.
-    """
+def read_document(path: str | Path) -> Any:
+    """The data of a JSON file, as `parse_json`; `FormatError` too for more than a scene may have."""
     data = read_bytes(path)
     if data.count(b",") > MAX_COMMAS:
         raise FormatError(f"more than {MAX_EDGES} edges; give a smaller scene")
-    return scene_of(parse_json(data), start)
+    return parse_json(data)
 
 
 def parse_json(data: bytes) -> Any:
@@ -65,7 +61,10 @@ def parse_json(data: bytes) -> Any:
 
 
 def scene_of(document: Any, start: tuple[fmpq, fmpq] | None = None) -> Scene:
-    """The scene that parsed JSON describes: see `load_json`."""
+    """The scene that parsed JSON describes; *start*, if given, overrides its own.
+
+    Raises `FormatError` with the place in the document, and `InvalidScene`. Linear in it.
+    """
     parts = _scene_parts(document)
     check_edges(sum(_edge_count(s) for s in (*parts["obstacles"], parts["enclosure"])))
     if start is not None:

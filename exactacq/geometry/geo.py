@@ -7,7 +7,7 @@ counterclockwise.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from math import ceil, sqrt
 from typing import Any, TypeAlias
 
@@ -69,3 +69,11 @@ def chords(stroke: Stroke) -> int:
     """Into how many chords a stroke is cut: n of them stray by at most radius * sweep^2 / (8 n^2)."""
     turn = abs(stroke.sweep)
     return max(1, ceil(turn / sqrt(8 * FLATNESS * min(1.0, turn)))) if turn else 1
+
+
+def point_pair(value: Any) -> Any:
+    """The coordinates of a Point of shapely or the like; anything else, and a point of ours, as it is."""
+    geo = None if hasattr(value, "rational") else getattr(value, "__geo_interface__", None)
+    if not isinstance(geo, Mapping) or geo.get("type") != "Point":
+        return value
+    return geo.get("coordinates")

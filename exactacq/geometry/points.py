@@ -11,7 +11,7 @@ from flint import fmpq
 from numpy.typing import NDArray
 
 from exactacq.errors import FormatError, shown
-from exactacq.geometry.geo import Geo
+from exactacq.geometry.geo import Geo, point_pair
 from exactacq.geometry.geo import point as geo_point
 from exactacq.numbers.real import Real, real
 
@@ -58,7 +58,7 @@ class Point:
         if isinstance(value, Point):
             return value
         try:
-            x, y = () if isinstance(value, str) else value
+            x, y = point_pair(None if isinstance(value, str) else value)
         except (TypeError, ValueError):
             raise FormatError(f"a point needs two numbers, not {shown(value)}") from None
         return cls(x, y)

@@ -29,7 +29,8 @@ _LITERAL = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,6})?(/\d+)?", re.AS
 def rational(value: object) -> fmpq:
     """The rational that *value* denotes: int, Fraction, Decimal, finite float (exactly), or a literal.
 
-    Integers and floats of numpy are taken too, and integers and rationals of sympy and others.
+    Integers and floats of numpy are taken too, also as arrays of no dimension, and integers and rationals of
+    sympy and others. A float is the binary fraction that it is: 0.1 is not 1/10, but "0.1" is.
 
     Literals are integers, decimals and ``"p/q"``.  Raises `FormatError` for anything else, for NaN and
     infinities, and beyond `MAX_DIGITS` digits.
@@ -55,6 +56,10 @@ def rational(value: object) -> fmpq:
         return _literal(value.strip())
     if isinstance(value, Rational):
         return fmpq(int(value.numerator), int(value.denominator))
+    if getattr(value, "shape", None) == () and hasattr(value, "item"):  # an array of no dimension
+        item = value.item()
+        if item is not value and isinstance(item, int | float):
+            return rational(item)
     raise FormatError(f"not a number: {value!r}")
 
 

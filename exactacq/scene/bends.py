@@ -14,6 +14,7 @@ from typing import Any, TypeAlias
 from flint import fmpq
 
 from exactacq.errors import FormatError, shown
+from exactacq.geometry.geo import point_pair
 from exactacq.numbers.atoms import rational_sqrt
 from exactacq.numbers.rationals import rational
 
@@ -140,8 +141,8 @@ def opposite(start: Pair, told: fmpq | Around | Via) -> tuple[Pair, fmpq] | None
 
 
 def rational_pair(pair: Iterable[object]) -> Pair:
-    """Two rationals from any pair of numbers; `FormatError` otherwise."""
-    values = entries(pair)
+    """Two rationals from any pair of numbers, or another library's Point; `FormatError` otherwise."""
+    values = entries(point_pair(pair))
     if len(values) != 2:
         raise FormatError(f"a point needs two numbers, not {shown(pair)}")
     return rational(values[0]), rational(values[1])

@@ -82,9 +82,9 @@ class Polygon(Loop):
     """A closed boundary of straight edges, from at least 3 vertices ``(x, y)``.
 
     These are pairs of numbers, an array of two columns, or a polygon of another library, such as shapely's:
-    anything whose ``__geo_interface__`` is a Polygon without holes, or a Feature with one. A last vertex that
-    repeats the first is left out. Raises `FormatError` for anything else; whether the boundary is a legal
-    one is asked by `Scene`.
+    anything whose ``__geo_interface__`` is a Polygon without holes, a closed line, or a Feature with one. A
+    last vertex that repeats the first is left out. Raises `FormatError` for anything else; whether the
+    boundary is a legal one is asked by `Scene`.
 
     >>> square = Polygon([(0, 0), (1, 0), (1, 1), (0, 1)], name="square")
     >>> import exactacq as xa
@@ -242,9 +242,13 @@ def _corners(value: Corners) -> Iterable[Iterable[object]]:
         raise FormatError("a Circle is no Polygon: give it as it is")
     if geo.get("type") == "Feature":
         geo = geo.get("geometry") or {}
-    if geo.get("type") != "Polygon":
-        raise FormatError(f"a boundary is one Polygon, not a {geo.get('type', 'mapping without a type')}")
     rings = entries(geo.get("coordinates"))
+    if geo.get("type") in ("LinearRing", "LineString"):
+        if len(rings) < 2 or tuple(rings[0]) != tuple(rings[-1]):
+            raise FormatError("a boundary is closed: its last vertex is the first one")
+        rings = (rings,)
+    elif geo.get("type") != "Polygon":
+        raise FormatError(f"a boundary is one Polygon, not a {geo.get('type', 'mapping without a type')}")
     if len(rings) > 1:
         raise FormatError("a boundary is one ring: give a Polygon with holes by its outer ring alone")
     rows = [entries(row) for ring in rings for row in entries(ring)]

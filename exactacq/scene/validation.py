@@ -36,6 +36,9 @@ LISTED = 50
 """Violations listed one by one; the rest are counted."""
 COUNTED = 5000
 """Violations after which the search stops: a hostile file could have a quadratic number of them."""
+MET = 50_000
+"""Contacts of edges after which the search stops, also if they are at few places, as of loops drawn over and
+over: it takes some 0.1 milliseconds for each."""
 
 SIMPLE = "a boundary must not meet itself"
 DISJOINT = "obstacles must be disjoint, also at their boundaries"
@@ -202,6 +205,8 @@ class _Arrangement:
         self.loop_index = BoxIndex(united(self.index.boxes, self.begin[:-1]))
         self.enclosures = [k for k, loop in enumerate(self.loops) if loop.is_enclosure]
         self.met: set[tuple[int, int]] = set()
+        self.stopped = False
+        """Whether the search for meetings stopped early: there are more than enough violations then."""
 
     def meetings(self) -> Iterator[str]:
         """Contacts between edges, but for the vertex that neighbours share; one violation a place.
@@ -209,6 +214,7 @@ class _Arrangement:
         A contact at the end of an overlap of the same loops is left out, as the overlap is reported.
         """
         meetings: dict[object, _MeetingLoops] = {}
+        count = 0
         for i, j in self._candidates():
             a, b = self.owner[i], self.owner[j]
             shared = self._shared(i, j) if a == b else []
@@ -217,12 +223,14 @@ class _Arrangement:
                 if point and any(contact.start == vertex for vertex in shared):
                     continue
                 self.met.add((a, b))
+                count += 1
                 site = (a, b, contact.kind, contact.start.key, contact.end.key)
                 if site not in meetings:
                     meetings[site] = _MeetingLoops((self.loops[a], self.loops[b]), contact)
                 meetings[site].first.add(self.numbers[i])
                 meetings[site].second.add(self.numbers[j])
-            if len(meetings) >= COUNTED:
+            if len(meetings) >= COUNTED or count >= MET:
+                self.stopped = True
                 break
         overlaps = [m for m in meetings.values() if m.contact.kind is ContactKind.OVERLAP]
         ends = {(*m.indices, p.key) for m in overlaps for p in (m.contact.start, m.contact.end)}
@@ -230,6 +238,8 @@ class _Arrangement:
             overlap = meeting.contact.kind is ContactKind.OVERLAP
             if overlap or (*meeting.indices, meeting.contact.start.key) not in ends:
                 yield str(meeting)
+        if self.stopped:
+            yield "more violations were not looked for"
 
     def _candidates(self) -> Iterator[tuple[int, int]]:
         separator = Separator(self.curves, self.index.boxes)
@@ -244,9 +254,12 @@ class _Arrangement:
         return [*vertices, self.curves[i].start] if i == begin and j == end - 1 else vertices
 
     def nestings(self) -> Iterator[str]:
-        """Loops that lie within one another, or not within the enclosure, without meeting it."""
+        """Loops that lie within one another, or not within the enclosure, without meeting it.
+
+        None if the search for meetings stopped: which loops do not meet is not known then.
+        """
         for a, loop in enumerate(self.loops):
-            if loop.is_enclosure:
+            if loop.is_enclosure or self.stopped:
                 continue
             point = self.curves[self.begin[a]].start
             for b, turns in self._windings(point).items():

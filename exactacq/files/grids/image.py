@@ -6,7 +6,7 @@ from pathlib import Path
 
 from flint import fmpq
 
-from exactacq.errors import FormatError
+from exactacq.errors import FormatError, shown
 from exactacq.files.grids.outlines import JOIN
 from exactacq.files.grids.pixels import read_pixels
 from exactacq.files.grids.world import Placement, grid_scene
@@ -32,7 +32,7 @@ def load_image(
     """
     level = HALF if threshold is None else threshold
     if not 0 <= level <= 1:
-        raise FormatError(f"threshold: from 0 for black to 1 for white, not {level}")
+        raise FormatError(f"threshold: from 0 for black to 1 for white, not {shown(level)}")
     pixels = read_pixels(path)
     blocked = pixels.values < int((level * pixels.most).ceil())
     if pixels.clear is not None:

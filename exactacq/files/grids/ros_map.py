@@ -14,7 +14,7 @@ from pathlib import Path
 
 from flint import fmpq
 
-from exactacq.errors import FormatError, about
+from exactacq.errors import FormatError, about, shown
 from exactacq.files.grids.outlines import JOIN
 from exactacq.files.grids.pixels import read_pixels
 from exactacq.files.grids.world import Placement, grid_scene
@@ -89,7 +89,7 @@ def _placement(said: dict[str, list[str]]) -> tuple[Placement, tuple[str, ...]]:
     with about("resolution"):
         size = rational(_one(said, "resolution"))
     if abs(yaw) > MAX_YAW:
-        raise FormatError(f"origin: a yaw of {yaw} radians; give one of at most {MAX_YAW}")
+        raise FormatError(f"origin: a yaw of {shown(yaw)} radians; give one of at most {MAX_YAW}")
     turn, error = rational_turn(yaw * 180 / nearly_pi())
     far = scientific_above(error + abs(yaw) / 2**FIXED_BITS)
     notes = (f"turned by a rational rotation within {far} of the yaw",) if yaw else ()
@@ -100,7 +100,7 @@ def _level(said: dict[str, list[str]], key: str, default: str) -> fmpq:
     with about(key):
         level = rational(_one(said, key, default))
     if not 0 <= level <= 1:
-        raise FormatError(f"{key}: a number from 0 to 1 is needed, not {level}")
+        raise FormatError(f"{key}: a number from 0 to 1 is needed, not {shown(level)}")
     return level
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from flint import fmpq
 
-from exactacq.errors import FormatError
+from exactacq.errors import FormatError, shown
 from exactacq.files.grids.outlines import JOIN, STEPS, Cells, outlines
 from exactacq.files.loops.areas import Areas
 from exactacq.files.loops.arrangement import count
@@ -58,14 +58,14 @@ def grid_scene(
     around the start. Raises `FormatError` and `InvalidScene`.
     """
     if placement.size <= 0:
-        raise FormatError(f"a cell {placement.size} wide; the width of a cell is positive")
+        raise FormatError(f"a cell {shown(placement.size)} wide; the width of a cell is positive")
     walled = border == "wall"
     if walled and start is None:
         height, width = blocked.shape
         (x0, y0, _), (x1, y1, _) = placement(0, 0), placement(STEPS * width, STEPS * height)
         raise FormatError(
             "beyond its border all is blocked: give a start with --start X,Y (start=(x, y) in Python); "
-            f"it lies between ({x0}, {y0}) and ({x1}, {y1})"
+            f"it lies between ({shown(x0)}, {shown(y0)}) and ({shown(x1)}, {shown(y1)})"
         )
     rings = outlines(np.pad(blocked, 1, constant_values=True) if walled else blocked, corners)
     if walled:  # of the border of blocked cells around, the outside is none of the grid's

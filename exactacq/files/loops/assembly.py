@@ -6,7 +6,7 @@ from collections import Counter
 
 from flint import fmpq
 
-from exactacq.errors import FormatError
+from exactacq.errors import FormatError, shown
 from exactacq.files.loops.arrangement import arranged, count
 from exactacq.files.loops.chains import Chain, scientific_above
 from exactacq.files.loops.cusps import open_cusps
@@ -46,7 +46,7 @@ def scene_of_drawing(
     `InvalidScene`.
     """
     if tolerance is not None and tolerance < 0:
-        raise FormatError(f"the tolerance is a length of at least 0, not {tolerance}")
+        raise FormatError(f"the tolerance is a length of at least 0, not {shown(tolerance)}")
     check_edges(sum(chain.edges for chain in drawing.chains) + len(drawing.circles))
     notes = [*drawing.notes, *_left_out(drawing.dropped)]
     other = f"select other layers of {drawing.layer_list()}" if drawing.layers else "export another drawing"
@@ -73,7 +73,8 @@ def scene_of_drawing(
             notes.append(f"no outline of these walls is off by more than {scientific_above(thick.off)}")
     if not shapes:
         raise FormatError(
-            f"no closed loop{_because(notes)}; give {hint or 'a larger --tolerance'}, or {other}"
+            f"no closed loop{_because(notes)}; give {hint or 'a larger --tolerance'}, --thicken LENGTH for "
+            f"walls along the lines, or {other}"
         )
     if hint:
         notes.append(f"open chains close with {hint}")

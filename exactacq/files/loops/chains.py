@@ -127,9 +127,9 @@ def scientific_above(value: fmpq) -> str:
     """A bound as a short decimal, two digits, rounded up: ``2.7e-13``; "0" for 0."""
     if value == 0:
         return "0"
-    fraction = Fraction(int(value.p), int(value.q))
-    power = len(str(fraction.numerator)) - len(str(fraction.denominator)) - 2
-    digits = -(-fraction // Fraction(10) ** power)
+    bits = int(value.p).bit_length() - int(value.q).bit_length()
+    power = bits * 30103 // 100_000 - 3  # log 2 = 0.30103: at least 100 times less than the value
+    digits = int((value / fmpq(10) ** power).ceil())
     while digits >= 100:
         digits, power = -(-digits // 10), power + 1
     return f"{float(digits * Fraction(10) ** power):.2g}" if abs(power) < 300 else f"{digits}e{power}"

@@ -7,7 +7,6 @@ recorded in the corners are proven bounds. Ends at multiples of 90 degrees and s
 
 from __future__ import annotations
 
-from fractions import Fraction
 from functools import cache, lru_cache
 from math import isqrt
 
@@ -16,7 +15,6 @@ from flint import fmpq
 from exactacq.files.loops.chains import Corner, root_above
 from exactacq.numbers.atoms import rational_sqrt
 from exactacq.numbers.length import Length
-from exactacq.numbers.rationals import rational
 from exactacq.scene.bends import Around, Pair, bend, slope_of
 
 DECIMALS = 16
@@ -71,10 +69,19 @@ def arc_of_radius(start: Pair, end: Pair, radius: fmpq, large: bool, ccw: bool) 
     if slope is not None:
         side = slope / 2 if left else -slope / 2
         return arc_around(start, end, (start[0] + dx / 2 - dy * side, start[1] + dy / 2 + dx * side), ccw)
+    bulge, shift = _bulge_of_slope(square, large)
+    return Corner(*start, bulge if ccw else -bulge, fmpq(0), shift)
+
+
+@lru_cache(maxsize=1 << 12)
+def _bulge_of_slope(square: fmpq, large: bool) -> Pair:
+    """The bulge near that of an arc, and how far it is from it at most, from the square of its slope.
+
+    Drawings have many arcs of one chord and radius: a file of a megabyte of them took 20 seconds.
+    """
     low, high = _root(square)
     slopes = (-high, -low) if large else (low, high)
-    bulge, shift = _bulge_between(*_positive_bulge(slopes, _root(square + 1)))
-    return Corner(*start, bulge if ccw else -bulge, fmpq(0), shift)
+    return _bulge_between(*_positive_bulge(slopes, _root(square + 1)))
 
 
 def _positive_bulge(slopes: Pair, roots: Pair) -> Pair:
@@ -189,15 +196,12 @@ def simplest_between(low: fmpq, high: fmpq) -> fmpq:
     """
     if low > high or low < 0:
         raise ValueError(f"not an interval of numbers >= 0: [{low}, {high}]")
+    p, q, r, s = (int(number) for number in (low.p, low.q, high.p, high.q))
     terms = []
-    a, b = Fraction(int(low.p), int(low.q)), Fraction(int(high.p), int(high.q))
-    while True:
-        whole = -(-a.numerator // a.denominator)
-        if whole <= b:
-            break
+    while (whole := -(-p // q)) * s > r:  # no integer lies between p / q and r / s
         terms.append(whole - 1)
-        a, b = 1 / (b - (whole - 1)), 1 / (a - (whole - 1))
-    value = Fraction(whole)
+        p, q, r, s = s, r - (whole - 1) * s, q, p - (whole - 1) * q
+    top, bottom = whole, 1
     for term in reversed(terms):
-        value = term + 1 / value
-    return rational(value)
+        top, bottom = term * top + bottom, top
+    return fmpq(top, bottom)

@@ -16,6 +16,9 @@ from networkx.utils import UnionFind
 
 from exactacq.files.loops.chains import Chain, Corner, distance_above
 
+Row = tuple[fmpq, fmpq, fmpq]
+"""x, y and the bulge of the edge that follows."""
+
 
 @dataclass(slots=True)
 class Stitched:
@@ -222,11 +225,32 @@ def _key(chain: Chain) -> tuple[object, ...]:
         return tuple(min(rows, turned))
     n = len(rows)
     backwards = [(*rows[-i % n][:2], -rows[-(i + 1) % n][2]) for i in range(n)]
-    ways = []
-    for way in (rows, backwards):
-        least = min(way)
-        ways += [tuple(way[i:] + way[:i]) for i in range(n) if way[i] == least]
-    return ("closed", *min(ways))
+    return ("closed", *min(map(_least_turned, (rows, backwards))))
+
+
+def _least_turned(rows: list[Row]) -> list[Row]:
+    """The least list among the rotations of one, in linear time: a path may be in one corner many times.
+
+    Two candidates i < j are compared row by row; whichever loses, none of the rotations passed is the least.
+    Source: Y. Shiloach, Fast canonization of circular strings, J. Algorithms 2 (1981).
+
+    >>> _least_turned([3, 1, 2, 1, 1])
+    [1, 1, 3, 1, 2]
+    """
+    n, i, j, same = len(rows), 0, 1, 0
+    while max(i, j) < n and same < n:
+        one, other = rows[(i + same) % n], rows[(j + same) % n]
+        if one == other:
+            same += 1
+            continue
+        if one > other:
+            i += same + 1
+        else:
+            j += same + 1
+        j += i == j
+        same = 0
+    first = min(i, j)
+    return rows[first:] + rows[:first]
 
 
 def _place(pieces: list[Chain], end: tuple[int, int]) -> tuple[fmpq, fmpq]:

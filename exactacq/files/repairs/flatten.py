@@ -82,7 +82,7 @@ def flatten(pieces: Sequence[BezierPiece], tolerance: fmpq) -> FlatChain:
     (6, 6, (0, 0), (2, 0))
     """
     if tolerance <= 0:
-        raise FormatError(f"flatten: a length above 0 is needed, not {tolerance}")
+        raise FormatError(f"flatten: a length above 0 is needed, not {shown(tolerance)}")
     chain = FlatChain()
     sizes = [_size(piece) for piece in pieces]
     if max(sizes, default=fmpq(0)) > tolerance * MAX_RATIO:

@@ -11,14 +11,19 @@ from dataclasses import dataclass, field
 
 from flint import fmpq
 
-from exactacq.errors import FormatError
+from exactacq.errors import FormatError, shown
 from exactacq.files.loops.chains import ZERO, Corner, root_above, scientific_above
 from exactacq.files.loops.rational_arcs import arc_corners, nearly_pi
-from exactacq.files.repairs.bezier import BezierPiece, Pair, arc_pieces
-from exactacq.files.repairs.flatten import flatten
+from exactacq.files.repairs.bezier import ONE, BezierPiece, Pair, arc_pieces
+from exactacq.files.repairs.flatten import FlatChain, flatten
 
 MAX_EDGES = 20_000
-"""Most arcs and segments that stand for the curves of one file: more would take minutes."""
+"""Most arcs and segments that stand for the curves of one file."""
+MAX_MADE = 4_000
+"""Most arcs and segments that are found: each takes some 2.5 milliseconds, and counts more where numbers are
+long. Those of a curve that was there before, but for where it lies, as letters are, are only moved."""
+LONG_BITS = 400
+"""Numbers so long double the time for an arc."""
 MAX_PART = 90
 """Degrees of an ellipse in one piece."""
 DECIMALS = 10**10
@@ -33,25 +38,40 @@ class Flattening:
     curves: Counter[str] = field(default_factory=Counter)
     arcs: int = 0
     segments: int = 0
+    made: int = 0
+    """How many arcs and segments were found, and not moved from where a like curve lies; see `MAX_MADE`."""
+    known: dict[tuple[object, ...], FlatChain] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if self.tolerance <= 0:
-            raise FormatError(f"flatten: a length above 0 is needed, not {self.tolerance}")
+            raise FormatError(f"flatten: a length above 0 is needed, not {shown(self.tolerance)}")
 
     def corners(self, kind: str, pieces: Sequence[BezierPiece], error: fmpq = ZERO) -> list[Corner]:
         """The corners of an open chain within the tolerance of a curve; none for a curve that is a point.
 
         *error* bounds how far the pieces are from the curve already. Raises `FormatError` as `flatten`.
         """
-        chain = flatten(pieces, self.tolerance - error)
+        u, v = pieces[0].point(ZERO)
+        chain = self._at_origin([piece.image((-u, -v), (ONE, ZERO), (ZERO, ONE)) for piece in pieces], error)
         self.curves[kind] += 1
         self.arcs += chain.arcs
         self.segments += len(chain.edges) - chain.arcs
-        if self.arcs + self.segments > MAX_EDGES:
-            raise FormatError(f"flatten: more than {MAX_EDGES} arcs; give a larger length, or one part")
+        for count, most in ((self.arcs + self.segments, MAX_EDGES), (self.made, MAX_MADE)):
+            if count > most:
+                raise FormatError(f"flatten: more than {most} arcs; give a larger length, or one part")
         if chain.end is None:
             return []
-        return [*(Corner(*edge) for edge in chain.edges), Corner(*chain.end, fmpq(0))]
+        corners = [Corner(x + u, y + v, bulge) for x, y, bulge in chain.edges]
+        return [*corners, Corner(chain.end[0] + u, chain.end[1] + v, ZERO)]
+
+    def _at_origin(self, pieces: list[BezierPiece], error: fmpq) -> FlatChain:
+        """The chain of a curve that begins at the origin."""
+        key = (error, *(piece.rows for piece in pieces))
+        if key not in self.known:
+            self.known[key] = flatten(pieces, self.tolerance - error)
+            bits = max(int(n.q).bit_length() for piece in pieces for row in piece.rows for n in row)
+            self.made += len(self.known[key].edges) * (LONG_BITS + bits) // LONG_BITS
+        return self.known[key]
 
     def notes(self) -> list[str]:
         """What to tell of it, with the bound."""

@@ -37,8 +37,8 @@ BITS = 160
 """Bits with which irrational vertices are enclosed."""
 DIGITS = fmpq(1, 2**60)
 """A vertex near an irrational one is off by this fraction of the size of the loops, or less."""
-MAX_CONTACTS = 200_000
-"""Contacts of edges beyond which nothing is merged: minutes of work."""
+MAX_CONTACTS = 20_000
+"""Contacts of edges beyond which nothing is merged: each takes some 0.5 milliseconds."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -289,7 +289,10 @@ def _bulge(arc: Arc) -> tuple[fmpq, fmpq]:
     """
     cosine, sine = arc.turn
     half = ((1 + cosine) / 2).sqrt() * (-1 if sine.sign() < 0 else 1)
-    low, high = (((1 - cosine) / 2).sqrt() / (1 + half)).enclosure(BITS)
+    tangent, bits = ((1 - cosine) / 2).sqrt() / (1 + half), BITS
+    while (ends := tangent.enclosure(bits))[0] <= 0:  # it is positive, but perhaps very small
+        bits *= 2
+    low, high = ends
     value = simplest_between(low - low * DIGITS, high + low * DIGITS)
     off = max(high - value, value - low)
     return (value, off) if arc.ccw else (-value, off)

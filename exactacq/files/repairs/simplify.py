@@ -22,7 +22,7 @@ from typing import Any
 
 from flint import fmpq
 
-from exactacq.errors import FormatError
+from exactacq.errors import FormatError, shown
 
 Node = tuple[int, int]
 Place = tuple[int, int] | tuple[fmpq, fmpq]
@@ -47,7 +47,7 @@ def simplify(
     True
     """
     if tolerance < 0:
-        raise FormatError(f"simplify: a length of at least 0 is needed, not {tolerance}")
+        raise FormatError(f"simplify: a length of at least 0 is needed, not {shown(tolerance)}")
     return _Rings(rings, tolerance * tolerance, fixed).simplified()
 
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 
 from flint import fmpq
 
-from exactacq.errors import FormatError
+from exactacq.errors import FormatError, shown
 from exactacq.files.loops.chains import ZERO, Chain, Corner
 from exactacq.files.loops.rational_arcs import simplest_between
 from exactacq.numbers.atoms import rational_sqrt
@@ -48,7 +48,7 @@ def thicken(chains: Iterable[Chain], thickness: fmpq) -> ThickChains:
     [3, 0, 0, 1]
     """
     if thickness <= 0:
-        raise FormatError(f"thicken: a length above 0 is needed, not {thickness}")
+        raise FormatError(f"thicken: a length above 0 is needed, not {shown(thickness)}")
     half, thick = thickness / 2, ThickChains()
     known: set[Pair] = set()
     for chain in chains:

@@ -1,45 +1,43 @@
 """SVG drawings: the lines of paths and basic shapes become loops, as in other drawings; y goes up.
 
-Lines and circular arcs are read, through nested groups and their transforms; what is filled or how lines are
-drawn does not matter. Ellipses and Bézier curves are refused by name, or arcs stand for them. Numbers are the
-decimals of the file. The drawing is mirrored in the middle of its viewBox, so that it fills the same box with
-y going up; without a viewBox in half its height, or in y = 0. Names of layers are the labels and ids of
-groups and elements.
+Lines and circular arcs are read, through nested groups and drawings, their transforms and viewBoxes, symbols
+and ``use``; what is filled or how lines are drawn does not matter, and clips and masks are not applied.
+Ellipses and Bézier curves are refused by name, or arcs stand for them. Numbers are the decimals of the file,
+lengths with a unit are taken in pixels, 96 to the inch. The drawing is mirrored in the middle of its viewBox,
+so that it fills the same box with y going up; without a viewBox in half its height, or in y = 0. Names of
+layers are the labels and ids of groups and elements.
 """
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
-from xml.parsers import expat
 
 from flint import fmpq
 
 from exactacq.errors import FormatError, about
+from exactacq.files.loops.arrangement import count
 from exactacq.files.loops.assembly import scene_of_drawing
 from exactacq.files.loops.chains import Chain, Corner, root_above, scientific_above
 from exactacq.files.loops.drawing import Drawing, LayerChoice
 from exactacq.files.loops.rational_arcs import arc_around
 from exactacq.files.repairs.flattened import Flattening
 from exactacq.files.source import MAX_EDGES, check_edges, one_line, read_bytes
+from exactacq.files.svg.document import MAX_DEPTH, MAX_ELEMENTS, Element, named, parse
 from exactacq.files.svg.path_data import DrawnCurve, Subpath, oval_arc, subpaths
-from exactacq.files.svg.transforms import ZERO, Matrix, number, numbers, transform
+from exactacq.files.svg.transforms import ZERO, Matrix, numbers, transform
+from exactacq.files.svg.viewports import Box, length, nested, outermost
 from exactacq.numbers.atoms import rational_sqrt
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle
 
-MAX_ELEMENTS = 4 * MAX_EDGES
-"""Most elements of a file: each takes some microseconds."""
-MAX_DEPTH = 64
-"""Deepest nesting of elements that is followed."""
-GROUPS = ("svg", "g", "a", "switch")
+GROUPS = ("g", "a", "switch")
 SHAPES = ("path", "rect", "circle", "ellipse", "line", "polyline", "polygon")
-LEFT_OUT = ("use", "image", "text", "foreignObject", "symbol")
+LEFT_OUT = ("image", "text", "foreignObject", "style")
 """What is left out and counted; other elements, such as definitions, show nothing by themselves."""
-_HIDDEN = re.compile(r"display\s*:\s*none")
+CUTS = ("clip-path", "mask")
+"""What hides parts of elements, which are read whole."""
 Pair = tuple[fmpq, fmpq]
 
 
@@ -61,10 +59,12 @@ def load_svg(
     outside the file is read.
     """
     reader = _SvgReader(LayerChoice(layers), None if flatten is None else Flattening(flatten))
-    _parse(read_bytes(path), reader)
+    reader.read(parse(read_bytes(path)))
     drawing = reader.drawing
     reader.choice.check(drawing)
     drawing.notes += [] if reader.flattening is None else reader.flattening.notes()
+    if reader.reused:
+        drawing.notes.append(f"drew {count(reader.reused, 'element')} by use")
     if reader.error:
         far = scientific_above(reader.error)
         drawing.notes.append(f"rotated by rational rotations, off by at most {far} radians in sum")
@@ -73,82 +73,109 @@ def load_svg(
     )
 
 
-def _parse(data: bytes, reader: _SvgReader) -> None:
-    parser = expat.ParserCreate()
-    parser.StartElementHandler = reader.begin
-    parser.EndElementHandler = reader.end
-    parser.EntityDeclHandler = reader.entity
-    try:
-        parser.Parse(data, True)
-    except expat.ExpatError as error:
-        reason = one_line(expat.errors.messages.get(error.code, error))
-        raise FormatError(f"line {error.lineno}: not XML ({reason}); export the drawing again") from None
-    except FormatError as error:
-        raise FormatError(f"line {parser.CurrentLineNumber}: {error}") from None
-    except (LookupError, ValueError) as error:  # an encoding that Python does not know
-        raise FormatError(f"not XML ({one_line(error)}); save it as UTF-8") from None
-
-
-@dataclass(slots=True)
-class _OpenElement:
-    """An open element: where its contents are drawn, and the names of the groups around."""
+@dataclass(frozen=True, slots=True)
+class _DrawnIn:
+    """Where something is drawn: its matrix, the names of the groups around, the box of percentages."""
 
     matrix: Matrix
+    box: Box | None
     layers: tuple[str, ...] = ()
-    shown: bool = True
+    visible: bool = True
+    depth: int = 0
 
 
 class _SvgReader:
-    """The elements of a document, as they come."""
+    """The shapes of a document, in the order in which they are drawn."""
 
     def __init__(self, choice: LayerChoice, flattening: Flattening | None) -> None:
         self.drawing, self.choice, self.flattening = Drawing(), choice, flattening
-        self.stack: list[_OpenElement] = []
-        self.order = self.edges = self.elements = 0
+        self.named: dict[str, Element] = {}
+        self.order = self.edges = self.drawn = self.reused = 0
         self.error = fmpq(0)
 
-    def entity(self, name: str, *_: object) -> None:
-        """Refuse the declaration of an entity: a few of them expand to gigabytes."""
-        raise FormatError(f"it declares the entity {one_line(repr(name))}; save it without")
+    def read(self, root: Element) -> None:
+        """All that a document shows."""
+        self.named = named(root)
+        with about(f"line {root.line}"):
+            matrix, box = outermost(root.attributes)
+        for part in root.parts:
+            self._draw(part, _DrawnIn(matrix, box))
 
-    def begin(self, tag: str, attributes: dict[str, str]) -> None:
-        """An element begins."""
-        kind = tag.removeprefix("svg:")
-        self.elements += 1
-        if self.elements > MAX_ELEMENTS:
-            raise FormatError(f"more than {MAX_ELEMENTS} elements; export only the part that matters")
-        if not self.stack:
-            if kind != "svg":
-                raise FormatError(f"not an SVG drawing, but one of {one_line(repr(tag))}")
-            self.stack.append(_OpenElement(_upright(attributes)))
+    def _draw(self, element: Element, outer: _DrawnIn, size: dict[str, str] | None = None) -> None:
+        """What an element shows in a frame; a ``use`` draws it with the *size* that it tells."""
+        kind = element.kind
+        if kind in LEFT_OUT or kind not in (*GROUPS, *SHAPES, "svg", "use", "symbol"):
+            if kind in LEFT_OUT:
+                self.drawing.dropped[kind] += 1
             return
-        if len(self.stack) >= MAX_DEPTH:
-            raise FormatError(f"elements are nested more than {MAX_DEPTH} deep; flatten the groups")
-        outer = self.stack[-1]
-        frame = _OpenElement(outer.matrix, outer.layers, outer.shown and kind in (*GROUPS, *SHAPES))
-        self.stack.append(frame)
-        if not outer.shown:
+        if kind == "symbol" and size is None:
             return
-        if kind in LEFT_OUT:
-            self.drawing.dropped[kind] += 1
-        if attributes.get("display") == "none" or _HIDDEN.search(attributes.get("style", "")):
-            self.drawing.dropped["hidden element"] += frame.shown
-            frame.shown = False
-        if frame.shown:
-            named = (attributes.get(key) for key in ("inkscape:label", "id"))
-            frame.layers += tuple(name for name in named if name)
-            with about(one_line(f"{kind} {attributes.get('id', '')}")):
-                frame.matrix = outer.matrix.after(transform(attributes.get("transform", "")))
-                if kind == "svg" and not {"viewBox", "x", "y"}.isdisjoint(attributes):
-                    raise FormatError("a drawing within the drawing is not placed; take it out")
-                if kind in SHAPES:
-                    self._shape(kind, attributes, frame)
+        self.drawn += 1
+        with about(f"line {element.line}"):
+            if self.drawn > MAX_ELEMENTS:
+                raise FormatError(f"more than {MAX_ELEMENTS} elements are drawn; export only one part")
+            if outer.depth > MAX_DEPTH:
+                raise FormatError(
+                    f"uses are nested more than {MAX_DEPTH} deep (one in itself?); break them up"
+                )
+            frame = self._framed(element, outer, size or {})
+            if frame is not None and kind in SHAPES:
+                self._visible_shape(element, frame)
+        if frame is None or kind in SHAPES:
+            return
+        if kind == "use":
+            self._use(element, frame)
+            return
+        for part in element.parts:
+            self._draw(part, frame)
 
-    def end(self, _: str) -> None:
-        """An element ends."""
-        self.stack.pop()
+    def _framed(self, element: Element, outer: _DrawnIn, size: dict[str, str]) -> _DrawnIn | None:
+        """The frame of what is in an element, or of the element if it is a shape; None if it is not shown."""
+        if element.style("display") == "none":
+            self.drawing.dropped["hidden element"] += 1
+            return None
+        self.drawing.dropped.update(w for w in CUTS if element.style(w) not in ("", "none"))
+        names = (element.attributes.get(key) for key in ("inkscape:label", "id"))
+        layers = outer.layers + tuple(name for name in names if name)
+        visible = {"visible": True, "hidden": False, "collapse": False}.get(element.style("visibility"))
+        frame = replace(
+            outer,
+            layers=layers,
+            visible=outer.visible if visible is None else visible,
+            depth=outer.depth + 1,
+        )
+        with about(one_line(f"{element.kind} {element.attributes.get('id', '')}")):
+            matrix = outer.matrix.after(transform(element.attributes.get("transform", "")))
+            if element.kind == "use":
+                x, y = (length(element.attributes, key, outer.box) for key in ("x", "y"))
+                matrix = matrix.after(Matrix(e=x, f=y))
+            if element.kind not in ("svg", "symbol"):
+                return replace(frame, matrix=matrix)
+            placed = nested(element.attributes, outer.box, size)
+        if placed is None:
+            self.drawing.dropped[f"{element.kind} of no size"] += 1
+            return None
+        return replace(frame, matrix=matrix.after(placed[0]), box=placed[1])
 
-    def _shape(self, kind: str, attributes: dict[str, str], frame: _OpenElement) -> None:
+    def _use(self, element: Element, frame: _DrawnIn) -> None:
+        """What a ``use`` refers to, drawn at its place."""
+        told = element.attributes.get("href") or element.attributes.get("xlink:href") or ""
+        target = self.named.get(told.strip().removeprefix("#")) if told.strip().startswith("#") else None
+        if target is None:
+            self.drawing.dropped["use of what the file does not have"] += 1
+            return
+        self.reused += 1
+        size = {key: value for key, value in element.attributes.items() if key in ("width", "height")}
+        self._draw(target, frame, size)
+
+    def _visible_shape(self, element: Element, frame: _DrawnIn) -> None:
+        if not frame.visible:
+            self.drawing.dropped["hidden element"] += 1
+            return
+        with about(one_line(f"{element.kind} {element.attributes.get('id', '')}")):
+            self._shape(element.kind, element.attributes, frame)
+
+    def _shape(self, kind: str, attributes: dict[str, str], frame: _DrawnIn) -> None:
         self.order += 1
         label = attributes.get("id") or f"{kind} {self.order}"
         self.drawing.layers[frame.layers[-1] if frame.layers else "without a name"] += 1
@@ -157,20 +184,26 @@ class _SvgReader:
         if not frame.matrix.determinant:
             self.drawing.dropped[f"flattened {kind}"] += 1
             return
-        self.error = max(self.error, frame.matrix.error)
+        self.error, matrix = max(self.error, frame.matrix.error), frame.matrix
         if kind == "path":
             found = subpaths(attributes.get("d", ""), curved=self.flattening is not None)
         elif kind in ("circle", "ellipse"):
-            self._circle(kind, attributes, frame.matrix, label)
+            self._circle(kind, attributes, frame, label)
             return
         else:
-            found = _basic(kind, attributes)
+            found, narrowed = _basic(kind, attributes, frame.box)
+            matrix = matrix.after(narrowed)
+            if narrowed.d != 1 and self.flattening is None:
+                raise FormatError(
+                    "a rectangle with elliptical corners is not read: give it rx and ry alike, or have it "
+                    "read by arcs within a distance, with --flatten LENGTH"
+                )
         for n, subpath in enumerate(found, 1):
             name = label if len(found) == 1 else f"{label}, part {n}"
-            if self.flattening is None or not (subpath.curves or _made_oval(subpath, frame.matrix)):
-                corners = _moved(subpath, frame.matrix)
+            if self.flattening is None or not (subpath.curves or _made_oval(subpath, matrix)):
+                corners = _moved(subpath, matrix)
             else:
-                corners = self._flattened(subpath, frame.matrix)
+                corners = self._flattened(subpath, matrix)
             self._add(Chain(name, corners, self.order, subpath.closed))
 
     def _flattened(self, subpath: Subpath, matrix: Matrix) -> list[Corner]:
@@ -207,9 +240,10 @@ class _SvgReader:
         check_edges(self.edges)
         self.drawing.chains.append(chain)
 
-    def _circle(self, kind: str, attributes: dict[str, str], matrix: Matrix, label: str) -> None:
-        x, y = (number(attributes.get(key, "0"), key) for key in ("cx", "cy"))
-        radii = [number(attributes.get(k, "0"), k) for k in (("r",) if kind == "circle" else ("rx", "ry"))]
+    def _circle(self, kind: str, attributes: dict[str, str], frame: _DrawnIn, label: str) -> None:
+        matrix, box = frame.matrix, frame.box
+        x, y = (length(attributes, key, box) for key in ("cx", "cy"))
+        radii = [length(attributes, key, box) for key in (("r",) if kind == "circle" else ("rx", "ry"))]
         round_one = radii[0] == radii[-1] and matrix.is_similar()
         if not round_one and self.flattening is None:
             raise FormatError(
@@ -230,17 +264,6 @@ class _SvgReader:
             return
         halves = Subpath([Corner(x + r, y, fmpq(1)) for r in (radii[0], -radii[0])], closed=True)
         self._add(Chain(label, _moved(halves, matrix), self.order, closed=True))
-
-
-def _upright(attributes: dict[str, str]) -> Matrix:
-    """The mirror that makes y go up."""
-    box = numbers(attributes.get("viewBox", ""), "viewBox")
-    if len(box) == 4:
-        return Matrix(d=fmpq(-1), f=2 * box[1] + box[3])
-    try:
-        return Matrix(d=fmpq(-1), f=number(attributes.get("height", "0"), "height"))
-    except FormatError:
-        return Matrix(d=fmpq(-1))
 
 
 def _made_oval(subpath: Subpath, matrix: Matrix) -> bool:
@@ -268,36 +291,37 @@ def _moved(subpath: Subpath, matrix: Matrix, oval: bool = False) -> list[Corner]
     ]
 
 
-def _basic(kind: str, attributes: dict[str, str]) -> list[Subpath]:
-    """A line, polyline, polygon or rectangle, perhaps with round corners."""
-
-    def said(key: str) -> fmpq:
-        return number(attributes.get(key, "0"), key)
-
+def _basic(kind: str, attributes: dict[str, str], box: Box | None) -> tuple[list[Subpath], Matrix]:
+    """A line, polyline, polygon or rectangle, and a matrix that it is to be put through first."""
     if kind == "rect":
-        return _rectangle(attributes, said)
+        return _rectangle(attributes, box)
     if kind == "line":
-        places = [(said("x1"), said("y1")), (said("x2"), said("y2"))]
+        x, y, u, v = (length(attributes, key, box) for key in ("x1", "y1", "x2", "y2"))
+        places = [(x, y), (u, v)]
     else:
         flat = numbers(attributes.get("points", ""), "points")
         if len(flat) > 2 * MAX_EDGES:
             raise FormatError(f"more than {MAX_EDGES} edges; export only the part that matters")
         places = list(zip(flat[::2], flat[1::2], strict=False))
     if len(places) < 2:
-        return []
-    return [Subpath([Corner(x, y, fmpq(0)) for x, y in places], kind == "polygon")]
+        return [], Matrix()
+    return [Subpath([Corner(x, y, fmpq(0)) for x, y in places], kind == "polygon")], Matrix()
 
 
-def _rectangle(attributes: dict[str, str], said: Any) -> list[Subpath]:
-    x, y, width, height = said("x"), said("y"), said("width"), said("height")
+def _rectangle(attributes: dict[str, str], box: Box | None) -> tuple[list[Subpath], Matrix]:
+    """A rectangle, perhaps with round corners; elliptical ones are made so by the matrix, which scales y."""
+    x, y, width, height = (length(attributes, key, box) for key in ("x", "y", "width", "height"))
     if width <= 0 or height <= 0:
-        return []
-    across = said("rx" if "rx" in attributes else "ry")
-    along = said("ry" if "ry" in attributes else "rx")
+        return [], Matrix()
+    across, along = (
+        length(attributes, first if attributes.get(first, "auto") != "auto" else second, box)
+        for first, second in (("rx", "ry"), ("ry", "rx"))
+    )
     across, along = min(across, width / 2), min(along, height / 2)
-    if across != along:
-        raise FormatError("a rectangle with elliptical corners is not read; give it rx and ry alike")
-    r, corners = across, []
+    r = across if across > 0 and along > 0 else fmpq(0)
+    scale = along / across if r else fmpq(1)
+    y, height = y / scale, height / scale
+    corners: list[Corner] = []
     for cx, cy, dx, dy in (
         (x + width, y, -1, 1), (x + width, y + height, -1, -1), (x, y + height, 1, -1), (x, y, 1, 1),
     ):  # fmt: skip
@@ -307,4 +331,4 @@ def _rectangle(attributes: dict[str, str], said: Any) -> list[Subpath]:
         first = (cx + dx * r, cy) if dx * dy < 0 else (cx, cy + dy * r)
         last = (cx, cy + dy * r) if dx * dy < 0 else (cx + dx * r, cy)
         corners += [arc_around(first, last, (cx + dx * r, cy + dy * r), True), Corner(*last, fmpq(0))]
-    return [Subpath(corners, True)]
+    return [Subpath(corners, True)], Matrix(d=scale)

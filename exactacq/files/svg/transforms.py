@@ -21,7 +21,6 @@ MAX_TRANSFORMS = 64
 """Most transforms in one attribute."""
 MAX_BITS = 4 * MAX_DIGITS
 """Longest numbers of a matrix: rotations within rotations make them longer and longer."""
-_LENGTH = re.compile(rf"\s*({NUMBER})\s*(?:px)?\s*", re.ASCII)
 _PART = re.compile(rf"[\s,]+|({NUMBER})", re.ASCII)
 _CALL = re.compile(r"[\s,]*(\w+)\s*\(([^()]*)\)")
 _COUNTS = {
@@ -68,14 +67,6 @@ class Matrix:
         """Whether circles stay circles."""
         across = self.a * self.c + self.b * self.d
         return bool(across == 0 and self.a**2 + self.b**2 == self.c**2 + self.d**2)
-
-
-def number(text: str, what: str) -> fmpq:
-    """A length in user units, from its text; `FormatError`, which names *what* it is, for other units."""
-    match = _LENGTH.fullmatch(text)
-    if match is None:
-        raise FormatError(f"{what}: a number without a unit is needed, not {one_line(repr(text[:40]))}")
-    return rational(match[1])
 
 
 def numbers(text: str, what: str) -> list[fmpq]:
