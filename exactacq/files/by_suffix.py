@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,7 @@ from flint import fmpq
 
 from exactacq.errors import FormatError
 from exactacq.files.formats import format_of
+from exactacq.files.loops.contents import Contents
 from exactacq.files.source import one_line
 from exactacq.geometry.points import Point
 from exactacq.scene.bends import rational_pair
@@ -32,8 +34,22 @@ def load(path: str | Path, *, start: Point | Sequence[object] | None = None, **o
     >>> load(files("exactacq") / "files" / "data" / "issue42.dxf", start=(-30, -60))
     <Scene 'issue42': 15 obstacles>
     """
+    with naming(path):
+        return contents_of(path, start, options).scene()
+
+
+def contents_of(
+    path: str | Path, start: Point | Sequence[object] | None, options: Mapping[str, Any]
+) -> Contents:
+    """What a file holds before anything is decided; errors as those of `load`, which name no file here."""
+    return format_of(Path(path)).read(Path(path), _place(start), options)
+
+
+@contextmanager
+def naming(path: str | Path) -> Iterator[None]:
+    """Put a file's name before what a `FormatError` says of it."""
     try:
-        return format_of(Path(path)).read(Path(path), _place(start), options)
+        yield
     except FormatError as error:
         raise FormatError(f"{one_line(path)}: {error}") from None
 
@@ -42,10 +58,17 @@ def load_geo(
     document: Mapping[str, Any], *, start: Point | Sequence[object] | None = None, **options: Any
 ) -> Scene:
     """The scene of areas told as GeoJSON, with the options of that format; errors as those of `load`."""
-    from exactacq.files.geojson import scene_of_geo
+    return contents_of_geo(document, start, options).scene()
+
+
+def contents_of_geo(
+    document: Mapping[str, Any], start: Point | Sequence[object] | None, options: Mapping[str, Any]
+) -> Contents:
+    """The areas that GeoJSON tells, before anything is decided."""
+    from exactacq.files.geojson import geo_contents
 
     values = format_of(Path("x.geojson")).checked(options)
-    return scene_of_geo(document, None, _place(start), **values)
+    return geo_contents(document, None, _place(start), **values)
 
 
 def _place(start: Point | Sequence[object] | None) -> tuple[fmpq, fmpq] | None:

@@ -14,6 +14,7 @@ from typing import Any, NoReturn
 from flint import fmpq
 
 from exactacq.errors import FormatError, about
+from exactacq.files.loops.contents import Contents
 from exactacq.files.source import MAX_EDGES, check_edges, decoded, one_line, read_bytes
 from exactacq.files.writing.sheet import Sheet, Written
 from exactacq.numbers.rationals import plain, rational
@@ -35,16 +36,17 @@ class _Literal(str):
     is_json_number = True
 
 
-def load_json(path: str | Path, start: tuple[fmpq, fmpq] | None = None) -> Scene:
-    """The scene in a JSON file; *start*, if given, overrides the file's.
+def load_json(path: str | Path, start: tuple[fmpq, fmpq] | None = None) -> Contents:
+    """The parts of the scene in a JSON file; *start*, if given, overrides the file's.
 
-    Raises `FormatError` (with the place in the file) for what is no such JSON, `InvalidScene` for a scene
-    that breaks the rules. Linear in the file.
+    Raises `FormatError` (with the place in the file) for what is no such JSON. Linear in the file.
     """
     data = read_bytes(path)
     if data.count(b",") > MAX_COMMAS:
         raise FormatError(f"more than {MAX_EDGES} edges; give a smaller scene")
-    return scene_of(parse_json(data), start)
+    parts = _counted_parts(parse_json(data))
+    parts["start"] = parts["start"] if start is None else start
+    return Contents(loops=tuple(parts.pop("obstacles")), wall=parts.pop("enclosure"), **parts)
 
 
 def parse_json(data: bytes) -> Any:
@@ -64,13 +66,9 @@ def parse_json(data: bytes) -> Any:
         raise FormatError("nested too deeply; a scene has five levels") from None
 
 
-def scene_of(document: Any, start: tuple[fmpq, fmpq] | None = None) -> Scene:
-    """The scene that parsed JSON describes: see `load_json`."""
-    parts = _scene_parts(document)
-    check_edges(sum(_edge_count(s) for s in (*parts["obstacles"], parts["enclosure"])))
-    if start is not None:
-        parts["start"] = start
-    return Scene(**parts)
+def scene_of(document: Any) -> Scene:
+    """The scene that parsed JSON describes: see `load_json`. Raises `InvalidScene`, too."""
+    return Scene(**_counted_parts(document))
 
 
 def scene_to_json(scene: Scene) -> dict[str, Any]:
@@ -215,6 +213,12 @@ def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
         twice = next(key for key in keys if keys.count(key) > 1)
         raise FormatError(f"the key {one_line(repr(twice))} stands twice in one object; keep one")
     return found
+
+
+def _counted_parts(document: Any) -> dict[str, Any]:
+    parts = _scene_parts(document)
+    check_edges(sum(_edge_count(s) for s in (*parts["obstacles"], parts["enclosure"])))
+    return parts
 
 
 def _scene_parts(document: Any) -> dict[str, Any]:

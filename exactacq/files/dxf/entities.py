@@ -58,6 +58,7 @@ def read_drawing(path: Path, layers: Iterable[str] | None, flattening: Flattenin
             if count > MAX_ENTITIES:
                 raise FormatError(f"its blocks expand to more than {MAX_ENTITIES} entities; export one part")
             drawing.layers[layer] += 1
+            drawing.homes[count] = layer
             if selected.take(layer):
                 _Reader(drawing, count, flattening).read(entity)
     except FormatError:
@@ -72,7 +73,8 @@ def read_drawing(path: Path, layers: Iterable[str] | None, flattening: Flattenin
             "ellipses and splines are read with --flatten LENGTH, by arcs within that length"
         )
     if drawing.layers:
-        drawing.notes.append(f"{_unit(document)}; layers: {drawing.layer_list()}")
+        drawing.unit = _unit(document)
+        drawing.notes.append(f"{drawing.unit}; layers: {drawing.layer_list()}")
     return drawing
 
 
