@@ -10,7 +10,7 @@ import pytest
 import shapely
 
 import exactacq as xa
-from exactacq.files.by_suffix import contents_of, load_geo
+from exactacq.files.by_suffix import contents_of
 from exactacq.scene.scene import Scene
 
 
@@ -69,8 +69,8 @@ def test_only_options_of_the_format_are_named(tmp_path: Path) -> None:
     boxes = [shapely.box(0, 0, 2, 2), shapely.box(1, 1, 3, 3)]
     both = shapely.GeometryCollection(boxes)
     with pytest.raises(xa.InvalidScene, match="with --union it is a scene"):
-        load_geo(both.__geo_interface__)
+        xa.load(both)
     told = {"obstacles": [{"boundary": [list(p) for p in box.exterior.coords]} for box in boxes]}
     (tmp_path / "s.json").write_text(json.dumps(told))
-    with pytest.raises(xa.InvalidScene, match="their boundaries$"):
+    with pytest.raises(xa.InvalidScene, match=r"their boundaries$"):
         xa.load(tmp_path / "s.json")

@@ -54,13 +54,6 @@ def naming(path: str | Path) -> Iterator[None]:
         raise FormatError(f"{one_line(path)}: {error}") from None
 
 
-def load_geo(
-    document: Mapping[str, Any], *, start: Point | Sequence[object] | None = None, **options: Any
-) -> Scene:
-    """The scene of areas told as GeoJSON, with the options of that format; errors as those of `load`."""
-    return contents_of_geo(document, start, options).scene()
-
-
 def contents_of_geo(
     document: Mapping[str, Any], start: Point | Sequence[object] | None, options: Mapping[str, Any]
 ) -> Contents:

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import os
-from typing import Any, cast
+from typing import Any
 
 from exactacq.errors import FormatError
-from exactacq.files import gallery
-from exactacq.files.by_suffix import load as load_file
-from exactacq.files.by_suffix import load_geo
+from exactacq.files.sources import NamedSource
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import HasGeoInterface
 
@@ -28,16 +26,10 @@ def load(name: str | os.PathLike[str] | HasGeoInterface, **options: Any) -> Scen
     >>> load(shapely.box(2, 2, 3, 3).union(shapely.box(7, 1, 8, 3)), start=(0, 0))
     <Scene: 2 obstacles>
     """
-    geo = getattr(name, "__geo_interface__", None)
-    if geo is not None:
-        return load_geo(geo, **options)
-    text = os.fspath(cast("str | os.PathLike[str]", name))
-    if "\0" in text or os.path.lexists(text):
-        return load_file(text, **options)
-    if text in gallery.names():
-        if options:
-            raise FormatError(f"{text}: a gallery scene takes no options for files; leave them out")
-        return gallery.scene(text)
-    if os.path.splitext(text)[1]:
-        return load_file(text, **options)
-    raise FormatError(f"{text}: no such file or gallery scene; `exactacq gallery` lists the scenes")
+    source = NamedSource(name)
+    start = options.pop("start", None)
+    if start is not None and source.format is None:
+        raise FormatError(f"{source.label}: a gallery scene takes no options for files; leave them out")
+    contents = source.contents(start, options)
+    with source.named():
+        return contents.scene()

@@ -77,8 +77,11 @@ class Contents:
         every = (*self.loops, *([] if self.wall is None else [self.wall]))
         return sum(1 if isinstance(shape, Circle) else len(shape.vertices) for shape in every)
 
-    def scene(self) -> Scene:
-        """The scene around the start. Raises `FormatError` and `InvalidScene`, with what would help."""
+    def scene(self, *, advise: bool = True) -> Scene:
+        """The scene around the start. Raises `FormatError`, and `InvalidScene` with what would help.
+
+        Nothing is tried that would help without *advise*.
+        """
         if self.start is None and self.startless:
             raise FormatError(self.startless)
         if self.lacking:
@@ -86,7 +89,7 @@ class Contents:
         try:
             return self._scene()
         except InvalidScene as error:
-            cure = self._cure()
+            cure = self._cure() if advise else ""
             if not cure:
                 raise
             *others, last = error.violations
