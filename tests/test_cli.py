@@ -340,14 +340,17 @@ UNIT = [[3, 0], [5, 0], [5, 2], [3, 2]]
     ],
 )  # fmt: skip
 def test_bad_scenes(capsys: pytest.CaptureFixture[str], tmp_path: Path, obstacles: list[object]) -> None:
-    for command in ("check", "explore"):
-        refused(capsys, command, scene(tmp_path, *obstacles))
+    path = scene(tmp_path, *obstacles)
+    refused(capsys, "explore", path)
+    assert cli.main(["check", path]) == 2
+    out, err = capsys.readouterr()
+    assert re.search(r": not OK: \d violations? of the rules for scenes\n$", out) and err == ""
 
 
 def test_many_violations_stay_one_line_of_bounded_length(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
-    line = refused(capsys, "check", scene(tmp_path, *(circle(5 * k, 0, 3) for k in range(1, 60))))
+    line = refused(capsys, "explore", scene(tmp_path, *(circle(5 * k, 0, 3) for k in range(1, 60))))
     assert re.search(r"; and \d+ more\n", line)
     assert len(line) < 1500
 

@@ -45,11 +45,15 @@ WITHIN = "obstacles must lie strictly within the enclosure"
 
 @dataclass(frozen=True, slots=True)
 class Violation:
-    """A broken rule in words, by which loops, and where; there may be no loops, and no places."""
+    """A broken rule in words, by which loops, and where; there may be no loops, and no places.
+
+    Where edges meet the *kind* says how.
+    """
 
     text: str
     loops: tuple[int, ...] = ()
     places: tuple[Point, ...] = ()
+    kind: ContactKind | None = None
 
     def __str__(self) -> str:
         return self.text
@@ -270,7 +274,7 @@ class _Arrangement:
             if overlap or (*meeting.indices, meeting.contact.start.key) not in ends:
                 contact = meeting.contact
                 places = (contact.start, contact.end) if overlap else (contact.start,)
-                yield Violation(str(meeting), tuple(dict.fromkeys(meeting.indices)), places)
+                yield Violation(str(meeting), tuple(dict.fromkeys(meeting.indices)), places, contact.kind)
 
     def _candidates(self) -> Iterator[tuple[int, int]]:
         separator = Separator(self.curves, self.index.boxes)

@@ -19,6 +19,10 @@ from exactacq.scene.shapes import Shape
 from exactacq.scene.validation import Violation, violations
 
 
+LARGE = 2
+"""How many times as large as what is in it the box of a frame is."""
+
+
 @dataclass(frozen=True, slots=True)
 class Judged:
     """The loops that count, numbered as a scene would do it, and the violations among them."""
@@ -50,9 +54,15 @@ def judged(contents: Contents) -> Judged:
 
 
 def frame(shapes: Sequence[Shape]) -> int | None:
-    """The loop around most others, if there is one."""
-    around = Sketch(shapes).nesting.sum(axis=0)
-    return int(np.argmax(around)) if len(around) and around.max() else None
+    """The loop around most others, if that is half of them and it is large beside each; floats are enough."""
+    sketch = Sketch(shapes)
+    held = sketch.nesting.sum(axis=0)
+    if not len(held) or not held.max() or 2 * held.max() < len(shapes) - 1:
+        return None
+    best = int(np.argmax(held))
+    areas = [float(np.prod(np.ptp(line, axis=0))) if len(line) else 0.0 for line in sketch.lines]
+    inner = max(areas[k] for k in np.flatnonzero(sketch.nesting[:, best]).tolist())
+    return best if areas[best] >= LARGE * inner else None
 
 
 def _all_loops(contents: Contents) -> Judged:

@@ -21,11 +21,12 @@ from exactacq.files.checking.starts import Beginning, beginning
 from exactacq.files.loops.contents import Contents
 from exactacq.files.repairs.gaps import closings
 from exactacq.files.sources import NamedSource
+from exactacq.geometry.intersections import ContactKind
 from exactacq.geometry.points import Point
 from exactacq.numbers.rationals import nearest_float, plain
 from exactacq.scene.scene import Obstacle, Scene
 from exactacq.scene.shapes import HasGeoInterface
-from exactacq.scene.validation import Violation
+from exactacq.scene.validation import LIMIT, Violation
 
 Place = tuple[fmpq, fmpq]
 STEPS = 4
@@ -60,11 +61,12 @@ class LoopFound:
 
 @dataclass(frozen=True, slots=True)
 class Flaw:
-    """A broken rule in words, where, by which loops, and the options that cure it, each of them tried."""
+    """A broken rule in words: where, by which loops, how edges meet, and options that cure it, each tried."""
 
     text: str
     places: tuple[Point, ...] = ()
     loops: tuple[int, ...] = ()
+    kind: ContactKind | None = None
     cures: tuple[str, ...] = ()
 
 
@@ -178,7 +180,7 @@ class _Inquiry:
             self.before.loops, around.sum(axis=1).tolist(), around.sum(axis=0).tolist(), strict=True
         )
         chains = open_chains(self.contents, self.closing, self.tried)
-        size = nearest_float(size_of(self.contents)) if self.contents.loops else 0.0
+        size = nearest_float(min(size_of(self.contents), LIMIT))
         found = Inspection(
             name=name,
             format="gallery scenes" if self.source.format is None else self.source.format.title,
@@ -204,7 +206,7 @@ class _Inquiry:
 
     def _flaw(self, violation: Violation, size: float) -> Flaw:
         cures = [trial.words for trial in self.tried if cured(trial, violation, self.before, size)]
-        return Flaw(violation.text, violation.places, violation.loops, tuple(cures))
+        return Flaw(violation.text, violation.places, violation.loops, violation.kind, tuple(cures))
 
     def _begun(self, is_open: bool) -> tuple[Options, Beginning] | None:
         """The options and the start with which there are most boundaries, and of such the fewest options.

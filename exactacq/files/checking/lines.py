@@ -16,6 +16,7 @@ from exactacq.files.repairs.gaps import Closing
 from exactacq.geometry.points import Point
 from exactacq.numbers.rationals import nearest_float
 from exactacq.scene.shapes import Outline, Shape, shape_edges
+from exactacq.scene.validation import LIMIT
 
 CLOSING = ("tolerance", "flatten", "thicken")
 """The options that may close chains, or make them walls."""
@@ -96,8 +97,8 @@ def _place(corner: Corner) -> Place:
 
 def _length(start: Corner, end: Corner) -> float:
     """An arc of bulge b over a chord c is c atan(b) (1 + b^2) / b long."""
-    chord = hypot(nearest_float(end.x - start.x), nearest_float(end.y - start.y))
-    b = nearest_float(start.bulge)
+    chord = hypot(*(nearest_float(min(abs(d), LIMIT)) for d in (end.x - start.x, end.y - start.y)))
+    b = nearest_float(max(-LIMIT, min(start.bulge, LIMIT)))
     return chord * atan(b) * (1 + b * b) / b if b else chord
 
 

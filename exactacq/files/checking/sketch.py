@@ -5,14 +5,16 @@ Only proposals and descriptions are made of it; what is proposed is verified exa
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import cached_property
 
 import numpy as np
+from flint import fmpq
 from numpy.typing import NDArray
 
 from exactacq.geometry.curves import Curve, Segment
-from exactacq.geometry.strokes import Floats
+from exactacq.geometry.strokes import Floats, Stroke
+from exactacq.numbers.rationals import nearest_float
 from exactacq.numbers.real import Real
 from exactacq.scene.shapes import Shape, shape_edges
 
@@ -95,7 +97,17 @@ class Sketch:
 
 def points_of(edges: Sequence[Curve]) -> list[Floats]:
     """The points along each edge that can be shown."""
-    return [edge.stroke().points() for edge in edges if _is_shown(edge)]
+    return [stroke.points() for stroke in strokes_of(edges)]
+
+
+def places_of(pairs: Iterable[tuple[fmpq, fmpq]]) -> list[tuple[float, float]]:
+    """The places that can be shown."""
+    return [(nearest_float(x), nearest_float(y)) for x, y in pairs if max(abs(x), abs(y)) <= HUGE]
+
+
+def strokes_of(edges: Iterable[Curve]) -> list[Stroke]:
+    """The edges that can be shown."""
+    return [edge.stroke() for edge in edges if _is_shown(edge)]
 
 
 def _is_shown(edge: Curve) -> bool:

@@ -74,16 +74,17 @@ def read_drawing(path: Path, layers: Iterable[str] | None, flattening: Flattenin
         )
     if drawing.layers:
         drawing.unit = _unit(document)
-        drawing.notes.append(f"{drawing.unit}; layers: {drawing.layer_list()}")
+        said = f"the file's unit: {drawing.unit}" if drawing.unit else "the file names no unit"
+        drawing.notes.append(f"{said}; layers: {drawing.layer_list()}")
     return drawing
 
 
 def _unit(document: Any) -> str:
-    """What the file says of its unit; coordinates stay as they are."""
+    """The unit that the file names, "" if none; coordinates stay as they are."""
     code = document.header.get("$INSUNITS", 0)
     if not isinstance(code, int) or not 0 < code <= max(InsertUnits):
-        return "the file names no unit"
-    return f"the file's unit: {re.sub('(?<=[a-z])(?=[A-Z])', ' ', InsertUnits(code).name).lower()}"
+        return ""
+    return re.sub("(?<=[a-z])(?=[A-Z])", " ", InsertUnits(code).name).lower()
 
 
 def _open(path: Path, drawing: Drawing) -> Any:
