@@ -111,7 +111,7 @@ def test_both_strategies_side_by_side(capsys: pytest.CaptureFixture[str], tmp_pa
     assert re.search(r"^Seed Spreader / Sightseer +\d", out, re.M)
     assert target.read_text(encoding="utf-8").startswith("<?xml")
     alone = answered(capsys, "compare", "figure4")
-    assert "no sightseer: obstacle 0 meets the terrain's border" in alone
+    assert "no sightseer: obstacle O1 meets the terrain's border" in alone
     assert "Seed Spreader Strategy" in alone
     assert "no seed-spreader: the Seed Spreader sweeps a rectangle" in answered(capsys, "compare", "plate")
 

@@ -130,7 +130,7 @@ def test_check_as_json(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> No
         for k in (1, 2)
     ]
     assert found.pop("extent") == [[3, pytest.approx(-3)], [15, pytest.approx(3)]]
-    assert found.pop("gap") == pytest.approx(4, rel=0.01)
+    assert found.pop("gap") == pytest.approx(3, rel=0.01)
     assert found == {
         "name": "circles", "ok": True, "trouble": "", "format": "gallery scenes", "unit": None, "layers": [],
         "loops": loops, "open_chains": [], "violations": [], "notes": [], "start": ["0", "0"],

@@ -104,7 +104,8 @@ def test_starts_are_free_and_cures_cure(path: Path) -> None:
     if found.scene is None:
         assert found.violations and found.start is None and found.command == ""
         return
-    check_start(found)
+    if found.contents.start is None:
+        check_start(found)
     assert xa.load(path, start=found.start, **found.options) == found.scene
     assert float(xa.Real(found.radius)) >= found.gap or found.contents.radius is not None
 
@@ -218,10 +219,18 @@ def test_an_outline_in_pieces_around_a_hole(tmp_path: Path) -> None:
     assert {chain.cures for chain in found.open_chains} == {("--tolerance 1",)}
 
 
+def test_sides_of_a_slot_are_not_closed_by_a_tolerance() -> None:
+    """Joined at both ends they are one line, drawn twice: a cure was named that only hid one of them."""
+    chains = xa.inspect(DATA / "ref_dxf_metric.dxf").open_chains
+    assert [chain.cures for chain in chains] == [("--thicken 0.47",)] * 3
+
+
 def test_a_line_is_no_loop_but_may_be_a_wall(tmp_path: Path) -> None:
     found = xa.inspect(drawing(tmp_path / "d.dxf", [(0, 0), (50, 0)], box(10, 10, 5, 5)))
     (chain,) = found.open_chains
-    assert not chain.encloses and chain.gap is None and chain.cures == ("--thicken 0.25",)
+    assert (
+        not chain.encloses and (chain.gap, chain.across) == (50, None) and chain.cures == ("--thicken 0.25",)
+    )
     assert found.ok
 
 
@@ -317,10 +326,7 @@ def test_the_report_tells_all_and_ends_in_a_verdict(
     assert err == "" and picture.stat().st_size > 10_000
     lines = out.splitlines()
     assert lines[0].split() == ["format", "DXF", "drawings"] and "4 violations" in lines
-    assert (
-        sum(line.startswith("- obstacle O") and "cured by --outer drop or --union" in line for line in lines)
-        == 4
-    )
+    assert sum(line.startswith("- obstacle O") and line.endswith("or --union") for line in lines) == 4
     assert lines[-1].endswith("ref_dxf_metric.dxf: not OK: 4 violations of the rules for scenes")
     assert any(line.startswith("exactacq explore ") for line in lines)
 

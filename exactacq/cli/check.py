@@ -32,7 +32,7 @@ def check(
     enclose other loops; then the last line says so. Options are named as cures only after they were tried.
     """
     from exactacq.files.whole_files import FIGURES, check_output
-    from exactacq.output.inspection_report import inspection_data, inspection_report
+    from exactacq.output.inspections import inspection_data, inspection_report
     from exactacq.output.report import console
     from exactacq.output.report_data import text_of
 

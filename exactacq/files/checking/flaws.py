@@ -18,7 +18,6 @@ from exactacq.scene.scene import Obstacle
 from exactacq.scene.shapes import Shape
 from exactacq.scene.validation import Violation, violations
 
-
 LARGE = 2
 """How many times as large as what is in it the box of a frame is."""
 
@@ -54,10 +53,10 @@ def judged(contents: Contents) -> Judged:
 
 
 def frame(shapes: Sequence[Shape]) -> int | None:
-    """The loop around most others, if that is half of them and it is large beside each; floats are enough."""
+    """The loop around most others, if it is around more than half of them, and large beside each."""
     sketch = Sketch(shapes)
     held = sketch.nesting.sum(axis=0)
-    if not len(held) or not held.max() or 2 * held.max() < len(shapes) - 1:
+    if not len(held) or not held.max() or 2 * held.max() <= len(shapes) - 1:
         return None
     best = int(np.argmax(held))
     areas = [float(np.prod(np.ptp(line, axis=0))) if len(line) else 0.0 for line in sketch.lines]

@@ -78,6 +78,14 @@ class Inspection:
     is given. ``start`` and ``radius`` are the given ones, or proposals: with the ``options`` there is a
     ``scene`` around that start, and ``command`` explores it. All these are None, or empty, if none was found.
     ``gap`` is what the radius is chosen by: the widest link that leads to an obstacle.
+
+    >>> import exactacq as xa
+    >>> import shapely
+    >>> found = xa.inspect(shapely.MultiPolygon([shapely.box(0, 0, 2, 2), shapely.box(2, 1, 3, 3)]))
+    >>> found.trouble, found.violations[0].cures, found.options
+    ('1 violation of the rules for scenes', ('--union',), {'union': True})
+    >>> print(*found.start, found.radius)
+    5/2 1/2 3/4
     """
 
     name: str

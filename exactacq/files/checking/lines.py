@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from math import atan, hypot
 
 from flint import fmpq
 
 from exactacq.files.checking.cures import Trial
-from exactacq.files.loops.chains import Chain, Corner, bend_of
+from exactacq.files.loops.chains import Chain, Corner, bend_of, distance_above
 from exactacq.files.loops.contents import Contents
 from exactacq.files.loops.nesting import Loops
 from exactacq.files.repairs.gaps import Closing
@@ -30,16 +30,16 @@ class OpenChain:
     """A line that stays open: its pieces by name, its ends, and what is known of its gap.
 
     *length* is a float. *gap* is the width of the widest gap that keeps it open, between ends that are
-    nearest to each other, and *across* are the ends there; both are None if its ends have no such mates.
-    *encloses* says whether, closed, it would have other loops within. *cures* are options that close it, or
-    if none does, one that makes it a wall; each is tried.
+    nearest to each other, and *across* are the ends there; if its ends have no such mates this is None, and
+    the gap is the one between them. *encloses* says whether, closed, it would have other loops within.
+    *cures* are options that close it, or if none does, one that makes it a wall; each is tried.
     """
 
     pieces: tuple[str, ...]
     edges: int
     length: float
     ends: tuple[Place, Place]
-    gap: fmpq | None
+    gap: fmpq
     across: tuple[Place, Place] | None
     encloses: bool
     cures: tuple[str, ...] = ()
@@ -50,6 +50,7 @@ def open_chains(
 ) -> tuple[OpenChain, ...]:
     """All open chains of a file, the longest first."""
     gaps = {k: max(c.gaps, key=lambda gap: gap.width) for c in closing for k in c.chains}
+    groups = {k: _labels(contents, c.chains) for c in closing for k in c.chains}
     walks = [walked(path) for path in contents.open_chains]
     lengths = [sum(map(_length, walk, walk[1:])) for walk in walks]
     order = sorted(range(len(walks)), key=lambda k: -lengths[k])
@@ -60,8 +61,7 @@ def open_chains(
         if "tolerance" in trial.options:
             held = _holders(trial.contents, contents)
             for closed in closing:
-                labels = {piece.label for k in closed.chains for piece in contents.open_chains[k]}
-                if labels & held:
+                if _labels(contents, closed.chains) & held:
                     around.update(dict.fromkeys(closed.chains, True))
     return tuple(
         OpenChain(
@@ -69,10 +69,10 @@ def open_chains(
             len(walks[k]) - 1,
             lengths[k],
             (_place(walks[k][0]), _place(walks[k][-1])),
-            gaps[k].width if k in gaps else None,
+            gaps[k].width if k in gaps else distance_above(walks[k][0], walks[k][-1]),
             gaps[k].places if k in gaps else None,
             around[k],
-            _cures(contents.open_chains[k], tried),
+            _cures(contents.open_chains[k], groups.get(k, set()), tried),
         )
         for k in order
     )
@@ -102,12 +102,21 @@ def _length(start: Corner, end: Corner) -> float:
     return chord * atan(b) * (1 + b * b) / b if b else chord
 
 
-def _cures(path: Sequence[Chain], tried: Sequence[Trial]) -> tuple[str, ...]:
-    """The options after which a chain is not open any more."""
+def _labels(contents: Contents, chains: Iterable[int]) -> set[str]:
+    """The names of the pieces of some chains."""
+    return {piece.label for k in chains for piece in contents.open_chains[k]}
+
+
+def _cures(path: Sequence[Chain], group: set[str], tried: Sequence[Trial]) -> tuple[str, ...]:
+    """The options after which a chain is not open any more; a tolerance makes a loop of its *group*, too.
+
+    Without that last it may have become a piece that is drawn twice, or a loop without area.
+    """
     found = {}
     for trial in tried:
         for name in trial.options:
-            if name in CLOSING and not any(piece.label in trial.still_open for piece in path):
+            is_loop = name != "tolerance" or bool(group & _started(trial.contents))
+            if name in CLOSING and is_loop and not any(piece.label in trial.still_open for piece in path):
                 found[trial.words] = name
     closed = tuple(words for words, name in found.items() if name != "thicken")
     return closed or tuple(found)
@@ -136,7 +145,16 @@ def _holders(closed: Contents, before: Contents) -> set[str]:
     inside: set[int] = set()
     for point in places if new else ():
         inside |= {k for k in lines.around(point) if not _passes(new[k], point)}
-    return {(new[k].name or "").removeprefix("loop from ") for k in inside}
+    return {_first_piece(new[k]) for k in inside}
+
+
+def _started(contents: Contents) -> set[str]:
+    """The names of the first pieces of all loops."""
+    return set(map(_first_piece, contents.loops))
+
+
+def _first_piece(shape: Shape) -> str:
+    return (shape.name or "").removeprefix("loop from ")
 
 
 def _passes(shape: Shape, point: Point) -> bool:

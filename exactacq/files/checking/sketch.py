@@ -51,7 +51,7 @@ class Sketch:
 
     @property
     def extent(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """The same corners as pairs."""
+        """Both corners of the box, as pairs of floats."""
         (x0, y0), (x1, y1) = (corner.tolist() for corner in self.box)
         return (x0, y0), (x1, y1)
 

@@ -54,7 +54,8 @@ def drawing_contents(
         raise FormatError(f"nothing to read{_because(_left_out(drawing.dropped))}; {other}")
     (x0, y0), (x1, y1) = drawing.extent()
     startless = (
-        f"a drawing has no start: give one with --start X,Y (start=(x, y) in Python); "
+        f"a drawing has no start: give one with --start X,Y (start=(x, y) in Python), such as the "
+        "one that `exactacq check` proposes; "
         f"this one spans x {short(x0)} to {short(x1)}, y {short(y0)} to {short(y1)}"
     )
     reach = default_tolerance(max(x1 - x0, y1 - y0)) if tolerance is None else tolerance

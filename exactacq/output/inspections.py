@@ -28,7 +28,7 @@ ROLES = {
     "outer": "outer loop",
     "hole": "hole",
     "nested": "nested loop",
-    "single": "loop alone",
+    "single": "single loop",
 }
 """What loops are called: outer ones have others within, holes lie in one other, nested ones in several."""
 
@@ -59,7 +59,7 @@ def inspection_report(found: Inspection) -> Iterator[str | Table]:
 
 
 def inspection_data(found: Inspection) -> dict[str, Any]:
-    """The same for programs: rationals as text, floats where nothing is decided by them."""
+    """An inspection for programs: rationals as text, floats where nothing is decided by them."""
     contents = found.contents
     return {
         "name": found.name,
@@ -90,7 +90,7 @@ def inspection_data(found: Inspection) -> dict[str, Any]:
                 "edges": chain.edges,
                 "length": chain.length,
                 "ends": [list(map(str, end)) for end in chain.ends],
-                "gap": None if chain.gap is None else str(chain.gap),
+                "gap": str(chain.gap),
                 "encloses": chain.encloses,
                 "cures": list(chain.cures),
             }
@@ -146,10 +146,15 @@ def _chains(chains: Iterable[OpenChain]) -> Table:
         table.add_column(column, overflow="fold")
     for chain in chains:
         names = ", ".join(chain.pieces[:PIECES]) + (" ..." if len(chain.pieces) > PIECES else "")
-        gap = "-" if chain.gap is None else scientific_above(chain.gap)
         cures = " or ".join(chain.cures) or "nothing that was tried"
         around = "; it would enclose other loops" if chain.encloses else ""
-        table.add_row(names, str(len(chain.pieces)), f"{chain.length:.6g}", gap, f"{cures}{around}")
+        table.add_row(
+            names,
+            str(len(chain.pieces)),
+            f"{chain.length:.6g}",
+            scientific_above(chain.gap),
+            f"{cures}{around}",
+        )
     return table
 
 
@@ -192,7 +197,4 @@ def _number(value: fmpq) -> str:
 
 
 def _counted(count: int, what: str, plural: str = "") -> str:
-    if count != 1 and not plural:
-        head, _, tail = what.partition(" ")
-        plural = f"{head}s {tail}" if tail == "alone" else f"{what}s"
-    return f"{count} {what if count == 1 else plural}"
+    return f"{count} {what if count == 1 else plural or what + 's'}"
