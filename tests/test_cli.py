@@ -293,7 +293,7 @@ def test_a_drawing_with_a_damaged_number_costs_one_line(tmp_path: Path) -> None:
     path.write_text(
         EMPTY_DXF.replace("ENTITIES\n", "ENTITIES\n0\nLINE\n8\n0\n10\n1.2.3\n20\n0\n11\n1\n21\n1\n")
     )
-    command = [sys.executable, "-m", "exactacq", "check", str(path), "--start", "0,0"]
+    command = [sys.executable, "-m", "exactacq", "explore", str(path), "--start", "0,0", "--radius", "1"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 2
     assert done.stderr.count("\n") == 1

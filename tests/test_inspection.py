@@ -361,3 +361,21 @@ def test_steps_are_told() -> None:
     steps = []
     xa.inspect("circles", progress=lambda done, total: steps.append((done, total)))
     assert steps == [(k, 4) for k in range(5)]
+
+
+def test_a_tolerance_that_makes_nothing_of_a_loop_is_no_cure(tmp_path: Path) -> None:
+    """A bow tie in a large plate: a thousand times the default tolerance would have it vanish."""
+    bow = [(50, 50), (50.01, 50.01), (50.01, 50), (50, 50.01), (50, 50)]
+    found = xa.inspect(drawing(tmp_path / "d.dxf", box(0, 0, 100, 100), bow))
+    assert [flaw.cures for flaw in found.violations] == [()]
+
+
+def test_violations_beyond_count_are_not_tried(tmp_path: Path) -> None:
+    """Two combs, each of whose teeth cross all of the other's: a union would find thousands of crossings."""
+    teeth = [
+        (x, y) for k in range(60) for x, y in ((3 * k, 0), (3 * k + 1, 200), (3 * k + 2, 200), (3 * k + 3, 0))
+    ]
+    comb = [*teeth, (180, -5), (0, -5), (0, 0)]
+    path = drawing(tmp_path / "d.dxf", comb, [(y, x) for x, y in comb])
+    found = xa.inspect(path)
+    assert len(found.violations) == 5000 and {flaw.cures for flaw in found.violations} == {()}

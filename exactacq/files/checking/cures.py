@@ -19,9 +19,9 @@ from exactacq.files.repairs.gaps import Closing, best_tolerance
 from exactacq.geometry.strokes import Floats
 from exactacq.numbers.rationals import nearest_float, plain
 from exactacq.scene.shapes import Circle, Shape
-from exactacq.scene.validation import LIMIT, Violation
+from exactacq.scene.validation import COUNTED, LIMIT, Violation
 
-MOST_EDGES = 20_000
+MOST_EDGES = 10_000
 """Edges beyond which nothing is tried: a trial takes as long as the check itself, some seconds there."""
 LAYER_TRIALS, TOLERANCE_TRIALS = 2, 2
 """Most layers that are left out in turn, and most tolerances, if one is no cure for all chains."""
@@ -93,9 +93,11 @@ def trials(
 ) -> Iterator[Trial]:
     """What options make of contents: those of *allowed* that may cure what was found.
 
-    *read* reads the file with further options. None are tried beyond `MOST_EDGES`.
+    *read* reads the file with further options. None are tried beyond `MOST_EDGES`, or if violations are so
+    many that they are not all counted: a union would take as long as there are crossings.
     """
-    if contents.edges + sum(c.edges for path in contents.open_chains for c in path) > MOST_EDGES:
+    lines = sum(piece.edges for path in contents.open_chains for piece in path)
+    if contents.edges + lines > MOST_EDGES or len(found.violations) >= COUNTED:
         return
     for more in _proposals(contents, found, closing):
         if not set(more) <= set(allowed):
@@ -109,14 +111,15 @@ def trials(
 
 
 def cured(trial: Trial, violation: Violation, before: Judged, size: float) -> bool:
-    """Whether a violation is gone in a trial, and not only because all that it speaks of is gone.
+    """Whether a violation is gone in a trial, and not only because what it speaks of is gone.
 
-    It is gone if no violation is left near its places. Of two loops that met, one has to be there.
+    It is gone if no violation is left near its places. With fewer layers one of two loops that met has to be
+    there still, with a tolerance both: a large one makes nothing of small loops.
     """
     if not trial.judged.loops or "thicken" in trial.options:
         return False
-    names = {before.loops[k].name for k in violation.loops}
-    if "layers" in trial.options and not names & {loop.name for loop in trial.judged.loops}:
+    names, left = {before.loops[k].name for k in violation.loops}, {loop.name for loop in trial.judged.loops}
+    if ("layers" in trial.options and not names & left) or ("tolerance" in trial.options and names - left):
         return False
     if not violation.places:
         return violation.text not in {other.text for other in trial.judged.violations}

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import islice
 from shlex import quote
 from typing import Any
 
@@ -16,7 +17,7 @@ from exactacq.errors import FormatError, InvalidScene, Undecided
 from exactacq.files.checking.cures import Options, Trial, cured, size_of, trials, words
 from exactacq.files.checking.flaws import Judged, judged
 from exactacq.files.checking.lines import OpenChain, open_chains
-from exactacq.files.checking.sketch import Sketch
+from exactacq.files.checking.sketch import Sketch, places_of
 from exactacq.files.checking.starts import Beginning, beginning
 from exactacq.files.loops.contents import Contents
 from exactacq.files.repairs.gaps import closings
@@ -33,6 +34,8 @@ STEPS = 4
 """Reading, violations, cures, and a start."""
 BEST = 2
 """How many of the single options a start is looked for with."""
+THICK_EDGES = 4000
+"""Edges of walls around lines and of loops beyond which no start is looked for among them: all are merged."""
 TOGETHER = {"tolerance", "union", "flatten"}
 """Options that are also tried all together."""
 
@@ -136,7 +139,7 @@ def inspect(
 
     The arguments are those of `load`. *progress* is called with the number of steps done, and of all. Options
     that cure a violation or close a chain are named only after they were tried; none are tried for files of
-    more than 20,000 edges. Raises `FormatError` for a file that cannot be read.
+    more than 10,000 edges. Raises `FormatError` for a file that cannot be read.
 
     >>> from importlib.resources import files
     >>> found = inspect(files("exactacq") / "files" / "data" / "issue42.dxf")
@@ -196,7 +199,7 @@ class _Inquiry:
             loops=tuple(LoopFound(*row) for row in counted),
             open_chains=chains,
             violations=tuple(self._flaw(violation, size) for violation in self.before.violations),
-            extent=None if sketch.is_empty else sketch.extent,
+            extent=self._extent(sketch),
         )
         begun = self._begun(any(chain.encloses for chain in chains))
         if begun is None:
@@ -211,6 +214,16 @@ class _Inquiry:
             scene=beginning.scene,
             command=self._command({**self.options, **options}, beginning),
         )
+
+    def _extent(self, sketch: Sketch) -> tuple[tuple[float, float], tuple[float, float]] | None:
+        """The box of all that can be shown, from its lower left to its upper right corner."""
+        pieces = [piece for path in self.contents.open_chains for piece in path]
+        places = places_of((corner.x, corner.y) for piece in pieces for corner in piece.corners)
+        places += [] if sketch.is_empty else [(float(x), float(y)) for x, y in sketch.box]
+        if not places:
+            return None
+        xs, ys = zip(*places, strict=True)
+        return (min(xs), min(ys)), (max(xs), max(ys))
 
     def _flaw(self, violation: Violation, size: float) -> Flaw:
         cures = [trial.words for trial in self.tried if cured(trial, violation, self.before, size)]
@@ -239,7 +252,8 @@ class _Inquiry:
         order = sorted(
             self.tried, key=lambda trial: (len(trial.judged.violations), len(trial.contents.open_chains))
         )
-        yield from ((trial.options, trial.contents) for trial in order[:BEST])
+        light = (t for t in order if "thicken" not in t.options or t.contents.edges <= THICK_EDGES)
+        yield from ((trial.options, trial.contents) for trial in islice(light, BEST))
         every: dict[str, object] = {}
         for trial in order:
             if TOGETHER.issuperset(trial.options) and trial.helps(self.before, self.contents):

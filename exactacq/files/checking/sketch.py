@@ -49,12 +49,6 @@ class Sketch:
         """The lower left and the upper right corner of everything."""
         return self.starts.min(axis=0), self.starts.max(axis=0)
 
-    @property
-    def extent(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Both corners of the box, as pairs of floats."""
-        (x0, y0), (x1, y1) = (corner.tolist() for corner in self.box)
-        return (x0, y0), (x1, y1)
-
     def around(self, places: Floats) -> Bools:
         """Which loops lie around which places: a row for each place."""
         found = np.zeros((len(places), self.count), dtype=bool)
