@@ -11,7 +11,9 @@ import shapely
 
 import exactacq as xa
 from exactacq.files.by_suffix import contents_of
-from exactacq.scene.scene import Scene
+from exactacq.geometry.intersections import ContactKind
+from exactacq.scene.scene import Obstacle, Scene
+from exactacq.scene.validation import violations
 
 
 def frame_and_holes(path: Path) -> Path:
@@ -74,3 +76,19 @@ def test_only_options_of_the_format_are_named(tmp_path: Path) -> None:
     (tmp_path / "s.json").write_text(json.dumps(told))
     with pytest.raises(xa.InvalidScene, match=r"their boundaries$"):
         xa.load(tmp_path / "s.json")
+
+
+def test_violations_know_their_loops_places_and_kinds() -> None:
+    boxes = [(0, 0, 10, 10), (5, 5, 15, 15), (20, 0, 30, 9), (22, 2, 24, 4), (30, 2, 31, 3)]
+    loops = [Obstacle.of(k, xa.Polygon(shapely.box(*box))) for k, box in enumerate(boxes)]
+    nested, strict = violations(loops, nested=True), violations(loops)
+    crossing = [v for v in nested if v.kind is ContactKind.CROSSING]
+    assert {v.loops for v in crossing} == {(0, 1)}
+    assert {p.xy for v in crossing for p in v.places} == {(10, 5), (5, 10)}
+    (overlap,) = (v for v in nested if v.kind is ContactKind.OVERLAP)
+    assert overlap.loops == (2, 4) and {p.xy for p in overlap.places} == {(30, 2), (30, 3)}
+    (inside,) = (v for v in strict if v not in nested)
+    assert inside.loops == (3, 2) and "O4 lies inside obstacle O3" in str(inside)
+    with pytest.raises(xa.InvalidScene) as refused:
+        xa.Scene([loop.shape for loop in loops])
+    assert refused.value.violations == tuple(map(str, strict))
