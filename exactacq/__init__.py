@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
     from exactacq.auditing.audit import audit
     from exactacq.errors import AuditError, ExactacqError, FormatError, InvalidScene, Undecided
+    from exactacq.files.checking.inspection import Inspection, inspect
     from exactacq.files.formats import formats
     from exactacq.files.load import load
     from exactacq.geometry.curves import Arc, Segment
@@ -47,6 +48,7 @@ __all__ = [
     "EventKind",
     "ExactacqError",
     "FormatError",
+    "Inspection",
     "InvalidScene",
     "Isovist",
     "Length",
@@ -67,6 +69,7 @@ __all__ = [
     "audit",
     "figure",
     "formats",
+    "inspect",
     "isovist",
     "load",
     "load_run",
@@ -87,6 +90,7 @@ _HOMES = {
     "EventKind": "exactacq.sensing.event",
     "ExactacqError": "exactacq.errors",
     "FormatError": "exactacq.errors",
+    "Inspection": "exactacq.files.checking.inspection",
     "InvalidScene": "exactacq.errors",
     "Isovist": "exactacq.visibility.isovist",
     "Length": "exactacq.numbers.length",
@@ -107,6 +111,7 @@ _HOMES = {
     "audit": "exactacq.auditing.audit",
     "figure": "exactacq.output.figures",
     "formats": "exactacq.files.formats",
+    "inspect": "exactacq.files.checking.inspection",
     "isovist": "exactacq.visibility.isovist",
     "load": "exactacq.files.load",
     "load_run": "exactacq.output.run_json",

@@ -28,7 +28,7 @@ class InvalidScene(ExactacqError, ValueError):
     >>> import exactacq as xa
     >>> xa.Scene([xa.Circle((0, 0), 1)], start=(0, 0))
     Traceback (most recent call last):
-    exactacq.errors.InvalidScene: start (0, 0) lies inside obstacle 0: it must lie in free space
+    exactacq.errors.InvalidScene: start (0, 0) lies inside obstacle O1: it must lie in free space
     """
 
     def __init__(self, violations: Iterable[str], cure: str = "") -> None:

@@ -111,7 +111,7 @@ def test_both_strategies_side_by_side(capsys: pytest.CaptureFixture[str], tmp_pa
     assert re.search(r"^Seed Spreader / Sightseer +\d", out, re.M)
     assert target.read_text(encoding="utf-8").startswith("<?xml")
     alone = answered(capsys, "compare", "figure4")
-    assert "no sightseer: obstacle 0 meets the terrain's border" in alone
+    assert "no sightseer: obstacle O1 meets the terrain's border" in alone
     assert "Seed Spreader Strategy" in alone
     assert "no seed-spreader: the Seed Spreader sweeps a rectangle" in answered(capsys, "compare", "plate")
 
@@ -293,7 +293,7 @@ def test_a_drawing_with_a_damaged_number_costs_one_line(tmp_path: Path) -> None:
     path.write_text(
         EMPTY_DXF.replace("ENTITIES\n", "ENTITIES\n0\nLINE\n8\n0\n10\n1.2.3\n20\n0\n11\n1\n21\n1\n")
     )
-    command = [sys.executable, "-m", "exactacq", "check", str(path), "--start", "0,0"]
+    command = [sys.executable, "-m", "exactacq", "explore", str(path), "--start", "0,0", "--radius", "1"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 2
     assert done.stderr.count("\n") == 1
@@ -340,8 +340,11 @@ UNIT = [[3, 0], [5, 0], [5, 2], [3, 2]]
     ],
 )  # fmt: skip
 def test_bad_scenes(capsys: pytest.CaptureFixture[str], tmp_path: Path, obstacles: list[object]) -> None:
-    for command in ("check", "explore"):
-        refused(capsys, command, scene(tmp_path, *obstacles))
+    path = scene(tmp_path, *obstacles)
+    refused(capsys, "explore", path)
+    assert cli.main(["check", path]) == 2
+    out, err = capsys.readouterr()
+    assert re.search(r": not OK: \d violations? of the rules for scenes\n$", out) and err == ""
 
 
 def test_many_violations_stay_one_line_of_bounded_length(

@@ -120,16 +120,27 @@ def data(capsys: pytest.CaptureFixture[str], *arguments: object) -> object:
 
 def test_check_as_json(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     found = data(capsys, "check", "circles")
-    assert found == {
+    scene = {
         "name": "circles", "ok": True, "obstacles": 2, "enclosure": False, "segments": 0, "arcs": 2,
         "perimeters": {"closed": "10*pi", "decimal": "31.415926535897932385"},
         "start": ["0", "0"], "radius": "20", "terrain": None, "notes": [],
     }  # fmt: skip
-    assert found == data(capsys, "gallery", "circles")
+    loops = [
+        {"label": f"O{k}", "name": None, "role": "single", "inside": 0, "holds": 0, "segments": 0, "arcs": 1}
+        for k in (1, 2)
+    ]
+    assert found.pop("extent") == [[3, pytest.approx(-3)], [15, pytest.approx(3)]]
+    assert found.pop("gap") == pytest.approx(3, rel=0.01)
+    assert found == {
+        "name": "circles", "ok": True, "trouble": "", "format": "gallery scenes", "unit": None, "layers": [],
+        "loops": loops, "open_chains": [], "violations": [], "notes": [], "start": ["0", "0"],
+        "radius": "20", "scene": scene, "command": "exactacq explore circles",
+    }  # fmt: skip
+    assert scene == data(capsys, "gallery", "circles")
     bare = tmp_path / "bare.json"
     bare.write_text('{"obstacles": [], "terrain": {"width": 1, "height": "1/3"}}')
-    empty = data(capsys, "check", bare)
-    assert empty["start"] is None and empty["terrain"] == {
+    empty = data(capsys, "check", bare)["scene"]
+    assert empty["start"] == ["0", "0"] and empty["terrain"] == {
         "width": "1",
         "height": "1/3",
         "origin": ["0", "0"],

@@ -99,7 +99,11 @@ def test_the_command_line_offers_every_option(capsys: pytest.CaptureFixture[str]
             ("--start", "-1/2,-1/2", "--corners", "part"),
             "parted the blocked cells at 1 corner",
         ),
-        ("turtlebot3.pgm", ("--resolution", "0.05", "--threshold", "0.3"), "obstacles"),
+        (
+            "turtlebot3.pgm",
+            ("--resolution", "0.05", "--threshold", "0.3"),
+            "4 outer loops, 4 holes, 6 single loops",
+        ),
         ("keyboard.svg", ("--start", "3/2,5", "--outer", "room"), "and the enclosure"),
         ("board.kicad_pcb", ("--start", "105,-45", "--layers", "Edge.Cuts"), "6, and the enclosure"),
         ("issue21.dxf", ("--start", "470,0"), "the file's unit: millimeters"),

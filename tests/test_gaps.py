@@ -100,3 +100,11 @@ def test_what_encloses_nothing_has_no_gap(path: list[Chain]) -> None:
 def test_an_arc_alone_is_closed_by_a_tolerance_over_its_chord() -> None:
     (closing,) = closings([[line((0, 0), (1, 0), (0, 1), bulge=1)]])
     assert closing.chains == (0,)
+
+
+def test_two_lines_side_by_side_enclose_nothing() -> None:
+    """Their ends joined, they would be one line drawn twice: found in a real part of two slots' sides."""
+    sides = [[line((0, 0), (0, 50))], [line((10, 0), (10, 50))]]
+    assert closings(sides) == []
+    (closing,) = closings([sides[0], [line((10, 0), (15, 25), (10, 50))]])
+    assert closing.chains == (0, 1)

@@ -272,5 +272,5 @@ def test_a_single_polygon_is_no_list_of_obstacles() -> None:
 
 def test_what_breaks_a_rule_of_the_world_is_invalid_and_not_malformed() -> None:
     for offered in (shapely.Polygon(), np.zeros((0, 2)), [(0, 0), (1, 1), (1, 0), (0, 1)]):
-        with pytest.raises(xa.InvalidScene, match="obstacle 0"):
+        with pytest.raises(xa.InvalidScene, match="obstacle O1"):
             xa.Scene([offered])

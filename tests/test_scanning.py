@@ -173,8 +173,8 @@ def test_nothing_to_scan() -> None:
 @pytest.mark.parametrize(
     ("shapes", "start", "word"),
     [
-        ([Circle((3, 0), 1)], (0, 0), "obstacle 0 has arcs"),
-        ([SQUARE, Outline([(3, 0), (4, 0, 1), (4, 1), (3, 1)])], (0, 0), "obstacle 1 has arcs"),
+        ([Circle((3, 0), 1)], (0, 0), "obstacle O1 has arcs"),
+        ([SQUARE, Outline([(3, 0), (4, 0, 1), (4, 1), (3, 1)])], (0, 0), "obstacle O2 has arcs"),
         ([SQUARE], None, "start"),
         ([SQUARE], (Length(2).algebraic.sqrt(), 0), "start"),
     ],

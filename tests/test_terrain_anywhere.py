@@ -83,7 +83,7 @@ def test_the_start_is_the_south_west_corner() -> None:
     with pytest.raises(xa.InvalidScene, match=r"the start .* is not the terrain's SW corner \(1, 1\)"):
         xa.seed_spreader(scene)
     covered = xa.Scene([xa.Circle((1, 1), 1)], terrain=xa.Terrain(4, 4, origin=(1, 1)), radius=1)
-    with pytest.raises(xa.InvalidScene, match=r"obstacle 0 covers the SW corner \(1, 1\)"):
+    with pytest.raises(xa.InvalidScene, match=r"obstacle O1 covers the SW corner \(1, 1\)"):
         xa.seed_spreader(covered)
 
 

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from flint import fmpq
 
-from exactacq.errors import FormatError, InvalidScene
-from exactacq.files.formats import Format, format_of
+from exactacq.errors import FormatError
+from exactacq.files.formats import format_of
+from exactacq.files.loops.contents import Contents
 from exactacq.files.source import one_line
 from exactacq.geometry.points import Point
 from exactacq.scene.bends import rational_pair
 from exactacq.scene.scene import Scene
-from exactacq.scene.validation import DISJOINT, SIMPLE, WITHIN
 
 
 def load(path: str | Path, *, start: Point | Sequence[object] | None = None, **options: Any) -> Scene:
@@ -33,42 +34,34 @@ def load(path: str | Path, *, start: Point | Sequence[object] | None = None, **o
     >>> load(files("exactacq") / "files" / "data" / "issue42.dxf", start=(-30, -60))
     <Scene 'issue42': 15 obstacles>
     """
+    with naming(path):
+        return contents_of(path, start, options).scene()
+
+
+def contents_of(
+    path: str | Path, start: Point | Sequence[object] | None, options: Mapping[str, Any]
+) -> Contents:
+    """What a file holds before anything is decided; errors as those of `load`, which name no file here."""
+    return format_of(Path(path)).read(Path(path), _place(start), options)
+
+
+@contextmanager
+def naming(path: str | Path) -> Iterator[None]:
+    """Put a file's name before what a `FormatError` says of it."""
     try:
-        known = format_of(Path(path))
-        return known.read(Path(path), _place(start), options)
+        yield
     except FormatError as error:
         raise FormatError(f"{one_line(path)}: {error}") from None
-    except InvalidScene as error:
-        raise InvalidScene(error.violations, _cure(error, known, options)) from None
 
 
-def load_geo(
-    document: Mapping[str, Any], *, start: Point | Sequence[object] | None = None, **options: Any
-) -> Scene:
-    """The scene of areas told as GeoJSON, with the options of that format; errors as those of `load`."""
-    from exactacq.files.geojson import scene_of_geo
+def contents_of_geo(
+    document: Mapping[str, Any], start: Point | Sequence[object] | None, options: Mapping[str, Any]
+) -> Contents:
+    """The areas that GeoJSON tells, before anything is decided."""
+    from exactacq.files.geojson import geo_contents
 
     values = format_of(Path("x.geojson")).checked(options)
-    return scene_of_geo(document, None, _place(start), **values)
-
-
-def _cure(error: InvalidScene, known: Format, options: Mapping[str, object]) -> str:
-    """What may help where loops of a file meet: an option, or else what to do with the file."""
-    told = " ".join(error.violations)
-    names = [option.name for option in known.options]
-    cures = []
-    if any(rule in told for rule in (DISJOINT, WITHIN)):
-        if "union" in names and not options.get("union"):
-            cures.append("--union (union=True in Python) merges loops that meet")
-        elif known.name == "json":
-            cures.append(
-                "move the shapes apart in the file; of formats that take it --union merges what meets"
-            )
-    if SIMPLE in told:
-        cures.append("no option mends a boundary that meets itself: part it in the file where it does")
-    if cures and "layers" in names and options.get("layers") is None:
-        cures.append("--layers reads a part")
-    return "; ".join(cures)
+    return geo_contents(document, None, _place(start), **values)
 
 
 def _place(start: Point | Sequence[object] | None) -> tuple[fmpq, fmpq] | None:

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any, Literal
 from exactacq.errors import FormatError, shown
 
 if TYPE_CHECKING:
+    from exactacq.files.loops.contents import Contents
     from exactacq.files.writing.sheet import Sheet, Written
-    from exactacq.scene.scene import Scene
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,8 +58,8 @@ class Format:
     """A file format: its name, what its files are, their suffixes, what reads and writes them, its options.
 
     *reader* and *writer* are "module:function", or None. A reader takes the path, the start (two rationals,
-    or None) and the options by name, and returns a `Scene`. A writer takes a sheet (see
-    `exactacq.files.writing.sheet`) and returns the content of the file.
+    or None) and the options by name, and returns what the file holds: see `exactacq.files.loops.contents`. A
+    writer takes a sheet (see `exactacq.files.writing.sheet`) and returns the content of the file.
     """
 
     name: str
@@ -69,13 +69,13 @@ class Format:
     writer: str | None = None
     options: tuple[FileOption, ...] = ()
 
-    def read(self, path: Path, start: object, values: Mapping[str, object]) -> Scene:
-        """The scene in a file; `FormatError` for wrong options before anything is read."""
+    def read(self, path: Path, start: object, values: Mapping[str, object]) -> Contents:
+        """What a file holds; `FormatError` for wrong options before anything is read."""
         checked = self.checked(values)
         if self.reader is None:
             raise FormatError(f"{self.title} are written, but not read")
-        scene: Scene = _named(self.reader)(path, start, **checked)
-        return scene
+        contents: Contents = _named(self.reader)(path, start, **checked)
+        return contents
 
     def written(self, sheet: Sheet) -> Written:
         """A sheet as the content of a file of this format, which has a writer."""

@@ -16,11 +16,11 @@ from flint import fmpq
 
 from exactacq.errors import FormatError, about, shown
 from exactacq.files.loops.areas import Areas
+from exactacq.files.loops.contents import Contents
 from exactacq.files.scene_json import MAX_COMMAS, parse_json
 from exactacq.files.source import MAX_EDGES, read_bytes
 from exactacq.numbers.rationals import rational
 from exactacq.scene.bends import entries
-from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Terrain
 
 MAX_DEPTH = 16
@@ -29,23 +29,23 @@ LINES = ("LineString", "MultiLineString", "LinearRing")
 Place = tuple[fmpq, fmpq]
 
 
-def load_geojson(path: Path, start: Place | None, *, union: bool = False) -> Scene:
-    """The scene of the areas in a GeoJSON file, around the start: see `exactacq.files.loops.areas`.
+def load_geojson(path: Path, start: Place | None, *, union: bool = False) -> Contents:
+    """The areas in a GeoJSON file, around the start: see `exactacq.files.loops.areas`.
 
-    Raises `FormatError` with the place in the document, and `InvalidScene`. Linear in the file.
+    Raises `FormatError` with the place in the document. Linear in the file.
     """
     data = read_bytes(path)
     if data.count(b",") > MAX_COMMAS:
         raise FormatError(f"more than {MAX_EDGES} edges; give a smaller part")
-    return scene_of_geo(parse_json(data), path.stem, start, union=union)
+    return geo_contents(parse_json(data), path.stem, start, union=union)
 
 
-def scene_of_geo(document: Any, name: str | None, start: Place | None, *, union: bool = False) -> Scene:
-    """The scene of a GeoJSON document, or of what `__geo_interface__` says of an object."""
+def geo_contents(document: Any, name: str | None, start: Place | None, *, union: bool = False) -> Contents:
+    """The areas of a GeoJSON document, or of what `__geo_interface__` says of an object."""
     reader = _GeoReader()
     reader.read(document, "the document", 0)
     start = reader.start if start is None else start
-    return reader.areas.scene(name, start, union=union, terrain=reader.terrain)
+    return reader.areas.contents(name, start, union=union, terrain=reader.terrain)
 
 
 class _GeoReader:

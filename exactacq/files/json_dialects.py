@@ -15,12 +15,12 @@ from typing import Any
 from flint import fmpq
 
 from exactacq.errors import FormatError, about, shown
-from exactacq.files.geojson import scene_of_geo
+from exactacq.files.geojson import geo_contents
 from exactacq.files.loops.areas import Areas
-from exactacq.files.scene_json import read_document, scene_of
+from exactacq.files.loops.contents import Contents
+from exactacq.files.scene_json import contents_of, read_document
 from exactacq.files.source import one_line
 from exactacq.scene.bends import rational_pair
-from exactacq.scene.scene import Scene
 
 Place = tuple[fmpq, fmpq]
 
@@ -34,24 +34,23 @@ class Dialect:
 
     title: str
     keys: tuple[str, ...]
-    read: Callable[[Mapping[str, Any], str, Place | None], Scene]
+    read: Callable[[Mapping[str, Any], str, Place | None], Contents]
 
 
-def load_json(path: Path, start: Place | None = None) -> Scene:
-    """The scene in a JSON file; *start*, if given, overrides the file's.
+def load_json(path: Path, start: Place | None = None) -> Contents:
+    """The parts of the scene in a JSON file; *start*, if given, overrides the file's.
 
-    Raises `FormatError` (with the place in the file) for what is none, `InvalidScene` for a scene that breaks
-    the rules. Linear in the file.
+    Raises `FormatError` (with the place in the file) for what is none. Linear in the file.
     """
     document = read_document(path)
     if isinstance(document, dict):
         for dialect in DIALECTS:
             if document.keys() >= set(dialect.keys):
                 return dialect.read(document, path.stem, start)
-    return scene_of(document, start)
+    return contents_of(document, start)
 
 
-def _environment(document: Mapping[str, Any], name: str, start: Place | None) -> Scene:
+def _environment(document: Mapping[str, Any], name: str, start: Place | None) -> Contents:
     """The boundary is the wall, the holes are obstacles, as in extremitypathfinder."""
     if unknown := [key for key in document if key not in ("boundary", "holes")]:
         told = one_line(repr(unknown[0]))
@@ -66,7 +65,7 @@ def _environment(document: Mapping[str, Any], name: str, start: Place | None) ->
                 raise FormatError("three vertices are needed; correct the file")
             areas.add([*rows, rows[0]], label)
     wall, *obstacles = areas.rings
-    return Scene(obstacles, start=start, enclosure=wall, name=name, notes=areas.mended())
+    return Contents(name=name, loops=tuple(obstacles), wall=wall, start=start, notes=tuple(areas.mended()))
 
 
 def _listed(value: Any, what: str) -> list[Any]:
@@ -75,7 +74,7 @@ def _listed(value: Any, what: str) -> list[Any]:
     return value
 
 
-def _run(_: Mapping[str, Any], __: str, ___: Place | None) -> Scene:
+def _run(_: Mapping[str, Any], __: str, ___: Place | None) -> Contents:
     raise FormatError(
         "this is a run, not a scene: exactacq.load_run reads it (its scene is .scene), and "
         "`exactacq convert` writes it as a drawing"
@@ -84,10 +83,10 @@ def _run(_: Mapping[str, Any], __: str, ___: Place | None) -> Scene:
 
 DIALECTS = (
     Dialect("environments of extremitypathfinder", ("boundary", "holes"), _environment),
-    Dialect("GeoJSON", ("type", "coordinates"), scene_of_geo),
-    Dialect("GeoJSON", ("type", "geometry"), scene_of_geo),
-    Dialect("GeoJSON", ("type", "features"), scene_of_geo),
-    Dialect("GeoJSON", ("type", "geometries"), scene_of_geo),
+    Dialect("GeoJSON", ("type", "coordinates"), geo_contents),
+    Dialect("GeoJSON", ("type", "geometry"), geo_contents),
+    Dialect("GeoJSON", ("type", "features"), geo_contents),
+    Dialect("GeoJSON", ("type", "geometries"), geo_contents),
     Dialect("runs", ("format", "version", "scene"), _run),
 )
 """What is told by its keys, beside scenes."""

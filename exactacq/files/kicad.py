@@ -14,15 +14,15 @@ from typing import Any, TypeAlias
 from flint import fmpq
 
 from exactacq.errors import FormatError, about
-from exactacq.files.loops.assembly import scene_of_drawing
+from exactacq.files.loops.assembly import drawing_contents
 from exactacq.files.loops.chains import Chain, Corner, scientific_above
+from exactacq.files.loops.contents import Contents
 from exactacq.files.loops.drawing import Drawing, LayerChoice
 from exactacq.files.loops.rational_arcs import arc_around, rational_turn
 from exactacq.files.source import MAX_EDGES, check_edges, one_line, read_text
 from exactacq.numbers.atoms import rational_sqrt
 from exactacq.numbers.rationals import rational
 from exactacq.scene.bends import center_through
-from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle
 
 EDGES = "Edge.Cuts"
@@ -45,11 +45,11 @@ def load_kicad(
     tolerance: fmpq | None = None,
     union: bool = False,
     thicken: fmpq | None = None,
-) -> Scene:
-    """The scene of a board: its outline is the wall around the start, its cut-outs are obstacles.
+) -> Contents:
+    """The loops of a board: its outline is the wall around the start, its cut-outs are obstacles.
 
     *layers* are those of graphics to be read, Edge.Cuts by default. The other options are those of
-    `scene_of_drawing`. Raises `FormatError` and `InvalidScene`. Linear in the file.
+    `drawing_contents`. Raises `FormatError`. Linear in the file.
     """
     board = _parsed(read_text(path))
     if not board or board[0] != "kicad_pcb":
@@ -65,7 +65,7 @@ def load_kicad(
     if reader.error:
         far = scientific_above(reader.error)
         reader.drawing.notes.append(f"rotated footprints by rational rotations, off by at most {far} radians")
-    return scene_of_drawing(
+    return drawing_contents(
         reader.drawing, path.stem, start, outer=outer, tolerance=tolerance, union=union, thickness=thicken
     )
 

@@ -6,10 +6,8 @@ import os
 from collections.abc import Mapping
 from typing import Any
 
-from exactacq.errors import FormatError, shown
-from exactacq.files import gallery
-from exactacq.files.by_suffix import load as load_file
-from exactacq.files.by_suffix import load_geo
+from exactacq.errors import FormatError
+from exactacq.files.sources import NamedSource
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import HasGeoInterface
 
@@ -29,31 +27,10 @@ def load(name: str | os.PathLike[str] | HasGeoInterface | Mapping[str, Any], **o
     >>> load(shapely.box(2, 2, 3, 3).union(shapely.box(7, 1, 8, 3)), start=(0, 0))
     <Scene: 2 obstacles>
     """
-    geo = _geo(name)
-    if geo is not None:
-        return load_geo(geo, **options)
-    if not isinstance(name, str | os.PathLike):
-        raise FormatError(f"a file's or scene's name, or areas, are loaded, not {shown(name)}")
-    text = os.fspath(name)
-    if "\0" in text or os.path.lexists(text):
-        return load_file(text, **options)
-    if text in gallery.names():
-        if options:
-            raise FormatError(f"{text}: a gallery scene takes no options for files; leave them out")
-        return gallery.scene(text)
-    if os.path.splitext(text)[1]:
-        return load_file(text, **options)
-    raise FormatError(f"{text}: no such file or gallery scene; `exactacq gallery` lists the scenes")
-
-
-def _geo(value: Any) -> Mapping[str, Any] | None:
-    """What an object says of where it is; a list of such objects is a collection. None for anything else."""
-    if isinstance(value, Mapping):
-        return value
-    if isinstance(value, list | tuple) and value:
-        parts = [_geo(part) for part in value]
-        if any(part is None for part in parts):
-            return None
-        return {"type": "GeometryCollection", "geometries": parts}
-    geo: Mapping[str, Any] | None = getattr(value, "__geo_interface__", None)
-    return geo
+    source = NamedSource(name)
+    start = options.pop("start", None)
+    if start is not None and source.format is None:
+        raise FormatError(f"{source.label}: a gallery scene takes no options for files; leave them out")
+    contents = source.contents(start, options)
+    with source.named():
+        return contents.scene()

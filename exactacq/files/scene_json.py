@@ -14,6 +14,7 @@ from typing import Any, NoReturn
 from flint import fmpq
 
 from exactacq.errors import FormatError, about
+from exactacq.files.loops.contents import Contents
 from exactacq.files.source import MAX_EDGES, check_edges, decoded, one_line, read_bytes
 from exactacq.files.writing.sheet import Sheet, Written
 from exactacq.numbers.rationals import plain, rational
@@ -43,6 +44,16 @@ def read_document(path: str | Path) -> Any:
     return parse_json(data)
 
 
+def contents_of(document: Any, start: tuple[fmpq, fmpq] | None = None) -> Contents:
+    """The parts of the scene that parsed JSON describes; *start*, if given, overrides its own.
+
+    Raises `FormatError` with the place in the document. Linear in it.
+    """
+    parts = _counted_parts(document)
+    parts["start"] = parts["start"] if start is None else start
+    return Contents(loops=tuple(parts.pop("obstacles")), wall=parts.pop("enclosure"), **parts)
+
+
 def parse_json(data: bytes) -> Any:
     """JSON data, numbers as the text that stands in the file; `FormatError` for what is no JSON."""
     try:
@@ -60,16 +71,9 @@ def parse_json(data: bytes) -> Any:
         raise FormatError("nested too deeply; a scene has five levels") from None
 
 
-def scene_of(document: Any, start: tuple[fmpq, fmpq] | None = None) -> Scene:
-    """The scene that parsed JSON describes; *start*, if given, overrides its own.
-
-    Raises `FormatError` with the place in the document, and `InvalidScene`. Linear in it.
-    """
-    parts = _scene_parts(document)
-    check_edges(sum(_edge_count(s) for s in (*parts["obstacles"], parts["enclosure"])))
-    if start is not None:
-        parts["start"] = start
-    return Scene(**parts)
+def scene_of(document: Any) -> Scene:
+    """The scene that parsed JSON describes: see `contents_of`. Raises `InvalidScene`, too."""
+    return Scene(**_counted_parts(document))
 
 
 def scene_to_json(scene: Scene) -> dict[str, Any]:
@@ -214,6 +218,12 @@ def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
         twice = next(key for key in keys if keys.count(key) > 1)
         raise FormatError(f"the key {one_line(repr(twice))} stands twice in one object; keep one")
     return found
+
+
+def _counted_parts(document: Any) -> dict[str, Any]:
+    parts = _scene_parts(document)
+    check_edges(sum(_edge_count(s) for s in (*parts["obstacles"], parts["enclosure"])))
+    return parts
 
 
 def _scene_parts(document: Any) -> dict[str, Any]:

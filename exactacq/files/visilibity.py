@@ -11,13 +11,13 @@ from flint import fmpq
 
 from exactacq.errors import FormatError, about
 from exactacq.files.loops.areas import Areas, Row
+from exactacq.files.loops.contents import Contents
 from exactacq.files.source import MAX_EDGES, read_text
 from exactacq.numbers.rationals import rational
-from exactacq.scene.scene import Scene
 
 
-def load_visilibity(path: Path, start: tuple[fmpq, fmpq] | None) -> Scene:
-    """The scene of an environment. Raises `FormatError` with the line, and `InvalidScene`."""
+def load_visilibity(path: Path, start: tuple[fmpq, fmpq] | None) -> Contents:
+    """The polygons of an environment. Raises `FormatError` with the line."""
     text = read_text(path)
     if text.count("\n") > 4 * MAX_EDGES:
         raise FormatError(f"more than {MAX_EDGES} edges; give a smaller part")
@@ -36,4 +36,4 @@ def load_visilibity(path: Path, start: tuple[fmpq, fmpq] | None) -> Scene:
     if not areas.rings:
         raise FormatError("no polygon of three vertices; give a boundary and holes")
     wall, *holes = areas.rings
-    return Scene(holes, start=start, enclosure=wall, name=path.stem, notes=areas.mended())
+    return Contents(name=path.stem, loops=tuple(holes), wall=wall, start=start, notes=tuple(areas.mended()))

@@ -17,10 +17,10 @@ from flint import fmpq
 
 from exactacq.errors import FormatError
 from exactacq.files.loops.areas import Areas, Row
+from exactacq.files.loops.contents import Contents
 from exactacq.files.source import MAX_EDGES, one_line, read_text
 from exactacq.numbers.rationals import rational
 from exactacq.scene.bends import Via
-from exactacq.scene.scene import Scene
 
 MAX_COMMAS = 4 * MAX_EDGES
 """A vertex brings at most two commas (an arc has two points): a file of more is no scene that is taken."""
@@ -36,15 +36,15 @@ _MEMBERS = {"MULTIPOLYGON": "POLYGON", "MULTISURFACE": "POLYGON"}
 """What a member of a list is that does not say."""
 
 
-def load_wkt(path: Path, start: tuple[fmpq, fmpq] | None, *, union: bool = False) -> Scene:
-    """The scene of the areas in a WKT file, around the start: see `exactacq.files.loops.areas`.
+def load_wkt(path: Path, start: tuple[fmpq, fmpq] | None, *, union: bool = False) -> Contents:
+    """The areas in a WKT file, around the start: see `exactacq.files.loops.areas`.
 
-    Raises `FormatError` with the place in the file, and `InvalidScene`. Linear in the file.
+    Raises `FormatError` with the place in the file. Linear in the file.
     """
     text = read_text(path)
     if text.count(",") > MAX_COMMAS:
         raise FormatError(f"more than {MAX_EDGES} edges; give a smaller part")
-    return wkt_areas(text).scene(path.stem, start, union=union)
+    return wkt_areas(text).contents(path.stem, start, union=union)
 
 
 def wkt_areas(text: str) -> Areas:

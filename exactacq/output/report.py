@@ -94,11 +94,18 @@ def comparison(first: Run, second: Run) -> RenderableType:
 
 def scene_report(scene: Scene) -> RenderableType:
     """What a valid scene holds."""
+    table = Table.grid(padding=(0, 2))
+    for row in scene_rows(scene).items():
+        table.add_row(*row)
+    return Group(Text(f"{scene.name or 'scene'}: OK", style="bold"), table, *_notes(scene))
+
+
+def scene_rows(scene: Scene) -> dict[str, str]:
+    """What a valid scene holds, by what it is called."""
     edges = [edge for obstacle in scene.obstacles for edge in obstacle.edges]
     arcs = sum(isinstance(edge, Arc) for edge in edges)
     total = Length.sum(obstacle.perimeter for obstacle in scene.obstacles)
     solid = sum(not obstacle.is_enclosure for obstacle in scene.obstacles)
-    table = Table.grid(padding=(0, 2))
     rows = {
         "obstacles": f"{solid}" + (", and the enclosure" if scene.enclosure is not None else ""),
         "edges": f"{_counted(len(edges) - arcs, 'segment')}, {_counted(arcs, 'arc')}",
@@ -110,9 +117,7 @@ def scene_report(scene: Scene) -> RenderableType:
         terrain = scene.terrain
         from_corner = f", from {_place(terrain.south_west)}" if any(terrain.origin) else ""
         rows["terrain"] = f"{_rational(terrain.width)} x {_rational(terrain.height)}{from_corner}"
-    for row in rows.items():
-        table.add_row(*row)
-    return Group(Text(f"{scene.name or 'scene'}: OK", style="bold"), table, *_notes(scene))
+    return rows
 
 
 def view_report(view: Isovist) -> RenderableType:

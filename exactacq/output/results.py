@@ -72,7 +72,7 @@ def _read_again(scene: Scene, target: Path, known: Format) -> list[str]:
     exact = {"tolerance": fmpq(0)} if any(option.name == "tolerance" for option in known.options) else {}
     whole, cure = len(scene.obstacles), "a .json file holds it exactly"
     try:
-        again = known.read(target, start, exact)
+        again = known.read(target, start, exact).scene(advise=False)
     except ExactacqError as error:
         return [f"rounded so, it is refused from the same start ({one_line(error)}); {cure}"]
     found = len(again.obstacles)

@@ -162,16 +162,16 @@ def ground_of(scene: Scene) -> Ground:
         raise InvalidScene(flaws)
     corner = scene.terrain.south_west
     flaws += [
-        f"obstacle {obstacle.index} covers the SW corner {corner}, where the Seed Spreader starts"
+        f"obstacle {obstacle.label} covers the SW corner {corner}, where the Seed Spreader starts"
         for obstacle in scene.obstacles
         if not obstacle.is_enclosure and obstacle.locate(corner) is not Location.OUTSIDE
     ]
     if flaws:
         raise InvalidScene(flaws)
     ground = Ground(scene.obstacles, scene.terrain)
-    outside = [o.index for o in scene.obstacles if not ground.of(o.index)]
+    outside = [o.label for o in scene.obstacles if not ground.of(o.index)]
     if outside:
-        raise InvalidScene([f"obstacle {k} lies outside the terrain" for k in outside])
+        raise InvalidScene([f"obstacle {name} lies outside the terrain" for name in outside])
     return ground
 
 

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import islice
 from math import inf
 from typing import Protocol
 
@@ -43,6 +44,22 @@ over: it takes some 0.1 milliseconds for each."""
 SIMPLE = "a boundary must not meet itself"
 DISJOINT = "obstacles must be disjoint, also at their boundaries"
 WITHIN = "obstacles must lie strictly within the enclosure"
+
+
+@dataclass(frozen=True, slots=True)
+class Violation:
+    """A broken rule in words, by which loops, and where; there may be no loops, and no places.
+
+    Where edges meet the *kind* says how.
+    """
+
+    text: str
+    loops: tuple[int, ...] = ()
+    places: tuple[Point, ...] = ()
+    kind: ContactKind | None = None
+
+    def __str__(self) -> str:
+        return self.text
 
 
 class ValidatedLoop(Protocol):
@@ -96,14 +113,10 @@ def validate(
 ) -> None:
     """Raise `InvalidScene` with every violation of the rules, if there is any.
 
-    Each names obstacle and edges by number (from 0) and name, the place and the rule. The first `LISTED`
-    are listed and the rest counted; beyond `COUNTED` the search ends.
+    Each names obstacles as reports do (O1 is the first) and by their own names, edges by number (from 0),
+    the place and the rule. The first `LISTED` are listed and the rest counted.
     """
-    found: list[str] = []
-    for violation in _violations(loops, start, radius, terrain):
-        found.append(violation)
-        if len(found) >= COUNTED:
-            break
+    found = [violation.text for violation in violations(loops, start, radius, terrain)]
     if not found:
         return
     rest = len(found) - LISTED
@@ -113,14 +126,34 @@ def validate(
     raise InvalidScene(found)
 
 
+def violations(
+    loops: Sequence[ValidatedLoop],
+    start: Point | None = None,
+    radius: fmpq | None = None,
+    terrain: Terrain | None = None,
+    *,
+    nested: bool = False,
+) -> list[Violation]:
+    """All violations of the rules, in a fixed order; the search ends at `COUNTED`.
+
+    With *nested* loops may lie within one another, as long as they do not meet: as in a drawing in which
+    nothing is said of what is free.
+    """
+    return list(islice(_violations(loops, start, radius, terrain, nested), COUNTED))
+
+
 def _violations(
-    loops: Sequence[ValidatedLoop], start: Point | None, radius: fmpq | None, terrain: Terrain | None
-) -> Iterator[str]:
-    yield from sensor_flaws(start, radius)
+    loops: Sequence[ValidatedLoop],
+    start: Point | None,
+    radius: fmpq | None,
+    terrain: Terrain | None,
+    nested: bool,
+) -> Iterator[Violation]:
+    yield from map(Violation, sensor_flaws(start, radius))
     sides = [] if terrain is None else [("width", terrain.width), ("height", terrain.height)]
     for side, size in sides:
         if size <= 0:
-            yield f"terrain {side} {_number(size)}: must be positive"
+            yield Violation(f"terrain {side} {_number(size)}: must be positive")
     sound = []
     for loop in loops:
         if sizes := list(_size_flaws(loop)):
@@ -134,7 +167,8 @@ def _violations(
             sound.append((loop, edges))
     arrangement = _Arrangement(sound)
     yield from arrangement.meetings()
-    yield from arrangement.nestings()
+    if not nested:
+        yield from arrangement.nestings()
     if start is not None and not any(sensor_flaws(start, None)):
         yield from arrangement.start_flaws(start)
 
@@ -149,32 +183,41 @@ def sensor_flaws(start: Point | None, radius: fmpq | None) -> Iterator[str]:
         yield f"start: it must not lie farther than {LIMIT_TEXT} from the axes"
 
 
-def _shape_flaws(loop: ValidatedLoop) -> Iterator[str]:
+def _of(loop: ValidatedLoop, flaw: str, *places: Point) -> Violation:
+    """A flaw of one loop."""
+    return Violation(f"{_label(loop)}: {flaw}", (loop.index,), places)
+
+
+def _shape_flaws(loop: ValidatedLoop) -> Iterator[Violation]:
     if isinstance(loop.shape, Circle):
         if loop.shape.radius <= 0:
-            yield f"{_label(loop)}: circle radius {_number(loop.shape.radius)}: must be positive"
+            flaw = f"circle radius {_number(loop.shape.radius)}: must be positive"
+            yield _of(loop, flaw, Point(*loop.shape.center))
         return
     count = len(loop.edges)
     if count < 2 or (count == 2 and all(isinstance(edge, Segment) for edge in loop.edges)):
         at = f" at {_place(loop.edges[0].start)}" if count else ""
         plural = "vertex" if count == 1 else "vertices"
-        yield f"{_label(loop)}: {count} {plural}{at}: a boundary needs 3 vertices, or 2 with a bulge"
+        flaw = f"{count} {plural}{at}: a boundary needs 3 vertices, or 2 with a bulge"
+        yield _of(loop, flaw, *(edge.start for edge in loop.edges[:1]))
         return
     for i, edge in enumerate(loop.edges):
         if _is_point(edge):
-            yield f"{_label(loop)}: edge {i} has zero length at {_place(edge.start)}: leave out the vertex"
+            flaw = f"edge {i} has zero length at {_place(edge.start)}: leave out the vertex"
+            yield _of(loop, flaw, edge.start)
 
 
-def _size_flaws(loop: ValidatedLoop) -> Iterator[str]:
+def _size_flaws(loop: ValidatedLoop) -> Iterator[Violation]:
     """What is too large or too small for the float images that prune; exact decisions have no such limit."""
     rule = f"sizes must lie between 1/{LIMIT_TEXT} and {LIMIT_TEXT}"
     for i, edge in enumerate(loop.edges):
         if abs(edge.start.x) > LIMIT or abs(edge.start.y) > LIMIT:
-            yield f"{_label(loop)}: vertex {i} lies too far from the origin: {rule}"
+            yield _of(loop, f"vertex {i} lies too far from the origin: {rule}")
         elif isinstance(edge, Arc) and edge.radius_sq > LIMIT * LIMIT:
-            yield f"{_label(loop)}: edge {i} bends too little, its radius is too large: {rule}"
+            flaw = f"edge {i} bends too little, its radius is too large: {rule}"
+            yield _of(loop, flaw, edge.start)
         elif not _is_point(edge) and not _is_full(edge) and _is_tiny(edge):
-            yield f"{_label(loop)}: edge {i} is too short: {rule}"
+            yield _of(loop, f"edge {i} is too short: {rule}", edge.start)
 
 
 def _is_tiny(edge: Curve) -> bool:
@@ -208,7 +251,7 @@ class _Arrangement:
         self.stopped = False
         """Whether the search for meetings stopped early: there are more than enough violations then."""
 
-    def meetings(self) -> Iterator[str]:
+    def meetings(self) -> Iterator[Violation]:
         """Contacts between edges, but for the vertex that neighbours share; one violation a place.
 
         A contact at the end of an overlap of the same loops is left out, as the overlap is reported.
@@ -237,9 +280,11 @@ class _Arrangement:
         for meeting in sorted(meetings.values(), key=_MeetingLoops.order):
             overlap = meeting.contact.kind is ContactKind.OVERLAP
             if overlap or (*meeting.indices, meeting.contact.start.key) not in ends:
-                yield str(meeting)
+                contact = meeting.contact
+                places = (contact.start, contact.end) if overlap else (contact.start,)
+                yield Violation(str(meeting), tuple(dict.fromkeys(meeting.indices)), places, contact.kind)
         if self.stopped:
-            yield "more violations were not looked for"
+            yield Violation("more violations were not looked for")
 
     def _candidates(self) -> Iterator[tuple[int, int]]:
         separator = Separator(self.curves, self.index.boxes)
@@ -253,7 +298,7 @@ class _Arrangement:
         vertices = [self.curves[j].start] if j == i + 1 else []
         return [*vertices, self.curves[i].start] if i == begin and j == end - 1 else vertices
 
-    def nestings(self) -> Iterator[str]:
+    def nestings(self) -> Iterator[Violation]:
         """Loops that lie within one another, or not within the enclosure, without meeting it.
 
         None if the search for meetings stopped: which loops do not meet is not known then.
@@ -267,18 +312,20 @@ class _Arrangement:
                     continue
                 other = self.loops[b]
                 where = f"{_label(other)}, at {_place(point)}"
+                which = loop.index, other.index
                 if other.is_enclosure and not turns:
-                    yield f"{_label(loop)} lies outside {where}: {WITHIN}"
+                    yield Violation(f"{_label(loop)} lies outside {where}: {WITHIN}", which, (point,))
                 if turns and not other.is_enclosure:
-                    yield f"{_label(loop)} lies inside {where}: {DISJOINT}"
+                    yield Violation(f"{_label(loop)} lies inside {where}: {DISJOINT}", which, (point,))
 
-    def start_flaws(self, start: Point) -> Iterator[str]:
+    def start_flaws(self, start: Point) -> Iterator[Violation]:
         """The start must lie in closed free space."""
         for a, turns in self._windings(start).items():
             loop = self.loops[a]
             if turns is not None and bool(turns) != loop.is_enclosure:
                 side = "outside" if loop.is_enclosure else "inside"
-                yield f"start {_place(start)} lies {side} {_label(loop)}: it must lie in free space"
+                text = f"start {_place(start)} lies {side} {_label(loop)}: it must lie in free space"
+                yield Violation(text, (loop.index,), (start,))
 
     def _windings(self, point: Point) -> dict[int, int | None]:
         """How often loops wind round a point (None: on the loop): the enclosure, and all that may not be 0.
@@ -296,7 +343,7 @@ class _Arrangement:
 
 
 def _label(loop: ValidatedLoop) -> str:
-    label = "the enclosure" if loop.is_enclosure else f"obstacle {loop.index}"
+    label = "the enclosure" if loop.is_enclosure else f"obstacle O{loop.index + 1}"
     return f"{label} {loop.name!r}" if loop.name else label
 
 

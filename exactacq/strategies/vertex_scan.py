@@ -84,7 +84,7 @@ def vertex_scan(scene: Scene, start: Point | Sequence[object] | None = None) -> 
     arcs = [o for o in scene.obstacles if not all(isinstance(edge, Segment) for edge in o.edges)]
     if arcs:
         raise InvalidScene(
-            [f"obstacle {o.index} has arcs: vertices are scanned on polygons only" for o in arcs]
+            [f"obstacle {o.label} has arcs: vertices are scanned on polygons only" for o in arcs]
         )
     return _DepthFirst(scene, start_of(scene, start)).run()
 

@@ -58,6 +58,7 @@ def read_drawing(path: Path, layers: Iterable[str] | None, flattening: Flattenin
             if count > MAX_ENTITIES:
                 raise FormatError(f"its blocks expand to more than {MAX_ENTITIES} entities; export one part")
             drawing.layers[layer] += 1
+            drawing.homes[count] = layer
             if selected.take(layer):
                 _Reader(drawing, count, flattening).read(entity)
     except FormatError:
@@ -72,16 +73,18 @@ def read_drawing(path: Path, layers: Iterable[str] | None, flattening: Flattenin
             "ellipses and splines are read with --flatten LENGTH, by arcs within that length"
         )
     if drawing.layers:
-        drawing.notes.append(f"{_unit(document)}; layers: {drawing.layer_list()}")
+        drawing.unit = _unit(document)
+        said = f"the file's unit: {drawing.unit}" if drawing.unit else "the file names no unit"
+        drawing.notes.append(f"{said}; layers: {drawing.layer_list()}")
     return drawing
 
 
 def _unit(document: Any) -> str:
-    """What the file says of its unit; coordinates stay as they are."""
+    """The unit that the file names, "" if none; coordinates stay as they are."""
     code = document.header.get("$INSUNITS", 0)
     if not isinstance(code, int) or not 0 < code <= max(InsertUnits):
-        return "the file names no unit"
-    return f"the file's unit: {re.sub('(?<=[a-z])(?=[A-Z])', ' ', InsertUnits(code).name).lower()}"
+        return ""
+    return re.sub("(?<=[a-z])(?=[A-Z])", " ", InsertUnits(code).name).lower()
 
 
 def _open(path: Path, drawing: Drawing) -> Any:

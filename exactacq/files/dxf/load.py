@@ -14,9 +14,9 @@ from pathlib import Path
 from flint import fmpq
 
 from exactacq.files.dxf.entities import read_drawing
-from exactacq.files.loops.assembly import scene_of_drawing
+from exactacq.files.loops.assembly import drawing_contents
+from exactacq.files.loops.contents import Contents
 from exactacq.files.repairs.flattened import Flattening
-from exactacq.scene.scene import Scene
 
 
 def load_dxf(
@@ -29,14 +29,14 @@ def load_dxf(
     union: bool = False,
     thicken: fmpq | None = None,
     flatten: fmpq | None = None,
-) -> Scene:
-    """The scene in a DXF drawing; *layers* selects by name, all by default.
+) -> Contents:
+    """The loops of a DXF drawing; *layers* selects by name, all by default.
 
     With *flatten* arcs stand for ellipses and splines, within that distance. The other options are those of
-    `scene_of_drawing`. Raises `FormatError` and `InvalidScene`.
+    `drawing_contents`. Raises `FormatError`.
     """
     flattening = None if flatten is None else Flattening(flatten)
     drawing = read_drawing(path, layers, flattening)
-    return scene_of_drawing(
+    return drawing_contents(
         drawing, path.stem, start, outer=outer, tolerance=tolerance, union=union, thickness=thicken
     )

@@ -9,8 +9,8 @@ from flint import fmpq
 from exactacq.errors import FormatError, shown
 from exactacq.files.grids.outlines import JOIN
 from exactacq.files.grids.pixels import read_pixels
-from exactacq.files.grids.world import Placement, grid_scene
-from exactacq.scene.scene import Scene
+from exactacq.files.grids.world import Placement, grid_contents
+from exactacq.files.loops.contents import Contents
 
 HALF = fmpq(1, 2)
 
@@ -24,11 +24,11 @@ def load_image(
     corners: str = JOIN,
     border: str | None = None,
     simplify: fmpq | None = None,
-) -> Scene:
-    """The scene of an image whose SW corner is (0, 0) and whose pixels are *resolution* (1) wide.
+) -> Contents:
+    """The rings of an image whose SW corner is (0, 0) and whose pixels are *resolution* (1) wide.
 
     Blocked are pixels whose brightness, from 0 for black to 1 for white, is below *threshold* (1/2); what is
-    see-through is free. See `grid_scene` for the others. Raises `FormatError` and `InvalidScene`.
+    see-through is free. See `grid_contents` for the others. Raises `FormatError`.
     """
     level = HALF if threshold is None else threshold
     if not 0 <= level <= 1:
@@ -38,6 +38,6 @@ def load_image(
     if pixels.clear is not None:
         blocked &= ~pixels.clear
     place = Placement(fmpq(1) if resolution is None else resolution)
-    return grid_scene(
+    return grid_contents(
         blocked[::-1], place, path.stem, start, corners=corners, border=border or "open", tolerance=simplify
     )

@@ -14,9 +14,9 @@ from flint import fmpq
 
 from exactacq.errors import FormatError
 from exactacq.files.grids.outlines import JOIN, check_cells
-from exactacq.files.grids.world import Placement, grid_scene
+from exactacq.files.grids.world import Placement, grid_contents
+from exactacq.files.loops.contents import Contents
 from exactacq.files.source import one_line, read_bytes
-from exactacq.scene.scene import Scene
 
 FREE, BLOCKED = b".GS", b"@OTW"
 _HEADER = re.compile(rb"\s*type\s+(\w+)\s+height\s+(\d{1,9})\s+width\s+(\d{1,9})\s+map[ \t]*\r?\n")
@@ -29,10 +29,10 @@ def load_movingai(
     corners: str = JOIN,
     border: str | None = None,
     simplify: fmpq | None = None,
-) -> Scene:
-    """The scene of a map; nothing beyond its border is free, unless *border* is "open".
+) -> Contents:
+    """The rings of a map; nothing beyond its border is free, unless *border* is "open".
 
-    See `grid_scene` for the others. Raises `FormatError` and `InvalidScene`.
+    See `grid_contents` for the others. Raises `FormatError`.
     """
     data = read_bytes(path)
     header = _HEADER.match(data)
@@ -55,7 +55,7 @@ def load_movingai(
         row, column = odd[0].tolist()
         letter = one_line(repr(chr(cells[row, column])))
         raise FormatError(f"row {row}, column {column}: {letter} is none of . G S @ O T W")
-    return grid_scene(
+    return grid_contents(
         blocked[::-1],
         Placement(),
         path.stem,

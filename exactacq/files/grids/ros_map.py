@@ -17,12 +17,12 @@ from flint import fmpq
 from exactacq.errors import FormatError, about, shown
 from exactacq.files.grids.outlines import JOIN
 from exactacq.files.grids.pixels import read_pixels
-from exactacq.files.grids.world import Placement, grid_scene
+from exactacq.files.grids.world import Placement, grid_contents
 from exactacq.files.loops.chains import scientific_above
+from exactacq.files.loops.contents import Contents
 from exactacq.files.loops.rational_arcs import FIXED_BITS, nearly_pi, rational_turn
 from exactacq.files.source import one_line, read_text
 from exactacq.numbers.rationals import rational
-from exactacq.scene.scene import Scene
 
 MAX_LINES = 200
 """Most lines of such a YAML file; real ones have seven."""
@@ -40,12 +40,12 @@ def load_ros_map(
     border: str | None = None,
     unknown: str = "free",
     simplify: fmpq | None = None,
-) -> Scene:
-    """The scene of a map: occupied cells block, and with *unknown* "blocked" unknown ones do too.
+) -> Contents:
+    """The rings of a map: occupied cells block, and with *unknown* "blocked" unknown ones do too.
 
-    See `grid_scene` for *corners*, *border* and *simplify*.
+    See `grid_contents` for *corners*, *border* and *simplify*.
 
-    Raises `FormatError` and `InvalidScene`.
+    Raises `FormatError`.
     """
     said = _entries(read_text(path))
     image = path.parent / _one(said, "image")
@@ -68,7 +68,7 @@ def load_ros_map(
         blocked = dark > int((occupied * pixels.most).floor())
         if pixels.clear is not None:
             blocked &= ~pixels.clear
-    return grid_scene(
+    return grid_contents(
         blocked[::-1],
         placement,
         path.stem,

@@ -1,8 +1,8 @@
-"""Blocked cells become a scene: placed, scaled and turned, exactly."""
+"""Blocked cells become rings: placed, scaled and turned, exactly."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from flint import fmpq
@@ -12,8 +12,8 @@ from exactacq.files.grids.outlines import JOIN, STEPS, Cells, outlines
 from exactacq.files.loops.areas import Areas
 from exactacq.files.loops.arrangement import count
 from exactacq.files.loops.chains import scientific_above
+from exactacq.files.loops.contents import Contents
 from exactacq.files.repairs.simplify import simplify
-from exactacq.scene.scene import Scene
 
 ZERO, ONE = fmpq(0), fmpq(1)
 
@@ -39,7 +39,7 @@ class Placement:
         return (x * cosine + y * sine) / step, (y * cosine - x * sine) / step
 
 
-def grid_scene(
+def grid_contents(
     blocked: Cells,
     placement: Placement,
     name: str,
@@ -49,21 +49,22 @@ def grid_scene(
     border: str = "open",
     tolerance: fmpq | None = None,
     notes: tuple[str, ...] = (),
-) -> Scene:
-    """The scene of the blocked cells, whose rows go up; what is free is told by where the start lies.
+) -> Contents:
+    """The rings of the blocked cells, whose rows go up; what is free is told by where the start lies.
 
     With *border* "wall" nothing beyond the grid is free, and a start is needed. With a *tolerance* outlines
     get fewer vertices and stay within that length of what they were, see `exactacq.files.repairs.simplify`;
     the start stays on its side. See `outlines` for *corners*, and `exactacq.files.loops.areas` for rings
-    around the start. Raises `FormatError` and `InvalidScene`.
+    around the start. Raises `FormatError`.
     """
     if placement.size <= 0:
         raise FormatError(f"a cell {shown(placement.size)} wide; the width of a cell is positive")
     walled = border == "wall"
-    if walled and start is None:
+    startless = ""
+    if walled:
         height, width = blocked.shape
         (x0, y0, _), (x1, y1, _) = placement(0, 0), placement(STEPS * width, STEPS * height)
-        raise FormatError(
+        startless = (
             "beyond its border all is blocked: give a start with --start X,Y (start=(x, y) in Python); "
             f"it lies between ({shown(x0)}, {shown(y0)}) and ({shown(x1)}, {shown(y1)})"
         )
@@ -90,4 +91,4 @@ def grid_scene(
         )
     for ring in rings:
         areas.add([placement(x, y) for x, y in (*ring, ring[0])], None)
-    return areas.scene(name, start, free=int(walled))
+    return replace(areas.contents(name, start, union=None, free=int(walled)), startless=startless)

@@ -1,4 +1,4 @@
-"""Rings of areas become a scene: of polygons with holes, of cells of a grid.
+"""Rings of areas: of polygons with holes, of cells of a grid.
 
 Where the start lies tells which side of the rings is free: the innermost ring around it is the wall, and what
 lies directly inside that wall are the obstacles. So a start outside all areas has the areas as obstacles, one
@@ -15,13 +15,11 @@ from typing import Any
 from flint import fmpq
 
 from exactacq.errors import FormatError
-from exactacq.files.loops.arrangement import arranged, count
-from exactacq.files.loops.nesting import Loops
+from exactacq.files.loops.arrangement import count
+from exactacq.files.loops.contents import Contents
 from exactacq.files.source import check_edges
-from exactacq.geometry.points import Point
 from exactacq.numbers.atoms import rational_sqrt
 from exactacq.scene.bends import Via
-from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle, Outline, Polygon, Shape, Terrain
 
 Row = tuple[fmpq, fmpq, Any]
@@ -71,29 +69,35 @@ class Areas:
         """Count something that is no area."""
         self.left_out[what] = self.left_out.get(what, 0) + 1
 
-    def scene(
+    def contents(
         self,
         name: str | None,
         start: tuple[fmpq, fmpq] | None,
         *,
-        union: bool = False,
+        union: bool | None = False,
         terrain: Terrain | None = None,
         free: int | None = None,
-    ) -> Scene:
-        """The scene around the start, or with all outermost rings as obstacles if there is none.
+    ) -> Contents:
+        """What makes a scene around the start, or one of all outermost rings as obstacles if there is none.
 
-        Rings that meet are refused by the scene, or merged if *union* is set. Around a
-        free place are an even number of rings with *free* 0, an odd one with 1; a start elsewhere is refused.
-        Raises `FormatError` and `InvalidScene`.
+        Rings that meet are refused by the scene, or merged if *union* is set; None if that is no option.
+        Around a free place are an even number of rings with *free* 0, an odd one with 1; a start elsewhere is
+        refused. Raises `FormatError` if there is nothing to read.
         """
         notes = [*self.notes, *self.mended()]
         if not self.rings and (self.flat or self.left_out):
             raise FormatError(f"no area to read ({'; '.join(notes)}); give polygons or closed lines")
-        place = None if start is None else Point(*start)
-        if free is not None and place is not None and len(Loops(self.rings).around(place)) % 2 != free:
-            raise FormatError(f"the start {place} lies in a blocked cell; choose one in a free cell")
-        obstacles, wall = arranged(self.rings, place, "room", union, notes)
-        return Scene(obstacles, start=start, enclosure=wall, name=name, notes=notes, terrain=terrain)
+        return Contents(
+            name=name,
+            loops=tuple(self.rings),
+            outer="room",
+            union=bool(union),
+            options=() if union is None else ("union",),
+            start=start,
+            terrain=terrain,
+            notes=tuple(notes),
+            free=free,
+        )
 
     def mended(self) -> list[str]:
         notes = []

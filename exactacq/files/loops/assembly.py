@@ -1,23 +1,23 @@
-"""A drawing of chains and circles becomes a scene: joined, arranged around the start, and reported."""
+"""A drawing of chains and circles becomes loops and what stays open: joined, and reported."""
 
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 
 from flint import fmpq
 
 from exactacq.errors import FormatError, shown
-from exactacq.files.loops.arrangement import arranged, count
+from exactacq.files.loops.arrangement import count
 from exactacq.files.loops.chains import Chain, scientific_above
+from exactacq.files.loops.contents import Contents, Layers
 from exactacq.files.loops.cusps import open_cusps
 from exactacq.files.loops.drawing import Drawing
 from exactacq.files.loops.stitching import Stitched, stitch
 from exactacq.files.repairs.gaps import best_tolerance, closings
 from exactacq.files.repairs.thicken import thicken
 from exactacq.files.source import check_edges
-from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
-from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Loop, Shape
 
 TOLERANCE = fmpq(1, 10**6)
@@ -25,7 +25,7 @@ TOLERANCE = fmpq(1, 10**6)
 (doubles, or six decimals), and their shortest edges are 1e-5 to 1e-3 of it: 1e-6 lies between."""
 
 
-def scene_of_drawing(
+def drawing_contents(
     drawing: Drawing,
     name: str,
     start: tuple[fmpq, fmpq] | None,
@@ -34,16 +34,16 @@ def scene_of_drawing(
     tolerance: fmpq | None = None,
     union: bool = False,
     thickness: fmpq | None = None,
-) -> Scene:
-    """The scene that a drawing shows.
+) -> Contents:
+    """What a drawing shows; a scene around a *start* only, for a drawing has none.
 
-    *start* is required (a drawing has none). Ends and neighbouring vertices within *tolerance* (default
+    Ends and neighbouring vertices within *tolerance* (default
     `TOLERANCE` times the larger side of the drawing) are joined. The outermost loop around the start is the
     wall, or dropped (``outer="drop"``: all other loops then stay); with ``outer="room"`` the innermost one is
     the wall. Loops outside the wall or inside an obstacle are left out. Loops that overlap or touch are
     refused by the scene, or merged if *union* is set. With a *thickness* chains that stay open are walls so
-    thick, merged where they overlap and with what they meet. Raises `FormatError` and
-    `InvalidScene`.
+    thick, merged where they overlap and with what they meet. Raises `FormatError`
+    if there is nothing to read.
     """
     if tolerance is not None and tolerance < 0:
         raise FormatError(f"the tolerance is a length of at least 0, not {shown(tolerance)}")
@@ -53,11 +53,11 @@ def scene_of_drawing(
     if not drawing.chains and not drawing.circles:
         raise FormatError(f"nothing to read{_because(_left_out(drawing.dropped))}; {other}")
     (x0, y0), (x1, y1) = drawing.extent()
-    if start is None:
-        raise FormatError(
-            f"a drawing has no start: give one with --start X,Y (start=(x, y) in Python); "
-            f"this one spans x {short(x0)} to {short(x1)}, y {short(y0)} to {short(y1)}"
-        )
+    startless = (
+        f"a drawing has no start: give one with --start X,Y (start=(x, y) in Python), such as the "
+        "one that `exactacq check` proposes; "
+        f"this one spans x {short(x0)} to {short(x1)}, y {short(y0)} to {short(y1)}"
+    )
     reach = default_tolerance(max(x1 - x0, y1 - y0)) if tolerance is None else tolerance
     stitched = stitch(drawing.chains, reach)
     cusps = sum(open_cusps(loop, reach) for loop in stitched.loops)
@@ -68,18 +68,29 @@ def scene_of_drawing(
         thick = thicken([piece for path in stitched.open_chains for piece in path], thickness)
         check_edges(sum(len(s.vertices) if isinstance(s, Loop) else 2 for s in thick.shapes))
         union = union or bool(thick.shapes)
-        shapes += thick.shapes
+        shapes += [(0, shape) for shape in thick.shapes]
         if thick.off:
             notes.append(f"no outline of these walls is off by more than {scientific_above(thick.off)}")
-    if not shapes:
-        raise FormatError(
-            f"no closed loop{_because(notes)}; give {hint or 'a larger --tolerance'}, --thicken LENGTH for "
-            f"walls along the lines, or {other}"
-        )
+    lacking = (
+        f"no closed loop{_because(notes)}; give {hint or 'a larger --tolerance'}, --thicken LENGTH for walls along "
+        f"the lines, or {other}"
+    )
     if hint:
         notes.append(f"open chains close with {hint}")
-    obstacles, wall = arranged(shapes, Point(*start), outer, union, notes)
-    return Scene(obstacles, start=start, enclosure=wall, name=name, notes=notes)
+    return Contents(
+        name=name,
+        loops=tuple(shape for _, shape in shapes),
+        outer=outer,
+        union=union,
+        options=("outer", "union"),
+        start=start,
+        notes=tuple(notes),
+        startless=startless,
+        lacking="" if shapes else lacking,
+        open_chains=() if thickness else tuple(map(tuple, stitched.open_chains)),
+        layers=Layers(drawing.layers, drawing.chosen, _homes(drawing, shapes)),
+        unit=drawing.unit,
+    )
 
 
 def default_tolerance(size: fmpq) -> fmpq:
@@ -94,8 +105,13 @@ def default_tolerance(size: fmpq) -> fmpq:
     return power * TOLERANCE
 
 
-def _shapes(drawing: Drawing, stitched: Stitched) -> list[Shape]:
-    """All loops in the order of the file; a circle drawn twice counts as a duplicate."""
+def _homes(drawing: Drawing, shapes: Sequence[tuple[int, Shape]]) -> dict[str, str]:
+    """The layers of loops: of those in pieces, the first one's."""
+    return {s.name: drawing.homes[order] for order, s in shapes if s.name and order in drawing.homes}
+
+
+def _shapes(drawing: Drawing, stitched: Stitched) -> list[tuple[int, Shape]]:
+    """All loops, with their places, in the order of the file; a circle drawn twice counts as a duplicate."""
     placed: list[tuple[int, Shape]] = [(loop.order, loop.shape()) for loop in stitched.loops]
     seen: set[tuple[object, ...]] = set()
     for order, circle in drawing.circles:
@@ -105,7 +121,7 @@ def _shapes(drawing: Drawing, stitched: Stitched) -> list[Shape]:
         else:
             seen.add(key)
             placed.append((order, circle))
-    return [shape for _, shape in sorted(placed, key=lambda entry: entry[0])]
+    return sorted(placed, key=lambda entry: entry[0])
 
 
 # -- what the notes say ----------------------------------------------------------------------------

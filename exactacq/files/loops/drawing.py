@@ -24,6 +24,12 @@ class Drawing:
     notes: list[str] = field(default_factory=list)
     layers: Counter[str] = field(default_factory=Counter)
     """Number of entities of each layer, in the file's spelling, selected or not."""
+    chosen: tuple[str, ...] | None = None
+    """The layers that are read, all if None."""
+    homes: dict[int, str] = field(default_factory=dict)
+    """The layers of entities by their places in the file, where the reader tells."""
+    unit: str = ""
+    """What the file says of its unit of length."""
 
     def extent(self) -> tuple[tuple[fmpq, fmpq], tuple[fmpq, fmpq]]:
         """The box of all vertices and circles (arcs may reach beyond it)."""
@@ -54,7 +60,8 @@ class LayerChoice:
         return self.names is None or not keys.isdisjoint(self.names)
 
     def check(self, drawing: Drawing) -> None:
-        """`FormatError` if a layer that was asked for is not there."""
+        """Tell the drawing what was read of it; `FormatError` if a layer that was asked for is not there."""
+        drawing.chosen = None if self.names is None else tuple(self.names.values())
         missing = [name for key, name in (self.names or {}).items() if key not in self.seen]
         if missing and drawing.layers:
             raise FormatError(f"no layer {one_line(repr(missing[0]))}; it has {drawing.layer_list()}")

@@ -60,7 +60,7 @@ class _LooseEnd:
 def closings(paths: Sequence[Sequence[Chain]]) -> list[Closing]:
     """What closes open chains, each given as its pieces in order; chains that nothing closes are left out.
 
-    Two ends of one chain make a loop of it, unless that has fewer than three edges, all straight. Edges not
+    What has fewer than three edges, all straight, encloses nothing and is no loop. Edges not
     longer than the tolerance are taken out by stitching, too. Quadratic in the chains, in numpy; nothing is
     found for more than `MAX_ENDS` ends.
 
@@ -85,7 +85,7 @@ def closings(paths: Sequence[Sequence[Chain]]) -> list[Closing]:
             seen.add(here // 2)
             ring.append(here)
             here = mates[here] ^ 1
-        if ring and here == first:
+        if ring and here == first and _may_close([piece for i in ring for piece in paths[i // 2]]):
             found.append(_closing(ends, ring, mates, second))
     return found
 

@@ -18,8 +18,9 @@ from flint import fmpq
 
 from exactacq.errors import FormatError, about
 from exactacq.files.loops.arrangement import count
-from exactacq.files.loops.assembly import scene_of_drawing
+from exactacq.files.loops.assembly import drawing_contents
 from exactacq.files.loops.chains import Chain, Corner, root_above, scientific_above
+from exactacq.files.loops.contents import Contents
 from exactacq.files.loops.drawing import Drawing, LayerChoice
 from exactacq.files.loops.rational_arcs import arc_around
 from exactacq.files.repairs.flattened import Flattening
@@ -29,7 +30,6 @@ from exactacq.files.svg.path_data import DrawnCurve, Subpath, oval_arc, subpaths
 from exactacq.files.svg.transforms import ZERO, Matrix, numbers, transform
 from exactacq.files.svg.viewports import Box, length, nested, outermost
 from exactacq.numbers.atoms import rational_sqrt
-from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle
 
 GROUPS = ("g", "a", "switch")
@@ -51,11 +51,11 @@ def load_svg(
     union: bool = False,
     thicken: fmpq | None = None,
     flatten: fmpq | None = None,
-) -> Scene:
-    """The scene in an SVG drawing; *layers* are names of groups or elements, all by default.
+) -> Contents:
+    """The loops of an SVG drawing; *layers* are names of groups or elements, all by default.
 
     With *flatten* arcs stand for ellipses and Bézier curves, within that distance. The other options are
-    those of `scene_of_drawing`. Raises `FormatError` and `InvalidScene`. No entity is expanded and nothing
+    those of `drawing_contents`. Raises `FormatError`. No entity is expanded and nothing
     outside the file is read.
     """
     reader = _SvgReader(LayerChoice(layers), None if flatten is None else Flattening(flatten))
@@ -68,7 +68,7 @@ def load_svg(
     if reader.error:
         far = scientific_above(reader.error)
         drawing.notes.append(f"rotated by rational rotations, off by at most {far} radians in sum")
-    return scene_of_drawing(
+    return drawing_contents(
         drawing, path.stem, start, outer=outer, tolerance=tolerance, union=union, thickness=thicken
     )
 

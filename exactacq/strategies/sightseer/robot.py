@@ -83,7 +83,7 @@ class SightseerRobot(Robot):
         self._links = Links(scene, radius)
         for obstacle in scene.obstacles:
             if obstacle.locate(start) is Location.INSIDE:
-                raise ValueError(f"the start {start} lies inside obstacle {obstacle.index}")
+                raise ValueError(f"the start {start} lies inside obstacle {obstacle.label}")
         self.radius = self._links.radius
         self._nearest: dict[Node, _LinksByLength] = {}
         super().__init__(start, Memory(scene, self.radius, self._links.table))

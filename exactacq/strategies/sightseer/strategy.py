@@ -51,7 +51,7 @@ def sightseer(
     border = scene.meets_border()
     if border:
         rule = "meets the terrain's border: the Sightseer needs its obstacles inside"
-        raise InvalidScene([f"obstacle {k} {rule}" for k in border])
+        raise InvalidScene([f"obstacle {scene.obstacles[k].label} {rule}" for k in border])
     reach = radius_of(scene, radius, place)
     try:
         robot = SightseerRobot(scene, reach, place)

@@ -1,0 +1,193 @@
+"""Options that would cure violations and close chains, each tried before it is named."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from flint import fmpq
+
+from exactacq.errors import FormatError, InvalidScene, Undecided
+from exactacq.files.checking.flaws import Judged, frame, judged
+from exactacq.files.checking.starts import rounded_up
+from exactacq.files.loops.assembly import default_tolerance
+from exactacq.files.loops.contents import AS_TOLD, Contents
+from exactacq.files.repairs.gaps import Closing, best_tolerance
+from exactacq.geometry.strokes import Floats
+from exactacq.numbers.rationals import nearest_float, plain
+from exactacq.scene.shapes import Circle, Shape
+from exactacq.scene.validation import COUNTED, LIMIT, Violation
+
+MOST_EDGES = 10_000
+"""Edges beyond which nothing is tried: a trial takes as long as the check itself, some seconds there."""
+LAYER_TRIALS, TOLERANCE_TRIALS = 2, 2
+"""Most layers that are left out in turn, and most tolerances, if one is no cure for all chains."""
+LONGEST = 80
+"""Most characters of layers that are named to be read."""
+COARSER = (10, 1000)
+"""Such multiples of the default tolerance are tried where a loop meets itself."""
+THIN, NEAR = 200, 1000
+"""Walls are tried with a thickness of such a part of the drawing's size, curves with such a distance."""
+SAME = 1e-9
+"""Violations this near each other, as a part of the drawing's size, are taken for the same one."""
+
+Options = Mapping[str, object]
+
+
+@dataclass(frozen=True)
+class Trial:
+    """What becomes of a file with further options.
+
+    A wall around lines meets what they meet, and is merged with it, so that of violations nothing is said.
+    """
+
+    options: Options
+    contents: Contents
+    judged: Judged
+
+    @property
+    def words(self) -> str:
+        """The options on a command line."""
+        return words(self.options)
+
+    @cached_property
+    def places(self) -> Floats:
+        """Where violations are left."""
+        return np.array([p.xy for v in self.judged.violations for p in v.places], dtype=float).reshape(-1, 2)
+
+    @cached_property
+    def still_open(self) -> set[str]:
+        """The names of the pieces of chains that stay open."""
+        return {piece.label for path in self.contents.open_chains for piece in path}
+
+    def helps(self, before: Judged, contents: Contents) -> bool:
+        """Whether violations or open chains are fewer than before."""
+        fewer = len(self.judged.violations) < len(before.violations)
+        return fewer or len(self.contents.open_chains) < len(contents.open_chains)
+
+
+def words(options: Options) -> str:
+    """Options as on a command line."""
+    return " ".join(_word(name, value) for name, value in options.items() if value not in (None, False))
+
+
+def _word(name: str, value: object) -> str:
+    if value is True:
+        return f"--{name}"
+    if isinstance(value, fmpq):
+        text = plain(value)
+    else:
+        text = value if isinstance(value, str) else ",".join(map(str, value))  # type: ignore[call-overload]
+    return f"--{name}={shlex.quote(text)}" if text.startswith("-") else f"--{name} {shlex.quote(text)}"
+
+
+def trials(
+    contents: Contents,
+    found: Judged,
+    closing: Sequence[Closing],
+    allowed: Sequence[str],
+    read: Callable[[Options], Contents],
+) -> Iterator[Trial]:
+    """What options make of contents: those of *allowed* that may cure what was found.
+
+    *read* reads the file with further options. None are tried beyond `MOST_EDGES`, or if violations are so
+    many that they are not all counted: a union would take as long as there are crossings.
+    """
+    lines = sum(piece.edges for path in contents.open_chains for piece in path)
+    if contents.edges + lines > MOST_EDGES or len(found.violations) >= COUNTED:
+        return
+    for more in _proposals(contents, found, closing):
+        if not set(more) <= set(allowed):
+            continue
+        try:
+            own = {"outer", "union"}
+            tried = replace(contents, **more) if set(more) <= own else read(more)  # type: ignore[arg-type]
+            yield Trial(more, tried, found if "thicken" in more else judged(tried))
+        except (FormatError, InvalidScene, Undecided):
+            continue
+
+
+def cured(trial: Trial, violation: Violation, before: Judged, size: float) -> bool:
+    """Whether a violation is gone in a trial, and not only because what it speaks of is gone.
+
+    It is gone if no violation is left near its places. With fewer layers one of two loops that met has to be
+    there still, with a tolerance both: a large one makes nothing of small loops.
+    """
+    if not trial.judged.loops or "thicken" in trial.options:
+        return False
+    names, left = {before.loops[k].name for k in violation.loops}, {loop.name for loop in trial.judged.loops}
+    if ("layers" in trial.options and not names & left) or ("tolerance" in trial.options and names - left):
+        return False
+    if not violation.places:
+        return violation.text not in {other.text for other in trial.judged.violations}
+    moved = [value for value in trial.options.values() if isinstance(value, fmpq)]
+    reach = SAME * size + 2 * sum(map(nearest_float, moved))
+    others = trial.places
+    return all(not len(others) or np.hypot(*(others - p.xy).T).min() > reach for p in violation.places)
+
+
+def _proposals(contents: Contents, found: Judged, closing: Sequence[Closing]) -> Iterator[Options]:
+    meeting = [v for v in found.violations if len(v.loops) == 2]
+    if meeting and contents.outer == "wall" and _meets_the_frame(found, meeting):
+        yield {"outer": "drop"}
+    if meeting and not contents.union:
+        yield {"union": True}
+    size = size_of(contents)
+    if contents.outer == AS_TOLD or not 0 < size < LIMIT:
+        return
+    yield from ({"tolerance": t} for t in _tolerances(closing))
+    if any(len(v.loops) == 1 for v in found.violations):
+        yield from ({"tolerance": many * default_tolerance(size)} for many in COARSER)
+    if meeting:
+        yield from _fewer_layers(contents, found, meeting)
+    if contents.open_chains:
+        yield {"thicken": rounded_up(nearest_float(size) / THIN)}
+    if any("--flatten" in note for note in contents.notes):
+        yield {"flatten": rounded_up(nearest_float(size) / NEAR)}
+
+
+def _tolerances(closing: Sequence[Closing]) -> list[fmpq]:
+    """The one that closes most chains, and some of those for the others."""
+    best = best_tolerance(closing)
+    if best is None:
+        return []
+    others = sorted({c.tolerance for c in closing if c.tolerance is not None and c.tolerance > best[0]})
+    return [best[0], *others[: TOLERANCE_TRIALS - 1]]
+
+
+def _meets_the_frame(found: Judged, meeting: Sequence[Violation]) -> bool:
+    walls = [loop.index for loop in found.loops if loop.is_enclosure]
+    outermost = walls[0] if walls else frame([loop.shape for loop in found.loops])
+    return any(outermost in v.loops for v in meeting)
+
+
+def _fewer_layers(contents: Contents, found: Judged, meeting: Sequence[Violation]) -> Iterator[Options]:
+    """All layers but one, for layers whose loops meet those of another; the one with the fewest entities."""
+    counts, homes = contents.layers.counts, contents.layers.homes
+    less = set()
+    for violation in meeting:
+        layers = {homes.get(found.loops[k].name or "", "") for k in violation.loops}
+        if len(layers) == 2 and "" not in layers:
+            less.add(min(layers, key=lambda layer: (counts[layer], layer)))
+    for layer in sorted(less, key=lambda layer: (counts[layer], layer))[:LAYER_TRIALS]:
+        others = [name for name in counts if name != layer and contents.layers.read(name)]
+        if not any("," in name for name in others) and sum(map(len, others)) <= LONGEST:
+            yield {"layers": others}
+
+
+def size_of(contents: Contents) -> fmpq:
+    """The larger side of the box of all vertices of loops and open chains."""
+    pairs = [place for shape in contents.loops for place in _corners(shape)]
+    pairs += [(c.x, c.y) for path in contents.open_chains for piece in path for c in piece.corners]
+    sides = [max(values) - min(values) for values in zip(*pairs, strict=True)]
+    return max(sides, default=fmpq(0))
+
+
+def _corners(shape: Shape) -> list[tuple[fmpq, fmpq]]:
+    if isinstance(shape, Circle):
+        (x, y), r = shape.center, shape.radius
+        return [(x - r, y - r), (x + r, y + r)]
+    return [(x, y) for x, y, _ in shape.vertices]

@@ -1,0 +1,282 @@
+"""What a file holds, before a start and a radius are chosen: what is wrong, what cures it, where to start."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import islice
+from shlex import quote
+from typing import Any
+
+from flint import fmpq
+
+from exactacq.errors import FormatError, InvalidScene, Undecided
+from exactacq.files.checking.cures import Options, Trial, cured, size_of, trials, words
+from exactacq.files.checking.flaws import Judged, judged
+from exactacq.files.checking.lines import OpenChain, open_chains
+from exactacq.files.checking.sketch import Sketch, places_of
+from exactacq.files.checking.starts import Beginning, beginning
+from exactacq.files.loops.contents import Contents
+from exactacq.files.repairs.gaps import closings
+from exactacq.files.sources import NamedSource
+from exactacq.geometry.intersections import ContactKind
+from exactacq.geometry.points import Point
+from exactacq.numbers.rationals import nearest_float, plain
+from exactacq.scene.scene import Obstacle, Scene
+from exactacq.scene.shapes import HasGeoInterface
+from exactacq.scene.validation import LIMIT, Violation
+
+Place = tuple[fmpq, fmpq]
+STEPS = 4
+"""Reading, violations, cures, and a start."""
+BEST = 2
+"""How many of the single options a start is looked for with."""
+THICK_EDGES = 4000
+"""Edges of walls around lines and of loops beyond which no start is looked for among them: all are merged."""
+TOGETHER = {"tolerance", "union", "flatten"}
+"""Options that are also tried all together."""
+
+
+@dataclass(frozen=True, slots=True)
+class LoopFound:
+    """A closed loop: what reports and the file call it, its edges, and how many other loops are around it."""
+
+    obstacle: Obstacle
+    depth: int
+    holds: int
+    """How many loops it has within."""
+
+    @property
+    def label(self) -> str:
+        """What it is called: "O" and its number, or "wall"."""
+        return "wall" if self.obstacle.is_enclosure else f"O{self.obstacle.index + 1}"
+
+    @property
+    def role(self) -> str:
+        """The wall if the file or the start says so; else single, outer, hole or nested, by its place."""
+        if self.obstacle.is_enclosure:
+            return "wall"
+        return ("outer" if self.holds else "single", "hole")[self.depth] if self.depth < 2 else "nested"
+
+
+@dataclass(frozen=True, slots=True)
+class Flaw:
+    """A broken rule in words: where, by which loops, how edges meet, and options that cure it, each tried."""
+
+    text: str
+    places: tuple[Point, ...] = ()
+    loops: tuple[int, ...] = ()
+    kind: ContactKind | None = None
+    cures: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Inspection:
+    """What `inspect` has found in a file.
+
+    ``loops``, ``open_chains`` and ``violations`` are those of the file as it is read, all of them if no start
+    is given. ``start`` and ``radius`` are the given ones, or proposals: with the ``options`` there is a
+    ``scene`` around that start, and ``command`` explores it. All these are None, or empty, if none was found.
+    ``gap`` is what the radius is chosen by: the widest link that leads to an obstacle.
+
+    >>> import exactacq as xa
+    >>> import shapely
+    >>> found = xa.inspect(shapely.MultiPolygon([shapely.box(0, 0, 2, 2), shapely.box(2, 1, 3, 3)]))
+    >>> found.trouble, found.violations[0].cures, found.options
+    ('1 violation of the rules for scenes', ('--union',), {'union': True})
+    >>> print(*found.start, found.radius)
+    5/2 1/2 3/4
+    """
+
+    name: str
+    format: str
+    contents: Contents
+    loops: tuple[LoopFound, ...]
+    open_chains: tuple[OpenChain, ...]
+    violations: tuple[Flaw, ...]
+    extent: tuple[tuple[float, float], tuple[float, float]] | None
+    start: Place | None = None
+    radius: fmpq | None = None
+    gap: float | None = None
+    options: Options | None = None
+    scene: Scene | None = None
+    command: str = ""
+
+    @property
+    def ok(self) -> bool:
+        """Whether nothing is wrong: no rule is broken, and no chain stays open that would enclose loops."""
+        return not self.trouble
+
+    @property
+    def trouble(self) -> str:
+        """What is wrong, in one line; "" if nothing is."""
+        wrong = []
+        if self.violations:
+            count = len(self.violations)
+            wrong.append(f"{count} violation{'s' * (count != 1)} of the rules for scenes")
+        if around := sum(chain.encloses for chain in self.open_chains):
+            them = "an open chain" if around == 1 else f"{around} open chains"
+            wrong.append(f"{them} would enclose other loops")
+        if not self.loops and self.contents.lacking:
+            wrong.append("there is no closed loop")
+        return ", and ".join(wrong)
+
+    def __repr__(self) -> str:
+        return f"<Inspection of {self.name}: {len(self.loops)} loops, {self.trouble or 'OK'}>"
+
+
+def inspect(
+    name: str | os.PathLike[str] | HasGeoInterface,
+    *,
+    start: Point | Sequence[object] | None = None,
+    progress: Callable[[int, int], None] | None = None,
+    **options: Any,
+) -> Inspection:
+    """What a file or gallery scene holds, and all that is wrong with it; no start is needed.
+
+    The arguments are those of `load`. *progress* is called with the number of steps done, and of all. Options
+    that cure a violation or close a chain are named only after they were tried; none are tried for files of
+    more than 10,000 edges. Raises `FormatError` for a file that cannot be read.
+
+    >>> from importlib.resources import files
+    >>> found = inspect(files("exactacq") / "files" / "data" / "issue42.dxf")
+    >>> found.ok, len(found.loops), [loop.role for loop in found.loops].count("hole")
+    (True, 15, 14)
+    >>> len(found.scene.obstacles)
+    15
+    """
+    tell = progress or (lambda done, total: None)
+    tell(0, STEPS)
+    source = NamedSource(name)
+    options = source.format.checked(options) if source.format is not None else options
+    contents = source.contents(start, options)
+    tell(1, STEPS)
+    before = judged(contents)
+    tell(2, STEPS)
+    inquiry = _Inquiry(source, start, options, contents, before)
+    tell(3, STEPS)
+    found = inquiry.found(name="areas" if source.geo is not None else source.label)
+    tell(4, STEPS)
+    return found
+
+
+class _Inquiry:
+    """The trials of one inspection, and what is found by them."""
+
+    def __init__(
+        self, source: NamedSource, start: Any, options: Options, contents: Contents, before: Judged
+    ) -> None:
+        self.source, self.start, self.options = source, start, options
+        self.contents, self.before = contents, before
+        self.closing = closings(contents.open_chains)
+        self.tried: list[Trial] = []
+        if before.violations or contents.open_chains or contents.lacking:
+            self.tried = list(trials(contents, before, self.closing, self._allowed, self._read))
+
+    @property
+    def _allowed(self) -> tuple[str, ...]:
+        return tuple(o.name for o in self.source.format.options) if self.source.format is not None else ()
+
+    def _read(self, more: Options, start: Place | None = None) -> Contents:
+        return self.source.contents(start or self.start, {**self.options, **more})
+
+    def found(self, name: str) -> Inspection:
+        """All that is to be told."""
+        sketch = Sketch([loop.shape for loop in self.before.loops])
+        around = sketch.nesting
+        counted = zip(
+            self.before.loops, around.sum(axis=1).tolist(), around.sum(axis=0).tolist(), strict=True
+        )
+        chains = open_chains(self.contents, self.closing, self.tried)
+        size = nearest_float(min(size_of(self.contents), LIMIT))
+        found = Inspection(
+            name=name,
+            format="gallery scenes" if self.source.format is None else self.source.format.title,
+            contents=self.contents,
+            loops=tuple(LoopFound(*row) for row in counted),
+            open_chains=chains,
+            violations=tuple(self._flaw(violation, size) for violation in self.before.violations),
+            extent=self._extent(sketch),
+        )
+        begun = self._begun(any(chain.encloses for chain in chains))
+        if begun is None:
+            return found
+        options, beginning = begun
+        return replace(
+            found,
+            start=beginning.start,
+            radius=beginning.radius,
+            gap=beginning.gap,
+            options={**self.options, **options},
+            scene=beginning.scene,
+            command=self._command({**self.options, **options}, beginning),
+        )
+
+    def _extent(self, sketch: Sketch) -> tuple[tuple[float, float], tuple[float, float]] | None:
+        """The box of all that can be shown, from its lower left to its upper right corner."""
+        pieces = [piece for path in self.contents.open_chains for piece in path]
+        places = places_of((corner.x, corner.y) for piece in pieces for corner in piece.corners)
+        places += [] if sketch.is_empty else [(float(x), float(y)) for x, y in sketch.box]
+        if not places:
+            return None
+        xs, ys = zip(*places, strict=True)
+        return (min(xs), min(ys)), (max(xs), max(ys))
+
+    def _flaw(self, violation: Violation, size: float) -> Flaw:
+        cures = [trial.words for trial in self.tried if cured(trial, violation, self.before, size)]
+        return Flaw(violation.text, violation.places, violation.loops, violation.kind, tuple(cures))
+
+    def _begun(self, is_open: bool) -> tuple[Options, Beginning] | None:
+        """The options and the start with which there are most boundaries, and of such the fewest options.
+
+        Without further options if the first choice of a start does then, and no chain has to be closed.
+        """
+        best: tuple[tuple[int, int], Options, Beginning] | None = None
+        for options, contents in self._ways():
+            begun = beginning(contents, partial(self._around, options, contents))
+            if begun is None:
+                continue
+            rank = len(begun.scene.obstacles), -len(options)
+            if best is None or rank > best[0]:
+                best = rank, options, begun
+            if begun.is_first and not is_open:
+                break
+        return None if best is None else best[1:]
+
+    def _ways(self) -> Iterator[tuple[Options, Contents]]:
+        """Contents to start in: as they are, with what leaves the fewest violations, and with all of that."""
+        yield {}, self.contents
+        order = sorted(
+            self.tried, key=lambda trial: (len(trial.judged.violations), len(trial.contents.open_chains))
+        )
+        light = (t for t in order if "thicken" not in t.options or t.contents.edges <= THICK_EDGES)
+        yield from ((trial.options, trial.contents) for trial in islice(light, BEST))
+        every: dict[str, object] = {}
+        for trial in order:
+            if TOGETHER.issuperset(trial.options) and trial.helps(self.before, self.contents):
+                every = {**trial.options, **every}
+        if len(every) > 1:
+            with suppress(FormatError, InvalidScene, Undecided):
+                yield every, self._read(every)
+
+    def _around(self, options: Options, contents: Contents, start: Place) -> Contents:
+        """The contents around a start; what a grid is simplified to depends on it, so that is read again."""
+        again = self.options.get("simplify") is not None
+        return self._read(options, start) if again else replace(contents, start=start)
+
+    def _command(self, options: Options, begun: Beginning) -> str:
+        """The command line that explores the scene; "" for areas that are in no file."""
+        if self.source.geo is not None:
+            return ""
+        scene, told = begun.scene, self.contents
+        parts = ["exactacq explore", quote(self.source.label), words(options)]
+        if scene.terrain is not None and scene.meets_border():
+            parts.append("--strategy seed-spreader")
+        elif self.start is not None or told.start is None:
+            parts.append(words({"start": ",".join(map(plain, begun.start))}))
+        if told.radius is None:
+            parts.append(words({"radius": begun.radius}))
+        return " ".join(filter(None, parts))

@@ -1,0 +1,162 @@
+"""The lines of a drawing that stay open: how long they are, what they would enclose, and what closes them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from math import atan, hypot
+
+from flint import fmpq
+
+from exactacq.files.checking.cures import Trial
+from exactacq.files.loops.chains import Chain, Corner, bend_of, distance_above
+from exactacq.files.loops.contents import Contents
+from exactacq.files.loops.nesting import Loops
+from exactacq.files.repairs.gaps import Closing
+from exactacq.geometry.points import Point
+from exactacq.numbers.rationals import nearest_float
+from exactacq.scene.shapes import Outline, Shape, shape_edges
+from exactacq.scene.validation import LIMIT
+
+CLOSING = ("tolerance", "flatten", "thicken")
+"""The options that may close chains, or make them walls."""
+MOST_CHAINS = 400
+"""The longest chains, for which it is asked what they enclose."""
+Place = tuple[fmpq, fmpq]
+
+
+@dataclass(frozen=True, slots=True)
+class OpenChain:
+    """A line that stays open: its pieces by name, its ends, and what is known of its gap.
+
+    *length* is a float. *gap* is the width of the widest gap that keeps it open, between ends that are
+    nearest to each other, and *across* are the ends there; if its ends have no such mates this is None, and
+    the gap is the one between them. *encloses* says whether, closed, it would have other loops within.
+    *cures* are options that close it, or if none does, one that makes it a wall; each is tried.
+    """
+
+    pieces: tuple[str, ...]
+    edges: int
+    length: float
+    ends: tuple[Place, Place]
+    gap: fmpq
+    across: tuple[Place, Place] | None
+    encloses: bool
+    cures: tuple[str, ...] = ()
+
+
+def open_chains(
+    contents: Contents, closing: Sequence[Closing], tried: Sequence[Trial]
+) -> tuple[OpenChain, ...]:
+    """All open chains of a file, the longest first."""
+    gaps = {k: max(c.gaps, key=lambda gap: gap.width) for c in closing for k in c.chains}
+    groups = {k: _labels(contents, c.chains) for c in closing for k in c.chains}
+    walks = [walked(path) for path in contents.open_chains]
+    lengths = [sum(map(_length, walk, walk[1:])) for walk in walks]
+    order = sorted(range(len(walks)), key=lambda k: -lengths[k])
+    asked = order[:MOST_CHAINS]
+    around = dict(zip(asked, _enclosing([walks[k] for k in asked], contents.loops), strict=True))
+    around = {k: around.get(k, False) for k in order}
+    for trial in tried:
+        if "tolerance" in trial.options:
+            held = _holders(trial.contents, contents)
+            for closed in closing:
+                if _labels(contents, closed.chains) & held:
+                    around.update(dict.fromkeys(closed.chains, True))
+    return tuple(
+        OpenChain(
+            tuple(piece.label for piece in contents.open_chains[k]),
+            len(walks[k]) - 1,
+            lengths[k],
+            (_place(walks[k][0]), _place(walks[k][-1])),
+            gaps[k].width if k in gaps else distance_above(walks[k][0], walks[k][-1]),
+            gaps[k].places if k in gaps else None,
+            around[k],
+            _cures(contents.open_chains[k], groups.get(k, set()), tried),
+        )
+        for k in order
+    )
+
+
+def walked(path: Sequence[Chain]) -> list[Corner]:
+    """The corners along a path of pieces that meet in their ends."""
+    corners: list[Corner] = []
+    for k, piece in enumerate(path):
+        ahead = piece.corners
+        other = path[1] if k == 0 and len(path) > 1 else None
+        ends = {_place(c) for c in (other.corners[0], other.corners[-1])} if other else set()
+        turned = _place(corners[-1]) != _place(ahead[0]) if corners else _place(ahead[-1]) not in ends
+        row = piece.backwards() if turned and len(path) > 1 else ahead
+        corners = [*corners[:-1], *row] if corners else list(row)
+    return corners
+
+
+def _place(corner: Corner) -> Place:
+    return corner.x, corner.y
+
+
+def _length(start: Corner, end: Corner) -> float:
+    """An arc of bulge b over a chord c is c atan(b) (1 + b^2) / b long."""
+    chord = hypot(*(nearest_float(min(abs(d), LIMIT)) for d in (end.x - start.x, end.y - start.y)))
+    b = nearest_float(max(-LIMIT, min(start.bulge, LIMIT)))
+    return chord * atan(b) * (1 + b * b) / b if b else chord
+
+
+def _labels(contents: Contents, chains: Iterable[int]) -> set[str]:
+    """The names of the pieces of some chains."""
+    return {piece.label for k in chains for piece in contents.open_chains[k]}
+
+
+def _cures(path: Sequence[Chain], group: set[str], tried: Sequence[Trial]) -> tuple[str, ...]:
+    """The options after which a chain is not open any more; a tolerance makes a loop of its *group*, too.
+
+    Without that last it may have become a piece that is drawn twice, or a loop without area.
+    """
+    found = {}
+    for trial in tried:
+        for name in trial.options:
+            is_loop = name != "tolerance" or bool(group & _started(trial.contents))
+            if name in CLOSING and is_loop and not any(piece.label in trial.still_open for piece in path):
+                found[trial.words] = name
+    closed = tuple(words for words, name in found.items() if name != "thicken")
+    return closed or tuple(found)
+
+
+def _enclosing(walks: Sequence[list[Corner]], loops: Sequence[Shape]) -> list[bool]:
+    """Which chains have loops within if a straight edge closes them."""
+    rings = [
+        Outline([(c.x, c.y, bend_of(c, d)) for c, d in zip(w, [*w[1:], w[0]], strict=True)]) for w in walks
+    ]
+    found = [False] * len(walks)
+    lines = Loops(rings)
+    for shape in loops if walks else ():
+        if edges := shape_edges(shape):
+            for k in lines.around(edges[0].start):
+                found[k] = True
+    return found
+
+
+def _holders(closed: Contents, before: Contents) -> set[str]:
+    """The names of the pieces of loops that are new and have others within."""
+    known = {shape.name for shape in before.loops}
+    new = [shape for shape in closed.loops if shape.name not in known]
+    lines = Loops(new)
+    places = [edges[0].start for shape in closed.loops if (edges := shape_edges(shape))]
+    inside: set[int] = set()
+    for point in places if new else ():
+        inside |= {k for k in lines.around(point) if not _passes(new[k], point)}
+    return {_first_piece(new[k]) for k in inside}
+
+
+def _started(contents: Contents) -> set[str]:
+    """The names of the first pieces of all loops."""
+    return set(map(_first_piece, contents.loops))
+
+
+def _first_piece(shape: Shape) -> str:
+    return (shape.name or "").removeprefix("loop from ")
+
+
+def _passes(shape: Shape, point: Point) -> bool:
+    """Whether a point is the first one of the shape."""
+    return shape_edges(shape)[0].start == point

@@ -1,0 +1,127 @@
+"""Loops in floats, arcs as chords: how they lie in each other and how far places are from them.
+
+Only proposals and descriptions are made of it; what is proposed is verified exactly elsewhere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from functools import cached_property
+
+import numpy as np
+from flint import fmpq
+from numpy.typing import NDArray
+
+from exactacq.geometry.curves import Curve, Segment
+from exactacq.geometry.strokes import Floats, Stroke
+from exactacq.numbers.rationals import nearest_float
+from exactacq.numbers.real import Real
+from exactacq.scene.shapes import Shape, shape_edges
+
+HUGE = 10**150
+"""Coordinates beyond this are not sketched: squares of floats would overflow."""
+AT_ONCE = 2_000_000
+"""Pairs of a place and a chord that are looked at in one step, which bounds the memory."""
+Bools = NDArray[np.bool_]
+
+
+class Sketch:
+    """The chords of closed loops; edges without length or of absurd size are left out."""
+
+    def __init__(self, shapes: Sequence[Shape]) -> None:
+        rows = [points_of(shape_edges(shape)) for shape in shapes]
+        self.count = len(rows)
+        self.lines = [np.concatenate(row) if row else np.zeros((0, 2)) for row in rows]
+        """Of each loop the points along it, from its first vertex on."""
+        parts = [(row[:-1], row[1:]) for points in rows for row in points]
+        self.starts = np.concatenate([np.zeros((0, 2)), *(start for start, _ in parts)])
+        self.ends = np.concatenate([np.zeros((0, 2)), *(end for _, end in parts)])
+        sizes = [sum(len(row) - 1 for row in points) for points in rows]
+        self.begin = np.cumsum([0, *sizes])
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether there is nothing to be seen."""
+        return len(self.starts) == 0
+
+    @property
+    def box(self) -> tuple[Floats, Floats]:
+        """The lower left and the upper right corner of everything."""
+        return self.starts.min(axis=0), self.starts.max(axis=0)
+
+    def around(self, places: Floats) -> Bools:
+        """Which loops lie around which places: a row for each place."""
+        found = np.zeros((len(places), self.count), dtype=bool)
+        for k in range(self.count):
+            start, end = self._chords(k)
+            if not len(start):
+                continue
+            low, high = start.min(axis=0), start.max(axis=0)
+            near = np.flatnonzero(((places >= low) & (places <= high)).all(axis=1))
+            for some in _steps(near, len(start)):
+                found[some, k] = _is_inside(places[some], start, end)
+        return found
+
+    def clearance(self, places: Floats) -> Floats:
+        """The distance of each place to the nearest chord."""
+        least = np.full(len(places), np.inf)
+        along = self.ends - self.starts
+        size = np.maximum((along**2).sum(axis=1), 1e-300)
+        for some in _steps(np.arange(len(places)), len(self.starts)):
+            offset = places[some][:, None] - self.starts
+            share = np.clip((offset * along).sum(axis=2) / size, 0, 1)
+            offset -= share[..., None] * along
+            least[some] = np.sqrt((offset**2).sum(axis=2).min(axis=1))
+        return least
+
+    @cached_property
+    def nesting(self) -> Bools:
+        """Row i tells which loops lie around the first vertex of loop i."""
+        known = [k for k in range(self.count) if len(self.lines[k])]
+        found = np.zeros((self.count, self.count), dtype=bool)
+        if known:
+            found[known] = self.around(np.array([self.lines[k][0] for k in known]))
+        np.fill_diagonal(found, False)
+        return found
+
+    def _chords(self, loop: int) -> tuple[Floats, Floats]:
+        part = slice(self.begin[loop], self.begin[loop + 1])
+        return self.starts[part], self.ends[part]
+
+
+def points_of(edges: Sequence[Curve]) -> list[Floats]:
+    """The points along each edge that can be shown."""
+    return [stroke.points() for stroke in strokes_of(edges)]
+
+
+def places_of(pairs: Iterable[tuple[fmpq, fmpq]]) -> list[tuple[float, float]]:
+    """The places that can be shown."""
+    return [(nearest_float(x), nearest_float(y)) for x, y in pairs if max(abs(x), abs(y)) <= HUGE]
+
+
+def strokes_of(edges: Iterable[Curve]) -> list[Stroke]:
+    """The edges that can be shown."""
+    return [edge.stroke() for edge in edges if _is_shown(edge)]
+
+
+def _is_shown(edge: Curve) -> bool:
+    if any(abs(Real(c)) > HUGE for point in (edge.start, edge.end) for c in (point.x, point.y)):
+        return False
+    if isinstance(edge, Segment):
+        return edge.start != edge.end
+    return 0 < Real(edge.radius_sq) < HUGE**2 and (edge.full or edge.start != edge.end)
+
+
+def _steps(members: NDArray[np.intp], width: int) -> list[NDArray[np.intp]]:
+    """Some numbers in groups, so that a table of a group by *width* stays small."""
+    return np.array_split(members, max(1, -(-len(members) * width // AT_ONCE))) if len(members) else []
+
+
+def _is_inside(places: Floats, starts: Floats, ends: Floats) -> Bools:
+    """By the number of chords that the ray to the east crosses."""
+    x, y = places[:, :1], places[:, 1:]
+    across = (starts[:, 1] > y) != (ends[:, 1] > y)
+    rise = np.where(starts[:, 1] == ends[:, 1], 1.0, ends[:, 1] - starts[:, 1])
+    crossing = starts[:, 0] + (y - starts[:, 1]) * (ends[:, 0] - starts[:, 0]) / rise
+    inside: Bools = ((across & (x < crossing)).sum(axis=1) % 2).astype(bool)
+    return inside

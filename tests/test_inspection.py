@@ -1,0 +1,381 @@
+"""What is told of files before anything is decided: each cure cures, each start is free, each command works.
+
+Whether a start is free, and how wide gaps are, is asked of shapely. That a cure cures is read off the file as
+it is then: by the options that the words say.
+"""
+
+from __future__ import annotations
+
+import json
+import shlex
+from collections.abc import Iterable
+from pathlib import Path
+from random import Random
+
+import ezdxf
+import networkx as nx
+import numpy as np
+import pytest
+import shapely
+from flint import fmpq
+
+import exactacq as xa
+from exactacq import cli
+from exactacq.cli.file_options import read_from_text
+from exactacq.files.checking.sketch import Sketch
+from exactacq.files.checking.starts import rounded, rounded_up, widest_gap
+from exactacq.files.formats import options as file_options
+
+DATA = Path(__file__).parent / "data"
+FILES = sorted(
+    path
+    for path in DATA.rglob("*")
+    if path.suffix in (".dxf", ".svg", ".wkt", ".yaml", ".kicad_pcb") or path.parent.name == "arcs"
+)
+SMALL = [path for path in FILES if path.stat().st_size < 60_000]
+
+
+def drawing(path: Path, *lines: Iterable[tuple[float, float]], layers: dict[int, str] | None = None) -> Path:
+    """A drawing of polylines; one is closed if its last place is the first."""
+    document = ezdxf.new()
+    for k, line in enumerate(lines):
+        places = list(line)
+        closed = places[0] == places[-1]
+        look = {"layer": (layers or {}).get(k, "0")}
+        document.modelspace().add_lwpolyline(places[:-1] if closed else places, close=closed, dxfattribs=look)
+    document.saveas(path)
+    return path
+
+
+def box(x: float, y: float, w: float, h: float) -> list[tuple[float, float]]:
+    return [(x, y), (x + w, y), (x + w, y + h), (x, y + h), (x, y)]
+
+
+def said(words: str) -> dict[str, object]:
+    """The options that words of a command line stand for."""
+    values: dict[str, object] = {}
+    parts = shlex.split(words)
+    while parts:
+        name, _, value = parts.pop(0).removeprefix("--").partition("=")
+        values[name] = True if file_options()[name].kind == "flag" else value or parts.pop(0)
+    return read_from_text(values)
+
+
+def near(flaw: object, others: Iterable[object], reach: float) -> bool:
+    """Whether a violation is still there."""
+    return any(
+        np.hypot(*np.subtract(p.xy, q.xy)) <= reach
+        for other in others
+        for p in flaw.places  # type: ignore[attr-defined]
+        for q in other.places  # type: ignore[attr-defined]
+    )
+
+
+def check_start(found: xa.Inspection) -> None:
+    """The start is free by shapely, up to the flatness of its chords, and the file loads around it."""
+    assert found.scene is not None and found.start is not None and found.options is not None
+    start = shapely.Point(*map(float, map(str, map(float, (xa.Real(c) for c in found.start)))))
+    for obstacle in found.scene.obstacles:
+        area = shapely.geometry.shape(obstacle.__geo_interface__["geometry"]).buffer(0)
+        assert area.contains(start) == obstacle.is_enclosure
+        assert area.boundary.distance(start) > 0
+
+
+def check_cures(path: Path, found: xa.Inspection, **options: object) -> None:
+    size = max(np.subtract(*found.extent[::-1])) if found.extent else 1
+    again = {words: None for flaw in found.violations for words in flaw.cures}
+    for words in again:
+        again[words] = xa.inspect(path, **{**options, **said(words)})
+    for flaw in found.violations:
+        for words in flaw.cures:
+            assert not near(flaw, again[words].violations, 1e-9 * size), (flaw, words)
+
+
+# -- laws, on real files and on random ones --------------------------------------------------------
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
+def test_starts_are_free_and_cures_cure(path: Path) -> None:
+    found = xa.inspect(path)
+    assert found.ok == (
+        not found.violations and not any(c.encloses for c in found.open_chains) and not found.trouble
+    )
+    check_cures(path, found)
+    if found.scene is None:
+        assert found.violations and found.start is None and found.command == ""
+        return
+    if found.contents.start is None:
+        check_start(found)
+    assert xa.load(path, start=found.start, **found.options) == found.scene
+    assert float(xa.Real(found.radius)) >= found.gap or found.contents.radius is not None
+
+
+@pytest.mark.parametrize("path", SMALL, ids=lambda path: path.name)
+def test_the_command_works_as_printed(path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    found = xa.inspect(path)
+    if not found.command or path.suffix == ".wkt":
+        return
+    program, *arguments = shlex.split(found.command)
+    assert program == "exactacq"
+    status = cli.main(arguments)
+    out, err = capsys.readouterr()
+    assert status in (0, 3), err
+    assert "never seen" not in out or found.contents.radius is not None
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_random_drawings(tmp_path: Path, seed: int) -> None:
+    """Boxes on a small grid: they cross, touch, overlap, lie in each other; some stay open."""
+    random = Random(seed)
+    lines = []
+    for _ in range(random.randrange(2, 9)):
+        ring = box(*(random.randrange(12) for _ in range(2)), *(random.randrange(1, 7) for _ in range(2)))
+        gap = (ring[0][0], ring[0][1] + 1 / 4)
+        lines.append([*ring[:-1], gap] if random.random() < 0.3 else ring)
+    layers = {k: random.choice("AB") for k in range(len(lines))}
+    path = drawing(tmp_path / "random.dxf", *lines, layers=layers)
+    found = xa.inspect(path)
+    check_cures(path, found)
+    for chain in found.open_chains:
+        for words in chain.cures:
+            left = xa.inspect(path, **said(words)).open_chains
+            assert not {label for other in left for label in other.pieces} & set(chain.pieces)
+    if found.scene is not None:
+        check_start(found)
+        assert xa.load(path, start=found.start, **found.options) == found.scene
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_the_gap_is_the_widest_link_of_a_shortest_tree(seed: int) -> None:
+    """Of shapely's distances; the radius that follows from it lets the Sightseer see everything."""
+    random = Random(seed)
+    places = [
+        (20 * k + random.randrange(12), 20 * m + random.randrange(12)) for k in range(3) for m in range(2)
+    ]
+    boxes = [shapely.box(x, y, x + random.randrange(1, 8), y + random.randrange(1, 8)) for x, y in places]
+    scene = xa.Scene(boxes, start=(-3, random.randrange(-9, 30)))
+    graph = nx.Graph()
+    parts = [*boxes, shapely.Point(scene.start.xy)]
+    for k, one in enumerate(parts):
+        graph.add_weighted_edges_from((k, m, one.distance(parts[m])) for m in range(k))
+    wanted = max(d["weight"] for _, _, d in nx.minimum_spanning_edges(graph))
+    gap = widest_gap(scene)
+    assert wanted * (1 - 1e-9) <= gap <= wanted * 1.01 + 0.1
+    assert xa.sightseer(scene, rounded_up(1.5 * gap)).complete
+
+
+def test_rounding_stays_within_the_clearance() -> None:
+    random = Random(5)
+    for _ in range(300):
+        place, clear = np.array([random.uniform(-1e6, 1e6) for _ in "xy"]), 10 ** random.uniform(-9, 6)
+        moved = np.hypot(*(np.array([float(xa.Real(c)) for c in rounded(place, clear)]) - place))
+        assert moved <= 0.2 * clear + 1e-9
+    for _ in range(300):
+        value = 10 ** random.uniform(-20, 20)
+        up = rounded_up(value)
+        assert value <= float(xa.Real(up)) * (1 + 1e-15) and float(xa.Real(up)) <= value * 1.1 + 1e-25
+
+
+def test_places_in_loops_are_told_as_shapely_does() -> None:
+    random = Random(8)
+    rings = [[(random.random(), random.random()) for _ in range(7)] for _ in range(20)]
+    circle = xa.Circle((fmpq(1, 2), fmpq(1, 2)), fmpq(1, 4))
+    sketch = Sketch([*(xa.Polygon(ring) for ring in rings), circle])
+    areas = [shapely.make_valid(shapely.Polygon(ring)) for ring in rings]
+    areas.append(shapely.geometry.shape(circle.__geo_interface__))
+    places = np.array([(random.random(), random.random()) for _ in range(300)])
+    around, clear = sketch.around(places), sketch.clearance(places)
+    lines = [shapely.LinearRing(ring) for ring in rings] + [areas[-1].boundary]
+    for k, place in enumerate(map(shapely.Point, places)):
+        distance = min(line.distance(place) for line in lines)
+        assert clear[k] == pytest.approx(distance, abs=1e-3)
+        if distance > 1e-3:
+            assert around[k].tolist() == [area.contains(place) for area in areas]
+
+
+# -- cases ----------------------------------------------------------------------------------------------
+
+
+def test_an_outline_with_a_gap_around_holes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The holes alone are a legal scene, but not the one that is meant."""
+    outline = [(0, 0.25), (0, 100), (100, 100), (100, 0), (0, 0)]
+    path = drawing(tmp_path / "d.dxf", outline, box(20, 20, 10, 10), box(60, 60, 10, 10))
+    found = xa.inspect(path)
+    (chain,) = found.open_chains
+    assert (chain.encloses, chain.edges, chain.length, chain.gap) == (True, 4, 399.75, fmpq(1, 4))
+    assert chain.cures == ("--tolerance 0.25",)
+    assert not found.ok and found.trouble == "an open chain would enclose other loops"
+    assert found.scene.enclosure is not None and "--tolerance 0.25" in found.command
+    assert cli.main(["check", str(path)]) == 2
+    assert capsys.readouterr().out.endswith("not OK: an open chain would enclose other loops\n")
+    assert xa.inspect(path, tolerance="0.25").ok
+
+
+def test_an_outline_in_pieces_around_a_hole(tmp_path: Path) -> None:
+    """No piece alone has the hole within, but the loop that they close to does."""
+    sides = ([(0, 0), (99, 0)], [(100, 0), (100, 99)], [(100, 100), (1, 100)], [(0, 100), (0, 1)])
+    found = xa.inspect(drawing(tmp_path / "d.dxf", *sides, box(40, 40, 9, 9)))
+    assert [chain.encloses for chain in found.open_chains] == [True] * 4
+    assert {chain.cures for chain in found.open_chains} == {("--tolerance 1",)}
+
+
+def test_sides_of_a_slot_are_not_closed_by_a_tolerance() -> None:
+    """Joined at both ends they are one line, drawn twice: a cure was named that only hid one of them."""
+    chains = xa.inspect(DATA / "ref_dxf_metric.dxf").open_chains
+    assert [chain.cures for chain in chains] == [("--thicken 0.47",)] * 3
+
+
+def test_a_line_is_no_loop_but_may_be_a_wall(tmp_path: Path) -> None:
+    found = xa.inspect(drawing(tmp_path / "d.dxf", [(0, 0), (50, 0)], box(10, 10, 5, 5)))
+    (chain,) = found.open_chains
+    assert (
+        not chain.encloses and (chain.gap, chain.across) == (50, None) and chain.cures == ("--thicken 0.25",)
+    )
+    assert found.ok
+
+
+def test_roles_of_loops(tmp_path: Path) -> None:
+    lines = (box(0, 0, 100, 100), box(10, 10, 50, 50), box(20, 20, 5, 5), box(200, 0, 5, 5))
+    path = drawing(tmp_path / "d.dxf", *lines, layers={3: "side"})
+    found = xa.inspect(path)
+    assert [loop.role for loop in found.loops] == ["outer", "hole", "nested", "single"]
+    assert found.contents.layers.counts == {"0": 3, "side": 1}
+    inside = xa.inspect(path, start=(5, 5), layers="0")
+    assert [loop.role for loop in inside.loops] == ["hole", "wall"]
+    assert not inside.contents.layers.read("side") and inside.ok and inside.start == (5, 5)
+
+
+def test_layers_that_cross_are_told_by_layers(tmp_path: Path) -> None:
+    lines = (box(0, 0, 10, 10), box(5, 5, 10, 10), box(30, 0, 5, 5))
+    found = xa.inspect(drawing(tmp_path / "d.dxf", *lines, layers={0: "part", 1: "frame", 2: "part"}))
+    assert {flaw.cures for flaw in found.violations} == {("--union", "--layers part")}
+
+
+def test_a_loop_that_meets_itself_has_no_cure(tmp_path: Path) -> None:
+    bow = [(0, 0), (10, 10), (10, 0), (0, 10), (0, 0)]
+    found = xa.inspect(drawing(tmp_path / "d.dxf", bow))
+    (flaw,) = found.violations
+    assert flaw.cures == () and flaw.places == (xa.Point(5, 5),) and found.loops[flaw.loops[0]].label == "O1"
+    assert found.scene is None and found.command == ""
+
+
+def test_a_spike_is_cured_by_a_tolerance(tmp_path: Path) -> None:
+    """An exporter's rounding leaves an edge of 10^-5 that goes back on itself."""
+    spike = [(0, 0), (100, 0), (100, 50), (100, 50.0001), (100, 50), (100, 100), (0, 100), (0, 0)]
+    path = drawing(tmp_path / "d.dxf", spike)
+    found = xa.inspect(path, tolerance=0)
+    (words,) = {flaw.cures for flaw in found.violations}
+    assert words[0].startswith("--tolerance") and xa.inspect(path, **said(words[0])).ok
+
+
+def test_a_start_that_is_not_free(tmp_path: Path) -> None:
+    found = xa.inspect(drawing(tmp_path / "d.dxf", box(0, 0, 10, 10), box(2, 2, 4, 4)), start=(3, 3))
+    (flaw,) = found.violations
+    assert flaw.text == "start (3, 3) lies inside obstacle O1 'LWPOLYLINE 30': it must lie in free space"
+    scene = {"obstacles": [{"boundary": box(0, 0, 2, 2)[:-1]}], "start": [1, 1]}
+    (tmp_path / "s.json").write_text(json.dumps(scene))
+    found = xa.inspect(tmp_path / "s.json")
+    assert [flaw.text for flaw in found.violations] == [
+        "start (1, 1) lies inside obstacle O1: it must lie in free space"
+    ]
+    grid = tmp_path / "m.map"
+    grid.write_text("type octile\nheight 3\nwidth 3\nmap\n...\n.@.\n...\n")
+    assert "lies in a blocked cell" in xa.inspect(grid, start=(1.5, 1.5)).violations[0].text
+    assert xa.inspect(grid).ok and xa.inspect(grid, simplify=1).ok
+
+
+def test_objects_of_other_libraries_and_scenes_of_the_gallery() -> None:
+    both = shapely.GeometryCollection([shapely.box(0, 0, 2, 2), shapely.box(1, 1, 3, 3)])
+    found = xa.inspect(both)
+    assert {flaw.cures for flaw in found.violations} == {("--union",)} and found.command == ""
+    assert found.options == {"union": True} and xa.load(both, start=found.start, union=True) == found.scene
+    assert xa.inspect("circles", start=(1, 1)).start == (1, 1)
+    for name in ("figure2", "case2", "m20-3", "plate"):
+        found = xa.inspect(name)
+        assert found.ok and found.scene == xa.load(name), name
+
+
+def test_what_cannot_be_read_is_refused(tmp_path: Path) -> None:
+    for name in (tmp_path / "none.dxf", "nowhere", tmp_path):
+        with pytest.raises(xa.FormatError):
+            xa.inspect(name)
+    with pytest.raises(xa.FormatError, match="tolerance is for"):
+        xa.inspect(DATA / "inpa.wkt", tolerance=1)
+
+
+def test_numbers_beyond_floats_are_told_and_not_drawn(tmp_path: Path) -> None:
+    huge = {"boundary": [[0, 0], ["1e4000", 0], [0, "1e4000"]]}
+    path = tmp_path / "s.json"
+    path.write_text(json.dumps({"obstacles": [huge]}))
+    found = xa.inspect(path)
+    assert "too far from the origin" in found.violations[0].text and found.scene is None
+    assert cli.main(["check", str(path), "--figure", str(tmp_path / "f.svg")]) == 2
+    (tmp_path / "s.svg").write_text('<svg><path d="M0 0 L 1e3000 0 L 3 3"/><path d="M0 0h1v1z"/></svg>')
+    assert cli.main(["check", str(tmp_path / "s.svg"), "--figure", str(tmp_path / "f.svg")]) in (0, 2)
+
+
+# -- the command --------------------------------------------------------------------------------------
+
+
+def test_the_report_tells_all_and_ends_in_a_verdict(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    picture = tmp_path / "f.png"
+    assert cli.main(["check", str(DATA / "ref_dxf_metric.dxf"), "--figure", str(picture)]) == 2
+    out, err = capsys.readouterr()
+    assert err == "" and picture.stat().st_size > 10_000
+    lines = out.splitlines()
+    assert lines[0].split() == ["format", "DXF", "drawings"] and "4 violations" in lines
+    assert sum(line.startswith("- obstacle O") and line.endswith("or --union") for line in lines) == 4
+    assert lines[-1].endswith("ref_dxf_metric.dxf: not OK: 4 violations of the rules for scenes")
+    assert any(line.startswith("exactacq explore ") for line in lines)
+
+
+def test_the_figure_marks_what_is_wrong(tmp_path: Path) -> None:
+    from exactacq.output.figures.drawing_figure import drawing as draw
+
+    lines = (
+        box(0, 0, 10, 10),
+        box(5, 5, 10, 10),
+        box(15, 0, 4, 6),
+        box(40, 0, 2, 2),
+        [(30, 0), (38, 0), (38, 8), (30, 1)],
+    )
+    page = draw(xa.inspect(drawing(tmp_path / "d.dxf", *lines)))
+    texts = {text.get_text() for text in page.legends[0].get_texts()}
+    assert {"crossing", "open chain", "open end", "gap", "loop that breaks a rule", "start S"} <= texts
+    assert {"O1", "O2"} <= {text.get_text() for text in page.axes[0].texts}
+
+
+def test_json_holds_the_same(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = drawing(tmp_path / "d.dxf", box(0, 0, 10, 10), box(5, 5, 10, 10), [(30, 0), (38, 0)])
+    assert cli.main(["check", str(path), "--json"]) == 2
+    told = json.loads(capsys.readouterr().out)
+    assert not told["ok"] and told["layers"] == [{"name": "0", "entities": 3, "read": True}]
+    assert [flaw["cures"] for flaw in told["violations"]] == [["--union"]] * 2
+    assert told["violations"][0]["loops"] == ["O1", "O2"] and told["violations"][0]["kind"] == "cross"
+    assert told["open_chains"][0]["length"] == 8 and told["command"].startswith("exactacq explore")
+
+
+def test_steps_are_told() -> None:
+    steps = []
+    xa.inspect("circles", progress=lambda done, total: steps.append((done, total)))
+    assert steps == [(k, 4) for k in range(5)]
+
+
+def test_a_tolerance_that_makes_nothing_of_a_loop_is_no_cure(tmp_path: Path) -> None:
+    """A bow tie in a large plate: a thousand times the default tolerance would have it vanish."""
+    bow = [(50, 50), (50.01, 50.01), (50.01, 50), (50, 50.01), (50, 50)]
+    found = xa.inspect(drawing(tmp_path / "d.dxf", box(0, 0, 100, 100), bow))
+    assert [flaw.cures for flaw in found.violations] == [()]
+
+
+def test_violations_beyond_count_are_not_tried(tmp_path: Path) -> None:
+    """Two combs, each of whose teeth cross all of the other's: a union would find thousands of crossings."""
+    teeth = [
+        (x, y) for k in range(60) for x, y in ((3 * k, 0), (3 * k + 1, 200), (3 * k + 2, 200), (3 * k + 3, 0))
+    ]
+    comb = [*teeth, (180, -5), (0, -5), (0, 0)]
+    path = drawing(tmp_path / "d.dxf", comb, [(y, x) for x, y in comb])
+    found = xa.inspect(path)
+    assert len(found.violations) == 5000 and {flaw.cures for flaw in found.violations} == {()}
