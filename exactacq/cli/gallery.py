@@ -8,15 +8,17 @@ from typing import Annotated
 
 import typer
 
-from exactacq.cli.arguments import AsJson, FigureFile
+from exactacq.cli.arguments import AsJson, FigureFile, LabelChoice
 from exactacq.cli.runs import explored
 from exactacq.errors import FormatError
+from exactacq.output.vocabulary import Labels
 from exactacq.strategies.options import Strategy
 
 
 def gallery(
     name: Annotated[str | None, typer.Argument(metavar="[NAME]", help="A scene to describe or draw.")] = None,
     figure: FigureFile = None,
+    labels: LabelChoice = Labels.ALL,
     out: Annotated[
         str | None, typer.Option(metavar="DIR", help="Explore every scene, and write DIR/NAME.svg.")
     ] = None,
@@ -39,7 +41,7 @@ def gallery(
     if out is not None:
         if name is not None:
             raise FormatError("--out: draws every scene; leave the name out")
-        _draw_gallery(Path(out))
+        _draw_gallery(Path(out), labels)
     elif as_json:
         data = gallery_data(scenes.names()) if name is None else scene_data(scenes.scene(name))
         sys.stdout.write(text_of(data))
@@ -50,11 +52,11 @@ def gallery(
     else:
         from exactacq.output.figures import save
 
-        save(scenes.scene(name), figure)
+        save(scenes.scene(name), figure, labels=labels)
         print(f"figure written to {figure}")
 
 
-def _draw_gallery(folder: Path) -> None:
+def _draw_gallery(folder: Path, labels: Labels) -> None:
     from exactacq.files import gallery as scenes
     from exactacq.files.whole_files import FIGURES, check_output
     from exactacq.output.figures import save
@@ -64,5 +66,5 @@ def _draw_gallery(folder: Path) -> None:
         path = folder / f"{name}.svg"
         world = scenes.scene(name)
         strategy = Strategy.SEED_SPREADER if scenes.is_swept(name) else Strategy.SIGHTSEER
-        save(explored(world, None, strategy), check_output(path, FIGURES))
+        save(explored(world, None, strategy), check_output(path, FIGURES), labels=labels)
         print(f"figure written to {path}")

@@ -20,8 +20,10 @@ from matplotlib.ticker import NullFormatter, NullLocator
 
 from exactacq.files.gallery import scene as gallery_scene
 from exactacq.numbers.length import Length
-from exactacq.output.figures.draw import HIT, INK, SOFT, STYLES, VIEW, dress
+from exactacq.output.figures.canvas import STYLES
+from exactacq.output.figures.layout import dress
 from exactacq.output.regions import Region, Steps
+from exactacq.output.vocabulary import HIT, INK, PAPER, SCALE, SCALE_END, SOFT, VIEW, Word
 from exactacq.scene.scene import Scene
 from exactacq.sensing.path import Piece
 from exactacq.strategies.sightseer.strategy import sightseer
@@ -54,9 +56,7 @@ def limit_figure(sides: int = SIDES, ks: Iterable[int] = KS, scene: Scene | None
     corners = [edge.start.xy for obstacle in flat.obstacles for edge in obstacle.edges]
     title = f"vertex scan: {scan.scans} scans, {scan.moves} moves, length {float(scan.length):.4f}"
     _paths(right, flat, scan.path, title)
-    right.plot(
-        *zip(*corners, strict=True), "o", ms=3.6, mfc=HIT, mec="white", mew=0.5, zorder=4, label="scan"
-    )
+    right.plot(*zip(*corners, strict=True), "o", ms=3.6, mfc=HIT, mec=PAPER, mew=0.5, zorder=4, label="scan")
     right.legend(loc="lower left", frameon=False, fontsize=8, borderaxespad=0.1)
     _lengths(lengths, rows, rows[0].length + rows[0].gap)
     _counts(counts, rows)
@@ -67,19 +67,19 @@ def limit_figure(sides: int = SIDES, ks: Iterable[int] = KS, scene: Scene | None
 def _paths(axes: Any, scene: Scene, path: Sequence[Piece], title: str) -> None:
     """A scene and a path in it, coloured by its length so far; walked again: narrower, on top."""
     for obstacle in scene.obstacles:
-        axes.add_patch(PathPatch(Region.of(obstacle).outline, zorder=1, **STYLES["obstacle"]))
+        axes.add_patch(PathPatch(Region.of(obstacle).outline, zorder=1, **STYLES[Word.OBSTACLE]))
     strokes = [piece.curve.stroke() for piece in path]
     steps = Steps.of(strokes, COLOURS)
     size = max(abs(coordinate) for stroke in strokes for coordinate in (*stroke.start, *stroke.end))
     ranks = steps.ranks(strokes, [piece.obstacle for piece in path], 1e-7 * size)
-    shades = ListedColormap(mpl.colormaps["viridis"](np.linspace(0.0, 0.94, 128)))
+    shades = ListedColormap(mpl.colormaps[SCALE](np.linspace(0.0, SCALE_END, 128)))
     drawn = PathCollection(
         steps.pieces, facecolors="none", linewidths=LINE * 0.5 ** np.minimum(ranks, 2), cmap=shades, zorder=3,
         capstyle="round",
     )  # fmt: skip
     drawn.set_array(steps.times)
     axes.add_collection(drawn)
-    axes.plot(*path[0].start.xy, "s", ms=5.6, mfc=INK, mec="white", mew=0.6, zorder=5)
+    axes.plot(*path[0].start.xy, "s", ms=5.6, mfc=INK, mec=PAPER, mew=0.6, zorder=5)
     axes.annotate(
         "S", path[0].start.xy, (0, 6), textcoords="offset points", ha="center", weight="bold", size=9
     )
