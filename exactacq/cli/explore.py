@@ -153,9 +153,12 @@ def _animate(run: Run, path: str, labels: Labels) -> str:
     from exactacq.files.whole_files import FILMS, write_whole
 
     if not path.lower().endswith(FILMS):
-        from exactacq.output.animation.page import frames_of, page
+        from exactacq.output.animation.frames import frames_of
+        from exactacq.output.animation.page import page
 
-        write_whole(path, page(run, frames_of(run)).encode())
+        with watched("drawing") as progress:
+            text = page(run, frames_of(run, progress=progress), labels=labels)
+        write_whole(path, text.encode())
         return f"page written to {path}"
     from exactacq.output.animation.film import film
 
