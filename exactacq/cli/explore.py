@@ -134,7 +134,8 @@ def _audited(run: Run) -> ExactacqError | None:
     from exactacq.auditing.audit import audit
 
     try:
-        audit(run)
+        with watched("auditing") as progress:
+            audit(run, progress=progress)
     except (AuditError, Undecided) as error:
         return error
     return None

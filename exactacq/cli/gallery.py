@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from exactacq.cli.arguments import AsJson, FigureFile, LabelChoice
-from exactacq.cli.runs import explored
+from exactacq.cli.runs import explored, watched
 from exactacq.errors import FormatError
 from exactacq.output.vocabulary import Labels
 from exactacq.strategies.options import Strategy
@@ -66,5 +66,7 @@ def _draw_gallery(folder: Path, labels: Labels) -> None:
         path = folder / f"{name}.svg"
         world = scenes.scene(name)
         strategy = Strategy.SEED_SPREADER if scenes.is_swept(name) else Strategy.SIGHTSEER
-        save(explored(world, None, strategy), check_output(path, FIGURES), labels=labels)
+        run, target = explored(world, None, strategy), check_output(path, FIGURES)
+        with watched("drawing") as progress:
+            save(run, target, labels=labels, progress=progress)
         print(f"figure written to {path}")
