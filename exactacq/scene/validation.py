@@ -27,6 +27,7 @@ from exactacq.geometry.box_index import BoxIndex, Separator, bounds, united
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import Contact, ContactKind, contacts, winding
 from exactacq.geometry.points import Point
+from exactacq.numbers.rationals import plain
 from exactacq.numbers.real import Real
 from exactacq.scene.shapes import Circle, Shape, Terrain
 
@@ -79,7 +80,7 @@ class _MeetingLoops:
         one, other = self.loops
         kind, start, end = self.contact.kind, self.contact.start, self.contact.end
         along = kind is ContactKind.OVERLAP
-        place = f"from {_place(start)} to {_place(end)}" if along else f"at {_place(start)}"
+        place = f"from {place_text(start)} to {place_text(end)}" if along else f"at {place_text(start)}"
         if one is other:
             return f"{_label(one)}: {_edges(self.first | self.second)} {kind.value} {place}: {SIMPLE}"
         verb = {"cross": "crosses", "touch": "touches", "overlap": "overlaps"}[kind.value]
@@ -153,13 +154,14 @@ def _shape_flaws(loop: ValidatedLoop) -> Iterator[str]:
         return
     count = len(loop.edges)
     if count < 2 or (count == 2 and all(isinstance(edge, Segment) for edge in loop.edges)):
-        at = f" at {_place(loop.edges[0].start)}" if count else ""
+        at = f" at {place_text(loop.edges[0].start)}" if count else ""
         plural = "vertex" if count == 1 else "vertices"
         yield f"{_label(loop)}: {count} {plural}{at}: a boundary needs 3 vertices, or 2 with a bulge"
         return
     for i, edge in enumerate(loop.edges):
         if _is_point(edge):
-            yield f"{_label(loop)}: edge {i} has zero length at {_place(edge.start)}: leave out the vertex"
+            where = place_text(edge.start)
+            yield f"{_label(loop)}: edge {i} has zero length at {where}: leave out the vertex"
 
 
 def _size_flaws(loop: ValidatedLoop) -> Iterator[str]:
@@ -253,7 +255,7 @@ class _Arrangement:
                 if a == b or (min(a, b), max(a, b)) in self.met:
                     continue
                 other = self.loops[b]
-                where = f"{_label(other)}, at {_place(point)}"
+                where = f"{_label(other)}, at {place_text(point)}"
                 if other.is_enclosure and not turns:
                     yield f"{_label(loop)} lies outside {where}: {WITHIN}"
                 if turns and not other.is_enclosure:
@@ -265,7 +267,7 @@ class _Arrangement:
             loop = self.loops[a]
             if turns is not None and bool(turns) != loop.is_enclosure:
                 side = "outside" if loop.is_enclosure else "inside"
-                yield f"start {_place(start)} lies {side} {_label(loop)}: it must lie in free space"
+                yield f"start {place_text(start)} lies {side} {_label(loop)}: it must lie in free space"
 
     def _windings(self, point: Point) -> dict[int, int | None]:
         """How often loops wind round a point (None: on the loop): the enclosure, and all that may not be 0.
@@ -292,12 +294,13 @@ def _edges(numbers: Iterable[int]) -> str:
     return f"edges {', '.join(head)} and {last}" if head else f"edge {last}"
 
 
-def _place(point: Point) -> str:
+def place_text(point: Point) -> str:
+    """A place in a message: exact coordinates if they are short, else ten digits."""
     return f"({_number(point.x)}, {_number(point.y)})"
 
 
 def _number(value: fmpq | Real) -> str:
     """Exact if that is short, else ten digits."""
     real = Real(value)
-    exact = str(real.rational) if real.rational is not None else ""
+    exact = plain(real.rational) if real.rational is not None else ""
     return exact if 0 < len(exact) <= 12 else real.decimal(10)

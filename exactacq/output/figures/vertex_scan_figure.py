@@ -23,7 +23,7 @@ from exactacq.numbers.length import Length
 from exactacq.output.figures.canvas import STYLES
 from exactacq.output.figures.layout import dress
 from exactacq.output.regions import Region, Steps
-from exactacq.output.vocabulary import HIT, INK, PAPER, SCALE, SCALE_END, SOFT, VIEW, Word
+from exactacq.output.vocabulary import HIT, INK, LINE, PAPER, SCALE, SCALE_END, SOFT, VIEW, Word
 from exactacq.scene.scene import Scene
 from exactacq.sensing.path import Piece
 from exactacq.strategies.sightseer.strategy import sightseer
@@ -33,7 +33,7 @@ SIDES, KS = 16, (4, 8, 16, 32, 64)
 """Sides of the polygons in the upper pictures, and numbers of sides for the lower ones."""
 COLOURS = 200
 """Steps of the colour scale along a path."""
-LINE = 3.2
+THICK = 3.2
 """Width in points of what is walked for the first time; half of it the second time, and so on."""
 WIDE, HIGH = 10.0, 5.4
 """Size of the page in inches."""
@@ -74,8 +74,8 @@ def _paths(axes: Any, scene: Scene, path: Sequence[Piece], title: str) -> None:
     ranks = steps.ranks(strokes, [piece.obstacle for piece in path], 1e-7 * size)
     shades = ListedColormap(mpl.colormaps[SCALE](np.linspace(0.0, SCALE_END, 128)))
     drawn = PathCollection(
-        steps.pieces, facecolors="none", linewidths=LINE * 0.5 ** np.minimum(ranks, 2), cmap=shades, zorder=3,
-        capstyle="round",
+        steps.pieces, facecolors="none", linewidths=THICK * 0.5 ** np.minimum(ranks, 2), cmap=shades,
+        zorder=3, capstyle="round",
     )  # fmt: skip
     drawn.set_array(steps.times)
     axes.add_collection(drawn)
@@ -118,7 +118,7 @@ def _over_sides(axes: Any, ks: Sequence[int], title: str) -> None:
     axes.xaxis.set_minor_locator(NullLocator())
     axes.xaxis.set_minor_formatter(NullFormatter())
     axes.legend(frameon=False, fontsize=8)
-    axes.grid(color="#e6e7e9", linewidth=0.6)
+    axes.grid(color=LINE, alpha=0.5, linewidth=0.6)
     axes.set_axisbelow(True)
     _dress(axes, title)
 
