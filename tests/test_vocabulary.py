@@ -76,7 +76,8 @@ def test_colours_are_in_the_vocabulary_alone() -> None:
         if path.suffix in (".py", ".css", ".html", ".js") and COLOUR.search(path.read_text(encoding="utf-8"))
     }
     assert found == {"vocabulary.py", "page.css"}
-    named = [value for value in vars(vocabulary).values() if COLOUR.fullmatch(str(value))]
+    named = list(vocabulary.colours().values())
+    assert all(COLOUR.fullmatch(colour) for colour in named)
     assert len(named) == len(set(named)) > 12
 
 

@@ -79,6 +79,17 @@ class Labels(StrEnum):
         raise FormatError(f"labels: {', '.join(cls)}, not {shown(value)}")
 
 
+def colours() -> dict[str, str]:
+    """All colours by their names."""
+    return {name: value for name, value in globals().items() if str(value).startswith("#")}
+
+
+def rgb(colour: str) -> tuple[int, int, int]:
+    """Red, green and blue of a colour, from 0 to 255."""
+    red, green, blue = bytes.fromhex(colour[1:])
+    return red, green, blue
+
+
 def ordinal(order: int) -> str:
     """The sign of a visit, counted from 1."""
     return f"#{order}"

@@ -22,7 +22,7 @@ from exactacq.numbers.length import Length
 from exactacq.numbers.rationals import rational
 from exactacq.output.figures.draw import png
 from exactacq.output.meter import Progress
-from exactacq.output.vocabulary import Labels
+from exactacq.output.vocabulary import Labels, colours, rgb
 from exactacq.sensing.event import Event
 from exactacq.strategies.run import Run
 
@@ -132,8 +132,10 @@ def _gif(frames: Sequence[Any]) -> bytes:
     both = image.new("RGB", (2 * wide, high))
     both.paste(middle, (0, 0))
     both.paste(frames[-1], (wide, 0))
-    # By coverage, not by area: small marks keep their colours.
-    palette = both.quantize(COLOURS, method=image.Quantize.MAXCOVERAGE)
+    # By coverage, not by area: small marks keep their colours, and those of the vocabulary stay as they are.
+    own = [number for colour in colours().values() for number in rgb(colour)]
+    palette = both.quantize(COLOURS - len(own) // 3, method=image.Quantize.MAXCOVERAGE)
+    palette.putpalette(palette.getpalette()[: 3 * COLOURS - len(own)] + own)
     first, *others = (frame.quantize(palette=palette, dither=0) for frame in frames)
     steps = [1000 // PER_SECOND] * len(others)
     out = io.BytesIO()

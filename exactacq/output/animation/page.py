@@ -79,8 +79,8 @@ def page(run: Run, frames: Iterable[Frame], *, labels: Labels | str = Labels.ALL
 
 def _colours() -> str:
     """The vocabulary's colours as variables of the style."""
-    colours = {name: value for name, value in vars(vocabulary).items() if str(value).startswith("#")}
-    lines = (f"  --{name.lower().replace('_', '-')}: {value};" for name, value in colours.items())
+    named = vocabulary.colours().items()
+    lines = (f"  --{name.lower().replace('_', '-')}: {value};" for name, value in named)
     return "\n".join((*lines, f"  --shade: {vocabulary.SHADE};"))
 
 

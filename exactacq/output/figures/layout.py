@@ -57,7 +57,7 @@ def in_axes(drawing: Canvas, axes: Any, labels: Labels) -> None:
     if drawing.legend:
         axes.legend(
             drawing.legend.values(), drawing.legend.keys(), loc="upper center", fontsize=7.5,
-            bbox_to_anchor=(0.5, -0.1), ncol=2, **LEGEND,
+            bbox_to_anchor=(0.5, -0.1), ncol=3, **LEGEND,
         )  # fmt: skip
     drawing.meter.finish()
 
