@@ -24,7 +24,7 @@ LIMIT = 2000
 """Most stops of a page: a few megabytes, and a list of events that a browser scrolls without effort."""
 FINE = 480
 """Most places on the way between stops."""
-HEAVY = 300_000
+HEAVY = 100_000
 """So many edges of all maps between stops are looked at: in larger scenes there are fewer of these places."""
 PIECES = 40_000
 """So many pieces of all views between stops are on a page, about half a megabyte."""
