@@ -24,9 +24,10 @@ from exactacq.files import gallery
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import fmpq
-from exactacq.output.figures.draw import AWAY, figure, pair, save, save_pair, svg
+from exactacq.output.figures.draw import figure, pair, save, save_pair, svg
 from exactacq.output.figures.sweep import SweptTerrain, component_region
 from exactacq.output.regions import Region, part
+from exactacq.output.vocabulary import AWAY
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle, Polygon, Terrain
 from exactacq.scene.terrain_components import ground_of
@@ -154,8 +155,17 @@ def test_colours_follow_the_path_length(circles: Run) -> None:
 
 def test_labels_show_order_ends_and_range_once(eleven: Run) -> None:
     shown = texts(eleven)
-    assert sorted(shown) == sorted([*map(str, range(1, 12)), "S", "T", "R = 10"])
-    assert set(legend(eleven)) >= {"tree link", "hit point", "leave point", "start S", "end T"}
+    assert sorted(shown) == sorted(
+        [*(f"{sign}{k}" for sign in "O#" for k in range(1, 12)), "S", "T", "R = 10"]
+    )
+    assert set(legend(eleven)) >= {
+        "link",
+        "hit point",
+        "leave point",
+        "start S",
+        "end T",
+        "#1, #2, ...: order of visits",
+    }
 
 
 def test_title_has_the_closed_form_if_short(circles: Run, eleven: Run) -> None:
@@ -270,7 +280,7 @@ def test_a_failed_write_keeps_the_old_file(
 
 def test_scenes_alone_are_drawn_with_names() -> None:
     scene = Scene([Polygon([(0, 0), (9, 0), (9, 9), (0, 9)], name="A1"), Circle((20, 0), 5)])
-    assert sorted(texts(scene)) == ["2", "A1"]
+    assert sorted(texts(scene)) == ["A1", "O2"]
     ET.fromstring(svg(scene))
 
 
@@ -334,10 +344,10 @@ def test_components_fill_what_the_terrain_leaves(seed: int) -> None:
 
 
 def test_a_sweep_names_all_that_it_shows(crossing: Run, diverted: Run) -> None:
-    assert {"M-line", "crossing point", "out of reach", "start S", "end T"} <= set(legend(crossing))
+    assert {"M-line", "crossing point", "unreachable", "start S", "end T"} <= set(legend(crossing))
     assert {"M-line", "diversion", "D", "Q"} <= set(legend(diverted))
-    assert {"out of reach", "crossing point"}.isdisjoint(legend(diverted))
-    assert {"D", "Q", "1", "S", "T", "R = 20"} == set(texts(diverted))
+    assert {"unreachable", "crossing point"}.isdisjoint(legend(diverted))
+    assert {"D", "Q", "E", "W", "#1", "S", "T", "R = 20"} == set(texts(diverted))
     titles = [t.get_text() for t in figure(diverted).texts]
     assert titles[0] == "Seed Spreader Strategy: m15"
     assert titles[1].endswith("2 of 2 obstacles acquired")
@@ -346,8 +356,8 @@ def test_a_sweep_names_all_that_it_shows(crossing: Run, diverted: Run) -> None:
 
 def test_labels_lie_in_the_components_that_were_circled(crossing: Run) -> None:
     shown = {t.get_text(): t.get_position() for t in figure(crossing).axes[0].texts}
-    for order, number in enumerate(crossing.visits, 1):
-        place = Point(*shown[str(order)])
+    for number in crossing.visits:
+        place = Point(*shown[crossing.obstacles[number].label])
         assert crossing.obstacles[number].obstacle.locate(place) == 1  # type: ignore[attr-defined]
 
 
@@ -359,7 +369,7 @@ def test_what_is_missed_by_a_sweep_is_said() -> None:
     assert "stop" in legend(ended)
     wall = Polygon([(-1, 4), (9, 4), (9, 5), (-1, 5)])
     behind = seed_spreader(Scene([wall, square(3, 6, 1)], terrain=Terrain(8, 8)), 8)
-    assert "1 out of reach" in [t.get_text() for t in figure(behind).texts][2]
+    assert "1 unreachable" in [t.get_text() for t in figure(behind).texts][2]
 
 
 def path_colours(run: Run) -> set[str]:
@@ -380,7 +390,7 @@ def test_a_moment_of_a_sweep(diverted: Run) -> None:
     leaves = next(event for event in diverted.events if event.kind == "divert")
     before = [t.get_text() for t in figure(diverted, at=100).legends[0].get_texts()]
     assert "D" not in before
-    assert {"M-line", "robot", "what the robot sees"} <= set(before)
+    assert {"M-line", "robot", "view"} <= set(before)
     then = figure(diverted, at=leaves)
     assert {"D", "Q"} <= {t.get_text() for t in then.axes[0].texts}
     assert "after" in then.texts[1].get_text()

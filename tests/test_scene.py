@@ -147,7 +147,7 @@ RULES = [
     (([Outline([(0, 0), (4, 0, "-2.1"), (4, 4), (0, 4)])], {}), "edges 1 and 3 cross at (0, 1.0"),
     (([Outline([(0, 0, -1), (4, 0), (2, 2)])], {}), "edges 0, 1 and 2 touch at (2, 2)"),
     (([Circle((0, 0), 0)], {}), "obstacle O1: circle radius 0: must be positive"),
-    (([Circle((0, 0), "-1/2", "c")], {}), "obstacle O1 'c': circle radius -1/2: must be positive"),
+    (([Circle((0, 0), "-1/2", "c")], {}), "obstacle O1 'c': circle radius -0.5: must be positive"),
     (
         ([Circle((0, 0), 1, "a"), Circle((3, 0), 2, "b")], {}),
         "obstacle O1 'a', edge 0, touches obstacle O2 'b', edge 0, at (1, 0): obstacles must be disjoint",
@@ -173,7 +173,7 @@ RULES = [
     (([], {"start": (10, 11), "enclosure": ROOM}), "start (10, 11) lies outside the enclosure 'room'"),
     (([], {"radius": 0}), "radius 0: a sensing radius must be positive"),
     (([], {"terrain": Terrain(0, 1)}), "terrain width 0: must be positive"),
-    (([], {"terrain": Terrain(1, "-1/2")}), "terrain height -1/2: must be positive"),
+    (([], {"terrain": Terrain(1, "-1/2")}), "terrain height -0.5: must be positive"),
     (([], {"enclosure": Polygon([(0, 0), (2, 2), (2, 0), (0, 2)])}), "the enclosure: edges 0 and 2 cross"),
 ]
 

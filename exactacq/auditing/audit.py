@@ -18,9 +18,10 @@ from typing import Any
 
 from exactacq.auditing.bounds import check_bounds, sightseer_values, spreader_values
 from exactacq.auditing.comparisons import AuditedBody
+from exactacq.auditing.course import Course, Progress
 from exactacq.auditing.events import check_events, check_sights
 from exactacq.auditing.ground import Field, check_components
-from exactacq.auditing.knowledge import Knowledge
+from exactacq.auditing.knowledge import MOMENTS, Knowledge
 from exactacq.auditing.path import check_continuity, check_length, check_pieces
 from exactacq.auditing.seed_spreader import MOVES as SWEEP_MOVES
 from exactacq.auditing.seed_spreader import Replay
@@ -31,12 +32,13 @@ from exactacq.sensing.event import Ending, EventKind
 from exactacq.strategies.run import Run, SeedSpreaderRun, SightseerRun
 
 
-def audit(run: Run, *, samples: int = 64, seed: int = 0) -> None:
+def audit(run: Run, *, samples: int = 64, seed: int = 0, progress: Progress | None = None) -> None:
     """Check a finished run by other means than those that made it; raises `AuditError` with the first flaw.
 
     Path, events, links, bounds and length are checked completely. What is known, and what a sweep was about
     to lose, is checked on samples: *samples* random boundary points, as many beside ends of known parts, and
-    as many places on the path. Equal seeds give equal samples. Returns None if no flaw is found. ValueError
+    as many places on the path. Equal seeds give equal samples. *progress* is told how many of how many steps
+    are done. Returns None if no flaw is found. ValueError
     for runs of another strategy, `Undecided` where an exact comparison is beyond the limits. Cost: about ten
     milliseconds a sample at ten obstacles in range, less than one for each piece and event, and that of
     `MOMENTS` maps; for the Seed Spreader also of one map for each piece on its lines.
@@ -49,13 +51,15 @@ def audit(run: Run, *, samples: int = 64, seed: int = 0) -> None:
     if run.ending is Ending.UNDECIDED:
         raise ValueError("no audit for a run that was given up: its strategy did not end")
     rng = Random(seed)
+    course = Course(progress, [len(run.path), len(run.events), MOMENTS + 1, 5 * samples // 2, samples])
     world, field = World(run.scene), None
     if isinstance(run, SeedSpreaderRun):
         field = Field(run, world)
         check_components(run, field)
     bodies = list(_bodies(run, world))
     check_continuity(run)
-    tracks = check_pieces(run, world, bodies, field)
+    tracks = check_pieces(run, world, bodies, field, course)
+    course.close()
     check_length(run)
     check_events(run, rng, MOVES if field is None else SWEEP_MOVES)
     if isinstance(run, SightseerRun):
@@ -64,15 +68,19 @@ def audit(run: Run, *, samples: int = 64, seed: int = 0) -> None:
         values = sightseer_values(run, world)
     else:
         assert field is not None
-        Replay(run, field, bodies, tracks, rng).check()
+        Replay(run, field, bodies, tracks, rng).check(course)
         values = spreader_values(run, field)
     check_sights(run)
     check_bounds(run, values)
     _check_accounts(run)
-    knowledge = Knowledge(run, world, bodies, tracks, rng)
+    course.close()
+    knowledge = Knowledge(run, world, bodies, tracks, rng, course)
     knowledge.check_maps()
+    course.close()
     knowledge.check_targets(samples)
+    course.close()
     knowledge.check_in_sight(samples)
+    course.close()
 
 
 def _bodies(run: Run, world: World) -> Iterator[AuditedBody]:

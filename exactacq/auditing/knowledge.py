@@ -23,6 +23,7 @@ from exactacq.auditing.comparisons import (
     refined,
     same,
 )
+from exactacq.auditing.course import Course
 from exactacq.auditing.visibility import Viewpoints, World, point_at, point_near, visible
 from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Curve, Segment
@@ -51,9 +52,15 @@ class Knowledge:
     """The maps of a run, checked in themselves and against what the path sees."""
 
     def __init__(
-        self, run: Run, world: World, bodies: Sequence[AuditedBody], tracks: Tracks, rng: Random
+        self,
+        run: Run,
+        world: World,
+        bodies: Sequence[AuditedBody],
+        tracks: Tracks,
+        rng: Random,
+        course: Course,
     ) -> None:
-        self.run, self.world, self.tracks, self.rng = run, world, tracks, rng
+        self.run, self.world, self.tracks, self.rng, self.course = run, world, tracks, rng, course
         self.bodies = bodies
         self.on = [None if track is None else track.edge for track in tracks]
         self.lookout = Viewpoints(world, run.radius, [piece.curve for piece in run.path], self.on)
@@ -61,10 +68,10 @@ class Knowledge:
             (e.kind, e.obstacle): e for e in run.events if e.kind in (EventKind.SIGHT, EventKind.ACQUIRE)
         }
         chosen = sorted(rng.sample(range(len(run.events)), min(MOMENTS, len(run.events))))
-        self.moments = [
-            _Instant(f"the map at {event_name(run, event)}", event.after, _inside(event), run.map_at(event))
-            for event in (run.events[k] for k in chosen)
-        ]
+        self.moments = []
+        for event in (run.events[k] for k in chosen):
+            name, chart = f"the map at {event_name(run, event)}", run.map_at(event)
+            self.moments.append(_Instant(name, event.after, _inside(event), chart))
         self.moments.append(_Instant("the final map", len(run.path), None, run.map))
 
     # -- maps in themselves ------------------------------------------------------------------------
@@ -81,6 +88,7 @@ class Knowledge:
                     )
             if sorted(chart.seen) != sorted((*chart.acquired, *chart.incomplete)):
                 raise AuditError(f"{name}: seen obstacles are {list(chart.seen)}")
+            self.course.step()
 
     def _check_parts(self, name: str, chart: Any, body: AuditedBody) -> str:
         """Parts of one obstacle are on their edges, in order and apart; returns what they make of it."""
@@ -126,6 +134,7 @@ class Knowledge:
                 if seen and not chart.knows(i, target):
                     raise AuditError(f"{name} lacks {where}, which the path sees from piece {first}")
             self._check_sight(i, target, first, where)
+            self.course.step()
 
     def _check_sight(self, i: int, target: Point, first: int | None, where: str) -> None:
         """A point is not seen before its obstacle's sight, and not after it is acquired."""
@@ -193,6 +202,7 @@ class Knowledge:
         """At sampled places between events, obstacles are in sight if and only if the events say so."""
         lookouts: dict[int, Viewpoints] = {}
         for _ in range(samples):
+            self.course.step()
             place = self._anywhere()
             if place is None:
                 continue

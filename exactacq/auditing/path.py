@@ -15,6 +15,7 @@ from exactacq.auditing.comparisons import (
     place_text,
     same,
 )
+from exactacq.auditing.course import Course
 from exactacq.auditing.ground import Field
 from exactacq.auditing.visibility import World
 from exactacq.errors import AuditError
@@ -33,7 +34,9 @@ def check_continuity(run: Run) -> None:
         here = piece.end
 
 
-def check_pieces(run: Run, world: World, bodies: Sequence[AuditedBody], field: Field | None) -> Tracks:
+def check_pieces(
+    run: Run, world: World, bodies: Sequence[AuditedBody], field: Field | None, course: Course
+) -> Tracks:
     """Straight pieces stay out of interiors, boundary pieces keep to one edge, which is returned.
 
     Of a sweep both stay in the terrain: boundaries are shores, and it is enough that ends do.
@@ -55,6 +58,7 @@ def check_pieces(run: Run, world: World, bodies: Sequence[AuditedBody], field: F
         if field is not None and not (field.contains(piece.start) and field.contains(piece.end)):
             raise AuditError(f"piece {k} leaves the terrain")
         tracks.append(track)
+        course.step()
     return tracks
 
 

@@ -26,6 +26,7 @@ from exactacq.auditing.comparisons import (
     rational_on,
     same,
 )
+from exactacq.auditing.course import Course
 from exactacq.auditing.ground import CrossingPoint, Field, Stretch
 from exactacq.auditing.knowledge import MOMENTS, is_whole, point_on
 from exactacq.auditing.visibility import Viewpoints, visible
@@ -76,12 +77,13 @@ class Replay:
     def name(self, event: Event) -> str:
         return event_name(self.run, event)
 
-    def check(self) -> None:
+    def check(self, course: Course) -> None:
         """Follow the M-line to its end, or to where the run is trapped."""
         if not same(self.here, self.field.pieces[0].start):
             raise AuditError(f"the run starts at {place_text(self.here)}, not in the SW corner")
         trapped = False
         while self.upcoming.kind is not EventKind.STOP:
+            course.step()
             self._advance(self.upcoming)
             if self.upcoming.kind in (EventKind.HIT, EventKind.CROSS):
                 trapped = not self._meet()

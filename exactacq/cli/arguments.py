@@ -13,6 +13,7 @@ from exactacq.cli.completion import scenes
 from exactacq.cli.file_options import read_from_text
 from exactacq.errors import FormatError, InvalidScene
 from exactacq.files.formats import written_suffixes
+from exactacq.output.vocabulary import Labels
 
 if TYPE_CHECKING:
     from flint import fmpq
@@ -37,6 +38,10 @@ TerrainSize = Annotated[
 ]
 Radius = Annotated[str | None, typer.Option(metavar="R", help="Radius of vision; default: the scene's own.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, and no table.")]
+LabelChoice = Annotated[
+    Labels,
+    typer.Option("--labels", help="Labels in pictures: obstacles' names, numbers of visits, all, or none."),
+]
 FigureFile = Annotated[str | None, typer.Option(metavar="F", help="Write a figure: .svg, .pdf or .png.")]
 
 

@@ -8,6 +8,7 @@ from typing import Any
 from exactacq.cli.arguments import (
     AsJson,
     FigureFile,
+    LabelChoice,
     Radius,
     SceneName,
     Start,
@@ -17,8 +18,9 @@ from exactacq.cli.arguments import (
     scene_of,
 )
 from exactacq.cli.file_options import reads_files
-from exactacq.cli.runs import at_corner, explored
+from exactacq.cli.runs import at_corner, explored, watched
 from exactacq.errors import FormatError, InvalidScene
+from exactacq.output.vocabulary import Labels
 from exactacq.strategies.options import Strategy
 
 
@@ -29,6 +31,7 @@ def compare(
     start: Start = None,
     terrain: TerrainSize = None,
     figure: FigureFile = None,
+    labels: LabelChoice = Labels.ALL,
     as_json: AsJson = False,
     **options: Any,
 ) -> None:
@@ -68,9 +71,10 @@ def compare(
     if figure is not None:
         from exactacq.output.figures import save, save_pair
 
-        if len(runs) == 2:
-            save_pair(runs[0], runs[1], figure)
-        else:
-            save(runs[0], figure)
+        with watched("drawing") as progress:
+            if len(runs) == 2:
+                save_pair(runs[0], runs[1], figure, labels=labels, progress=progress)
+            else:
+                save(runs[0], figure, labels=labels, progress=progress)
         if not as_json:
             print(f"figure written to {figure}")

@@ -11,6 +11,7 @@ import typer
 from exactacq.cli.arguments import (
     DRAWINGS,
     FigureFile,
+    LabelChoice,
     Radius,
     SceneName,
     Start,
@@ -22,11 +23,14 @@ from exactacq.cli.arguments import (
     scene_of,
 )
 from exactacq.cli.file_options import reads_files
-from exactacq.cli.runs import at_corner, explored
+from exactacq.cli.runs import at_corner, explored, watched
 from exactacq.errors import AuditError, ExactacqError, FormatError, Undecided
+from exactacq.output.vocabulary import Labels
 from exactacq.strategies.options import Strategy, TargetChoice
 
 if TYPE_CHECKING:
+    from flint import fmpq
+
     from exactacq.strategies.run import Run
 
 
@@ -44,6 +48,7 @@ def explore(
         TargetChoice, typer.Option(help="Seed Spreader: what a diversion aims at.")
     ] = TargetChoice.KNOWN,
     figure: FigureFile = None,
+    labels: LabelChoice = Labels.ALL,
     at: Annotated[
         str | None, typer.Option(metavar="L", help="Draw the figure after this length of the path.")
     ] = None,
@@ -97,10 +102,8 @@ def explore(
             raise
         run, trouble = error.run, error
     if figure is not None:
-        from exactacq.output.figures import save
-
-        naming("--at", lambda: save(run, figure, length))
-    played = None if animate is None else _animate(run, animate)
+        _draw(run, figure, length, labels)
+    played = None if animate is None else _animate(run, animate, labels)
     if drawing is not None:
         from exactacq.output.results import write
 
@@ -131,30 +134,36 @@ def _audited(run: Run) -> ExactacqError | None:
     from exactacq.auditing.audit import audit
 
     try:
-        audit(run)
+        with watched("auditing") as progress:
+            audit(run, progress=progress)
     except (AuditError, Undecided) as error:
         return error
     return None
 
 
-def _animate(run: Run, path: str) -> str:
-    """Write the page or the film, and say so; a film takes time, so a terminal is told how far it is."""
+def _draw(run: Run, path: str, at: fmpq | None, labels: Labels) -> None:
+    """Write the figure."""
+    from exactacq.output.figures import save
+
+    with watched("drawing") as progress:
+        naming("--at", lambda: save(run, path, at, labels=labels, progress=progress))
+
+
+def _animate(run: Run, path: str, labels: Labels) -> str:
+    """Write the page or the film, and say so."""
     from exactacq.files.whole_files import FILMS, write_whole
 
     if not path.lower().endswith(FILMS):
-        from exactacq.output.animation.page import frames_of, page
+        from exactacq.output.animation.frames import frames_of
+        from exactacq.output.animation.page import page
 
-        write_whole(path, page(run, frames_of(run)).encode())
+        with watched("drawing") as progress:
+            text = page(run, frames_of(run, progress=progress), labels=labels)
+        write_whole(path, text.encode())
         return f"page written to {path}"
     from exactacq.output.animation.film import film
 
-    if not sys.stderr.isatty():
-        left_out = film(run, path)
-    else:
-        from exactacq.output.report import progress_bar
-
-        with progress_bar("drawing") as bar:
-            task = bar.add_task("")
-            left_out = film(run, path, lambda done, total: bar.update(task, completed=done, total=total))
+    with watched("drawing") as progress:
+        left_out = film(run, path, progress, labels=labels)
     less = f", without {left_out} frames that are beyond the limits" if left_out else ""
     return f"film written to {path}{less}"

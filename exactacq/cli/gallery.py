@@ -8,10 +8,11 @@ from typing import Annotated
 
 import typer
 
-from exactacq.cli.arguments import AsJson, FigureFile
+from exactacq.cli.arguments import AsJson, FigureFile, LabelChoice
 from exactacq.cli.completion import gallery_scenes
-from exactacq.cli.runs import explored
+from exactacq.cli.runs import explored, watched
 from exactacq.errors import FormatError
+from exactacq.output.vocabulary import Labels
 from exactacq.strategies.options import Strategy
 
 
@@ -21,6 +22,7 @@ def gallery(
         typer.Argument(metavar="[NAME]", help="A scene to describe or draw.", autocompletion=gallery_scenes),
     ] = None,
     figure: FigureFile = None,
+    labels: LabelChoice = Labels.ALL,
     out: Annotated[
         str | None, typer.Option(metavar="DIR", help="Explore every scene, and write DIR/NAME.svg.")
     ] = None,
@@ -43,7 +45,7 @@ def gallery(
     if out is not None:
         if name is not None:
             raise FormatError("--out: draws every scene; leave the name out")
-        _draw_gallery(Path(out))
+        _draw_gallery(Path(out), labels)
     elif as_json:
         data = gallery_data(scenes.names()) if name is None else scene_data(scenes.scene(name))
         sys.stdout.write(text_of(data))
@@ -54,11 +56,11 @@ def gallery(
     else:
         from exactacq.output.figures import save
 
-        save(scenes.scene(name), figure)
+        save(scenes.scene(name), figure, labels=labels)
         print(f"figure written to {figure}")
 
 
-def _draw_gallery(folder: Path) -> None:
+def _draw_gallery(folder: Path, labels: Labels) -> None:
     from exactacq.files import gallery as scenes
     from exactacq.files.whole_files import FIGURES, check_output
     from exactacq.output.figures import save
@@ -68,5 +70,7 @@ def _draw_gallery(folder: Path) -> None:
         path = folder / f"{name}.svg"
         world = scenes.scene(name)
         strategy = Strategy.SEED_SPREADER if scenes.is_swept(name) else Strategy.SIGHTSEER
-        save(explored(world, None, strategy), check_output(path, FIGURES))
+        run, target = explored(world, None, strategy), check_output(path, FIGURES)
+        with watched("drawing") as progress:
+            save(run, target, labels=labels, progress=progress)
         print(f"figure written to {path}")

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from exactacq.strategies.options import Strategy, TargetChoice
@@ -11,6 +12,7 @@ from exactacq.strategies.options import Strategy, TargetChoice
 if TYPE_CHECKING:
     from flint import fmpq
 
+    from exactacq.output.meter import Progress
     from exactacq.scene.scene import Scene
     from exactacq.strategies.run import Run
 
@@ -26,18 +28,26 @@ def explored(
     from exactacq.strategies.seed_spreader.strategy import seed_spreader
     from exactacq.strategies.sightseer.strategy import sightseer
 
-    def run(progress: Callable[[int, int], None] | None) -> Run:
+    def run(progress: Progress | None) -> Run:
         if strategy is Strategy.SIGHTSEER:
             return sightseer(scene, radius, progress=progress)
         return seed_spreader(scene, radius, lookahead=lookahead, target=target.value, progress=progress)
 
+    with watched("exploring") as progress:
+        return run(progress)
+
+
+@contextmanager
+def watched(what: str) -> Iterator[Progress | None]:
+    """What to tell how far something is: a bar if a terminal watches, else nothing."""
     if not sys.stderr.isatty():
-        return run(None)
+        yield None
+        return
     from exactacq.output.report import progress_bar
 
-    with progress_bar("exploring") as bar:
-        task = bar.add_task("", total=len(scene.obstacles))
-        return run(lambda done, total: bar.update(task, completed=done, total=total))
+    with progress_bar(what) as bar:
+        task = bar.add_task("", total=None)
+        yield lambda done, total: bar.update(task, completed=done, total=total)
 
 
 def at_corner(scene: Scene) -> Scene:

@@ -10,14 +10,13 @@ from collections.abc import Iterable
 from math import hypot
 
 from exactacq.geometry.curves import Arc, Curve
+from exactacq.output.vocabulary import EDGE, FILL, GROUND, HIT, INK, PAPER, SHADE, VIEW
 from exactacq.visibility.isovist import Isovist, ViewKind
 
 WIDTH = 420
 """Pixels, of the picture's sides."""
 MARGIN = 0.06
 """Share of the picture's side beyond the range."""
-FILL, EDGE = "#dcd7cd", "#8a8377"
-VIEW, NEAR, INK, PAPER = "#3b7dd8", "#d6273d", "#22262b", "#fdfdfc"
 
 
 def svg(view: Isovist) -> str:
@@ -43,7 +42,7 @@ class _Picture:
             f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {side} {side}" '
             f'width="{side}" height="{side}">',
             f"<title>Isovist from ({self.x:.6g}, {self.y:.6g}) within {float(view.radius):.6g}</title>",
-            f'<rect width="{side}" height="{side}" fill="{PAPER}"/>',
+            f'<rect width="{side}" height="{side}" fill="{GROUND}"/>',
             f'<g fill="{FILL}" stroke="{EDGE}" stroke-width="0.8" fill-rule="evenodd" opacity="0.55">',
             *(f'<path d="{self._loop(o.edges)}"/>' for o in obstacles),
             *(f'<path d="{frame}{self._loop(o.edges)}"/>' for o in walls),
@@ -51,7 +50,7 @@ class _Picture:
         ]
         if pieces:
             outline = self._loop([piece.curve for piece in pieces])
-            lines.append(f'<path d="{outline}" fill="{VIEW}" fill-opacity="0.16"/>')
+            lines.append(f'<path d="{outline}" fill="{VIEW}" fill-opacity="{SHADE}"/>')
         for kind, style in (
             (ViewKind.RANGE, f'stroke="{VIEW}" stroke-width="1.1"'),
             (ViewKind.WINDOW, f'stroke="{VIEW}" stroke-width="0.9" stroke-dasharray="4 3"'),
@@ -60,9 +59,9 @@ class _Picture:
             paths = "".join(self._line(piece.curve) for piece in pieces if piece.kind is kind)
             lines += [f'<path d="{paths}" fill="none" {style}/>'] if paths else []
         paths = "".join(self._line(ray) for ray in view.rays)
-        lines += [f'<path d="{paths}" fill="none" stroke="{NEAR}" stroke-width="0.9"/>'] if paths else []
+        lines += [f'<path d="{paths}" fill="none" stroke="{HIT}" stroke-width="0.9"/>'] if paths else []
         x, y = self._place((self.x, self.y))
-        lines += [f'<circle cx="{x}" cy="{y}" r="3.6" fill="{NEAR}" stroke="{PAPER}"/>', "</svg>"]
+        lines += [f'<circle cx="{x}" cy="{y}" r="3.6" fill="{VIEW}" stroke="{PAPER}"/>', "</svg>"]
         return "\n".join(lines)
 
     def _is_near(self, edges: Iterable[Curve]) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import defaultdict
 from collections.abc import Hashable, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -106,53 +106,6 @@ class Steps:
                 if len(later):
                     ranks[later] += strokes[number].covers(self.mids[later], self.headings[later], tolerance)
         return ranks
-
-
-@dataclass(slots=True)
-class Room:
-    """Where labels fit into a rectangle: clear of segments and of other labels, rather not in a block."""
-
-    low: Floats
-    high: Floats
-    starts: Floats
-    ends: Floats
-    blocks: Sequence[Region]
-    labels: list[tuple[float, float]] = field(default_factory=list)
-
-    def beside(self, place: tuple[float, float], reach: float) -> tuple[float, float]:
-        """The clearest spot at about a distance from a place.
-
-        Clear of lines, other labels and the border; rather in the open than inside an obstacle.
-        """
-        turns = np.arange(16) * math.pi / 8
-        rays = np.stack((np.cos(turns), np.sin(turns)), 1)
-        spots = np.concatenate([np.array(place) + rays * reach * k for k in (1, 1.3)])
-        nearest = np.clip(place, np.minimum(self.starts, self.ends), np.maximum(self.starts, self.ends))
-        near = np.hypot(*(nearest - place).T) < 4 * reach
-        room = clearance(spots, self.starts[near], self.ends[near])
-        room = np.minimum(room, 0.6 * self.apart(spots))
-        border = np.minimum(spots - self.low, self.high - spots).min(axis=1)
-        room = np.minimum(np.minimum(room, 1.2 * border), 1.5 * reach)
-        room -= 0.02 * reach * np.repeat((0, 1), len(turns)) + 0.6 * reach * self._blocked(spots)
-        best = spots[int(np.argmax(room))]
-        return float(best[0]), float(best[1])
-
-    def apart(self, spots: Floats) -> Any:
-        """Distance of each spot to the nearest label so far."""
-        if not self.labels:
-            return np.full(len(spots), np.inf)
-        gaps = spots[:, None] - np.array(self.labels)
-        return np.hypot(gaps[..., 0], gaps[..., 1]).min(axis=1)
-
-    def _blocked(self, spots: Floats) -> Any:
-        """Which spots lie in a block."""
-        blocked = np.zeros(len(spots), dtype=bool)
-        low, high = spots.min(axis=0), spots.max(axis=0)
-        for region in self.blocks:
-            least, most = region.box
-            if (most > low).all() and (least < high).all():
-                blocked |= Outline(region.points).contains_points(spots)
-        return blocked
 
 
 def nodes(

@@ -18,6 +18,7 @@ from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.numbers.rationals import plain
 from exactacq.numbers.real import Real
+from exactacq.output.vocabulary import Word, missed_word, ordinal
 from exactacq.scene.scene import Scene
 from exactacq.sensing.event import Ending
 from exactacq.strategies.bounds import census
@@ -58,8 +59,10 @@ def run_report(run: Run) -> RenderableType:
         parts.append(f"nothing is in sight of S within R = {_rational(run.radius)}\n")
     if run.visits:
         parts += [_links(run, names), ""] if isinstance(run, SightseerRun) else []
-        parts.append(_listed("order of visits", (names[k] for k in run.visits), " → "))
-    parts.append(Text.assemble("length  ", ("  ".join(readable(run.length, CLOSED_FORM, 20)), "bold")))
+        parts.append(_listed(Word.ORDER, (names[k] for k in run.visits), " → "))
+    parts.append(
+        Text.assemble(f"{Word.LENGTH}  ", ("  ".join(readable(run.length, CLOSED_FORM, 20)), "bold"))
+    )
     if run.ending is Ending.UNDECIDED:
         parts.append(f"given up at {_place(run.events[-1].point)}: a comparison is undecided")
     if run.bounds:
@@ -74,11 +77,13 @@ def comparison(first: Run, second: Run) -> RenderableType:
     ratio = float(second.length) / float(first.length) if first.length.sign() else float("nan")
     counts = [(len(run.visits), len(run.map.acquired), len(run.obstacles)) for run in runs]
     rows: dict[str, list[str]] = {
-        "length": ["\n".join(readable(run.length, CLOSED_FORM // 2, 12)) for run in runs],
-        "visits": [f"{visits} of {count}" for visits, _, count in counts],
-        "acquired": [f"{known} of {count}" for _, known, count in counts],
-        "never seen": [str(len(run.unseen)) for run in runs],
-        "diversions": [str(len(run.diversions)) if isinstance(run, SeedSpreaderRun) else "-" for run in runs],
+        Word.LENGTH: ["\n".join(readable(run.length, CLOSED_FORM // 2, 12)) for run in runs],
+        Word.VISITED: [f"{visits} of {count}" for visits, _, count in counts],
+        Word.ACQUIRED: [f"{known} of {count}" for _, known, count in counts],
+        Word.UNSEEN: [str(len(run.unseen)) for run in runs],
+        f"{Word.DIVERSION}s": [
+            str(len(run.diversions)) if isinstance(run, SeedSpreaderRun) else "-" for run in runs
+        ],
     }
     for name, cells in rows.items():
         table.add_row(name, *cells)
@@ -156,15 +161,16 @@ def _sweep(run: SeedSpreaderRun, names: list[str]) -> Iterator[RenderableType]:
     """How the Seed Spreader ended, its diversions, and what it met."""
     yield f"ended because {run.events[-1].note}"
     counts = census(run.ground, run.radius)
-    for what, numbers in (("inside strips", counts.inside), ("crossing the M-line", counts.crossing)):
+    for what, numbers in (("inside strips", counts.inside), (f"crossing the {Word.M_LINE}", counts.crossing)):
         yield f"{what}  {sum(numbers)}: by strip {', '.join(map(str, numbers))}"
     yield (_listed("met", (names[k] for k in run.encounters), " → ") if run.encounters else "met nothing")
     if run.again:
-        yield _listed("met again on the M-line", (names[k] for k in run.again), ", ")
+        yield _listed(f"met again on the {Word.M_LINE}", (names[k] for k in run.again), ", ")
     if run.unreached:
-        yield _listed("cannot be reached, parts of obstacles", map(str, run.unreached), ", ")
+        parts = (run.scene.obstacles[k].label for k in run.unreached)
+        yield _listed(f"{Word.UNREACHABLE}, parts of", parts, ", ")
     if run.diversions:
-        table = _table("diversion", "obstacle", "from D", "to Q", "because")
+        table = _table(Word.DIVERSION, Word.OBSTACLE, f"from {Word.D}", f"to {Word.Q}", "because")
         for order, d in enumerate(run.diversions[:ROWS], 1):
             table.add_row(str(order), names[d.obstacle], _place(d.leave), _place(d.hit), d.reason)
         yield table
@@ -172,13 +178,13 @@ def _sweep(run: SeedSpreaderRun, names: list[str]) -> Iterator[RenderableType]:
 
 
 def _links(run: SightseerRun, names: list[str]) -> Table:
-    table = _table("visit", "obstacle", "from", "leave", "hit", "link", "walked")
+    table = _table(Word.VISIT, Word.OBSTACLE, "from", Word.LEAVE, Word.HIT, Word.LINK, "walked")
     for order, link in enumerate(run.links[:ROWS], 1):
         source = link.source if isinstance(link.source, str) else names[link.source]
         length = "\n".join(readable(link.length, CLOSED_FORM // 2, 12))
         ends = _place(link.leave), _place(link.hit)
         times = "once" if link.traversals == 1 else "twice"
-        table.add_row(str(order), names[link.target], source, *ends, length, times)
+        table.add_row(ordinal(order), names[link.target], source, *ends, length, times)
     if len(run.links) > ROWS:
         table.add_row("...", f"{len(run.links) - ROWS} more: see --trace")
     return table
@@ -188,22 +194,24 @@ def _bounds(run: Run) -> Table:
     table = _table("bound", "value", "holds", "length / bound", "")
     for bound in run.bounds:
         value = "\n".join(readable(bound.value, CLOSED_FORM // 2, 12))
-        holds = "does not apply" if not bound.applies else "yes" if bound.holds else "no"
+        holds = Word.UNAPPLIED if not bound.applies else "yes" if bound.holds else "no"
         table.add_row(bound.name, value, holds, f"{bound.ratio:.6f}", bound.source)
     return table
 
 
 def _verdict(bound: Bound, ratio: str) -> str:
     """A bound's ratio, and whether it is broken or does not speak of the run."""
-    return f"{ratio} (does not apply)" if not bound.applies else ratio if bound.holds else f"{ratio} (broken)"
+    return (
+        f"{ratio} ({Word.UNAPPLIED})" if not bound.applies else ratio if bound.holds else f"{ratio} (broken)"
+    )
 
 
 def _missed(run: Run, names: list[str]) -> Iterator[RenderableType]:
     if run.complete:
         return
     yield ""
-    left = "seen, but never visited" if isinstance(run, SightseerRun) else "not wholly known"
-    for which, what in ((run.unseen, "never seen"), (run.unvisited, left)):
+    left = missed_word(isinstance(run, SeedSpreaderRun))
+    for which, what in ((run.unseen, Word.UNSEEN), (run.unvisited, left)):
         if which:
             yield Text(_listed(what, (names[k] for k in which), ", "), style="bold red")
     if isinstance(run, SeedSpreaderRun):

@@ -1,6 +1,7 @@
 """Reports as JSON data, for programs: what `exactacq.output.report` says in tables.
 
-Numbers are exact where they are short: rationals as text "p/q", lengths with their closed form and a decimal.
+Rationals are exact texts: decimals where these are finite, as "130.1", else "p/q". Lengths have a closed
+form, if it is short, and a decimal.
 """
 
 from __future__ import annotations
@@ -10,7 +11,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from exactacq.geometry.curves import Arc
+from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
+from exactacq.numbers.rationals import plain
 from exactacq.output.run_json import bound_to_json, length_to_json
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Terrain
@@ -35,8 +38,8 @@ def scene_data(scene: Scene) -> dict[str, Any]:
         "segments": len(edges) - arcs,
         "arcs": arcs,
         "perimeters": length_to_json(Length.sum(obstacle.perimeter for obstacle in scene.obstacles)),
-        "start": None if start is None else [str(start.x), str(start.y)],
-        "radius": None if scene.radius is None else str(scene.radius),
+        "start": None if start is None else _place(start),
+        "radius": None if scene.radius is None else plain(scene.radius),
         "terrain": None if terrain is None else _terrain(terrain),
         "notes": list(scene.notes),
     }
@@ -63,15 +66,20 @@ def gallery_data(scenes: Mapping[str, str]) -> list[dict[str, str]]:
 
 
 def _terrain(terrain: Terrain) -> dict[str, Any]:
-    x, y = terrain.origin
-    return {"width": str(terrain.width), "height": str(terrain.height), "origin": [str(x), str(y)]}
+    sides = {"width": plain(terrain.width), "height": plain(terrain.height)}
+    return {**sides, "origin": [plain(number) for number in terrain.origin]}
+
+
+def _place(point: Point) -> list[str]:
+    numbers = (point.x, point.y)
+    return [str(number) if number.rational is None else plain(number.rational) for number in numbers]
 
 
 def _run(run: Run) -> dict[str, Any]:
     return {
         "strategy": run.strategy,
-        "start": [str(run.start.x), str(run.start.y)],
-        "radius": str(run.radius),
+        "start": _place(run.start),
+        "radius": plain(run.radius),
         "length": length_to_json(run.length),
         "obstacles": len(run.obstacles),
         "visits": list(run.visits),

@@ -28,6 +28,7 @@ from exactacq.geometry.box_index import BoxIndex, Separator, bounds, united
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import Contact, ContactKind, contacts, winding
 from exactacq.geometry.points import Point
+from exactacq.numbers.rationals import plain
 from exactacq.numbers.real import Real
 from exactacq.scene.shapes import Circle, Shape, Terrain
 
@@ -99,7 +100,7 @@ class _MeetingLoops:
         one, other = self.loops
         kind, start, end = self.contact.kind, self.contact.start, self.contact.end
         along = kind is ContactKind.OVERLAP
-        place = f"from {_place(start)} to {_place(end)}" if along else f"at {_place(start)}"
+        place = f"from {place_text(start)} to {place_text(end)}" if along else f"at {place_text(start)}"
         if one is other:
             return f"{_label(one)}: {_edges(self.first | self.second)} {kind.value} {place}: {SIMPLE}"
         verb = {"cross": "crosses", "touch": "touches", "overlap": "overlaps"}[kind.value]
@@ -196,14 +197,14 @@ def _shape_flaws(loop: ValidatedLoop) -> Iterator[Violation]:
         return
     count = len(loop.edges)
     if count < 2 or (count == 2 and all(isinstance(edge, Segment) for edge in loop.edges)):
-        at = f" at {_place(loop.edges[0].start)}" if count else ""
+        at = f" at {place_text(loop.edges[0].start)}" if count else ""
         plural = "vertex" if count == 1 else "vertices"
         flaw = f"{count} {plural}{at}: a boundary needs 3 vertices, or 2 with a bulge"
         yield _of(loop, flaw, *(edge.start for edge in loop.edges[:1]))
         return
     for i, edge in enumerate(loop.edges):
         if _is_point(edge):
-            flaw = f"edge {i} has zero length at {_place(edge.start)}: leave out the vertex"
+            flaw = f"edge {i} has zero length at {place_text(edge.start)}: leave out the vertex"
             yield _of(loop, flaw, edge.start)
 
 
@@ -311,7 +312,7 @@ class _Arrangement:
                 if a == b or (min(a, b), max(a, b)) in self.met:
                     continue
                 other = self.loops[b]
-                where = f"{_label(other)}, at {_place(point)}"
+                where = f"{_label(other)}, at {place_text(point)}"
                 which = loop.index, other.index
                 if other.is_enclosure and not turns:
                     yield Violation(f"{_label(loop)} lies outside {where}: {WITHIN}", which, (point,))
@@ -324,7 +325,7 @@ class _Arrangement:
             loop = self.loops[a]
             if turns is not None and bool(turns) != loop.is_enclosure:
                 side = "outside" if loop.is_enclosure else "inside"
-                text = f"start {_place(start)} lies {side} {_label(loop)}: it must lie in free space"
+                text = f"start {place_text(start)} lies {side} {_label(loop)}: it must lie in free space"
                 yield Violation(text, (loop.index,), (start,))
 
     def _windings(self, point: Point) -> dict[int, int | None]:
@@ -352,12 +353,13 @@ def _edges(numbers: Iterable[int]) -> str:
     return f"edges {', '.join(head)} and {last}" if head else f"edge {last}"
 
 
-def _place(point: Point) -> str:
+def place_text(point: Point) -> str:
+    """A place in a message: exact coordinates if they are short, else ten digits."""
     return f"({_number(point.x)}, {_number(point.y)})"
 
 
 def _number(value: fmpq | Real) -> str:
     """Exact if that is short, else ten digits."""
     real = Real(value)
-    exact = str(real.rational) if real.rational is not None else ""
+    exact = plain(real.rational) if real.rational is not None else ""
     return exact if 0 < len(exact) <= 12 else real.decimal(10)

@@ -53,15 +53,15 @@ class Robot:
         self._walk(self._boundary().walk(self.position, point, forward))
         self.position = point
 
-    def circumnavigate(self) -> None:
-        """Walk the whole present boundary and mark the obstacle visited.
+    def circumnavigate(self, step: Callable[[], None] = lambda: None) -> None:
+        """Walk the whole present boundary and mark the obstacle visited; *step* is called after each piece.
 
         The robot comes back to where it is. On a boundary with two ends it walks to the last one and, unless
         it began there, to the first one, where it stays.
         """
         assert isinstance(self.at, int)
         curves = self._boundary().loop(self.position)
-        self._walk(curves)
+        self._walk(curves, step)
         self.position = curves[-1].end
         self.visited[self.at] = None
 
@@ -72,10 +72,11 @@ class Robot:
             self._boundaries[self.at] = Boundary(body.edges, body.perimeter, body.closed)
         return self._boundaries[self.at]
 
-    def _walk(self, curves: list[Curve]) -> None:
+    def _walk(self, curves: list[Curve], step: Callable[[], None] = lambda: None) -> None:
         assert isinstance(self.at, int)
         for curve in curves:
             self._move(Piece("boundary", self.at, curve))
+            step()
 
     def _move(self, piece: Piece) -> None:
         """Walk a piece of the path and sense along it."""

@@ -16,6 +16,7 @@ from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.geo import Geo
 from exactacq.geometry.points import Point, distance
 from exactacq.numbers.length import Length
+from exactacq.numbers.rationals import plain
 from exactacq.scene.ports import JSON, SVG, made
 from exactacq.scene.scene import Scene
 from exactacq.scene.terrain_components import Ground, ground_of
@@ -208,7 +209,8 @@ class Run:
     def __repr__(self) -> str:
         name = f" on {self.scene.name}" if self.scene.name else ""
         done = f"{len(self.visits)} of {len(self.obstacles)} obstacles visited"
-        return f"<{type(self).__name__}{name}, R = {self.radius}, length {float(self.length):.6g}, {done}>"
+        size = f"R = {plain(self.radius)}, length {float(self.length):.6g}"
+        return f"<{type(self).__name__}{name}, {size}, {done}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Without the sensing, which is repeated when it is first asked for: it knows places by identity."""

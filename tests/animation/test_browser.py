@@ -10,15 +10,11 @@ from pathlib import Path
 
 import pytest
 from chromium import Chromium, binary
-from pages import HOSTILE, encoded
+from pages import HOSTILE, encoded, frames_of
 
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.numbers.length import Length
-from exactacq.output.animation.page import (
-    Paper,
-    frames_of,
-    page,
-)
+from exactacq.output.animation.page import Paper, page
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle
 from exactacq.strategies.run import Run
@@ -142,9 +138,7 @@ def test_back_from_the_way_leads_to_the_event_before(
     leave = next(k for k, event in enumerate(circles.events, 1) if event.kind == "leave")
     browser.open(pages["circles"])
     browser.click(f"[data-event='{leave - 1}']")
-    there = frame(browser)
     slide(browser, browser.run("Number(document.getElementById('slider').value)") + 1)
-    assert frame(browser) == there
     assert texts(browser, "#status") == [f"On the way after event {leave} of {len(circles.events)}"]
     browser.press("ArrowLeft")
     assert texts(browser, "#status") == [f"{leave}. leave O1, to O2"]
@@ -178,7 +172,10 @@ def test_the_slider_puts_the_robot_on_the_exact_path(
             "const p = t.getPointAtLength(t.getTotalLength()); return [p.x, p.y]; })()"
         )
         assert end == pytest.approx(middle, abs=0.05)
-        drawn = browser.run("[...document.querySelectorAll('#walked path')].at(-1).getTotalLength()")
+        drawn = browser.run(
+            "[...document.querySelectorAll('#walked path')].filter((p) => p.getAttribute('visibility') "
+            "!== 'hidden').reduce((sum, p) => sum + p.getTotalLength(), 0)"
+        )
         assert drawn == pytest.approx((done + size / 2) * paper.scale, rel=1e-3)
         done += size
 
@@ -193,7 +190,7 @@ def test_the_map_grows(browser: Chromium, pages: dict[str, Path], circles: Run) 
             "[...document.querySelectorAll('#known path')].map((p) => Number(p.dataset.stretches ?? 0))"
         )
         assert sum(browser.run(stretches)) == sum(map(len, shown.known.values()))
-        assert len(texts(browser, "#frontier circle")) == len(shown.frontier)
+        assert len(texts(browser, "#frontier rect")) == len(shown.frontier)
         assert len(texts(browser, "#obstacles .acquired")) == len(shown.acquired)
         partial = set(shown.known) - set(shown.acquired)
         assert len(texts(browser, "#obstacles .partial")) == len(partial)
@@ -270,10 +267,11 @@ def test_keys_leave_buttons_and_lists_their_own(browser: Chromium, pages: dict[s
     browser.open(pages["circles"])
     browser.run("document.getElementById('next').focus()")
     browser.press(" ", "Space", " ")
-    assert (frame(browser), texts(browser, "#verb")) == (1, ["Play"])
+    there = frame(browser)
+    assert there > 0 and texts(browser, "#verb") == ["Play"]
     browser.run("document.getElementById('speed').focus()")
     browser.press("ArrowRight")
-    assert frame(browser) == 1
+    assert frame(browser) == there
     browser.click("#next")  # A mouse leaves no focus behind, so that the space bar plays.
     browser.press(" ", "Space", " ")
     assert texts(browser, "#verb") == ["Pause"]
@@ -286,7 +284,7 @@ def test_hostile_names_are_text(browser: Chromium, pages: dict[str, Path]) -> No
     assert browser.run("document.querySelectorAll('img, #list script, #stage script').length") == 0
     assert browser.run("document.scripts.length") == 2
     assert texts(browser, "h1") == [f"Sightseer Strategy: {HOSTILE[0]}"]
-    assert texts(browser, "#names text")[:2] == list(HOSTILE)
+    assert [text.rsplit(" #", 1)[0] for text in texts(browser, "#names text")[:2]] == list(HOSTILE)
     assert texts(browser, "#obstacles title")[:2] == list(HOSTILE)
     assert any(HOSTILE[1] in line for line in texts(browser, "#list .what"))
     assert browser.run("document.title") == f"Sightseer Strategy: {HOSTILE[0]}"

@@ -14,26 +14,18 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
-from pages import HOSTILE, encoded
+from pages import HOSTILE, encoded, frames_of
 
 from exactacq import FormatError, isovist
+from exactacq.files import gallery
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
-from exactacq.output.animation.page import (
-    FAR,
-    LIMIT,
-    SIZE,
-    Changes,
-    Paper,
-    Stop,
-    chosen,
-    frames_of,
-    page,
-    stops,
-)
-from exactacq.output.figures import draw as figures
+from exactacq.output import vocabulary
+from exactacq.output.animation import frames as animation
+from exactacq.output.animation.frames import LIMIT, Stop, chosen, stops
+from exactacq.output.animation.page import COARSE, FAR, SIZE, Changes, Paper, page, scale
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle, Polygon, Terrain
 from exactacq.sensing.event import Event, EventKind
@@ -68,7 +60,7 @@ def test_a_loop_that_ends_where_it_began_has_two_stops() -> None:
 
 
 def test_frames_are_the_exact_maps_and_views_of_their_moments(eleven: Run) -> None:
-    found, frames = stops(eleven), list(frames_of(eleven))
+    found, frames = stops(eleven), list(frames_of(eleven, fine=0))
     assert [event for frame in frames for event in frame.events] == list(eleven.events)
     assert len(frames) == len(found)
     assert all(one.at < other.at for one, other in pairwise(frames))
@@ -83,6 +75,48 @@ def test_frames_are_the_exact_maps_and_views_of_their_moments(eleven: Run) -> No
         assert [(p.x, p.y) for p in frame.frontier] == [(p.x, p.y) for _, p in learnt.frontier]
         outline = [piece.curve for piece in isovist(eleven.scene, stop.place, eleven.radius).pieces]
         assert [repr(curve) for curve in frame.view] == [repr(curve) for curve in outline]
+
+
+def test_between_stops_map_and_view_are_exact_too(eleven: Run) -> None:
+    paper = replace(Paper.of(eleven.scene, eleven.start, float(eleven.radius)), decimals=COARSE)
+    frames = list(frames_of(eleven, fine=40))
+    between = [(number, frame) for number, frame in enumerate(frames) if frame.is_passing]
+    assert len(frames) - len(between) == len(stops(eleven)) and len(between) > 10
+    shown = encoded(eleven, frames)["frames"]
+    assert all(one.at < other.at for one, other in pairwise(frames))
+    for number, frame in between:
+        assert not frame.events and shown[number]["passing"]
+        view = isovist(eleven.scene, frame.place, eleven.radius)
+        assert shown[number]["view"] == paper.outline([piece.curve for piece in view.pieces])
+        learnt = eleven.map_at(eleven.near(frame.at))
+        known = Length.sum(curve.length for curves in frame.known.values() for curve in curves)
+        assert float(known) == pytest.approx(float(learnt.known_length()))
+
+
+def test_places_between_stops_are_spread_evenly_and_few_in_heavy_scenes(
+    eleven: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    gaps = [float(b.at) - float(a.at) for a, b in pairwise(frames_of(eleven, fine=60))]
+    step = float(eleven.length) / 61
+    assert max(gaps) < 1.85 * step
+    monkeypatch.setattr(animation, "HEAVY", 0)
+    assert not any(frame.is_passing for frame in frames_of(eleven, fine=60))
+    monkeypatch.setattr(animation, "HEAVY", 10**6)
+    monkeypatch.setattr(animation, "PIECES", 100)
+    assert sum(frame.is_passing for frame in frames_of(eleven, fine=60)) < 20
+
+
+def test_progress_of_frames_grows_to_the_total(circles: Run) -> None:
+    told: list[tuple[int, int]] = []
+    frames = list(animation.frames_of(circles, fine=9, progress=lambda *done: told.append(done)))
+    assert told == [(k, len(frames)) for k in range(1, len(frames) + 1)]
+
+
+@pytest.mark.parametrize("name", ["figure2", "figure3", "m9"])
+def test_pages_of_the_gallery_stay_small(name: str) -> None:
+    scene = gallery.scene(name)
+    run = seed_spreader(scene) if gallery.is_swept(name) else sightseer(scene)
+    assert len(page(run, animation.frames_of(run)).encode()) < 1_000_000
 
 
 def test_m11_acquires_the_square_from_the_c_and_sees_the_bar_only_later(eleven: Run) -> None:
@@ -248,7 +282,7 @@ def test_what_is_left_out_is_owned_up_to(circles: Run) -> None:
     frames = list(frames_of(circles))
     assert encoded(circles)["left_out"] is None
     data = encoded(circles, [frames[0], frames[-1]])
-    assert data["left_out"] == [2, len(frames)]
+    assert data["left_out"] == [2, len(stops(circles))]
     assert [event[0] for event in data["events"]] == [1, 2, len(circles.events)]
     with pytest.raises(ValueError, match="at least one"):
         page(circles, [])
@@ -372,19 +406,34 @@ def contrast(one: str, other: str) -> float:
     return (high + 0.05) / (low + 0.05)
 
 
-def test_colours_are_those_of_the_figures_and_can_be_told_apart() -> None:
-    colours = dict(re.findall(r"--([a-z]+): (#[0-9a-f]{6});", (CODE / "page.css").read_text("utf-8")))
-    own = {name: getattr(figures, name.upper()) for name in ("ink", "paper", "fill", "edge", "view")}
-    assert colours | own | {"robot": figures.HIT} == colours
+def test_words_and_colours_are_those_of_figures_and_tables(swept: Run) -> None:
+    """The skeleton, the style and the script have no word or colour of their own for what is shown."""
+    text = page(swept, frames_of(swept))
+    for word in ("known boundary", "unknown boundary", "diversion", "M-line", "order of visits", "start S"):
+        assert word in list(vocabulary.Word) and word in text
+        assert word not in re.sub(r"\$\w+", "", (CODE / "page.html").read_text("utf-8"))
+    style = (CODE / "page.css").read_text("utf-8")
+    hover = {"#eef3fb", "#3a4048", "#e8eaec", "#e3edfb", "#1b57b0"}  # of buttons and lists
+    assert set(re.findall(r"#[0-9a-f]{6}", style)) == hover
+    assert not re.findall(r"#[0-9a-f]{6}", (CODE / "page.js").read_text("utf-8"))
+    data = encoded(swept)
+    assert data["away"] == vocabulary.AWAY and data["colours"] == scale()
+
+
+def test_visits_are_numbered_in_their_order(circles: Run, swept: Run) -> None:
+    for run in (circles, swept):
+        visits = encoded(run)["visits"]
+        assert [index for index, _ in visits] == list(run.visits)
+        assert visits == sorted(visits, key=lambda visit: visit[1])
+
+
+def test_colours_can_be_told_apart(room: Run) -> None:
+    style = re.search(r"<style>(.*)</style>", page(room, frames_of(room)), re.S)
+    assert style
+    colours = dict(re.findall(r"--([a-z-]+): (#[0-9a-f]{6});", style[1]))
     for text, ground in (("ink", "paper"), ("soft", "paper"), ("ink", "fill"), ("ink", "ground")):
         assert contrast(colours[text], colours[ground]) >= 4.5
-    for mark, ground in (
-        ("path", "ground"),
-        ("path", "ink"),
-        ("frontier", "ground"),
-        ("robot", "ground"),
-        ("away", "ground"),
-    ):
+    for mark, ground in (("hit", "ground"), ("view", "ground"), ("away", "ground")):
         assert contrast(colours[mark], colours[ground]) >= 3
     assert contrast(colours["soft"], "#e3edfb") >= 4.5  # in the list's current entry
 

@@ -105,11 +105,11 @@ scene = random_octagons({n}, 1)
 robot = SightseerRobot(scene, scene.radius, scene.start)
 begin, told = time.process_time(), [0.0]
 
-def progress(visited, total):
+def progress(circled, total):
     spent = time.process_time() - begin
-    if spent > told[0] + {seconds} / 10 or visited == total or spent > {seconds}:
+    if spent > told[0] + {seconds} / 10 or circled == total or spent > {seconds}:
         most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-        print(f"{{visited}} of {{total}} visited, {{robot.count}} legs in {{spent:.0f}} s, "
+        print(f"{{len(robot.visited)}} of {n} visited, {{robot.count}} legs in {{spent:.0f}} s, "
               f"{{robot.count / spent:.1f}} a second, {{most:.0f}} MB", flush=True)
         told[0] = spent
     if spent > {seconds}:

@@ -72,8 +72,8 @@ def drawing_contents(
         if thick.off:
             notes.append(f"no outline of these walls is off by more than {scientific_above(thick.off)}")
     lacking = (
-        f"no closed loop{_because(notes)}; give {hint or 'a larger --tolerance'}, --thicken LENGTH for walls along "
-        f"the lines, or {other}"
+        f"no closed loop{_because(notes)}; give {hint or 'a larger --tolerance'}, --thicken LENGTH for "
+        f"walls along the lines, or {other}"
     )
     if hint:
         notes.append(f"open chains close with {hint}")

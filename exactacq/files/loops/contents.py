@@ -136,7 +136,7 @@ class Contents:
         return ""
 
     def _advice(self, error: InvalidScene) -> str:
-        """What to do with a file where loops meet and no option makes a scene of it; "" where nothing is known."""
+        """What to do with a file where loops meet and no option makes a scene of it; perhaps ""."""
         told = " ".join(map(str, error.violations))
         cures = []
         if any(rule in told for rule in (DISJOINT, WITHIN)) and "union" not in self.options:

@@ -11,7 +11,7 @@ import os
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +21,8 @@ from exactacq.files.whole_files import FILMS, check_output, write_whole
 from exactacq.numbers.length import Length
 from exactacq.numbers.rationals import rational
 from exactacq.output.figures.draw import png
+from exactacq.output.meter import Progress
+from exactacq.output.vocabulary import Labels, colours, rgb
 from exactacq.sensing.event import Event
 from exactacq.strategies.run import Run
 
@@ -38,7 +40,6 @@ COLOURS = 256
 SHORT = 4
 """Digits of a length after those of the whole one's first: titles stay readable."""
 PAPER = (255, 255, 255)
-Progress = Callable[[int, int], None]
 
 
 def check_film(path: str | os.PathLike[str]) -> Path:
@@ -53,12 +54,19 @@ def check_film(path: str | os.PathLike[str]) -> Path:
     return target
 
 
-def film(run: Run, path: str | os.PathLike[str], progress: Progress | None = None) -> int:
+def film(
+    run: Run,
+    path: str | os.PathLike[str],
+    progress: Progress | None = None,
+    *,
+    labels: Labels | str = Labels.ALL,
+) -> int:
     """Write a film of a run to a .gif or .mp4 file, whole or not at all; the number of frames left out.
 
     These are moments whose map or view is beyond the library's limits. *progress* is told how many frames of
-    how many are drawn. Raises `FormatError` as `check_film`, and `Undecided` if no frame is left. Cost: a
-    map, a view and a figure for each of at most `FRAMES` frames; a megabyte of memory for each.
+    how many are drawn; *labels* are as in figures. Raises `FormatError` as `check_film`, and `Undecided` if
+    no frame is left. Cost: a map, a view and a figure for each of at most `FRAMES` frames; a megabyte of
+    memory for each.
 
     >>> from tempfile import TemporaryDirectory
     >>> import exactacq as xa
@@ -68,12 +76,12 @@ def film(run: Run, path: str | os.PathLike[str], progress: Progress | None = Non
     1 of 1
     0
     """
-    target = check_film(path)
+    target, choice = check_film(path), Labels(labels)
     wanted = moments(run)
     pictures, trouble = [], None
     for number, at in enumerate(wanted, 1):
         try:
-            pictures.append(_picture(run, at))
+            pictures.append(_picture(run, at, choice))
         except Undecided as error:
             trouble = error
         if progress is not None:
@@ -100,9 +108,9 @@ def moments(run: Run) -> Sequence[Length | Event]:
     return [*(Length(rational(length)) for length in lengths), last]
 
 
-def _picture(run: Run, at: Length | Event) -> Any:
+def _picture(run: Run, at: Length | Event, labels: Labels) -> Any:
     image: Any = extra("PIL.Image", "images")
-    return image.open(io.BytesIO(png(run, at, DOTS))).convert("RGB")
+    return image.open(io.BytesIO(png(run, at, labels, DOTS))).convert("RGB")
 
 
 def _of_one_size(pictures: Sequence[Any]) -> list[Any]:
@@ -124,8 +132,10 @@ def _gif(frames: Sequence[Any]) -> bytes:
     both = image.new("RGB", (2 * wide, high))
     both.paste(middle, (0, 0))
     both.paste(frames[-1], (wide, 0))
-    # By coverage, not by area: small marks keep their colours.
-    palette = both.quantize(COLOURS, method=image.Quantize.MAXCOVERAGE)
+    # By coverage, not by area: small marks keep their colours, and those of the vocabulary stay as they are.
+    own = [number for colour in colours().values() for number in rgb(colour)]
+    palette = both.quantize(COLOURS - len(own) // 3, method=image.Quantize.MAXCOVERAGE)
+    palette.putpalette(palette.getpalette()[: 3 * COLOURS - len(own)] + own)
     first, *others = (frame.quantize(palette=palette, dither=0) for frame in frames)
     steps = [1000 // PER_SECOND] * len(others)
     out = io.BytesIO()

@@ -2,7 +2,6 @@
 (() => {
   const data = JSON.parse(document.getElementById("data").textContent);
   const { frames, events, obstacles } = data;
-  const CHUNK = 64; // pieces of the path that share an element
   const LABEL = 13; // pixels of a name's height, as in the style
   const WIDEST = (2 * Math.PI) / 3; // angle of an arc: the centre of a wider one would shift by rounding
   const CROWDED = 150; // among more obstacles, names that do not fit inside are left to tooltips
@@ -57,40 +56,54 @@
     return [x0 - chord * Math.sin(angle + half), y0 + chord * Math.cos(angle + half)];
   }
 
-  /** Path data from a piece's start to a fraction of it. */
-  function drawn(piece, u) {
-    if (!piece.radius) return `L${along(piece, u).join(" ")}`;
+  /** Path data from one fraction of a piece to another. */
+  function drawn(piece, from, to) {
+    if (!piece.radius) return `L${along(piece, to).join(" ")}`;
     const { radius, turn } = piece;
-    const count = Math.ceil((Math.abs(turn) * u) / WIDEST) || 1;
-    const places = Array.from({ length: count }, (_, k) => along(piece, (u * (k + 1)) / count));
+    const count = Math.ceil((Math.abs(turn) * (to - from)) / WIDEST) || 1;
+    const places = Array.from({ length: count }, (_, k) => along(piece, from + ((to - from) * (k + 1)) / count));
     return places.map(([x, y]) => `A${radius} ${radius} 0 0 ${turn > 0 ? 1 : 0} ${x} ${y}`).join("");
   }
 
-  /** The pieces at which a chunk begins; a chunk is no diversion, or a part of one. */
+  /** The path in chunks of one colour: those of the scale of lengths, and that of diversions. */
   const isAway = pieces.map((_, k) => data.diversions.some(([from, to]) => from <= k && k < to));
-  const starts = [];
-  pieces.forEach((_, k) => {
-    if (!k || isAway[k] !== isAway[k - 1] || k - starts.at(-1) === CHUNK) starts.push(k);
+  const chunks = [];
+  pieces.forEach((piece, k) => {
+    const size = piece.end - piece.from || 1;
+    for (let from = piece.from; ; ) {
+      const step = clamp(Math.floor((from / (total || 1)) * data.colours.length + 1e-9), 0, data.colours.length - 1);
+      const to = step + 1 < data.colours.length ? Math.min(((step + 1) * total) / data.colours.length, piece.end) : piece.end;
+      const part = { piece, k, u: (from - piece.from) / size, v: to >= piece.end ? 1 : (to - piece.from) / size };
+      const before = chunks.at(-1);
+      if (before && before.away === isAway[k] && (isAway[k] || before.step === step)) before.parts.push(part);
+      else chunks.push({ from, step, away: isAway[k], parts: [part] });
+      chunks.at(-1).to = to;
+      if (to >= piece.end) break;
+      from = to;
+    }
   });
-  const look = (k) => (isAway[k] ? "away" : "");
-  const chunks = starts.map((k, c) => {
-    const whole = pieces.slice(k, starts[c + 1]).map((piece) => drawn(piece, 1)).join("");
-    const d = `M${pieces[k].x0} ${pieces[k].y0}${whole}`;
-    return add($("walked"), "path", { d, visibility: "hidden", class: look(k) });
-  });
+  const data_of = (parts) =>
+    parts.length ? `M${along(parts[0].piece, parts[0].u).join(" ")}` + parts.map(({ piece, u, v }) => drawn(piece, u, v)).join("") : "";
+  const look = ({ away, step }) => ({ class: away ? "away" : "", stroke: away ? data.away : data.colours[step] });
+  const drawings = chunks.map((chunk) =>
+    add($("walked"), "path", { d: data_of(chunk.parts), visibility: "hidden", ...look(chunk) }),
+  );
   const tail = add($("walked"), "path");
+  data.colours.filter((_, k) => k % 8 === 4).forEach((stroke, k) => {
+    add($("scale"), "path", { class: "walked", d: `M${3 + 2.75 * k} 7h2.75`, stroke });
+  });
 
   /** Draws the path up to a length; returns the robot's place. */
   function walk(length) {
     if (!pieces.length) return data.start;
     const k = last(pieces, (piece) => piece.from, length);
-    const now = last(starts, (start) => start, k);
-    const first = starts[now];
-    chunks.forEach((chunk, c) => set(chunk, { visibility: c < now ? "visible" : "hidden" }));
     const piece = pieces[k];
     const u = clamp((length - piece.from) / (piece.end - piece.from || 1), 0, 1);
-    const whole = pieces.slice(first, k).map((before) => drawn(before, 1)).join("");
-    set(tail, { d: `M${pieces[first].x0} ${pieces[first].y0}${whole}${drawn(piece, u)}`, class: look(k) });
+    const now = last(chunks, (chunk) => chunk.from, length);
+    drawings.forEach((drawing, c) => set(drawing, { visibility: c < now ? "visible" : "hidden" }));
+    const whole = chunks[now].parts.filter((part) => part.k < k || (part.k === k && part.v <= u));
+    const cut = chunks[now].parts.find((part) => part.k === k && part.u <= u && u < part.v);
+    set(tail, { d: data_of(cut ? [...whole, { ...cut, v: u }] : whole), ...look(chunks[now]) });
     return along(piece, u);
   }
 
@@ -121,7 +134,7 @@
     });
     set($("view"), { d: frames[frame].view });
     $("frontier").replaceChildren();
-    for (const [cx, cy] of frames[frame].frontier) add($("frontier"), "circle", { cx, cy });
+    for (const [x, y] of frames[frame].frontier) add($("frontier"), "rect", { x, y });
     $("learnt").textContent = `${number(length)} of ${number(perimeter)}`;
     $("acquired").textContent = `${acquired} of ${obstacles.length}`;
   }
@@ -136,6 +149,22 @@
   events.forEach((event, k) => happenings.set(event[4], [...(happenings.get(event[4]) ?? []), k]));
   const eventful = [...happenings.keys()];
 
+  const [named, counted] = [["all", "names"], ["all", "numbers"]].map((some) => some.includes(data.labels));
+  const visits = new Map(data.visits.map(([obstacle, begins], k) => [obstacle, { sign: `#${k + 1}`, begins }]));
+  const labels = obstacles.map(({ name, heart, above }, k) => {
+    return { name: named ? name : "", visit: counted ? visits.get(k) : undefined, heart, above, text: add($("names"), "text") };
+  });
+  $("order").hidden = !counted || !visits.size;
+  $("start").lastElementChild.textContent = data.labels === "none" ? "" : "S";
+
+  /** Obstacles' names, and the order of the visits that have begun by a length. */
+  function name(length = at) {
+    for (const { name, visit, text } of labels) {
+      const words = [name, visit && visit.begins <= length ? visit.sign : ""].filter((word) => word).join(" ");
+      if (text.textContent !== words) text.textContent = words;
+    }
+  }
+
   let at = 0; // path length
   let now = -1; // the last frame passed
   let playing = false;
@@ -147,6 +176,7 @@
     now = frame;
     if (changed) map(frame);
     const path = walk(at);
+    name();
     const [cx, cy] = at === frames[now].at ? frames[now].place : path;
     set($("robot"), { cx, cy });
     tell();
@@ -171,6 +201,7 @@
   $("title").textContent = data.title;
   $("facts").textContent = `${data.length} long, ${count(obstacles.length, "obstacle")}, ${count(data.happened, "event")}`;
   $("radius").textContent = data.radius;
+  $("exact").textContent = frames.length;
   if (data.left_out) {
     const [shown, all] = data.left_out;
     $("note").textContent = `Only ${shown} of its ${all} events and corners are shown, to keep this page small.`;
@@ -237,7 +268,7 @@
 
   // -- playing ----------------------------------------------------------------------------------
 
-  const SECONDS = clamp(6 + 0.8 * frames.length, 10, 120); // of the whole run at speed 1
+  const SECONDS = clamp(6 + 0.4 * frames.filter((frame) => !frame.passing).length, 10, 60); // of the whole run at speed 1
   const PAUSE = 900; // milliseconds at an event where motion is not wanted
 
   function play() {
@@ -313,10 +344,9 @@
     set($("beyond"), { d: data.beyond });
     for (const entry of document.querySelectorAll(".swept")) entry.hidden = false;
   }
-  set($("start").firstElementChild, { cx: data.start[0], cy: data.start[1] });
+  set($("start").firstElementChild, { x: data.start[0], y: data.start[1] });
   set($("start").lastElementChild, { x: data.start[0], y: data.start[1] });
 
-  const labels = obstacles.map(({ name, heart, above }) => ({ heart, above, text: add($("names"), "text", {}, name) }));
 
   const sizes = obstacles.map((obstacle) => obstacle.perimeter / Math.PI).sort((a, b) => a - b);
   const medium = sizes.length ? sizes[sizes.length >> 1] : width;
@@ -331,6 +361,7 @@
     const line = LABEL * px;
     const [x, y] = data.start;
     const taken = [[x - line / 2, x + line / 2, y - 1.6 * line, y]];
+    name(total);
     const halves = labels.map(({ text }) => text.getComputedTextLength() / 2);
     labels.forEach(({ heart, above, text }, k) => {
       const half = halves[k];
@@ -344,6 +375,7 @@
       set(text, { x: middle, y: base, visibility: shown ? "visible" : "hidden" });
       if (shown) taken.push([left, right, top, bottom]);
     });
+    name();
   }
 
   new ResizeObserver(arrange).observe($("stage"));

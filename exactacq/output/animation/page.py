@@ -3,7 +3,8 @@
 The page is HTML with its script, style and data inside: it loads nothing, and its content security policy
 allows that one script and that one style only (by their hashes). Whatever a user can write, names above all,
 is in a block of JSON and reaches the document as text. Nothing is decided on the page: it shows what exact
-frames say, and moves the robot between them along the path in floats.
+frames say (`frames`), and moves the robot between them along the path in floats. Words and colours are those
+of figures and tables (`vocabulary`): style and skeleton have none of their own for what is shown.
 
 Lengths and places on the page are in page units, `SIZE` to the longer side of the scene, y downwards, with
 `DECIMALS` decimals: the drawing is as sharp for a scene of 10^-50 as for one of 10^50.
@@ -16,30 +17,32 @@ import hashlib
 import json
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.resources import files
-from itertools import groupby
 from string import Template
 from typing import Any, NamedTuple
 
+import matplotlib as mpl
 import numpy as np
+from matplotlib.colors import to_hex
 
 from exactacq.files.whole_files import readable
-from exactacq.geometry.curves import Curve, Segment
+from exactacq.geometry.curves import Curve
 from exactacq.geometry.points import Point
 from exactacq.geometry.strokes import Stroke
 from exactacq.numbers.length import Length
+from exactacq.output import vocabulary
+from exactacq.output.animation.frames import Frame, stops
 from exactacq.output.figures.sweep import SweptTerrain, window
 from exactacq.output.regions import Region
+from exactacq.output.vocabulary import SCALE, SCALE_END, Labels, Word
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Terrain
-from exactacq.sensing.event import Event, EventKind
 from exactacq.strategies.run import Run, SightseerRun
 
-LIMIT = 2000
-"""Most frames of a page: a few megabytes, and a list of events that a browser scrolls without effort."""
-SIZE, DECIMALS = 1000, 4
-"""Page units along the longer side of a scene, and decimals: seven digits of the scene's size."""
+SIZE, DECIMALS, COARSE = 1000, 4, 2
+"""Page units along the longer side of a scene, and decimals: seven digits of the scene's size; five are
+enough for views between stops, of which there are many."""
 MARGIN, SLIMMEST = 0.06, 0.3
 """Free border, and the least ratio of the drawing's sides, as parts of the scene's longer side."""
 FAR = 10 * SIZE
@@ -50,116 +53,40 @@ WIDEST = 2 * math.pi / 3
 """Angle of one arc: by rounding, the centre of a wider one would move much further than its ends."""
 CLOSED_FORM = 40
 """Closed forms of at most this many characters are shown, the decimal value of others."""
-PASSING = {EventKind.LOSE, EventKind.REGAIN}
-"""Kinds of events that are the first to be left out."""
+COLOURS = 64
+"""Steps of the colour scale along the path."""
 
 
-@dataclass(frozen=True, slots=True)
-class Frame:
-    """What the robot knows and sees at one place of its path, and the events that happen there.
-
-    ``known`` holds the known stretches of an obstacle's boundary by its index (a single known point is a
-    segment of length 0), ``frontier`` the ends of known stretches beyond which a boundary is unknown,
-    ``view`` the closed outline of the isovist, and ``acquired`` the obstacles whose whole boundary is known.
-    Stretches that are the same object as in the frame before cost nothing.
-    """
-
-    at: Length
-    place: Point
-    events: Sequence[Event]
-    known: Mapping[int, Sequence[Curve]]
-    frontier: Sequence[Point]
-    view: Sequence[Curve]
-    acquired: Sequence[int] = ()
-
-
-@dataclass(slots=True)
-class Stop:
-    """A place where something changes: an end of a path piece, or where events happen.
-
-    ``after`` whole pieces lie behind.
-    """
-
-    after: int
-    place: Point
-    events: list[Event]
-
-    @property
-    def rank(self) -> int:
-        """The less the more important: 2 without events, 1 if things only go out of sight or come back."""
-        kinds = {event.kind for event in self.events}
-        return 0 if kinds - PASSING else 1 if kinds else 2
-
-
-def stops(run: Run) -> list[Stop]:
-    """The distinct places along the path, in order; events at the same place share a stop."""
-    found: list[Stop] = []
-    grouped = {after: list(events) for after, events in groupby(run.events, key=lambda event: event.after)}
-    for after, end in enumerate([run.start, *(piece.end for piece in run.path)]):
-        found.append(Stop(after, end, []))
-        for event in grouped.get(after, ()):
-            if event.point != found[-1].place:
-                found.append(Stop(after, event.point, []))
-            found[-1].events.append(event)
-    return found
-
-
-def chosen(found: Sequence[Stop], limit: int) -> list[Stop]:
-    """At most *limit* stops: the important ones, and of those that do not all fit an even choice.
-
-    Both ends are kept. ValueError for a limit below 2.
-    """
-    if limit < 2:
-        raise ValueError(f"an animation has at least 2 frames, not {limit}")
-    last = len(found) - 1
-    ranks = [0 if k in (0, last) else stop.rank for k, stop in enumerate(found)]
-    kept: list[int] = []
-    for rank in sorted(set(ranks)):
-        group, room = [k for k, own in enumerate(ranks) if own == rank], limit - len(kept)
-        if len(group) > room:
-            group = [group[k * (len(group) - 1) // max(room - 1, 1)] for k in range(room)]
-        kept += group
-    return [found[k] for k in sorted(kept)]
-
-
-def frames_of(run: Run, limit: int = LIMIT) -> Iterator[Frame]:
-    """A frame for each stop of a run, one at a time; at most *limit* (2 or more) of them, see `chosen`.
-
-    Cost: one map and one view a frame.
-    """
-    lengths = iter([piece.length for piece in run.path])
-    walked, after = Length(0), 0
-    for stop in chosen(stops(run), limit):
-        while after < stop.after:
-            walked, after = walked + next(lengths), after + 1
-        at = walked + stop.events[-1].beyond if stop.events else walked
-        moment = stop.events[-1] if stop.events else walked
-        learnt, view = run.map_at(moment), run.view_at(moment)
-        known = {i: run.obstacles[i].edges for i in learnt.acquired} | {
-            i: [part.curve or Segment(part.start, part.end) for part in learnt.known(i)]
-            for i in learnt.incomplete
-        }
-        frontier = [point for _, point in learnt.frontier]
-        outline = [piece.curve for piece in view.pieces]
-        yield Frame(at, stop.place, stop.events, known, frontier, outline, learnt.acquired)
-
-
-def page(run: Run, frames: Iterable[Frame]) -> str:
-    """The page as HTML text; equal runs and frames give the same text.
+def page(run: Run, frames: Iterable[Frame], *, labels: Labels | str = Labels.ALL) -> str:
+    """The page as HTML text; equal runs and frames give the same text. *labels* are as in figures.
 
     *frames* (see `frames_of`) run along the path from its start to its end; they are consumed one by one.
     Raises `ValueError` if there are none, `FormatError` for a scene that is 10^-9 times its distance from
     the origin or less.
     """
     # In a block of JSON only "<" could end the block or open a comment; the rest is ASCII by `dumps`.
-    data = json.dumps(_data(run, frames), separators=(",", ":")).replace("<", "\\u003c")
+    data = json.dumps(_data(run, frames, Labels(labels)), separators=(",", ":")).replace("<", "\\u003c")
     skeleton, style, script = (
         files("exactacq.output.animation").joinpath(f"page.{kind}").read_text("utf-8")
         for kind in ("html", "css", "js")
     )
+    style = Template(style).substitute(colours=_colours())
     allowed = f"script-src {_hash(script)}; style-src {_hash(style)}"
     policy = f"default-src 'none'; {allowed}; base-uri 'none'; form-action 'none'"
-    return Template(skeleton).substitute(policy=policy, style=style, script=script, data=data)
+    words = {word.name.lower(): str(word) for word in Word}
+    return Template(skeleton).substitute(words, policy=policy, style=style, script=script, data=data)
+
+
+def _colours() -> str:
+    """The vocabulary's colours as variables of the style."""
+    named = vocabulary.colours().items()
+    lines = (f"  --{name.lower().replace('_', '-')}: {value};" for name, value in named)
+    return "\n".join((*lines, f"  --shade: {vocabulary.SHADE};"))
+
+
+def scale() -> list[str]:
+    """The colours along the path."""
+    return [to_hex(colour) for colour in mpl.colormaps[SCALE](np.linspace(0.0, SCALE_END, COLOURS))]
 
 
 def _hash(text: str) -> str:
@@ -167,12 +94,13 @@ def _hash(text: str) -> str:
     return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"
 
 
-def _data(run: Run, frames: Iterable[Frame]) -> dict[str, Any]:
+def _data(run: Run, frames: Iterable[Frame], labels: Labels) -> dict[str, Any]:
     """What the script shows, as JSON data; `page.js` reads it."""
     sweep, names = SweptTerrain.of(run), list(run.names())
     paper = Paper.of(run.scene, run.start, float(run.radius), sweep is not None)
     numbers = {id(event): number for number, event in enumerate(run.events, 1)}
     known, shown, events = Changes(paper), [], []
+    coarse = replace(paper, decimals=COARSE)
     acquired: dict[int, int] = {}
     for number, frame in enumerate(frames):
         known.advance(frame.known)
@@ -187,18 +115,20 @@ def _data(run: Run, frames: Iterable[Frame]) -> dict[str, Any]:
                 "exact": " ".join(readable(frame.at, CLOSED_FORM, 8)) if frame.events else None,
                 "place": paper.point(frame.place.xy),
                 "frontier": [paper.point(point.xy) for point in frame.frontier],
-                "view": paper.outline(frame.view),
+                "view": (coarse if frame.is_passing else paper).outline(frame.view),
+                "passing": frame.is_passing,
             }
         )
     if not shown:
         raise ValueError("an animation has at least one frame")
     count, terrain = len(stops(run)), run.scene.terrain
+    exact = sum(not entry["passing"] for entry in shown)
     return {
         "title": f"{run.title}: {run.scene.name}" if run.scene.name else run.title,
         "length": " ".join(readable(run.length, CLOSED_FORM, 8)),
         "radius": " ".join(readable(Length(run.radius), CLOSED_FORM, 6)),
         "happened": len(run.events),
-        "left_out": [len(shown), count] if len(shown) < count else None,
+        "left_out": [exact, count] if exact < count else None,
         "scale": paper.scale,
         "box": paper.box,
         "terrain": None if terrain is None else paper.rectangle(terrain),
@@ -206,6 +136,10 @@ def _data(run: Run, frames: Iterable[Frame]) -> dict[str, Any]:
             _obstacle(paper, run, number, region, acquired.get(number))
             for number, region in enumerate(_regions(run, sweep))
         ],
+        "labels": labels,
+        "visits": _visits(paper, run),
+        "colours": scale(),
+        "away": vocabulary.AWAY,
         **_sweep(paper, sweep),
         "start": paper.point(run.start.xy),
         "path": list(_path(paper, run)),
@@ -213,6 +147,16 @@ def _data(run: Run, frames: Iterable[Frame]) -> dict[str, Any]:
         "known": known.entries(),
         "events": events,
     }
+
+
+def _visits(paper: Paper, run: Run) -> list[list[float]]:
+    """The obstacles in the order of their visits, each with the length of the path at which that begins."""
+    lengths = Length.running_decimals((piece.length for piece in run.path), 17)
+    begins: dict[int, float] = {}
+    for piece, before in zip(run.path, lengths[:-1], strict=True):
+        if piece.obstacle is not None:
+            begins.setdefault(piece.obstacle, paper.length(float(before)))
+    return [[index, begins[index]] for index in run.visits]
 
 
 def _regions(run: Run, sweep: SweptTerrain | None) -> list[Region]:
@@ -267,6 +211,7 @@ class Paper:
     corner: tuple[float, float]
     scale: float
     box: list[float]
+    decimals: int = DECIMALS
 
     @classmethod
     def of(cls, scene: Scene, start: Point, radius: float, swept: bool = False) -> Paper:
@@ -278,17 +223,20 @@ class Paper:
         lack = np.maximum(size * SLIMMEST - (high - low), 0) / 2 + size * MARGIN
         low, high = low - lack, high + lack
         scale = SIZE / size
-        box = [_rounded(float(side) * scale) for side in high - low]
+        box = [_rounded(float(side) * scale, DECIMALS) for side in high - low]
         return cls((float(low[0]), float(high[1])), scale, box)
 
     def point(self, place: tuple[float, float]) -> list[float]:
         """A place on the page."""
         (x, y), (left, top) = place, self.corner
-        return [_rounded((x - left) * self.scale), _rounded((top - y) * self.scale)]
+        return [
+            _rounded((x - left) * self.scale, self.decimals),
+            _rounded((top - y) * self.scale, self.decimals),
+        ]
 
     def length(self, value: float) -> float:
         """A length on the page."""
-        return _rounded(value * self.scale)
+        return _rounded(value * self.scale, self.decimals)
 
     def rectangle(self, terrain: Terrain) -> list[float]:
         """Left, top, width and height of a terrain."""
@@ -331,9 +279,9 @@ class Paper:
         return "".join(f"A{radius} {radius} 0 0 {int(stroke.sweep < 0)} {place}" for place in (*places, end))
 
 
-def _rounded(value: float) -> float:
-    """To `DECIMALS` decimals; whole numbers as integers, which are shorter in JSON."""
-    rounded = round(value, DECIMALS)
+def _rounded(value: float, decimals: int) -> float:
+    """To so many decimals; whole numbers as integers, which are shorter in JSON."""
+    rounded = round(value, decimals)
     return int(rounded) if rounded == int(rounded) else rounded
 
 

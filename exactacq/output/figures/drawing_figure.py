@@ -24,21 +24,11 @@ from exactacq.geometry.intersections import ContactKind
 from exactacq.geometry.points import Point
 from exactacq.geometry.strokes import Floats
 from exactacq.numbers.rationals import nearest_float, plain
-from exactacq.output.figures.draw import (
-    EDGE,
-    FILL,
-    HIT,
-    INK,
-    NARROWEST,
-    PAPER,
-    SOFT,
-    TALLEST,
-    VIEW,
-    WIDEST,
-    dress,
-)
-from exactacq.output.figures.draw import _rendered as rendered
+from exactacq.output.figures.canvas import NARROWEST, TALLEST, WIDEST
+from exactacq.output.figures.draw import rendered
+from exactacq.output.figures.layout import dress
 from exactacq.output.regions import closed
+from exactacq.output.vocabulary import EDGE, FILL, HIT, INK, PAPER, SOFT, VIEW
 from exactacq.scene.shapes import edge
 
 OPEN, GAP = "#b3502e", "#e8590c"
@@ -121,8 +111,8 @@ class _Page:
         if not outlines:
             return
         outline = Outline.make_compound_path(*outlines)
-        look = {"facecolors": FILL, "edgecolors": EDGE, "linewidths": 0.8}
-        self.axes.add_collection(PathCollection([outline], **look, zorder=1), autolim=False)  # type: ignore[arg-type]
+        look: dict[str, Any] = {"facecolors": FILL, "edgecolors": EDGE, "linewidths": 0.8}
+        self.axes.add_collection(PathCollection([outline], **look, zorder=1), autolim=False)
         wrong = {k for flaw in self.found.violations for k in flaw.loops}
         marked = [strokes_of(self.found.loops[k].obstacle.edges) for k in sorted(wrong)]
         if bad := [closed(strokes) for strokes in marked if strokes]:

@@ -20,8 +20,10 @@ from matplotlib.ticker import NullFormatter, NullLocator
 
 from exactacq.files.gallery import scene as gallery_scene
 from exactacq.numbers.length import Length
-from exactacq.output.figures.draw import HIT, INK, SOFT, STYLES, VIEW, dress
+from exactacq.output.figures.canvas import STYLES
+from exactacq.output.figures.layout import dress
 from exactacq.output.regions import Region, Steps
+from exactacq.output.vocabulary import HIT, INK, LINE, PAPER, SCALE, SCALE_END, SOFT, VIEW, Word
 from exactacq.scene.scene import Scene
 from exactacq.sensing.path import Piece
 from exactacq.strategies.sightseer.strategy import sightseer
@@ -31,7 +33,7 @@ SIDES, KS = 16, (4, 8, 16, 32, 64)
 """Sides of the polygons in the upper pictures, and numbers of sides for the lower ones."""
 COLOURS = 200
 """Steps of the colour scale along a path."""
-LINE = 3.2
+THICK = 3.2
 """Width in points of what is walked for the first time; half of it the second time, and so on."""
 WIDE, HIGH = 10.0, 5.4
 """Size of the page in inches."""
@@ -54,9 +56,7 @@ def limit_figure(sides: int = SIDES, ks: Iterable[int] = KS, scene: Scene | None
     corners = [edge.start.xy for obstacle in flat.obstacles for edge in obstacle.edges]
     title = f"vertex scan: {scan.scans} scans, {scan.moves} moves, length {float(scan.length):.4f}"
     _paths(right, flat, scan.path, title)
-    right.plot(
-        *zip(*corners, strict=True), "o", ms=3.6, mfc=HIT, mec="white", mew=0.5, zorder=4, label="scan"
-    )
+    right.plot(*zip(*corners, strict=True), "o", ms=3.6, mfc=HIT, mec=PAPER, mew=0.5, zorder=4, label="scan")
     right.legend(loc="lower left", frameon=False, fontsize=8, borderaxespad=0.1)
     _lengths(lengths, rows, rows[0].length + rows[0].gap)
     _counts(counts, rows)
@@ -67,19 +67,19 @@ def limit_figure(sides: int = SIDES, ks: Iterable[int] = KS, scene: Scene | None
 def _paths(axes: Any, scene: Scene, path: Sequence[Piece], title: str) -> None:
     """A scene and a path in it, coloured by its length so far; walked again: narrower, on top."""
     for obstacle in scene.obstacles:
-        axes.add_patch(PathPatch(Region.of(obstacle).outline, zorder=1, **STYLES["obstacle"]))
+        axes.add_patch(PathPatch(Region.of(obstacle).outline, zorder=1, **STYLES[Word.OBSTACLE]))
     strokes = [piece.curve.stroke() for piece in path]
     steps = Steps.of(strokes, COLOURS)
     size = max(abs(coordinate) for stroke in strokes for coordinate in (*stroke.start, *stroke.end))
     ranks = steps.ranks(strokes, [piece.obstacle for piece in path], 1e-7 * size)
-    shades = ListedColormap(mpl.colormaps["viridis"](np.linspace(0.0, 0.94, 128)))
+    shades = ListedColormap(mpl.colormaps[SCALE](np.linspace(0.0, SCALE_END, 128)))
     drawn = PathCollection(
-        steps.pieces, facecolors="none", linewidths=LINE * 0.5 ** np.minimum(ranks, 2), cmap=shades, zorder=3,
-        capstyle="round",
+        steps.pieces, facecolors="none", linewidths=THICK * 0.5 ** np.minimum(ranks, 2), cmap=shades,
+        zorder=3, capstyle="round",
     )  # fmt: skip
     drawn.set_array(steps.times)
     axes.add_collection(drawn)
-    axes.plot(*path[0].start.xy, "s", ms=5.6, mfc=INK, mec="white", mew=0.6, zorder=5)
+    axes.plot(*path[0].start.xy, "s", ms=5.6, mfc=INK, mec=PAPER, mew=0.6, zorder=5)
     axes.annotate(
         "S", path[0].start.xy, (0, 6), textcoords="offset points", ha="center", weight="bold", size=9
     )
@@ -118,7 +118,7 @@ def _over_sides(axes: Any, ks: Sequence[int], title: str) -> None:
     axes.xaxis.set_minor_locator(NullLocator())
     axes.xaxis.set_minor_formatter(NullFormatter())
     axes.legend(frameon=False, fontsize=8)
-    axes.grid(color="#e6e7e9", linewidth=0.6)
+    axes.grid(color=LINE, alpha=0.5, linewidth=0.6)
     axes.set_axisbelow(True)
     _dress(axes, title)
 

@@ -10,6 +10,7 @@ from exactacq.geometry.points import Point, distance_sq
 from exactacq.scene.bounding import rectangular_room
 from exactacq.scene.scene import Scene, radius_of
 from exactacq.scene.terrain_components import Ground, ground_of
+from exactacq.scene.validation import place_text
 from exactacq.sensing.event import Ending, EventKind, Occasion
 from exactacq.strategies.bounds import with_bounds
 from exactacq.strategies.gc_pause import uncollected
@@ -71,7 +72,9 @@ def seed_spreader(
     corner = ground.terrain.south_west
     reach = radius_of(scene, radius, corner)
     if scene.start is not None and scene.start != corner:
-        raise InvalidScene([f"the start {scene.start} is not the terrain's SW corner {corner}"])
+        raise InvalidScene(
+            [f"the start {place_text(scene.start)} is not the terrain's SW corner {place_text(corner)}"]
+        )
     return _Spreader(SeedSpreaderRobot(scene, ground, reach), lookahead, choice, progress).run(scene, ground)
 
 

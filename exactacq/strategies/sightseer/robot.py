@@ -15,6 +15,7 @@ from exactacq.geometry.curves import Segment
 from exactacq.geometry.points import Location, Point
 from exactacq.numbers.float_bounds import margin
 from exactacq.scene.scene import Scene
+from exactacq.scene.validation import place_text
 from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Piece
 from exactacq.strategies.robot import Robot
@@ -83,7 +84,7 @@ class SightseerRobot(Robot):
         self._links = Links(scene, radius)
         for obstacle in scene.obstacles:
             if obstacle.locate(start) is Location.INSIDE:
-                raise ValueError(f"the start {start} lies inside obstacle {obstacle.label}")
+                raise ValueError(f"the start {place_text(start)} lies inside obstacle {obstacle.label}")
         self.radius = self._links.radius
         self._nearest: dict[Node, _LinksByLength] = {}
         super().__init__(start, Memory(scene, self.radius, self._links.table))

@@ -33,8 +33,8 @@ def sightseer(
 
     The robot goes to the nearest obstacle that it sees, walks around it, goes on to the nearest unvisited one
     in sight of its boundary, and backtracks where there is none. *radius*, up to which it sees, and *start*
-    default to the scene's own; both are rational. *progress* is called with the number of obstacles visited
-    so far and the number in the scene.
+    default to the scene's own; both are rational. *progress* is called with the number of boundary edges
+    circled so far, at most once for each, and the number in the scene.
 
     Raises `InvalidScene` if radius or start is missing or illegal, or if an obstacle meets the terrain's
     border, `FormatError` if they are no number and no point, and `Undecided` if an exact comparison is beyond
@@ -63,12 +63,14 @@ def sightseer(
 @uncollected()
 def explored_by(robot: SightseerRobot, scene: Scene, progress: Progress | None = None) -> SightseerRun:
     """Explore a scene by the strategy with a robot at its start, which may have another rule of choice."""
-    return _Sightseer(robot, progress, len(scene.obstacles)).run(scene)
+    return _Sightseer(robot, progress, scene).run(scene)
 
 
 class _Sightseer:
-    def __init__(self, robot: SightseerRobot, progress: Progress | None, total: int) -> None:
-        self.robot, self.progress, self.total = robot, progress, total
+    def __init__(self, robot: SightseerRobot, progress: Progress | None, scene: Scene) -> None:
+        self.robot, self.progress = robot, progress
+        self.edges = [len(obstacle.edges) for obstacle in scene.obstacles]
+        self.circled = 0
         self.stack: list[tuple[Node, Point, Point]] = []
         self.tree: dict[int, TreeLink] = {}
         self.depth = 0
@@ -108,9 +110,15 @@ class _Sightseer:
         robot.linear_navigate(link.target, hit)
         self.tree[link.target] = TreeLink(source, link.target, leave, hit, Length(link.length), 1)
         robot.mark(EventKind.HIT, link.target, occasion=Occasion.ADVANCE, other=source)
-        robot.circumnavigate()
-        if self.progress is not None:
-            self.progress(len(robot.visited), self.total)
+        last = self.circled + self.edges[link.target]
+        robot.circumnavigate(lambda: self._circle(min(self.circled + 1, last)))
+        self._circle(last)
+
+    def _circle(self, edges: int) -> None:
+        """So many edges are circled."""
+        if self.progress is not None and edges > self.circled:
+            self.progress(edges, sum(self.edges))
+        self.circled = edges
 
     def _backtrack(self) -> None:
         robot = self.robot
@@ -140,7 +148,7 @@ class _Sightseer:
 
     def _ending(self) -> Ending:
         robot = self.robot
-        if len(robot.visited) == self.total:
+        if len(robot.visited) == len(self.edges):
             return Ending.ALL_VISITED
         return Ending.BACK_AT_START if robot.at == START else Ending.NOTHING_UNVISITED
 

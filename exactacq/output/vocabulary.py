@@ -1,0 +1,100 @@
+"""The words and colours of figures, tables, pages and films: one of each for a thing, whoever shows it.
+
+Words are those of the paper where it has some (docs/glossary.md explains them). What happens on a path has
+its words with the events (`exactacq.sensing.event`). Obstacles have their labels (``Run.names``): their
+names, or "O" and their number from 1 in the order of the scene. "#1", "#2", ... is the order of visits.
+"""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import NoReturn
+
+from exactacq.errors import FormatError, shown
+
+INK, SOFT, PAPER, GROUND, LINE = "#22262b", "#5f656c", "#ffffff", "#fdfdfc", "#c9ccd0"
+"""Text and marks; text beside; what is behind everything, and behind a drawing; thin lines of a page."""
+FILL, EDGE, FAINT, PARTIAL = "#dcd7cd", "#8a8377", "#f3f0ea", "#e9e5dc"
+"""An obstacle and its outline; one of which nothing, and one of which a part is known yet."""
+MISSED, MISSED_FILL = "#b3502e", "#f4e3dc"
+"""What a run has missed."""
+VIEW, HIT, TREE, AWAY, AWAY_AGAIN = "#3b7dd8", "#d6273d", "#f6b64b", "#e8590c", "#ffc9a3"
+"""View, range and robot; hit points and frontier; links; diversions, and what of them is walked again."""
+SHADE = 0.16
+"""How opaque the view is."""
+SCALE, SCALE_END = "viridis", 0.94
+"""Matplotlib's scale of colours along the path, up to this share: the last of it is too pale on paper."""
+
+
+class Word(StrEnum):
+    """What things are called in legends, titles, columns and captions."""
+
+    START = "start S"
+    END = "end T"
+    STOP = "stop"
+    ROBOT = "robot"
+    RADIUS = "R"
+    LENGTH = "length"
+    PATH = "path"
+    AGAIN = "walked again"
+    VIEW = "view"
+    KNOWN = "known boundary"
+    UNKNOWN = "unknown boundary"
+    FRONTIER = "frontier"
+    OBSTACLE = "obstacle"
+    ACQUIRED = "acquired"
+    VISITED = "visited"
+    VISIT = "visit"
+    ORDER = "order of visits"
+    UNVISITED = "seen, never visited"
+    INCOMPLETE = "incomplete"
+    UNSEEN = "never seen"
+    UNREACHABLE = "unreachable"
+    LINK = "link"
+    HIT = "hit point"
+    LEAVE = "leave point"
+    M_LINE = "M-line"
+    CROSSING = "crossing point"
+    DIVERSION = "diversion"
+    D = "D"
+    Q = "Q"
+    UNAPPLIED = "does not apply"
+    """Of a bound that does not speak of a run."""
+
+
+class Labels(StrEnum):
+    """Which labels a picture has. Obstacles of a scene alone have names only."""
+
+    NONE = "none"
+    """No text in the drawing."""
+    NUMBERS = "numbers"
+    """The order of visits, and the points that the paper names: S, T, D and Q."""
+    NAMES = "names"
+    """The obstacles' names, and these points."""
+    ALL = "all"
+    """Names, order of visits, and these points."""
+
+    @classmethod
+    def _missing_(cls, value: object) -> NoReturn:
+        raise FormatError(f"labels: {', '.join(cls)}, not {shown(value)}")
+
+
+def colours() -> dict[str, str]:
+    """All colours by their names."""
+    return {name: value for name, value in globals().items() if str(value).startswith("#")}
+
+
+def rgb(colour: str) -> tuple[int, int, int]:
+    """Red, green and blue of a colour, from 0 to 255."""
+    red, green, blue = bytes.fromhex(colour[1:])
+    return red, green, blue
+
+
+def ordinal(order: int) -> str:
+    """The sign of a visit, counted from 1."""
+    return f"#{order}"
+
+
+def missed_word(is_swept: bool) -> Word:
+    """What ``Run.unvisited`` obstacles are called: the Seed Spreader need not visit what it acquires."""
+    return Word.INCOMPLETE if is_swept else Word.UNVISITED

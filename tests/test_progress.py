@@ -1,0 +1,108 @@
+"""How far long work is: counts that grow, by one step at a time, to the total that was told first."""
+
+from __future__ import annotations
+
+import os
+import pty
+import subprocess
+import sys
+import threading
+from collections.abc import Callable
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+
+import exactacq as xa
+from exactacq.auditing.course import Course
+from exactacq.output.meter import Meter
+
+Told = list[tuple[int, int]]
+
+
+def told_by(work: Callable[[Callable[[int, int], None]], object]) -> Told:
+    told: Told = []
+    work(lambda done, total: told.append((done, total)))
+    assert told, "nothing was told"
+    totals = {total for _, total in told}
+    assert len(totals) == 1
+    assert all(a < b for (a, _), (b, _) in pairwise(told))
+    return told
+
+
+def test_a_long_visit_is_told_edge_by_edge() -> None:
+    """The robot circles a polygon of 40 edges, and then a triangle."""
+    ring = [
+        (20 + x, y)
+        for x, y in [*((k, k * k) for k in range(-10, 11)), *((k, 250 - k * k) for k in range(10, -10, -1))]
+    ]
+    scene = xa.Scene([xa.Polygon(ring), xa.Polygon([(40, 0), (44, 0), (42, 3)])], (0, 0), radius=500)
+    told = told_by(lambda progress: xa.sightseer(scene, progress=progress))
+    edges = sum(len(obstacle.edges) for obstacle in scene.obstacles)
+    assert told == [(k, edges) for k in range(1, edges + 1)]
+
+
+@pytest.mark.parametrize("name", ["figure2", "case3"])
+def test_an_audit_tells_how_far_it_is(name: str) -> None:
+    run = xa.sightseer(xa.load(name)) if name == "figure2" else xa.seed_spreader(xa.load(name))
+    told = told_by(lambda progress: xa.audit(run, samples=8, progress=progress))
+    assert told[-1][0] == told[-1][1]
+    assert len(told) > len(run.path) + 8
+
+
+def test_an_audit_with_progress_checks_the_same() -> None:
+    run = xa.sightseer(xa.load("circles"))
+    flawed = replace(run, events=run.events[:1] + run.events[2:])
+    for progress in (None, lambda done, total: None):
+        with pytest.raises(xa.AuditError):
+            xa.audit(flawed, progress=progress)
+
+
+def test_parts_that_are_shorter_than_said_are_closed() -> None:
+    def work(progress: Callable[[int, int], None]) -> None:
+        course = Course(progress, [2, 3, 1])
+        course.step()
+        course.close()
+        course.close()
+        course.step()
+        course.step()
+        course.close()
+
+    assert told_by(work) == [(1, 6), (2, 6), (5, 6), (6, 6)]
+
+
+def test_a_meter_never_tells_more_than_the_total() -> None:
+    def work(progress: Callable[[int, int], None]) -> None:
+        meter = Meter(progress, 3)
+        meter.add(2)
+        meter.add(5)
+        meter.finish()
+
+    assert told_by(work) == [(2, 3), (3, 3)]
+
+
+def test_a_terminal_sees_audits_and_drawings(tmp_path: Path) -> None:
+    outer, inner = pty.openpty()
+    figure, page = tmp_path / "run.svg", tmp_path / "run.html"
+    options = ["--audit", "--figure", str(figure), "--animate", str(page)]
+    command = [sys.executable, "-m", "exactacq", "explore", "circles", *options]
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=inner, env={**os.environ, "TERM": "xterm"}
+    ) as running:
+        os.close(inner)
+        seen: list[bytes] = []
+        reader = threading.Thread(target=lambda: seen.extend(iter(lambda: _read(outer), b"")))
+        reader.start()
+        assert running.stdout is not None
+        assert b"audit passed" in running.stdout.read()
+    reader.join()
+    os.close(outer)
+    assert all(word in b"".join(seen) for word in (b"exploring", b"drawing", b"auditing"))
+
+
+def _read(terminal: int) -> bytes:
+    try:
+        return os.read(terminal, 65536)
+    except OSError:
+        return b""
