@@ -21,10 +21,10 @@ from flint import fmpq
 
 import exactacq as xa
 from exactacq import cli
-from exactacq.cli.file_options import read_from_text
+from exactacq.cli.options import read_from_text
 from exactacq.files.checking.sketch import Sketch
 from exactacq.files.checking.starts import rounded, rounded_up, widest_gap
-from exactacq.files.formats import options as file_options
+from exactacq.files.formats import options
 
 DATA = Path(__file__).parent / "data"
 FILES = sorted(
@@ -57,7 +57,7 @@ def said(words: str) -> dict[str, object]:
     parts = shlex.split(words)
     while parts:
         name, _, value = parts.pop(0).removeprefix("--").partition("=")
-        values[name] = True if file_options()[name].kind == "flag" else value or parts.pop(0)
+        values[name] = True if options()[name].kind == "flag" else value or parts.pop(0)
     return read_from_text(values)
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 import typer
 
 from exactacq.cli.completion import scenes
-from exactacq.cli.file_options import read_from_text
+from exactacq.cli.options import read_from_text
 from exactacq.errors import FormatError, InvalidScene
 from exactacq.files.formats import written_suffixes
 from exactacq.output.vocabulary import Labels

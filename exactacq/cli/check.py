@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from exactacq.cli.arguments import AsJson, FigureFile, SceneName, Start, place_of, same_file
-from exactacq.cli.file_options import read_from_text, reads_files
+from exactacq.cli.options import read_from_text, reads_files
 from exactacq.errors import FormatError
 
 if TYPE_CHECKING:

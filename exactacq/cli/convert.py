@@ -8,7 +8,7 @@ import typer
 
 from exactacq.cli.arguments import Start, naming, number_of, same_file, scene_of
 from exactacq.cli.completion import scenes
-from exactacq.cli.file_options import read_from_text, reads_files
+from exactacq.cli.options import read_from_text, reads_files
 from exactacq.errors import FormatError
 from exactacq.files.formats import written_suffixes
 

@@ -22,7 +22,7 @@ from exactacq.cli.arguments import (
     same_file,
     scene_of,
 )
-from exactacq.cli.file_options import reads_files
+from exactacq.cli.options import reads_files
 from exactacq.cli.runs import at_corner, explored, watched
 from exactacq.errors import AuditError, ExactacqError, FormatError, Undecided
 from exactacq.output.vocabulary import Labels

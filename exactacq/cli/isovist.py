@@ -16,7 +16,7 @@ from exactacq.cli.arguments import (
     same_file,
     scene_of,
 )
-from exactacq.cli.file_options import reads_files
+from exactacq.cli.options import reads_files
 from exactacq.errors import FormatError
 
 
