@@ -20,7 +20,7 @@ from exactacq.kernel.bound_lines import BoundLine
 from exactacq.kernel.extents import EVERYTHING
 from exactacq.kernel.family_images import NONE, FamilyImage, by_edge
 from exactacq.kernel.near_edges import NearEdges
-from exactacq.scene.edge_table import EdgeTable
+from exactacq.scene.edge_table import CONVEX, EdgeTable
 from exactacq.sensing.followed_lines import FeatureLine, FollowedLine, LineFollower, Met
 from exactacq.sensing.line_family import PencilFamilies, Reached, SingleLine
 from exactacq.sensing.line_images import LineImages
@@ -204,13 +204,20 @@ class FamilySweeper:
         return incoming, after if _continues(*ends) else e
 
     def _pinched(self, at: FeatureLine) -> Iterator[SingleLine]:
-        """What the touched points and edges of a line that grazes several features show of each other."""
+        """What the touched points and edges of a line that grazes several features show of each other.
+
+        Of the features between two places that which is nearest to what is seen tells of it.
+        """
         line = self.follower.follow(at)
         shown = list(self._runs(line))
+        ends = {end.place for end in map(line.end, (Role.BEHIND, Role.AHEAD)) if end is not None}
+        featured = {met.place for met in line.met if self._is_featured(met)} - ends - {0}
         for here in line.met:
             for first, last in shown:
                 near, far = (first, last) if here.place <= first.place else (last, first)
-                if here.edge != first.edge and here.place != near.place:
+                if here.edge == first.edge or here.place == near.place:
+                    continue
+                if not _is_told_by_others(here.place, near.place, featured):
                     yield SingleLine(here.pin, here.edge, (near.pin, far.pin), near.edge)
         for role in (Role.BEHIND, Role.AHEAD):
             if line.end(role) is None:
@@ -219,6 +226,19 @@ class FamilySweeper:
                     near, far = (first, last) if role is Role.BEHIND else (last, first)
                     if place != near.pin[0]:
                         yield SingleLine((place, None), None, (near.pin, far.pin), near.edge)
+
+    def _is_featured(self, met: Met) -> bool:
+        """Whether a line meets an edge in a corner of segments, or inside an arc, that tells of it too."""
+        curve, point = self.table.curves[met.edge], met.pin[0]
+        if not isinstance(curve, Segment):
+            is_inside = self.table.full[met.edge] or (point != curve.start and point != curve.end)
+            return bool(is_inside) and self.table.images.kind[met.edge] == CONVEX
+        before = self.table.curves[int(self.table.previous[met.edge])]
+        return (
+            point is curve.start
+            and isinstance(before, Segment)
+            and any(not feature.round for feature in self._features.get(met.edge, ()))
+        )
 
     def _runs(self, line: FollowedLine) -> Iterator[tuple[Met, Met]]:
         """The first and the last place of each edge that a line meets; of an arc place by place."""
@@ -250,3 +270,13 @@ def normals(curve: Curve) -> Iterator[Sector]:
 
 def _continues(a: Vector, b: Vector) -> bool:
     return bool(cross(a, b) == 0 and dot(a, b) > 0)
+
+
+def _is_told_by_others(here: int, near: int, featured: set[int]) -> bool:
+    """Whether a view from a place to another is told by features between them, not by that in place 0.
+
+    The one that is nearest to what is seen tells of it.
+    """
+    is_between = min(here, near) <= 0 <= max(here, near)
+    start = 0 if is_between else here
+    return any(min(start, near) <= place <= max(start, near) for place in featured)

@@ -77,10 +77,11 @@ class LineFollower:
         names = self._names(at)
         behind, ahead, is_blocked = self._followed(at, names)
         own = at.feature.edges[-1]
-        contact = self._pin(at, names, own, Role.CONTACT)
-        if not at.feature.round:
-            contact = self._vertex(own, own)
-        met = [*reversed(behind), Met(own, contact, 0), *ahead]
+        if at.feature.round:
+            here = [Met(own, self._pin(at, names, own, Role.CONTACT), 0)]
+        else:
+            here = [Met(e, self._vertex(own, e), 0) for e in at.feature.edges]
+        met = [*reversed(behind), *here, *ahead]
         return FollowedLine(met, is_blocked, self._blind(behind, ahead, is_blocked) - {own})
 
     def _followed(self, at: FeatureLine, names: Names) -> tuple[list[Met], list[Met], tuple[bool, bool]]:
