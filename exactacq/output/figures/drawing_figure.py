@@ -28,10 +28,10 @@ from exactacq.output.figures.canvas import NARROWEST, TALLEST, WIDEST
 from exactacq.output.figures.draw import rendered
 from exactacq.output.figures.layout import dress
 from exactacq.output.regions import closed
-from exactacq.output.vocabulary import EDGE, FILL, HIT, INK, PAPER, SOFT, VIEW
+from exactacq.output.vocabulary import AWAY, EDGE, FILL, GROUND, HIT, INK, MISSED, PAPER, SOFT, VIEW
 from exactacq.scene.shapes import edge
 
-OPEN, GAP = "#b3502e", "#e8590c"
+OPEN, GAP = MISSED, AWAY
 MARKS = {
     ContactKind.CROSSING: ("crossing", "X", HIT, PAPER),
     ContactKind.TOUCHING: ("touch", "o", PAPER, HIT),
@@ -101,7 +101,7 @@ class _Page:
         self.axes = self.figure.add_axes((0, 0, 1, 1))
         self.axes.set_xlim(self.low[0], self.high[0])
         self.axes.set_ylim(self.low[1], self.high[1])
-        self.axes.set_facecolor("#fdfdfc")
+        self.axes.set_facecolor(GROUND)
 
     def loops(self) -> None:
         """Filled where an odd number of loops is around, as far as it can be told."""
