@@ -87,4 +87,4 @@ def test_the_help_shows_the_examples(capsys: pytest.CaptureFixture[str], tmp_pat
 def test_the_drawing_is_the_one_of_the_tutorial(extension: ModuleType, tmp_path: Path) -> None:
     copyfile(str(extension.DRAWING), tmp_path / "part.dxf")
     with chdir(tmp_path):
-        assert extension.printed(EXAMPLES["check"][0])[1].startswith("part: OK\n")
+        assert extension.printed(EXAMPLES["check"][0])[1].endswith("part.dxf: OK\n")

@@ -13,7 +13,7 @@ import cut_out
 
 from exactacq.errors import Undecided
 from exactacq.files import gallery
-from exactacq.output.animation.page import frames_of
+from exactacq.output.animation.frames import frames_of
 from exactacq.output.animation.page import page as player
 from exactacq.output.figures import draw as figures
 from exactacq.strategies.run import Run

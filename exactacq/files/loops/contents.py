@@ -22,7 +22,7 @@ from exactacq.scene.validation import DISJOINT, SIMPLE, WITHIN
 
 AS_TOLD = "as told"
 """The file itself says which loop is the wall; all others are obstacles."""
-MOST_TRIED = 5000
+MOST_TRIED = 2000
 """Edges beyond which a scene that is refused is not tried with other options."""
 TRIED = ({"outer": "drop"}, {"union": True}, {"outer": "drop", "union": True})
 """Options that are tried where a scene is refused; what they are called is in `WORDS`."""
@@ -139,7 +139,10 @@ class Contents:
         """What to do with a file where loops meet and no option makes a scene of it; perhaps ""."""
         told = " ".join(map(str, error.violations))
         cures = []
-        if any(rule in told for rule in (DISJOINT, WITHIN)) and "union" not in self.options:
+        meets = any(rule in told for rule in (DISJOINT, WITHIN))
+        if meets and "union" in self.options and not self.union and self.edges > MOST_TRIED:
+            cures.append("--union merges loops that meet")
+        if meets and "union" not in self.options:
             cures.append(
                 "move the shapes apart in the file; of formats that take it --union merges what meets"
             )
