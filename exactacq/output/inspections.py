@@ -50,9 +50,9 @@ def inspection_report(found: Inspection) -> Iterator[str | Table]:
         yield from (f"- {_told(flaw)}" for flaw in found.violations[:LISTED])
         if len(found.violations) > LISTED:
             yield f"... and {len(found.violations) - LISTED} more: --json lists all"
-    if notes := _notes(found):
+    if found.notes:
         yield "\nimport notes"
-        yield from (f"- {note}" for note in notes)
+        yield from (f"- {note}" for note in found.notes)
     yield ""
     yield from _proposal(found)
     yield f"{found.name}: not OK: {found.trouble}" if found.trouble else f"{found.name}: OK"
@@ -106,7 +106,7 @@ def inspection_data(found: Inspection) -> dict[str, Any]:
             }
             for flaw in found.violations
         ],
-        "notes": _notes(found),
+        "notes": list(found.notes),
         "start": None if found.start is None else list(map(str, found.start)),
         "radius": None if found.radius is None else str(found.radius),
         "gap": found.gap,
@@ -165,12 +165,6 @@ def _told(flaw: Flaw) -> str:
         if flaw.cures
         else f"{flaw.text}; no option that was tried cures it"
     )
-
-
-def _notes(found: Inspection) -> list[str]:
-    """Those of the scene, if it is that of the file as it is read."""
-    own = found.scene is not None and found.contents.start is not None
-    return list(found.scene.notes if own and found.scene is not None else found.contents.notes)
 
 
 def _proposal(found: Inspection) -> Iterator[str]:

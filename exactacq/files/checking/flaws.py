@@ -24,10 +24,14 @@ LARGE = 2
 
 @dataclass(frozen=True, slots=True)
 class Judged:
-    """The loops that count, numbered as a scene would do it, and the violations among them."""
+    """The loops that count, numbered as a scene would do it, and the violations among them.
+
+    ``notes`` tell what was done to the file's loops.
+    """
 
     loops: tuple[Obstacle, ...]
     violations: tuple[Violation, ...]
+    notes: tuple[str, ...] = ()
 
 
 def judged(contents: Contents) -> Judged:
@@ -40,15 +44,15 @@ def judged(contents: Contents) -> Judged:
     """
     if contents.start is not None or contents.outer == AS_TOLD:
         try:
-            obstacles, wall, _ = contents.arranged()
+            obstacles, wall, notes = contents.arranged()
         except (FormatError, InvalidScene) as error:
             plain = judged(replace(contents, union=False)) if contents.union else _all_loops(contents)
             told = getattr(error, "violations", (str(error),))
-            return Judged(plain.loops, (*map(Violation, told), *plain.violations))
+            return Judged(plain.loops, (*map(Violation, told), *plain.violations), plain.notes)
         loops = _numbered(obstacles, wall)
         place = None if contents.start is None else Point(*contents.start)
         found = violations(loops, place, contents.radius, contents.terrain)
-        return Judged(loops, tuple(found))
+        return Judged(loops, tuple(found), tuple(notes))
     return _all_loops(contents)
 
 
@@ -68,8 +72,12 @@ def _all_loops(contents: Contents) -> Judged:
     shapes = list(contents.loops)
     if contents.outer == "drop" and (outermost := frame(shapes)) is not None:
         del shapes[outermost]
-    loops = _numbered(_united(shapes) if contents.union else shapes, contents.wall)
-    return Judged(loops, tuple(violations(loops, nested=True)))
+    count, notes = len(shapes), contents.notes
+    if contents.union:
+        shapes = list(_united(shapes))
+        notes = *notes, f"merged {count} loops into {len(shapes)}"
+    loops = _numbered(shapes, contents.wall)
+    return Judged(loops, tuple(violations(loops, nested=True)), notes)
 
 
 def _numbered(shapes: Sequence[Shape], wall: Shape | None) -> tuple[Obstacle, ...]:

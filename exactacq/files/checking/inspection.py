@@ -80,7 +80,8 @@ class Inspection:
     ``loops``, ``open_chains`` and ``violations`` are those of the file as it is read, all of them if no start
     is given. ``start`` and ``radius`` are the given ones, or proposals: with the ``options`` there is a
     ``scene`` around that start, and ``command`` explores it. All these are None, or empty, if none was found.
-    ``gap`` is what the radius is chosen by: the widest link that leads to an obstacle.
+    ``gap`` is what the radius is chosen by: the widest link that leads to an obstacle. ``notes`` tell what
+    the reader did.
 
     >>> import exactacq as xa
     >>> import shapely
@@ -104,6 +105,7 @@ class Inspection:
     options: Options | None = None
     scene: Scene | None = None
     command: str = ""
+    notes: tuple[str, ...] = ()
 
     @property
     def ok(self) -> bool:
@@ -200,6 +202,7 @@ class _Inquiry:
             open_chains=chains,
             violations=tuple(self._flaw(violation, size) for violation in self.before.violations),
             extent=self._extent(sketch),
+            notes=self.before.notes,
         )
         begun = self._begun(any(chain.encloses for chain in chains))
         if begun is None:
