@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -27,6 +28,14 @@ sys.argv[:] = ["exactacq", *sys.argv[2:]]
 runpy.run_module("exactacq", run_name="__main__", alter_sys=True)
 """
 """Runs the command line, and presses control-C when a module is looked for, the one of the given number."""
+
+
+@pytest.fixture(autouse=True)
+def control_c_is_heard() -> Iterator[None]:
+    """Whatever started the tests may ignore control-C, and so would the processes that they start."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 def interrupted_at(number: int, *arguments: str) -> tuple[int, str]:
