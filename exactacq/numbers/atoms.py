@@ -10,7 +10,7 @@ import atexit
 from abc import ABC, abstractmethod
 from collections.abc import Hashable, Mapping
 from functools import lru_cache
-from math import log2, prod
+from math import gcd, log2, prod
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeAlias
 from weakref import WeakValueDictionary
 
@@ -249,6 +249,12 @@ WHOLLY_FACTORED = 62
 """Bits up to which a radicand is factored completely: that takes microseconds."""
 
 
+SEARCHED = 2048
+"""Bits up to which a radicand's factors are searched for: the time grows faster than its square."""
+SMALL_PRIMES = int(fmpz.primorial_ui(4096))
+"""The product of the primes by which longer ones are divided."""
+
+
 @lru_cache(maxsize=1 << 16)
 def square_free(n: int) -> tuple[int, int]:
     """(s, d) with n = s^2 d > 0, s as large as trial division and one perfect-square test find it."""
@@ -256,11 +262,26 @@ def square_free(n: int) -> tuple[int, int]:
         side = prod(int(p) ** (exponent // 2) for p, exponent in fmpz(n).factor() if exponent > 1)
         return side, n // (side * side)
     side = 1
+    if n.bit_length() > SEARCHED:
+        small, rest = gcd(n % SMALL_PRIMES, SMALL_PRIMES), n
+        for prime, _ in fmpz(small).factor() if small > 1 else ():
+            rest, exponent = _without(rest, int(prime))
+            side *= int(prime) ** (exponent // 2)
+        side *= int(fmpz(rest).isqrt()) if fmpz(rest).is_square() else 1
+        return side, n // (side * side)
     for factor, exponent in fmpz(n).factor_smooth(12):
         base = fmpz(factor)
         # The last factor may be composite, and a square.
         side *= int(base.isqrt() ** exponent if base.is_square() else base ** (exponent // 2))
     return side, n // (side * side)
+
+
+def _without(n: int, p: int) -> tuple[int, int]:
+    """A number without a factor, and how often it held it, by a few divisions for each bit of that."""
+    if n % p:
+        return n, 0
+    rest, squares = _without(n // p, p * p)
+    return (rest, 2 * squares + 1) if rest % p else (rest // p, 2 * squares + 2)
 
 
 def rational_sqrt(q: fmpq) -> fmpq | None:
