@@ -17,6 +17,7 @@ from weakref import WeakValueDictionary
 from flint import arb, fmpq, fmpz
 
 from exactacq.numbers.precision import LOCK, workprec
+from exactacq.numbers.rationals import without
 from exactacq.numbers.root_isolation import refined
 
 if TYPE_CHECKING:
@@ -265,7 +266,7 @@ def square_free(n: int) -> tuple[int, int]:
     if n.bit_length() > SEARCHED:
         small, rest = gcd(n % SMALL_PRIMES, SMALL_PRIMES), n
         for prime, _ in fmpz(small).factor() if small > 1 else ():
-            rest, exponent = _without(rest, int(prime))
+            rest, exponent = without(rest, int(prime))
             side *= int(prime) ** (exponent // 2)
         side *= int(fmpz(rest).isqrt()) if fmpz(rest).is_square() else 1
         return side, n // (side * side)
@@ -274,14 +275,6 @@ def square_free(n: int) -> tuple[int, int]:
         # The last factor may be composite, and a square.
         side *= int(base.isqrt() ** exponent if base.is_square() else base ** (exponent // 2))
     return side, n // (side * side)
-
-
-def _without(n: int, p: int) -> tuple[int, int]:
-    """A number without a factor, and how often it held it, by a few divisions for each bit of that."""
-    if n % p:
-        return n, 0
-    rest, squares = _without(n // p, p * p)
-    return (rest, 2 * squares + 1) if rest % p else (rest // p, 2 * squares + 2)
 
 
 def rational_sqrt(q: fmpq) -> fmpq | None:

@@ -182,11 +182,15 @@ def coprime_base(numbers: Iterable[int]) -> list[int]:
 
 def valuation(number: int, base: int) -> int:
     """How often a number other than 0 can be divided by *base*."""
-    exponent = 0
-    while number % base == 0:
-        number //= base
-        exponent += 1
-    return exponent
+    return without(number, base)[1]
+
+
+def without(number: int, base: int) -> tuple[int, int]:
+    """A number other than 0 without a factor, and how often it held that, by a few divisions a bit."""
+    if number % base:
+        return number, 0
+    rest, squares = without(number // base, base * base)
+    return (rest, 2 * squares + 1) if rest % base else (rest // base, 2 * squares + 2)
 
 
 def plain(value: fmpq) -> str:

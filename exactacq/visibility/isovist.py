@@ -21,10 +21,12 @@ from exactacq.geometry.geo import Geo, polygon
 from exactacq.geometry.intersections import signed_area
 from exactacq.geometry.points import Location, Point
 from exactacq.numbers.length import Length
+from exactacq.numbers.rationals import plain
 from exactacq.numbers.real import fmpq
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.ports import SVG, made
 from exactacq.scene.scene import Obstacle, Scene, radius_of
+from exactacq.scene.validation import place_text
 from exactacq.visibility.free_segment import is_free
 from exactacq.visibility.outline import ViewKind, ViewPiece, outline
 from exactacq.visibility.range_clip import Span
@@ -138,7 +140,7 @@ class Isovist:
         return Isovist, (self.scene, self.point, self.radius, self._view.own)
 
     def __repr__(self) -> str:
-        return f"<Isovist from {self.point} within {self.radius}>"
+        return f"<Isovist from {place_text(self.point)} within {plain(self.radius)}>"
 
 
 def isovist(scene: Scene, point: object, radius: object = None) -> Isovist:
