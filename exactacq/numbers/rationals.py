@@ -204,7 +204,8 @@ def plain(value: fmpq) -> str:
     if 2**twos * 5**fives != bottom:
         return f"{value.p}/{value.q}"
     places = max(twos, fives)
-    digits = str(abs(int(value.p)) * 10**places // bottom).rjust(places + 1, "0")
+    # Digits by flint: Python writes no number of more than 4300.
+    digits = str(fmpz(abs(int(value.p)) * 10**places // bottom)).rjust(places + 1, "0")
     point = len(digits) - places
     return ("-" if value < 0 else "") + digits[:point] + (f".{digits[point:]}" if places else "")
 
