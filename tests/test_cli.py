@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import json
 import os
-import pty
 import re
 import subprocess
 import sys
-import threading
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import pytest
+from terminals import on_a_terminal
 from typer.testing import CliRunner
 
 from exactacq import cli
@@ -454,31 +453,10 @@ def test_reader_that_stops_early_is_no_fault() -> None:
         assert running.wait(60) in (1, 2)
 
 
-def _read(terminal: int) -> bytes:
-    """What a terminal shows next; nothing once the other end is closed, which Linux says by an error."""
-    try:
-        return os.read(terminal, 65536)
-    except OSError:
-        return b""
-
-
 def test_progress_is_shown_on_a_terminal_only() -> None:
     """A terminal gets a bar on standard error, and standard output is the same as without."""
-    command = [sys.executable, "-m", "exactacq", "explore", "m9"]
-    outer, inner = pty.openpty()
-    with subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=inner, env={**os.environ, "TERM": "xterm"}
-    ) as running:
-        os.close(inner)
-        seen: list[bytes] = []
-        # The bar must be read while the command runs: a full terminal would stop it.
-        reader = threading.Thread(target=lambda: seen.extend(iter(lambda: _read(outer), b"")))
-        reader.start()
-        assert running.stdout is not None
-        out = running.stdout.read()
-    reader.join()
-    os.close(outer)
-    assert b"exploring" in b"".join(seen)
+    out, seen = on_a_terminal("explore", "m9")
+    assert b"exploring" in seen
     assert out.decode() == process("explore", "m9").stdout
 
 

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import os
-import pty
-import subprocess
-import sys
-import threading
 from collections.abc import Callable
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
 import pytest
+from terminals import on_a_terminal
 
 import exactacq as xa
 from exactacq.auditing.course import Course
@@ -83,26 +79,8 @@ def test_a_meter_never_tells_more_than_the_total() -> None:
 
 
 def test_a_terminal_sees_audits_and_drawings(tmp_path: Path) -> None:
-    outer, inner = pty.openpty()
     figure, page = tmp_path / "run.svg", tmp_path / "run.html"
     options = ["--audit", "--figure", str(figure), "--animate", str(page)]
-    command = [sys.executable, "-m", "exactacq", "explore", "circles", *options]
-    with subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=inner, env={**os.environ, "TERM": "xterm"}
-    ) as running:
-        os.close(inner)
-        seen: list[bytes] = []
-        reader = threading.Thread(target=lambda: seen.extend(iter(lambda: _read(outer), b"")))
-        reader.start()
-        assert running.stdout is not None
-        assert b"audit passed" in running.stdout.read()
-    reader.join()
-    os.close(outer)
-    assert all(word in b"".join(seen) for word in (b"exploring", b"drawing", b"auditing"))
-
-
-def _read(terminal: int) -> bytes:
-    try:
-        return os.read(terminal, 65536)
-    except OSError:
-        return b""
+    out, seen = on_a_terminal("explore", "circles", *options)
+    assert b"audit passed" in out
+    assert all(word in seen for word in (b"exploring", b"drawing", b"auditing"))
