@@ -13,9 +13,11 @@ import exactacq as xa
 from exactacq.geometry.points import Point
 from exactacq.kernel import line_walks
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.sensing import followed_lines
+from exactacq.sensing import complex_edges, followed_lines
 from exactacq.sensing.complex_edges import FamilySweeper
 from exactacq.sensing.followed_lines import FeatureLine, FollowedLine
+from exactacq.study.claims.model import Subject
+from exactacq.study.random_scenes import random_scene
 from exactacq.visibility.features import features
 from exactacq.visibility.rotational_sweep import pencil
 from exactacq.visibility.sensor_range import Range
@@ -115,3 +117,22 @@ def test_most_lines_are_told_of() -> None:
             count += 1
     assert len(told) == count
     assert sum(told) > 0.9 * count
+
+
+def told_pairs(sweeper: FamilySweeper) -> set[tuple[object, ...]]:
+    """All that single lines show within range: from which place of which edge, and of which edge what."""
+    lone = [line for e in range(len(sweeper.table.curves)) for line in sweeper.of(e).single_lines]
+    near = [line for line in lone if sweeper.range.order(line.place, line.points[0]) <= 0]
+    return {(line.edge, str(line.place), line.shown, *map(str, line.points)) for line in near}
+
+
+@pytest.mark.parametrize("name", ["squares", "a mill in a room", "sweep"])
+def test_one_feature_tells_what_all_would(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In the sweep, walls without a corner between them lie along a line that touches circles."""
+    scene = random_scene(Subject.SEED_SPREADER, 114) if name == "sweep" else SCENES[name]
+    table, range_ = EdgeTable(scene.obstacles), Range(fmpq(3))
+    found = told_pairs(FamilySweeper(table, range_))
+    monkeypatch.setattr(complex_edges, "_is_told_by_others", lambda *_: False)
+    every = told_pairs(FamilySweeper(table, range_))
+    assert found == every
+    assert len(every) > 20
