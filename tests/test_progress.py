@@ -11,8 +11,7 @@ import pytest
 from terminals import on_a_terminal
 
 import exactacq as xa
-from exactacq.auditing.course import Course
-from exactacq.output.meter import Meter
+from exactacq.progress import Meter
 
 Told = list[tuple[int, int]]
 
@@ -39,6 +38,24 @@ def test_a_long_visit_is_told_edge_by_edge() -> None:
     assert told == [(k, edges) for k in range(1, edges + 1)]
 
 
+def test_a_sweep_tells_pieces_of_the_m_line_and_edges_around_obstacles() -> None:
+    """The border takes an edge from the wall: there are three to walk."""
+    walls = [xa.Polygon([(3, -1), (5, -1), (5, 7), (3, 7)]), xa.Circle((8, 4), 1)]
+    run = None
+
+    def sweep(progress: Callable[[int, int], None]) -> None:
+        nonlocal run
+        run = xa.seed_spreader(xa.Scene(walls, terrain=xa.Terrain(12, 10)), radius=4, progress=progress)
+
+    told = told_by(sweep)
+    assert run is not None and len(run.visits) == 2
+    edges = 3 + len(run.scene.obstacles[1].edges)  # of the wall and of the disc
+    every = 7 + edges  # four lines and three joints
+    # The wall stands on the end of a line and on the joint after it: these two are behind the robot at once.
+    assert [done for done, _ in told] == [1, 2, 3, 4, 5, *range(7, every + 1)]
+    assert told[-1] == (every, every)
+
+
 @pytest.mark.parametrize("name", ["figure2", "case3"])
 def test_an_audit_tells_how_far_it_is(name: str) -> None:
     run = xa.sightseer(xa.load(name)) if name == "figure2" else xa.seed_spreader(xa.load(name))
@@ -57,13 +74,12 @@ def test_an_audit_with_progress_checks_the_same() -> None:
 
 def test_parts_that_are_shorter_than_said_are_closed() -> None:
     def work(progress: Callable[[int, int], None]) -> None:
-        course = Course(progress, [2, 3, 1])
-        course.step()
-        course.close()
-        course.close()
-        course.step()
-        course.step()
-        course.close()
+        meter = Meter(progress, 2, 3, 1)
+        meter.add()
+        meter.close()
+        meter.close()
+        meter.add(2)
+        meter.close()
 
     assert told_by(work) == [(1, 6), (2, 6), (5, 6), (6, 6)]
 
@@ -73,7 +89,7 @@ def test_a_meter_never_tells_more_than_the_total() -> None:
         meter = Meter(progress, 3)
         meter.add(2)
         meter.add(5)
-        meter.finish()
+        meter.close()
 
     assert told_by(work) == [(2, 3), (3, 3)]
 

@@ -18,7 +18,6 @@ from typing import Any
 
 from exactacq.auditing.bounds import check_bounds, sightseer_values, spreader_values
 from exactacq.auditing.comparisons import AuditedBody
-from exactacq.auditing.course import Course, Progress
 from exactacq.auditing.events import check_events, check_sights
 from exactacq.auditing.ground import Field, check_components
 from exactacq.auditing.knowledge import MOMENTS, Knowledge
@@ -28,6 +27,7 @@ from exactacq.auditing.seed_spreader import Replay
 from exactacq.auditing.sightseer import MOVES, check_ending, check_links, check_moves
 from exactacq.auditing.visibility import World
 from exactacq.errors import AuditError
+from exactacq.progress import Meter, Progress
 from exactacq.sensing.event import Ending, EventKind
 from exactacq.strategies.run import Run, SeedSpreaderRun, SightseerRun
 
@@ -51,15 +51,15 @@ def audit(run: Run, *, samples: int = 64, seed: int = 0, progress: Progress | No
     if run.ending is Ending.UNDECIDED:
         raise ValueError("no audit for a run that was given up: its strategy did not end")
     rng = Random(seed)
-    course = Course(progress, [len(run.path), len(run.events), MOMENTS + 1, 5 * samples // 2, samples])
+    meter = Meter(progress, len(run.path), len(run.events), MOMENTS + 1, 5 * samples // 2, samples)
     world, field = World(run.scene), None
     if isinstance(run, SeedSpreaderRun):
         field = Field(run, world)
         check_components(run, field)
     bodies = list(_bodies(run, world))
     check_continuity(run)
-    tracks = check_pieces(run, world, bodies, field, course)
-    course.close()
+    tracks = check_pieces(run, world, bodies, field, meter)
+    meter.close()
     check_length(run)
     check_events(run, rng, MOVES if field is None else SWEEP_MOVES)
     if isinstance(run, SightseerRun):
@@ -68,19 +68,19 @@ def audit(run: Run, *, samples: int = 64, seed: int = 0, progress: Progress | No
         values = sightseer_values(run, world)
     else:
         assert field is not None
-        Replay(run, field, bodies, tracks, rng).check(course)
+        Replay(run, field, bodies, tracks, rng).check(meter)
         values = spreader_values(run, field)
     check_sights(run)
     check_bounds(run, values)
     _check_accounts(run)
-    course.close()
-    knowledge = Knowledge(run, world, bodies, tracks, rng, course)
+    meter.close()
+    knowledge = Knowledge(run, world, bodies, tracks, rng, meter)
     knowledge.check_maps()
-    course.close()
+    meter.close()
     knowledge.check_targets(samples)
-    course.close()
+    meter.close()
     knowledge.check_in_sight(samples)
-    course.close()
+    meter.close()
 
 
 def _bodies(run: Run, world: World) -> Iterator[AuditedBody]:

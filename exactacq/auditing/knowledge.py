@@ -23,13 +23,13 @@ from exactacq.auditing.comparisons import (
     refined,
     same,
 )
-from exactacq.auditing.course import Course
 from exactacq.auditing.visibility import Viewpoints, World, point_at, point_near, visible
 from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import rational
+from exactacq.progress import Meter
 from exactacq.sensing.event import SENSED, Event, EventKind
 from exactacq.strategies.run import Run
 
@@ -58,9 +58,9 @@ class Knowledge:
         bodies: Sequence[AuditedBody],
         tracks: Tracks,
         rng: Random,
-        course: Course,
+        meter: Meter,
     ) -> None:
-        self.run, self.world, self.tracks, self.rng, self.course = run, world, tracks, rng, course
+        self.run, self.world, self.tracks, self.rng, self.meter = run, world, tracks, rng, meter
         self.bodies = bodies
         self.on = [None if track is None else track.edge for track in tracks]
         self.lookout = Viewpoints(world, run.radius, [piece.curve for piece in run.path], self.on)
@@ -88,7 +88,7 @@ class Knowledge:
                     )
             if sorted(chart.seen) != sorted((*chart.acquired, *chart.incomplete)):
                 raise AuditError(f"{name}: seen obstacles are {list(chart.seen)}")
-            self.course.step()
+            self.meter.add()
 
     def _check_parts(self, name: str, chart: Any, body: AuditedBody) -> str:
         """Parts of one obstacle are on their edges, in order and apart; returns what they make of it."""
@@ -134,7 +134,7 @@ class Knowledge:
                 if seen and not chart.knows(i, target):
                     raise AuditError(f"{name} lacks {where}, which the path sees from piece {first}")
             self._check_sight(i, target, first, where)
-            self.course.step()
+            self.meter.add()
 
     def _check_sight(self, i: int, target: Point, first: int | None, where: str) -> None:
         """A point is not seen before its obstacle's sight, and not after it is acquired."""
@@ -202,7 +202,7 @@ class Knowledge:
         """At sampled places between events, obstacles are in sight if and only if the events say so."""
         lookouts: dict[int, Viewpoints] = {}
         for _ in range(samples):
-            self.course.step()
+            self.meter.add()
             place = self._anywhere()
             if place is None:
                 continue

@@ -15,11 +15,11 @@ from exactacq.auditing.comparisons import (
     place_text,
     same,
 )
-from exactacq.auditing.course import Course
 from exactacq.auditing.ground import Field
 from exactacq.auditing.visibility import World
 from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Curve
+from exactacq.progress import Meter
 from exactacq.strategies.run import Run
 
 
@@ -35,7 +35,7 @@ def check_continuity(run: Run) -> None:
 
 
 def check_pieces(
-    run: Run, world: World, bodies: Sequence[AuditedBody], field: Field | None, course: Course
+    run: Run, world: World, bodies: Sequence[AuditedBody], field: Field | None, meter: Meter
 ) -> Tracks:
     """Straight pieces stay out of interiors, boundary pieces keep to one edge, which is returned.
 
@@ -58,7 +58,7 @@ def check_pieces(
         if field is not None and not (field.contains(piece.start) and field.contains(piece.end)):
             raise AuditError(f"piece {k} leaves the terrain")
         tracks.append(track)
-        course.step()
+        meter.add()
     return tracks
 
 

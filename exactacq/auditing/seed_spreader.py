@@ -26,7 +26,6 @@ from exactacq.auditing.comparisons import (
     rational_on,
     same,
 )
-from exactacq.auditing.course import Course
 from exactacq.auditing.ground import CrossingPoint, Field, Stretch
 from exactacq.auditing.knowledge import MOMENTS, is_whole, point_on
 from exactacq.auditing.visibility import Viewpoints, visible
@@ -36,6 +35,7 @@ from exactacq.geometry.intersections import contacts, nearest_points
 from exactacq.geometry.points import Point
 from exactacq.numbers.precision import workprec
 from exactacq.numbers.real import Real
+from exactacq.progress import Meter
 from exactacq.sensing.event import Ending, Event, EventKind, Reason
 from exactacq.strategies.run import Diversion, SeedSpreaderRun
 
@@ -77,13 +77,13 @@ class Replay:
     def name(self, event: Event) -> str:
         return event_name(self.run, event)
 
-    def check(self, course: Course) -> None:
+    def check(self, meter: Meter) -> None:
         """Follow the M-line to its end, or to where the run is trapped."""
         if not same(self.here, self.field.pieces[0].start):
             raise AuditError(f"the run starts at {place_text(self.here)}, not in the SW corner")
         trapped = False
         while self.upcoming.kind is not EventKind.STOP:
-            course.step()
+            meter.add()
             self._advance(self.upcoming)
             if self.upcoming.kind in (EventKind.HIT, EventKind.CROSS):
                 trapped = not self._meet()

@@ -12,7 +12,7 @@ from exactacq.strategies.options import Strategy, TargetChoice
 if TYPE_CHECKING:
     from flint import fmpq
 
-    from exactacq.output.meter import Progress
+    from exactacq.progress import Progress
     from exactacq.scene.scene import Scene
     from exactacq.strategies.run import Run
 

@@ -54,14 +54,16 @@ class Robot:
         self.position = point
 
     def circumnavigate(self, step: Callable[[], None] = lambda: None) -> None:
-        """Walk the whole present boundary and mark the obstacle visited; *step* is called after each piece.
+        """Walk the whole present boundary and mark the obstacle visited; *step* is called for each edge.
 
         The robot comes back to where it is. On a boundary with two ends it walks to the last one and, unless
         it began there, to the first one, where it stays.
         """
         assert isinstance(self.at, int)
         curves = self._boundary().loop(self.position)
-        self._walk(curves, step)
+        edges = len(self._memory.bodies[self.at].edges)
+        self._walk(curves[:edges], step)
+        self._walk(curves[edges:])  # the rest of the edge where it began; or back to the first end
         self.position = curves[-1].end
         self.visited[self.at] = None
 

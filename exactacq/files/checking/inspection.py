@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
@@ -25,6 +25,7 @@ from exactacq.files.sources import NamedSource
 from exactacq.geometry.intersections import ContactKind
 from exactacq.geometry.points import Point
 from exactacq.numbers.rationals import nearest_float, plain
+from exactacq.progress import Progress
 from exactacq.scene.scene import Obstacle, Scene
 from exactacq.scene.shapes import HasGeoInterface
 from exactacq.scene.validation import LIMIT, Violation
@@ -134,7 +135,7 @@ def inspect(
     name: str | os.PathLike[str] | HasGeoInterface,
     *,
     start: Point | Sequence[object] | None = None,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
     **options: Any,
 ) -> Inspection:
     """What a file or gallery scene holds, and all that is wrong with it; no start is needed.

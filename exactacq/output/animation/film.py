@@ -21,8 +21,8 @@ from exactacq.files.whole_files import FILMS, check_output, write_whole
 from exactacq.numbers.length import Length
 from exactacq.numbers.rationals import rational
 from exactacq.output.figures.draw import png
-from exactacq.output.meter import Progress
 from exactacq.output.vocabulary import Labels, colours, rgb
+from exactacq.progress import Progress
 from exactacq.sensing.event import Event
 from exactacq.strategies.run import Run
 

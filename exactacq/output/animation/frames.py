@@ -16,7 +16,7 @@ from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.numbers.rationals import rational
-from exactacq.output.meter import Meter, Progress
+from exactacq.progress import Meter, Progress
 from exactacq.sensing.event import Event, EventKind
 from exactacq.strategies.run import Run
 

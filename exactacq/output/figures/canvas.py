@@ -24,7 +24,6 @@ from matplotlib.transforms import Affine2D
 
 from exactacq.numbers.length import Length
 from exactacq.output.figures.sweep import Detour, SweptTerrain, window
-from exactacq.output.meter import Meter
 from exactacq.output.regions import Region, Steps, closed, part
 from exactacq.output.snapshot import Snapshot
 from exactacq.output.vocabulary import (
@@ -50,6 +49,7 @@ from exactacq.output.vocabulary import (
     Word,
     missed_word,
 )
+from exactacq.progress import Meter
 from exactacq.scene.edge_table import Floats
 from exactacq.scene.scene import Scene
 from exactacq.sensing.event import Event, EventKind

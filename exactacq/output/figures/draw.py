@@ -15,8 +15,8 @@ from exactacq.files.whole_files import FIGURES, check_output, write_whole
 from exactacq.numbers.length import Length
 from exactacq.output.figures.canvas import Canvas, steps
 from exactacq.output.figures.layout import in_axes, inches, on_page
-from exactacq.output.meter import Meter, Progress
 from exactacq.output.vocabulary import Labels
+from exactacq.progress import Meter, Progress
 from exactacq.scene.scene import Scene
 from exactacq.sensing.event import Event
 from exactacq.strategies.run import Run

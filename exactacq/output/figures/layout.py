@@ -43,7 +43,7 @@ def on_page(drawings: Sequence[Canvas], labels: Labels) -> Figure:
     for setting in settings:
         setting.lay_out(page, left, below - setting.below)
         left += setting.full
-    drawings[-1].meter.finish()
+    drawings[-1].meter.close()
     return page
 
 
@@ -59,7 +59,7 @@ def in_axes(drawing: Canvas, axes: Any, labels: Labels) -> None:
             drawing.legend.values(), drawing.legend.keys(), loc="upper center", fontsize=7.5,
             bbox_to_anchor=(0.5, -0.1), ncol=3, **LEGEND,
         )  # fmt: skip
-    drawing.meter.finish()
+    drawing.meter.close()
 
 
 def inches(axes: Any) -> tuple[float, float]:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import cmp_to_key
 
 from exactacq.errors import InvalidScene, Undecided
 from exactacq.geometry.points import Point, distance_sq
+from exactacq.progress import Meter, Progress
 from exactacq.scene.bounding import rectangular_room
 from exactacq.scene.scene import Scene, radius_of
 from exactacq.scene.terrain_components import Ground, ground_of
@@ -19,9 +19,6 @@ from exactacq.strategies.run import Diversion, SeedSpreaderRun
 from exactacq.strategies.seed_spreader.losses import Line, Loss, known
 from exactacq.strategies.seed_spreader.range_thresholds import nearest_of, nearest_point
 from exactacq.strategies.seed_spreader.robot import Hit, SeedSpreaderRobot
-
-Progress = Callable[[int, int], None]
-"""Called with the number of the M-line's straight pieces behind the robot, and of all."""
 
 
 class _Stuck(Exception):
@@ -47,8 +44,8 @@ def seed_spreader(
     which it sees, defaults to the scene's own and is rational. With *lookahead* an obstacle is about to be
     lost where, by the map, it cannot be seen again from the rest of the line; without, as soon as it goes out
     of sight or out of reach. A diversion leads to the nearest known point of the obstacle, with *target*
-    "visible" to the nearest visible one. *progress* is called with the number of straight pieces of the
-    M-line behind the robot, and of all.
+    "visible" to the nearest visible one. *progress* is called with the number of steps done, and of all: a
+    step is a straight piece of the M-line that is behind the robot, or a boundary edge that it circled.
 
     An enclosure that is the terrain's rectangle counts as its border; without a terrain, a rectangular one is
     it. Numbers of obstacles in the run mean components that the terrain cuts out of obstacles
@@ -75,14 +72,15 @@ def seed_spreader(
         raise InvalidScene(
             [f"the start {place_text(scene.start)} is not the terrain's SW corner {place_text(corner)}"]
         )
-    return _Spreader(SeedSpreaderRobot(scene, ground, reach), lookahead, choice, progress).run(scene, ground)
+    robot = SeedSpreaderRobot(scene, ground, reach)
+    edges = sum(len(component.edges) for component in ground.components)
+    meter = Meter(progress, len(robot.mline.pieces) + edges)
+    return _Spreader(robot, lookahead, choice, meter).run(scene, ground)
 
 
 class _Spreader:
-    def __init__(
-        self, robot: SeedSpreaderRobot, lookahead: bool, target: TargetChoice, progress: Progress | None
-    ) -> None:
-        self.robot, self.lookahead, self.target, self.progress = robot, lookahead, target, progress
+    def __init__(self, robot: SeedSpreaderRobot, lookahead: bool, target: TargetChoice, meter: Meter) -> None:
+        self.robot, self.lookahead, self.target, self.meter = robot, lookahead, target, meter
         self.diversions: list[Diversion] = []
         self.encounters: list[int] = []
         self.again: list[int] = []
@@ -102,14 +100,15 @@ class _Spreader:
         robot = self.robot
         try:
             while True:
+                before = robot.piece
                 self._follow()
-                if self.progress is not None:
-                    self.progress(robot.piece + 1, len(robot.mline.pieces))
+                self.meter.add(robot.piece + 1 - before)
                 if not robot.turn():
                     break
             robot.mark(EventKind.STOP, None, ending=Ending.END_OF_M_LINE)  # 1(a)
         except _Stuck as stuck:
             robot.mark(EventKind.STOP, stuck.obstacle, ending=stuck.ending)
+        self.meter.close()
 
     # -- step 1: along the M-line ------------------------------------------------------------------
 
@@ -146,7 +145,7 @@ class _Spreader:
         if met:
             self.again.append(hit.obstacle)
         else:
-            robot.circumnavigate()
+            robot.circumnavigate(self.meter.add)
         crossing = robot.leave_point(hit)
         if crossing is None:
             raise _Stuck(Ending.TRAPPED, hit.obstacle)
@@ -178,7 +177,7 @@ class _Spreader:
         robot.head_for(aim)
         self._approach(loss.obstacle)
         aim = robot.position
-        robot.circumnavigate()
+        robot.circumnavigate(self.meter.add)
         robot.walk_to(aim)
         robot.mark(EventKind.LEAVE, loss.obstacle, occasion=Occasion.DIVERSION)
         robot.head_back()
@@ -206,7 +205,7 @@ class _Spreader:
             if k == obstacle and not is_known:
                 return
             if not is_known:
-                robot.circumnavigate()
+                robot.circumnavigate(self.meter.add)
             crossing = robot.pass_by(k)
             if crossing is None:
                 raise _Stuck(Ending.WAY_CLOSED, k)

@@ -3,13 +3,14 @@ backtrack by a depth-first stack."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cmp_to_key
 
 from exactacq.errors import InvalidScene, Undecided
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
+from exactacq.progress import Meter, Progress
 from exactacq.scene.scene import Scene, radius_of, start_of
 from exactacq.sensing.event import Ending, EventKind, Occasion
 from exactacq.strategies.bounds import with_bounds
@@ -17,9 +18,6 @@ from exactacq.strategies.gc_pause import uncollected
 from exactacq.strategies.run import SightseerRun, TreeLink
 from exactacq.strategies.sightseer.robot import SightseerRobot
 from exactacq.visibility.links import START, Link, Node, lexicographic
-
-Progress = Callable[[int, int], None]
-"""Called with the number of obstacles visited so far and the number in the scene."""
 
 
 def sightseer(
@@ -34,7 +32,7 @@ def sightseer(
     The robot goes to the nearest obstacle that it sees, walks around it, goes on to the nearest unvisited one
     in sight of its boundary, and backtracks where there is none. *radius*, up to which it sees, and *start*
     default to the scene's own; both are rational. *progress* is called with the number of boundary edges
-    circled so far, at most once for each, and the number in the scene.
+    circled so far and the number in the scene, at the end with that number twice.
 
     Raises `InvalidScene` if radius or start is missing or illegal, or if an obstacle meets the terrain's
     border, `FormatError` if they are no number and no point, and `Undecided` if an exact comparison is beyond
@@ -68,9 +66,8 @@ def explored_by(robot: SightseerRobot, scene: Scene, progress: Progress | None =
 
 class _Sightseer:
     def __init__(self, robot: SightseerRobot, progress: Progress | None, scene: Scene) -> None:
-        self.robot, self.progress = robot, progress
-        self.edges = [len(obstacle.edges) for obstacle in scene.obstacles]
-        self.circled = 0
+        self.robot, self.obstacles = robot, len(scene.obstacles)
+        self.meter = Meter(progress, sum(len(obstacle.edges) for obstacle in scene.obstacles))
         self.stack: list[tuple[Node, Point, Point]] = []
         self.tree: dict[int, TreeLink] = {}
         self.depth = 0
@@ -97,6 +94,7 @@ class _Sightseer:
                 self._backtrack()  # 2
         at = robot.at if isinstance(robot.at, int) else None
         robot.mark(EventKind.STOP, at, ending=self._ending())
+        self.meter.close()
 
     def _advance(self, link: Link) -> None:
         robot = self.robot
@@ -110,15 +108,7 @@ class _Sightseer:
         robot.linear_navigate(link.target, hit)
         self.tree[link.target] = TreeLink(source, link.target, leave, hit, Length(link.length), 1)
         robot.mark(EventKind.HIT, link.target, occasion=Occasion.ADVANCE, other=source)
-        last = self.circled + self.edges[link.target]
-        robot.circumnavigate(lambda: self._circle(min(self.circled + 1, last)))
-        self._circle(last)
-
-    def _circle(self, edges: int) -> None:
-        """So many edges are circled."""
-        if self.progress is not None and edges > self.circled:
-            self.progress(edges, sum(self.edges))
-        self.circled = edges
+        robot.circumnavigate(self.meter.add)
 
     def _backtrack(self) -> None:
         robot = self.robot
@@ -148,7 +138,7 @@ class _Sightseer:
 
     def _ending(self) -> Ending:
         robot = self.robot
-        if len(robot.visited) == len(self.edges):
+        if len(robot.visited) == self.obstacles:
             return Ending.ALL_VISITED
         return Ending.BACK_AT_START if robot.at == START else Ending.NOTHING_UNVISITED
 
