@@ -368,7 +368,7 @@ class TestGraph:
     def test_description(self, terrain: Terrain, rng: Random) -> None:
         law_of_description(terrain, rng, runs=False)
 
-    @EXAMPLES
+    @settings(EXAMPLES, max_examples=EXAMPLES.max_examples // 2)
     @given(scenes(POLYGONS, columns=2, rows=2, rooms=False, shift=False))
     def test_all_candidates(self, terrain: Terrain) -> None:
         law_of_brute_force(replace(terrain, shapes=terrain.shapes[:3]))

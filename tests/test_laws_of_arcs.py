@@ -177,7 +177,7 @@ def test_images(move: Similarity, terrain: Terrain) -> None:
     law_of_moving(terrain, move)
 
 
-@EXAMPLES
+@settings(EXAMPLES, max_examples=EXAMPLES.max_examples // 2)
 @given(terrains, rngs)
 def test_another_order_of_obstacles(terrain: Terrain, rng: Random) -> None:
     law_of_numbering(terrain, rng)

@@ -409,7 +409,7 @@ def in_hull(place: np.ndarray, points: np.ndarray) -> bool:
 def test_circles_beside_a_hull_are_told() -> None:
     rng = np.random.default_rng(4)
     beside = 0
-    for _ in range(60):
+    for _ in range(25):
         points = rng.integers(-5, 6, (6, 2)).astype(float)
         places, sizes = rng.integers(-9, 10, (20, 2)) / 2, rng.integers(0, 3, 20) / 2 + 1e-9
         for place, size, near in zip(places, sizes, near_hull(places, points, sizes), strict=True):
@@ -418,7 +418,7 @@ def test_circles_beside_a_hull_are_told() -> None:
             meets = in_hull(place, points) or any(in_hull(p, points) for p in rim)
             assert near or not meets
             beside += not near
-    assert beside > 300
+    assert beside > 120
 
 
 @pytest.mark.parametrize("points", [[(2, 3)] * 8, [(0, 0)] * 4 + [(4, 4)] * 4])

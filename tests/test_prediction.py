@@ -349,7 +349,7 @@ def _mirrored(curve: Curve, across: int, up: int) -> Curve:
 
 def test_the_sampler_agrees() -> None:
     counts: Counter[bool] = Counter()
-    for seed in range(100, 150):
+    for seed in range(100, 130):
         targets, others, radius, start, stop = _scene(seed)
         answer = sees(targets, others, radius, start, stop)
         sampler = _Sampler(targets, others, float(radius))
@@ -358,7 +358,7 @@ def test_the_sampler_agrees() -> None:
         ys = (y for n in steps for y in np.linspace(float(stop), float(start), n)[:-1])
         assert answer == any(sampler.sees(y) for y in ys), seed
         counts[answer] += 1
-    assert min(counts[True], counts[False]) > 15, counts
+    assert min(counts[True], counts[False]) > 8, counts
 
 
 class _Sampler:
