@@ -16,6 +16,7 @@ from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing import complex_edges, followed_lines
 from exactacq.sensing.complex_edges import FamilySweeper
 from exactacq.sensing.followed_lines import FeatureLine, FollowedLine
+from exactacq.sensing.line_points import Role
 from exactacq.study.claims.model import Subject
 from exactacq.study.random_scenes import random_scene
 from exactacq.visibility.features import features
@@ -38,6 +39,8 @@ def scenes() -> dict[str, xa.Scene]:
     for seed in range(6):
         terrain = (degenerate_terrain if seed % 2 else arc_terrain)(Random(seed))
         found[f"random {seed}"] = build(terrain.shapes)
+    # Smooth joints, cusps, arcs on one circle, circles in parts.
+    found |= {f"arcs {seed}": random_scene(Subject.SIGHTSEER, seed) for seed in (3, 4, 9, 14, 20003)}
     return found
 
 
@@ -70,7 +73,7 @@ def test_names_tell_what_exact_contacts_tell(name: str, monkeypatch: pytest.Monk
     scene = SCENES[name]
     table = EdgeTable(scene.obstacles)
     told = grazing = blocked = 0
-    for radius in (fmpq(3, 2), fmpq(7, 2), fmpq(17, 2)):
+    for radius in (fmpq(149, 100), fmpq(353, 100), fmpq(851, 100)):
         sweeper = FamilySweeper(table, Range(radius))
         for line in lines(sweeper, sweeper.range.above):
             by_names = sweeper.follower.follow(line)
@@ -97,9 +100,10 @@ class Untold:
         pass
 
 
-def test_most_lines_are_told_of() -> None:
+@pytest.mark.parametrize("name", ["squares", "slots", "arcs 14"])
+def test_most_lines_are_told_of(name: str) -> None:
     """Else the exact way would hide what the floats get wrong."""
-    table = EdgeTable(SCENES["squares"].obstacles)
+    table = EdgeTable(SCENES[name].obstacles)
     sweeper = FamilySweeper(table, Range(fmpq(8)))
     count = 0
     told = []
@@ -136,3 +140,38 @@ def test_one_feature_tells_what_all_would(name: str, monkeypatch: pytest.MonkeyP
     every = told_pairs(FamilySweeper(table, range_))
     assert found == every
     assert len(every) > 20
+
+
+def test_a_line_that_enters_its_own_obstacle_at_the_contact() -> None:
+    """The tangent of a cusp of free space goes on inside, where it met nothing else in reach."""
+    arrow = xa.Outline([(0, 2, 1), (0, 0, 1), (0, -2), (2, 0)])
+    sweeper = FamilySweeper(EdgeTable(xa.Scene([arrow]).obstacles), Range(fmpq(3, 2)))
+    tangents = [
+        line
+        for line in lines(sweeper, sweeper.range.above)
+        if line.feature.round and line.sector.touch(line.t)[0] == Point(0, 0)
+    ]
+    assert tangents
+    for line in tangents:
+        for walked in (line_walks.WalkedLine, Untold):
+            with pytest.MonkeyPatch.context() as patch:
+                patch.setattr(followed_lines, "WalkedLine", walked)
+                found = sweeper.follower.follow(line)
+            forward = line.sector.touch(line.t)[1].x > 0
+            assert found.is_blocked == (not forward, forward)
+
+
+def test_edges_that_are_crossed_almost_in_one_place() -> None:
+    """The line x = 8 enters an obstacle at y = 2 and leaves it 10^-18 below. The first of the two ended the
+    walk, though their order was open."""
+    hair = fmpq(1, 10**9)
+    bay = xa.Outline([(6, 0), (8 + hair, 0, -1), (8 + hair, 2), (6, 2)])
+    scene = xa.Scene([xa.Circle((fmpq(13, 2), fmpq(9, 2)), fmpq(3, 2)), bay])
+    sweeper = FamilySweeper(EdgeTable(scene.obstacles), Range(fmpq(851, 100)))
+    entered = []
+    for line in lines(sweeper, sweeper.range.above):
+        contact, direction = line.sector.touch(line.t)
+        if contact == Point(8, fmpq(9, 2)):
+            end = sweeper.follower.follow(line).end(Role.AHEAD if direction.y < 0 else Role.BEHIND)
+            entered.append(end is not None and end.pin[0] == Point(8, 2))
+    assert entered and all(entered)

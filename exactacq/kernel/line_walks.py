@@ -2,7 +2,7 @@
 
 Which vertices the line passes and which arcs it touches is known by name. Floats with bounds (see
 `kernel.bounded`) tell the rest: on which sides of the line other vertices lie, where it crosses edges, and in
-which order it meets all this. Where one of these is open, or an arc ends on the line, nothing is told.
+which order it meets all this. Where one of these is open nothing is told.
 """
 
 from __future__ import annotations
@@ -19,6 +19,11 @@ from exactacq.kernel.lines import Line, meets_straight, rounding, side_of
 TOUCHED: Final = -1
 CROSSED: Final = -2
 """How an edge is met that is not met at a vertex."""
+AHEAD: Final = 0
+LEFT: Final = 1
+BEHIND: Final = 2
+RIGHT: Final = 3
+"""Where an edge leaves from a vertex on the line: along it, or to a side; in the order of turning left."""
 Hit = tuple[int, int]
 """An edge that is met, and the vertex where it is met, or how it is."""
 
@@ -37,7 +42,8 @@ class WalkedLine:
     """A line, followed from its contact ``ahead`` and ``behind``: what it meets, nearest first.
 
     The last of that blocks the line, if it ``is_blocked`` there. *passed* are the vertices that the line
-    passes, *touched* the arcs. The contact is the vertex *own* or, with *is_round*, on the arc *own*. What
+    passes, *touched* arcs on the circles that it touches; *circles* has the first arc on the circle of each
+    arc. The contact is the vertex *own* or, with *is_round*, on the arc *own*. What
     is farther than *reach* is left out, but for the end of an edge along the line. If floats leave anything
     open, the line is not told of: ``is_told`` is false.
     """
@@ -50,13 +56,18 @@ class WalkedLine:
         line: Line,
         passed: set[int],
         touched: set[int],
+        circles: list[int],
         own: int,
         is_round: bool,
         reach: float,
     ) -> None:
         self._images, self._curves, self._line = images, curves, line
-        self._passed, self._touched = passed, touched
-        self._own, self._is_round, self._reach = own, is_round, reach
+        self._passed, self._circles = passed, circles
+        self._touched = {circles[e] for e in touched}
+        self._reach = reach
+        # The contact of an arc that ends there is a vertex like others.
+        end = self._passed_end(own) if is_round else own
+        self._own, self._is_round = (own, True) if end == NOTHING else (end, False)
         self._size = root(*dot(line[2], line[3], line[5], line[2], line[3], line[5]))
         self._sides: dict[int, int] = {}
         self._at: dict[int, GrazedPlace] = {}
@@ -73,8 +84,11 @@ class WalkedLine:
                 self._meet_round(e)
             if not self.is_told:
                 return
-        self.is_blocked_ahead = self._follow(1, self.ahead)
-        self.is_blocked_behind = self._follow(-1, self.behind)
+        at_once = (
+            (False, False) if self._is_round else (self._blocks(self._own, 1), self._blocks(self._own, -1))
+        )
+        self.is_blocked_ahead = at_once[0] or self._follow(1, self.ahead)
+        self.is_blocked_behind = at_once[1] or self._follow(-1, self.behind)
 
     # -- what is met -----------------------------------------------------------------------------
 
@@ -92,23 +106,62 @@ class WalkedLine:
             self._add(far, bound, CROSSED, e)
 
     def _meet_round(self, e: int) -> None:
-        if e not in self._touched:
-            for far, bound in self._crossings(e):
-                self._add(far, bound, CROSSED, e)
+        v, w = e, self._images.following[e]
+        if self._circles[e] in self._touched:
+            end = self._passed_end(e)
+            if end != NOTHING:
+                self._add_vertex(end, e)
+            elif not (self._is_round and e == self._own):
+                self._touch(e)
             return
-        if not self._images.full[e] and (self._side(e) == 0 or self._side(self._images.following[e]) == 0):
-            self.is_told = False  # At an end of the arc one place would have two names.
-        elif not (self._is_round and e == self._own):
-            curve = self._curves[e]
-            foot, bound = self._along(curve.x, curve.y)
-            side = self._beyond_chord(e, foot, bound)
-            if side > 0:
-                self._add(foot, bound, TOUCHED, e)
-            self.is_told = self.is_told and side != 0
+        foot, bound = self._along(self._curves[e].x, self._curves[e].y)
+        half, half_bound = self._half_chord(e)
+        if half < 0.0:
+            return
+        is_whole = self._images.full[e]
+        first, last = (1, 1) if is_whole else (self._side(v), self._side(w))
+        if not self.is_told:
+            return
+        if first and last:
+            self._cross(e, *total(foot, bound, -half, half_bound))
+            self._cross(e, *total(foot, bound, half, half_bound))
+            return
+        if first == 0:
+            self._add_vertex(v, e)
+        if last == 0:
+            self._add_vertex(w, e)
+        if first or last:
+            # The circle is met once more, as far from the foot on its other side.
+            far, far_bound = self._vertex_along(w if first else v)
+            self._cross(e, *total(2.0 * foot, 2.0 * bound, -far, far_bound))
 
-    def _crossings(self, e: int) -> list[tuple[float, float]]:
-        """Where the line crosses an arc that it does not touch, as far as its circle is met on the arc."""
-        images, curve = self._images, self._curves[e]
+    def _passed_end(self, e: int) -> int:
+        """The vertex at which an arc that the line touches ends there; `NOTHING` if it goes on."""
+        if self._images.full[e]:
+            return NOTHING
+        for v in (e, self._images.following[e]):
+            if v in self._passed:
+                return v
+        return NOTHING
+
+    def _touch(self, e: int) -> None:
+        """Add where the line touches an arc's circle, if that is on the arc."""
+        foot, bound = self._along(self._curves[e].x, self._curves[e].y)
+        side = self._beyond_chord(e, foot, bound)
+        if side > 0:
+            self._add(foot, bound, TOUCHED, e)
+        self.is_told = self.is_told and side != 0
+
+    def _cross(self, e: int, far: float, bound: float) -> None:
+        """Add a place where the line crosses an arc's circle, if it is on the arc."""
+        side = self._beyond_chord(e, far, bound)
+        if side > 0:
+            self._add(far, bound, CROSSED, e)
+        self.is_told = self.is_told and side != 0
+
+    def _half_chord(self, e: int) -> tuple[float, float]:
+        """Half of what an arc's circle, which the line does not touch, cuts out of it; -1 if nothing."""
+        curve = self._curves[e]
         x, y, dx, dy, ce, de = self._line
         ox, p = total(curve.x, rounding(curve.x, curve.y), -x, ce)
         oy, q = total(curve.y, rounding(curve.x, curve.y), -y, ce)
@@ -118,21 +171,9 @@ class WalkedLine:
             *total(radius, blur, height, bound), *total(radius, blur, -height, bound)
         )
         if -under > under_bound:
-            return []
-        if not images.full[e] and (self._side(e) == 0 or self._side(images.following[e]) == 0):
-            self.is_told = False
-            return []
-        half, half_bound = root(under, under_bound)
-        middle, middle_bound = self._along(curve.x, curve.y)
-        found: list[tuple[float, float]] = []
-        for sign in (-1.0, 1.0):
-            far, far_bound = total(middle, middle_bound, sign * half, half_bound)
-            side = self._beyond_chord(e, far, far_bound)
-            if side == 0 or under <= under_bound:
-                self.is_told = False
-            elif side > 0:
-                found.append((far, far_bound))
-        return found
+            return -1.0, 0.0
+        self.is_told = self.is_told and under > under_bound
+        return root(under, under_bound)
 
     def _beyond_chord(self, e: int, far: float, bound: float) -> int:
         """1 if a place of an arc's circle on the line certainly is on the arc, -1 if it is not, else 0."""
@@ -166,13 +207,19 @@ class WalkedLine:
         oy, q = total(y, rounding(x, y), -cy, ce)
         return quotient(*dot(ox, oy, max(p, q), dx, dy, de), *self._size)
 
+    def _vertex_along(self, v: int) -> tuple[float, float]:
+        """How far along the line a vertex on it is, in lengths."""
+        if v == self._own and not self._is_round:
+            return 0.0, 0.0
+        return self._along(self._images.x[v], self._images.y[v])
+
     def _add_vertex(self, v: int, e: int) -> None:
         if v in self._at:
             self._at[v].edges.append(e)
         elif v == self._own and not self._is_round:
             return
         else:
-            self._add(*self._along(self._images.x[v], self._images.y[v]), v, e)
+            self._add(*self._vertex_along(v), v, e)
             self._at[v] = self._spots[-1]
 
     def _add(self, far: float, bound: float, vertex: int, e: int) -> None:
@@ -187,17 +234,16 @@ class WalkedLine:
             (s.low if sense > 0 else -s.high, k) for k, s in enumerate(self._spots) if s.low * sense > 0.0
         ]
         order.sort()
-        last = 0.0
         vertex = NOTHING if self._is_round else self._own
-        for near, k in order:
+        for n, (near, k) in enumerate(order):
             spot = self._spots[k]
             is_far = near > self._reach
             if is_far and not self._are_joined(vertex, spot.vertex):
                 return False
-            if near <= last:
-                self.is_told = False
+            if n + 1 < len(order) and order[n + 1][0] <= (spot.high if sense > 0 else -spot.low):
+                self.is_told = False  # Which of the two places comes first is open.
                 return False
-            last, vertex = (spot.high if sense > 0 else -spot.low), spot.vertex
+            vertex = spot.vertex
             edges = spot.edges if sense > 0 else spot.edges[::-1]
             for e in edges:
                 hits.append((e, vertex))
@@ -217,31 +263,55 @@ class WalkedLine:
         return (following[v] == w and kind[v] == STRAIGHT) or (following[w] == v and kind[w] == STRAIGHT)
 
     def _blocks(self, v: int, sense: int) -> bool:
-        """Whether the line, free up to a vertex, enters the obstacle there.
+        """Whether the line enters an obstacle at a vertex, as one goes.
 
-        An obstacle lies to the left of its edges.
+        The inside is what one passes in turning left from the edge that begins there to the one that ends.
         """
-        before, after = self._images.previous[v], self._images.following[v]
-        last, following = self._side(before) * sense, self._side(after) * sense
-        if not self.is_told:
+        before = self._images.previous[v]
+        out, back = self._quarter(v, v, sense), self._quarter(before, v, sense)
+        if out == back:
+            # What lies behind, or the contact, is not inside, so little is: no more than that quarter.
+            self.is_told = self.is_told and self._is_narrow(before, v)
             return False
-        if last and following:
-            if last != following:
-                return True
-            self.is_told = self._turn(before, v, after) > 0
-            return False
-        if not last and not following:
-            self.is_told = self._is_behind(before, v, sense) != self._is_behind(after, v, sense)
-            return False
-        # One edge lies along the line. The obstacle is to its left; as one goes, that may be to the right.
-        goes_on = following == 0
-        is_behind = self._is_behind(after if goes_on else before, v, sense)
-        inner = 1 if goes_on != is_behind else -1
-        side = last if goes_on else following
-        if is_behind:
-            return side != inner
-        self.is_told = side == inner
-        return False
+        return out > back > AHEAD
+
+    def _is_narrow(self, before: int, v: int) -> bool:
+        """Whether two edges that leave a vertex to one side certainly leave no room behind it."""
+        if self._images.kind[before] == STRAIGHT and self._images.kind[v] == STRAIGHT:
+            return self._turn(before, v, self._images.following[v]) > 0
+        touched = self._circles[before] in self._touched and self._circles[v] in self._touched
+        return not touched or self._onward(before, v) * self._onward(v, v) < 0
+
+    def _quarter(self, e: int, v: int, sense: int) -> int:
+        """Where an edge leaves from its end v on the line, as one goes."""
+        side = self._leaves(e, v) * sense
+        if side:
+            return LEFT if side > 0 else RIGHT
+        other = self._images.following[e] if v == e else e
+        return BEHIND if self._is_behind(other, v, sense) else AHEAD
+
+    def _leaves(self, e: int, v: int) -> int:
+        """1 or -1 as an edge leaves its end v on the line to the left or right, 0 if along it, or if open."""
+        kind = self._images.kind[e]
+        if kind == STRAIGHT:
+            return self._side(self._images.following[e] if v == e else e)
+        curve = self._curves[e]
+        if self._circles[e] in self._touched:
+            side = side_of(self._line, curve.x, curve.y, rounding(curve.x, curve.y), 0.0)
+        else:
+            # Across the radius to v: the line goes up it or down.
+            ax, ay = self._images.x[v], self._images.y[v]
+            ux, p = total(ax, rounding(ax, ay), -curve.x, rounding(curve.x, curve.y))
+            uy, q = total(ay, rounding(ax, ay), -curve.y, rounding(curve.x, curve.y))
+            _, _, dx, dy, _, de = self._line
+            side = verdict(*dot(dx, dy, de, ux, uy, max(p, q))) * kind * (1 if v == e else -1)
+        self.is_told = self.is_told and side != 0
+        return side
+
+    def _onward(self, e: int, v: int) -> int:
+        """1 or -1 as an arc that touches the line at its end v leaves ahead or back, 0 if that is open."""
+        side = self._leaves(e, v)
+        return side * self._images.kind[e] * (1 if v == e else -1)
 
     def _turn(self, u: int, v: int, w: int) -> int:
         """1 or -1 if the way over three vertices certainly turns left or right, else 0."""

@@ -97,6 +97,7 @@ class LineFollower:
                 image,
                 {number for number, side, _ in at.passed if not side} | (set() if feature.round else {own}),
                 {number for number, side, _ in at.passed if side} | ({own} if feature.round else set()),
+                self.table.line_numbers.circles,
                 own,
                 feature.round,
                 self.range.above,

@@ -168,7 +168,7 @@ def _until_blocked(
     As nothing blocked so far, the line goes on inside an obstacle only if it meets it where it last met any.
     """
     previous = Real(0)
-    met = here & {table.owners[e] for _, e in hits}
+    met = here
     for k, (tau, e) in enumerate([*hits, (end, -1)]):
         if (tau - previous).sign() == end.sign():
             middle = contact + direction * ((previous + tau) * HALF)
