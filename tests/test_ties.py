@@ -50,3 +50,19 @@ def test_a_line_of_the_sweep_that_touches_a_circle() -> None:
     run = xa.seed_spreader(arc_scene(Subject.SEED_SPREADER, 229))
     assert run.complete
     xa.audit(run, samples=4)
+
+
+def test_a_map_where_a_view_becomes_as_long_as_the_range() -> None:
+    """From the event's place a tangent of a slot's end just reaches another one, at distance R.
+
+    The view from there made that point anew, with a root of degree 6 below others, and was `Undecided`: the
+    family of views that ends there knows its length by its name.
+    """
+    corners = [(-2, 8), (5, 8), (-2, 11), (5, 11), (5, 17), (12, 17)]
+    slots = [xa.Outline([(x, y), (x + 4, y, 1), (x + 4, y + 2), (x, y + 2, 1)]) for x, y in corners]
+    run = xa.seed_spreader(xa.Scene(slots, terrain=xa.Terrain("61/2", 30, (-3, -2)), radius=14))
+    at_range = [event for event in run.events if event.kind in ("regain", "lose") and event.obstacle == 5]
+    assert len(at_range) > 1
+    for event in at_range:
+        chart = run.map_at(event)
+        assert sum(float(chart.known_length(k)) for k in range(len(slots))) > 0

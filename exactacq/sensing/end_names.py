@@ -128,6 +128,11 @@ class Seen:
                 return End(end.t, (p, q), (u, v), end.tight)
         return end
 
+    def tell(self, end: End, family: ViewFamily, side: int) -> None:
+        """Take from a family that its view from this place is as long as the range, while nothing is made."""
+        e, point = family.edges[1 - side], end.points[1 - side]
+        self._view.at_rim.update(self._holds(e, point, False, family.free_views))
+
     def held(self, e: int) -> dict[Hold, Pin]:
         """The ends of what is seen of an edge, by what holds them."""
         if e not in self._held:

@@ -9,12 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from functools import cached_property
+from itertools import chain
 
 from exactacq.geometry.interval_union import Cover
 from exactacq.geometry.points import Point
 from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real
 from exactacq.sensing.leg_views import Covers, Share, Shares
+from exactacq.sensing.view_families import End
 
 
 class LegNews:
@@ -46,6 +48,21 @@ class LegNews:
             )
             self._on[edge] = EdgeNews(edge, some, self.covers)
         return self._on[edge]
+
+    def as_long_as_range(self, u: Real) -> list[tuple[End, Share]]:
+        """The views from a place of the leg that are known to be as long as the range, as ends of families."""
+        return [
+            (end, share)
+            for end, share in self._longest
+            if (v := end.places[share.side]) is u or v.compare(u) == 0
+        ]
+
+    @cached_property
+    def _longest(self) -> list[tuple[End, Share]]:
+        shares = chain.from_iterable(self.shares.of.values())
+        return [
+            (end, share) for share in shares for end in (share.family.first, share.family.last) if end.tight
+        ]
 
     @cached_property
     def _by_edge(self) -> dict[int, list[tuple[int, Share]]]:
@@ -111,9 +128,23 @@ class Underway(Mapping[int, Cover]):
     def _cover(self, edge: int) -> Cover | None:
         if edge not in self._found:
             news = self._news.on(edge)
-            grown = news.upto if edge in self._near else news.beyond
-            self._found[edge] = grown(self._u, self._place)
+            if edge in self._near:
+                self._tell_view()
+                self._found[edge] = news.upto(self._u, self._place)
+            else:
+                self._found[edge] = news.beyond(self._u, self._place)
         return self._found[edge]
+
+    def _tell_view(self) -> None:
+        """Tell the view from the place which of its ends are as far away as the range: numbers may not."""
+        shares = self._news.shares
+        for end, share in self._at_range:
+            view = shares.view(self._place, shares.leg.own(self._u))
+            view.tell(end, share.family, share.side)
+
+    @cached_property
+    def _at_range(self) -> list[tuple[End, Share]]:
+        return self._news.as_long_as_range(self._u)
 
     def __getitem__(self, edge: int) -> Cover:
         found = self._cover(edge)

@@ -42,13 +42,15 @@ class Disc:
         return sign(dot(offset, offset) - self.square)
 
 
-def within(curve: Curve, start: Point, end: Point, disc: Disc) -> list[Span]:
+def within(
+    curve: Curve, start: Point, end: Point, disc: Disc, on_rim: tuple[bool, bool] = (False, False)
+) -> list[Span]:
     """The parts of the piece of a curve from *start* to *end* in a disc, in order.
 
     At most two parts, each perhaps a single point. *start* and *end* may be one point of a segment, but on an
-    arc they are distinct.
+    arc they are distinct. Those that are known to lie *on_rim* are not compared with the radius.
     """
-    excess = disc.excess(start), disc.excess(end)
+    excess = 0 if on_rim[0] else disc.excess(start), 0 if on_rim[1] else disc.excess(end)
     if isinstance(curve, Segment):
         return _of_segment(curve, (start, end), excess, disc)
     ends, flipped = ((start, end), excess), not curve.ccw

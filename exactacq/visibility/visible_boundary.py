@@ -71,6 +71,7 @@ class BoundaryView:
         self.own = self.sweep.faces.own
         self.origin = self.sweep.faces.origin
         self._at_range: dict[int, Point] = {}
+        self.at_rim: set[Hold] = set()
         """What holds the ends of sights that are known, by who asks, to be as far away as the range."""
 
     @cached_property
@@ -97,7 +98,8 @@ class BoundaryView:
             face = sweep.sights[n][0]
             e, (start, end) = sweep.edges[face], parts.ends[n]
             whole = ends.point(start), ends.point(end)
-            spans = self._clipped(e, whole)
+            on_rim = self._is_at_rim(e, ends.rank(start)), self._is_at_rim(e, ends.rank(end))
+            spans = self._clipped(e, whole, on_rim)
             parts.parts[n] = [self._known(e, span, whole, (start, end), ends) for span in spans]
         return ends
 
@@ -201,7 +203,11 @@ class BoundaryView:
             for event in self.sweep.events(rank)
         ]
 
-    def _clipped(self, e: int, ends: Span) -> list[Span]:
+    def _is_at_rim(self, e: int, rank: int | None) -> bool:
+        """Whether the end of a sight, made on the ray of a rank, is known to be as far away as the range."""
+        return rank is not None and bool(self.at_rim) and not self.at_rim.isdisjoint(self._holds(e, rank))
+
+    def _clipped(self, e: int, ends: Span, on_rim: tuple[bool, bool]) -> list[Span]:
         """The parts within range of what a sight sees; ends within range stay the same objects."""
         curve, (start, end) = self.table.curves[e], ends
         if start is end:
@@ -209,7 +215,7 @@ class BoundaryView:
             assert isinstance(curve, Arc)
             opposite = curve.center + (curve.center - start)
             return within(curve, start, opposite, self.disc) + within(curve, opposite, end, self.disc)
-        return within(curve, start, end, self.disc)
+        return within(curve, start, end, self.disc, on_rim)
 
     # -- single rays -------------------------------------------------------------------------------
 
