@@ -50,7 +50,7 @@ class LegNews:
         return self._on[edge]
 
     def as_long_as_range(self, u: Real) -> list[tuple[End, Share]]:
-        """The views from a place of the leg that are known to be as long as the range, as ends of families."""
+        """The views from a place of the leg known to be as long as the range, as ends of families."""
         return [
             (end, share)
             for end, share in self._longest
