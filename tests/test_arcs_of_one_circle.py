@@ -6,16 +6,19 @@ Drawings are made of such arcs: a DXF polyline draws a circle as two arcs of bul
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from fractions import Fraction
 from pathlib import Path
 
 import pytest
+from flint import fmpq
 
 import exactacq as xa
 from exactacq.geometry.curves import Segment
 from exactacq.numbers.length import Length
 from exactacq.scene.boundary_walk import Boundary
 from exactacq.scene.scene import Scene
+from exactacq.visibility import rotational_sweep
 
 Q = Fraction
 DATA = Path(__file__).parent / "data" / "arcs"
@@ -237,3 +240,20 @@ class TestRunsReadBack:
         again = xa.load_run(json.loads(text))
         assert json.dumps(again.to_json()) == text
         assert again.map.known_length() == run.map.known_length()
+
+
+def test_tangents_of_a_circle_in_parts_are_swept_in_floats(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Another arc of the circle is met at the contact only; each line's crossing with it was decided exactly."""
+    asked = []
+    exact = rotational_sweep._Decisions._exact_meet
+
+    def counted(self: object, middle: fmpq, edges: Iterable[int]) -> tuple[int, int]:
+        asked.append(middle)
+        return exact(self, middle, edges)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(rotational_sweep._Decisions, "_exact_meet", counted)
+    corners = [(2, 0), (1, 1), (0, 0), (1, -1)]
+    slots = [xa.Outline([(x + a, b, xa.Around((x + 1, 0))) for a, b in corners]) for x in (0, 5, 11)]
+    run = xa.sightseer(xa.Scene(slots, (3, 7), radius=40))
+    assert len(run.visits) == 3
+    assert not asked

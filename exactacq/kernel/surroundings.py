@@ -41,7 +41,8 @@ class FramePoint:
 class Surroundings:
     """The edges within reach of a family, in its frame: the ``spots`` of their vertices and the ``centers``.
 
-    *own* are the edges through the contact; ``place[j]`` says of each edge whether it is `APART` from it.
+    *own* are the edges through the contact, or all arcs of the circle on which it rolls; ``place[j]`` says of
+    each edge whether it is `APART` from it.
 
     The bound: an offset o is held with b, see `exactacq.kernel.images`, and e with q. Both components of the
     product with e are held with |e|_1 b + q (|o|_1 + 2 b) for the data and 2 UNIT |e|_1 |o|_1 for three

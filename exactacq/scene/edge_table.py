@@ -95,6 +95,18 @@ class EdgeTable:
             if isinstance(curve, Arc)
         }
 
+    def on_circle_of(self, e: int) -> tuple[int, ...]:
+        """The arcs on the circle of an arc, itself among them; a straight edge alone."""
+        return self._on_circles.get(self.circles.get(e, e), (e,))
+
+    @cached_property
+    def _on_circles(self) -> dict[int, tuple[int, ...]]:
+        """By the first arc of every circle all that are on it."""
+        found: dict[int, list[int]] = {}
+        for e, first in self.circles.items():
+            found.setdefault(first, []).append(e)
+        return {first: tuple(arcs) for first, arcs in found.items()}
+
     @cached_property
     def line_numbers(self) -> LineNumbers:
         """What numbers corners, circles, and lines that touch two of them."""

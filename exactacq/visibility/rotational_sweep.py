@@ -152,7 +152,8 @@ def swept(
     through = table.edges_at(Point(*sector.center)) if is_inward else ()
     first, last = ends
     sweep = PencilSweep(
-        Surroundings(near, frame, own),
+        # A tangent of a circle meets none of its arcs but at the contact.
+        Surroundings(near, frame, table.on_circle_of(own[0]) if sector.round else own),
         _known(sector.low, [(first, 0, 0)] if near.has_vertex(first) else []),
         _known(sector.high, [(last, 0, 0)] if near.has_vertex(last) else []),
         list(_break_events(table, sector, breaks, through)) if breaks or through else [],
