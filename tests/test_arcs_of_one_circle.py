@@ -243,7 +243,7 @@ class TestRunsReadBack:
 
 
 def test_tangents_of_a_circle_in_parts_are_swept_in_floats(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Another arc of the circle is met at the contact only; each line's crossing with it was decided exactly."""
+    """Other arcs of the circle are met at the contact only; each line was once followed exactly to see so."""
     asked = []
     exact = rotational_sweep._Decisions._exact_meet
 

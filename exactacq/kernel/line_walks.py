@@ -7,11 +7,11 @@ which order it meets all this. Where one of these is open nothing is told.
 
 from __future__ import annotations
 
-from math import inf
+from math import inf, sqrt
 from typing import Final, final
 
 from exactacq.kernel.bound_lines import NOTHING
-from exactacq.kernel.bounded import UNIT, cross, dot, product, quotient, root, total, verdict
+from exactacq.kernel.bounded import UNIT, WIDEN, cross, dot, product, quotient, root, total, verdict
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.images import CONVEX, STRAIGHT, EdgeImages
 from exactacq.kernel.lines import Line, meets_straight, rounding, side_of
@@ -118,6 +118,10 @@ class WalkedLine:
         half, half_bound = self._half_chord(e)
         if half < 0.0:
             return
+        if half == 0.0:
+            # Crossed, touched or missed, all near the foot.
+            self.is_told = self._beyond_chord(e, foot, bound + half_bound) < 0
+            return
         is_whole = self._images.full[e]
         first, last = (1, 1) if is_whole else (self._side(v), self._side(w))
         if not self.is_told:
@@ -160,7 +164,10 @@ class WalkedLine:
         self.is_told = self.is_told and side != 0
 
     def _half_chord(self, e: int) -> tuple[float, float]:
-        """Half of what an arc's circle, which the line does not touch, cuts out of it; -1 if nothing."""
+        """Half of what an arc's circle, which the line does not touch, cuts out of it; -1 if nothing surely.
+
+        0 with a bound where that is open.
+        """
         curve = self._curves[e]
         x, y, dx, dy, ce, de = self._line
         ox, p = total(curve.x, rounding(curve.x, curve.y), -x, ce)
@@ -172,8 +179,9 @@ class WalkedLine:
         )
         if -under > under_bound:
             return -1.0, 0.0
-        self.is_told = self.is_told and under > under_bound
-        return root(under, under_bound)
+        if under > under_bound:
+            return root(under, under_bound)
+        return 0.0, sqrt(under + under_bound) * WIDEN
 
     def _beyond_chord(self, e: int, far: float, bound: float) -> int:
         """1 if a place of an arc's circle on the line certainly is on the arc, -1 if it is not, else 0."""
