@@ -1,27 +1,37 @@
-"""Hypothesis profiles: `quick` (default, deterministic, few examples) and `long`.
+"""Hypothesis profiles: `everyday` (default, deterministic, few examples) and `nightly` (random, many).
 
-Choose with the environment variable HYPOTHESIS_PROFILE or pytest's ``--hypothesis-profile``.
+Choose with the environment variable HYPOTHESIS_PROFILE or pytest's ``--hypothesis-profile``. What the nightly
+profile finds is kept in `.hypothesis/nightly`, and tried first the next time.
 """
 
 from __future__ import annotations
 
 import os
+from pathlib import Path
 
 from hypothesis import HealthCheck, Phase, settings
+from hypothesis.database import DirectoryBasedExampleDatabase
 
 SLOW_SCENES = [HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filter_too_much]
+FOUND = Path(__file__).resolve().parent.parent / ".hypothesis" / "nightly"
 
 settings.register_profile(
-    "quick",
+    "everyday",
     derandomize=True,
     deadline=None,
     max_examples=20,
     database=None,
-    phases=[Phase.explicit, Phase.generate],  # shrinking exact scenes takes minutes: left to `long`
+    phases=[Phase.explicit, Phase.generate, Phase.target, Phase.shrink],
+    report_multiple_bugs=False,  # Of each test one failure is shrunk, for five minutes at most.
     print_blob=True,
     suppress_health_check=SLOW_SCENES,
 )
 settings.register_profile(
-    "long", deadline=None, max_examples=400, print_blob=True, suppress_health_check=SLOW_SCENES
+    "nightly",
+    deadline=None,
+    max_examples=400,
+    database=DirectoryBasedExampleDatabase(FOUND),
+    print_blob=True,
+    suppress_health_check=SLOW_SCENES,
 )
-settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "everyday"))

@@ -24,18 +24,27 @@ ZERO, ONE = Q(0), Q(1)
 
 @dataclass(frozen=True)
 class Terrain:
-    """A scene as plain data: shapes as `oracles` takes them (a `Room` last), a start or None, a radius."""
+    """A scene as plain data: shapes as `oracles` takes them (a `Room` last), a start or None, a radius.
+
+    For the Seed Spreader *limits* has the west, south, east and north side of the rectangle that it sweeps.
+    """
 
     shapes: tuple[object, ...]
     start: Pair | None
     radius: Fraction
+    limits: tuple[Fraction, Fraction, Fraction, Fraction] | None = None
 
     def scene(self) -> object:
         """The same as an `exactacq.Scene`."""
-        return build(self.shapes, self.start)
+        return build(self.shapes, self.start, self.limits, self.radius)
 
 
-def build(shapes: Sequence[object], start: Sequence[object] | None = None) -> object:
+def build(
+    shapes: Sequence[object],
+    start: Sequence[object] | None = None,
+    limits: Sequence[Fraction] | None = None,
+    radius: object = None,
+) -> object:
     """An `exactacq.Scene` from plain shapes."""
     import exactacq as xa
 
@@ -49,7 +58,11 @@ def build(shapes: Sequence[object], start: Sequence[object] | None = None) -> ob
             obstacles.append(xa.Polygon(shape))
         else:
             obstacles.append(xa.Outline(shape))
-    return xa.Scene(obstacles, start=start, enclosure=enclosure)
+    terrain = None
+    if limits is not None:
+        west, south, east, north = limits
+        terrain = xa.Terrain(east - west, north - south, origin=(west, south))
+    return xa.Scene(obstacles, start=start, enclosure=enclosure, terrain=terrain, radius=radius)
 
 
 def box(x0: object, x1: object, y0: object, y1: object) -> list[tuple]:
@@ -85,7 +98,12 @@ class Similarity:
     def terrain(self, terrain: Terrain) -> Terrain:
         start = None if terrain.start is None else self.point(terrain.start)
         shapes = tuple(self.shape(shape) for shape in terrain.shapes)
-        return Terrain(shapes, start, self.scale * terrain.radius)
+        limits = terrain.limits
+        if limits is not None:
+            assert 0 in self.turn, "a rectangle with upright sides"
+            xs, ys = zip(*(self.point(limits[k : k + 2]) for k in (0, 2)), strict=True)
+            limits = min(xs), min(ys), max(xs), max(ys)
+        return Terrain(shapes, start, self.scale * terrain.radius, limits)
 
 
 SIMILARITIES = {
@@ -111,6 +129,20 @@ def reversed_order(terrain: Terrain) -> Terrain:
         return backwards[1:] + backwards[:1]
 
     return replace(terrain, shapes=tuple(turn(shape) for shape in terrain.shapes))
+
+
+def split_point(p: Sequence, q: Sequence, bulge: Fraction, part: Fraction) -> tuple[Pair, Fraction, Fraction]:
+    """A point of an edge and the bulges before and after: tan(a + b) by the addition theorem."""
+    x, y, u, v = (Q(c) for c in (*p[:2], *q[:2]))
+    first = bulge * part
+    last = (bulge - first) / (1 + bulge * first)
+    if not bulge:
+        return (x + (u - x) * part, y + (v - y) * part), Q(0), Q(0)
+    away = (1 - bulge**2) / (4 * bulge)
+    cx, cy = (x + u) / 2 - (v - y) * away, (y + v) / 2 + (u - x) * away
+    c, s = (1 - first**2) / (1 + first**2), 2 * first / (1 + first**2)
+    c, s = c * c - s * s, 2 * c * s
+    return (cx + (x - cx) * c - (y - cy) * s, cy + (x - cx) * s + (y - cy) * c), first, last
 
 
 # Shapes that fit into the open disc of radius 1 about the origin, in general position.

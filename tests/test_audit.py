@@ -170,7 +170,7 @@ def test_other_strategies_are_not_audited() -> None:
 
 
 GALLERY = ("figure1", "figure2", "circles", "squares", "m4", "m8", "m11")
-EXAMPLES = settings(max_examples=100 if settings.get_current_profile_name() == "long" else 3)
+EXAMPLES = settings(max_examples=100 if settings.get_current_profile_name() == "nightly" else 3)
 
 
 def terrain_of(rng: Random) -> Terrain:

@@ -19,7 +19,7 @@ from brute_links import FINE, Loops, brute_force, mp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from oracles import Disc, Room
-from strategies import EPS, Pair, Similarity, Terrain, box, reversed_order
+from strategies import EPS, Pair, Similarity, Terrain, box, reversed_order, split_point
 
 import exactacq as xa
 from exactacq.errors import InvalidScene
@@ -27,8 +27,8 @@ from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 
 Q = Fraction
-LONG = settings.get_current_profile_name() == "long"
-EXAMPLES = settings(max_examples=150 if LONG else 5)
+NIGHTLY = settings.get_current_profile_name() == "nightly"
+EXAMPLES = settings(max_examples=150 if NIGHTLY else 5)
 
 
 # -- degenerate scenes -----------------------------------------------------------------------------
@@ -150,20 +150,6 @@ def is_valid(terrain: Terrain) -> bool:
     except InvalidScene:
         return False
     return bool(scene.obstacles)
-
-
-def split_point(p: Sequence, q: Sequence, bulge: Fraction, part: Fraction) -> tuple[Pair, Fraction, Fraction]:
-    """A point of an edge and the bulges before and after: tan(a + b) by the addition theorem."""
-    x, y, u, v = (Q(c) for c in (*p[:2], *q[:2]))
-    first = bulge * part
-    last = (bulge - first) / (1 + bulge * first)
-    if not bulge:
-        return (x + (u - x) * part, y + (v - y) * part), Q(0), Q(0)
-    away = (1 - bulge**2) / (4 * bulge)
-    cx, cy = (x + u) / 2 - (v - y) * away, (y + v) / 2 + (u - x) * away
-    c, s = (1 - first**2) / (1 + first**2), 2 * first / (1 + first**2)
-    c, s = c * c - s * s, 2 * c * s
-    return (cx + (x - cx) * c - (y - cy) * s, cy + (x - cx) * s + (y - cy) * c), first, last
 
 
 def refined(terrain: Terrain, rng: Random, rotate: bool = True) -> Terrain:

@@ -17,7 +17,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from oracles import Disc, Room
 from strategies import Similarity, Terrain, arc_terrain, build, reversed_order
-from test_laws import LONG, is_valid, refined, weights
+from test_laws import NIGHTLY, is_valid, refined, weights
 
 import exactacq as xa
 from exactacq.errors import Undecided
@@ -27,7 +27,7 @@ from exactacq.study.claims.model import Subject
 from exactacq.study.random_scenes import arc_scene
 
 Q = Fraction
-EXAMPLES = settings(max_examples=120 if LONG else 12)
+EXAMPLES = settings(max_examples=120 if NIGHTLY else 12)
 DIGITS = 25
 
 terrains = st.randoms(use_true_random=False).map(arc_terrain).filter(is_valid)

@@ -41,7 +41,7 @@ from exactacq.visibility.features import features
 from exactacq.visibility.links import near_hull
 
 Q = Fraction
-LAW_EXAMPLES = 60 if settings.get_current_profile_name() == "long" else 3
+LAW_EXAMPLES = 60 if settings.get_current_profile_name() == "nightly" else 3
 
 
 def graph_of(terrain: Terrain) -> nx.Graph:

@@ -36,7 +36,7 @@ from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
 
 Q = Fraction
-LAW_EXAMPLES = 40 if settings.get_current_profile_name() == "long" else 2
+LAW_EXAMPLES = 40 if settings.get_current_profile_name() == "nightly" else 2
 SQUARES = [box(2, 4, -1, 1), box(7, 9, -1, 1)]
 CIRCLES = [Disc(5, 0, 2), Disc(12, 0, 3)]
 
