@@ -168,7 +168,7 @@ def test_few_obstacles_and_plain_ones() -> None:
 
 
 def test_what_matters_stays() -> None:
-    """A room about two obstacles whose middles lie on no upright or level line."""
+    """A room about some obstacles of which two have their middles on no upright or level line."""
 
     def is_askew(terrain: Terrain) -> bool:
         boxes = [box([shape]) for shape in terrain.shapes if not isinstance(shape, Room)]
@@ -178,6 +178,8 @@ def test_what_matters_stays() -> None:
         )
 
     found = least(terrains(), is_askew)
-    assert len(found.shapes) == 3
+    *squares, room = found.shapes
+    assert isinstance(room, Room)
+    assert len(squares) <= 3
     assert found.radius == 5
-    assert all(len(list(edges(shape))) == 4 for shape in found.shapes[:2])
+    assert all(len(list(edges(shape))) <= 4 for shape in squares)

@@ -14,16 +14,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from oracles import Disc, Room, free, world
+from scenes import CURVED, terrains
+from scenes.kinds import PINNED, ROUND
 from strategies import Similarity, Terrain, box, circle_grid, square_grid
 from test_laws import (
     EXAMPLES,
-    HOLLOW,
-    POLYGONS,
-    ROUND,
     differences,
     law_of_description,
-    scene_of_cells,
-    scenes,
     weights,
 )
 
@@ -73,7 +70,7 @@ def crowded_room(rng: Random) -> Terrain:
         anywhere = (Q(rng.randint(4, 40), 2), Q(rng.randint(4, 26), 2))
         hugging = (Q(rng.randint(2, 18)), 2 * scale + Q(1, rng.choice([1, 1000])))
         place = Similarity(shift=rng.choice([anywhere, hugging]), scale=scale, mirror=rng.random() < 0.5)
-        shape = place.shape(rng.choice([*CELLS, *POLYGONS]))
+        shape = place.shape(rng.choice([*CELLS, *PINNED]))
         try:
             Terrain((*kept, shape, Room(wall)), None, Q(1)).scene()
         except InvalidScene:
@@ -152,7 +149,7 @@ def _center(shape: object) -> tuple[Fraction, Fraction]:
 
 class TestLaws:
     @EXAMPLES
-    @given(scenes(CELLS, columns=2, shift=False), st.randoms(use_true_random=False))
+    @given(terrains(kinds=CURVED, moved=False), st.randoms(use_true_random=False))
     def test_description_of_round_scenes(self, terrain: Terrain, rng: Random) -> None:
         law_of_description(terrain, rng)
 
@@ -164,12 +161,12 @@ class TestLaws:
         law_of_description(terrain, rng)
 
     @EXAMPLES
-    @given(st.randoms(use_true_random=False))
-    def test_path(self, rng: Random) -> None:
-        law_of_the_path(scene_of_cells(rng, (*CELLS, *HOLLOW), columns=2, shift=False))
+    @given(terrains(moved=False))
+    def test_path(self, terrain: Terrain) -> None:
+        law_of_the_path(terrain)
 
     @EXAMPLES
-    @given(scenes((*CELLS, *POLYGONS), columns=2, shift=False))
+    @given(terrains(moved=False))
     def test_afar(self, terrain: Terrain) -> None:
         law_of_afar(terrain)
 

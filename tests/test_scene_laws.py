@@ -26,14 +26,10 @@ from exactacq.study.claims.model import Subject
 
 Q = Fraction
 NIGHTLY = settings.get_current_profile_name() == "nightly"
-EXAMPLES = settings(max_examples=100 if NIGHTLY else 8)
+EXAMPLES = settings(max_examples=100 if NIGHTLY else 6)
 DIGITS = 40
 LARGEST = 10**4
 """Radius of an arc up to which the oracle's floats are good to its margin."""
-
-sightseer_terrains = terrains(Subject.SIGHTSEER)
-spreader_terrains = terrains(Subject.SEED_SPREADER)
-either = st.sampled_from(list(Subject))
 
 
 def explored(scene: xa.Scene) -> xa.Run:

@@ -5,7 +5,7 @@ A kind is a function of a width, a height (small whole numbers) and a variant. I
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import atan
@@ -25,6 +25,48 @@ from strategies import (
 from strategies import box as rectangle
 
 Q = Fraction
+
+
+# Shapes in the square [-2, 2]^2; angles are of Pythagorean triangles, so that all data are rational.
+
+PINNED: tuple[Sequence[tuple], ...] = (
+    rectangle(-1, 1, -1, 1),
+    rectangle(-2, 2, -2, 2),
+    rectangle(0, 1, -2, 2),
+    rectangle(-2, -1, 0, 1),
+    [(-2, -2), (2, -2), (-2, 2)],
+    [(0, -2), (2, 0), (0, 2), (-2, 0)],
+    [(-2, -2), (2, -2), (2, -1), (-1, -1), (-1, 2), (-2, 2)],
+    [(-2, -2), (2, -2), (2, 2), (1, 2), (1, -1), (-1, -1), (-1, 2), (-2, 2)],
+    [(-2, 2), (0, 0), (2, 2), (0, -2)],
+    [(-2, 0), (0, -1), (2, 0)],
+)
+RING = [(Q(6, 5), Q(8, 5), 2), (Q(6, 5), Q(-8, 5)), (Q(9, 10), Q(-6, 5), -2), (Q(9, 10), Q(6, 5))]
+HALF_RING = [(2, 0, 1), (-2, 0), (Q(-3, 2), 0, -1), (Q(3, 2), 0)]
+KEYHOLE = [(2, 2), (-2, 2), (-2, -2), (2, -2), (2, -1), (Q(3, 4), -1, -2), (Q(3, 4), 1), (2, 1)]
+BAY = [(-2, -2), (2, -2), (2, 2, -1), (-2, 2)]
+HOLLOW: tuple[Sequence[tuple], ...] = (RING, HALF_RING, KEYHOLE)
+ROUND: tuple[object, ...] = (
+    Disc(0, 0, 1),
+    Disc(0, 0, 2),
+    Disc(1, 1, 1),
+    Disc(-1, 1, 1),
+    Disc(0, -1, 1),
+    *HOLLOW,
+    [(0, 0), (Q(3, 5), Q(4, 5), 2), (Q(3, 5), Q(-4, 5))],  # three quarters, corner at the centre
+    [(0, 0), (Q(6, 5), Q(-8, 5), Q(1, 2)), (Q(6, 5), Q(8, 5))],
+    [(-1, -1), (1, -1, 1), (1, 1), (-1, 1, 1)],  # stadium: smooth joints
+    [(-1, -1, -Q(1, 2)), (1, -1, 1), (1, 1), (-1, 1, 1)],
+    [(2, 0, 1), (-2, 0, -1), (0, 0, -1)],  # three spikes
+    [(2, 0, 1), (0, 0, 1), (-2, 0, 1)],  # a heart: its cusp is free
+    [(2, 0, 1), (-2, 0, -1), (0, 0, 1)],  # both kinds of cusp: yin
+    [(-2, 0, 1), (2, 0, Q(-1, 2))],  # crescent with two edges
+    [(0, -2, 1), (0, 2, Q(1, 3))],
+    [(-1, 0, 3), (1, 0)],  # more than half a circle on a chord
+    BAY,
+    [(-1, -1, Q(1, 2)), (1, -1, Q(1, 2)), (1, 1, Q(1, 2)), (-1, 1, Q(1, 2))],
+    [(-2, -2, Q(-1, 3)), (2, -2, Q(-1, 3)), (2, 2, Q(-1, 3)), (-2, 2, Q(-1, 3))],
+)
 
 
 @dataclass(frozen=True)
@@ -122,14 +164,13 @@ def smooth(w: int, h: int, variant: int) -> Group:
     return single(loops[variant % len(loops)])
 
 
-HEART = [(2, 0, 1), (0, 0, 1), (-2, 0, 1)]
-YIN = [(2, 0, 1), (-2, 0, -1), (0, 0, 1)]
-SPIKED = [(2, 0, 1), (-2, 0, -1), (0, 0, -1)]
+def on_pins(_w: int, _h: int, variant: int) -> Group:
+    return single(PINNED[variant % len(PINNED)])
 
 
-def cusps(_w: int, _h: int, variant: int) -> Group:
-    """Cusps of free space or of the obstacle, between an arc and an edge or two arcs."""
-    loops: tuple[list[tuple], ...] = (*FREE_CUSPS, *SPIKES, HEART, YIN, SPIKED)
+def with_arcs(_w: int, _h: int, variant: int) -> Group:
+    """What drawings hold: cusps of free space and of obstacles, corners in centres, bays, bulging boxes."""
+    loops = (*FREE_CUSPS, *SPIKES, *ROUND)
     return single(loops[variant % len(loops)])
 
 
@@ -141,13 +182,7 @@ def a_circle_of_arcs(w: int, _: int, variant: int) -> Group:
 def a_round_pocket(w: int, _: int, variant: int) -> Group:
     """A ring with an opening, a bay or a keyhole, perhaps with something at its centre."""
     s = Q(w, 2)
-    loops: tuple[list[tuple], ...] = (
-        [(Q(6, 5), Q(8, 5), 2), (Q(6, 5), Q(-8, 5)), (Q(9, 10), Q(-6, 5), -2), (Q(9, 10), Q(6, 5))],
-        [(2, 0, 1), (-2, 0), (Q(-3, 2), 0, -1), (Q(3, 2), 0)],
-        [(2, 2), (-2, 2), (-2, -2), (2, -2), (2, -1), (Q(3, 4), -1, -2), (Q(3, 4), 1), (2, 1)],
-        [(-2, -2), (2, -2), (2, 2, -1), (-2, 2)],
-    )
-    shape = loops[variant % 4]
+    shape = (*HOLLOW, BAY)[variant % 4]
     inside: tuple[object, ...] = (
         (),
         (Disc(0, Q(3, 4), Q(1, 4)),),
@@ -214,6 +249,7 @@ STRAIGHT: tuple[Kind, ...] = (
     a_pocket,
     a_long_wall,
     an_octagon,
+    on_pins,
     a_spiral,
 )
 CURVED: tuple[Kind, ...] = (
@@ -222,7 +258,7 @@ CURVED: tuple[Kind, ...] = (
     two_edges,
     a_circle_of_arcs,
     smooth,
-    cusps,
+    with_arcs,
     a_ring,
     a_round_pocket,
 )
