@@ -8,10 +8,13 @@ from __future__ import annotations
 
 import os
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from hostile_files import LAUGHS, OUTSIDE, Kind, hostile, kinds, put, read
+from hostile_structures import STRUCTURES, structured
+from hostile_trees import text
 
 import exactacq as xa
 
@@ -21,6 +24,7 @@ SECONDS = 20
 LONGEST = 1000
 """Most characters of a message; that of an invalid scene lists all violations."""
 KINDS = kinds()
+Maker = Callable[[Kind, int, str], tuple[bytes, dict[str, object]]]
 
 
 def test_every_format_that_is_read_has_samples() -> None:
@@ -42,11 +46,31 @@ def test_the_samples_are_read(tmp_path: Path, name: str) -> None:
 
 
 @pytest.mark.parametrize("name", KINDS)
-def test_damaged_files_end_in_one_line(tmp_path: Path, name: str, capfd: pytest.CaptureFixture[str]) -> None:
+def test_the_samples_are_read_when_taken_apart_and_put_together(tmp_path: Path, name: str) -> None:
+    """Otherwise most changes by structure would get no further than the parser."""
+    kind, parse = KINDS[name], STRUCTURES[name].parse
+    for sample in kind.samples:
+        options = {"start": (1000, 1000), "border": "open"} if name == "movingai" else {"start": (1000, 1000)}
+        options |= {"flatten": 1} if b"C15" in sample else {}
+        seen = []
+        for data in (sample, text(parse(sample))):
+            try:
+                read(name, put(kind, tmp_path, data), options)
+                seen.append("")
+            except xa.InvalidScene as error:
+                seen.append(str(error))
+        assert seen[0] == seen[1]
+
+
+@pytest.mark.parametrize("made", [hostile, structured])
+@pytest.mark.parametrize("name", KINDS)
+def test_damaged_files_end_in_one_line(
+    tmp_path: Path, name: str, made: Maker, capfd: pytest.CaptureFixture[str]
+) -> None:
     kind, refused = KINDS[name], 0
     whole = len(kind.bombs)
     for n in range(whole, whole + COUNT):
-        data, options = hostile(kind, n, name)
+        data, options = made(kind, n, name)
         path = put(kind, tmp_path, data)
         begun = time.process_time()
         try:
