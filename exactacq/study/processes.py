@@ -83,8 +83,9 @@ class Team(Generic[Task, Answer]):
         while todo or any(process.job for process in self._processes):
             self._employ(todo)
             message = self._next_message()
-            if message is not None:
+            while message is not None:  # All that came while results were dealt with came in time.
                 yield from self._heard(*message, todo)
+                message = None if self._inbox.empty() else self._inbox.get()
             yield from self._overdue()
 
     def _employ(self, todo: deque[_Job]) -> None:
