@@ -6,6 +6,7 @@ within limits of memory and time. What that found is in the cases below.
 
 from __future__ import annotations
 
+import json
 import os
 import time
 from collections.abc import Callable
@@ -24,6 +25,8 @@ SECONDS = 20
 LONGEST = 1000
 """Most characters of a message; that of an invalid scene lists all violations."""
 KINDS = kinds()
+RUN = KINDS["run"].samples[3]
+"""A run around a circle and a triangle."""
 Maker = Callable[[Kind, int, str], tuple[bytes, dict[str, object]]]
 
 
@@ -168,3 +171,44 @@ def test_the_union_with_an_arc_that_is_nearly_straight(tmp_path: Path) -> None:
         assert xa.load(path, start=(-9, 9), union=True).obstacles
     except xa.ExactacqError as error:
         assert "\n" not in str(error)
+
+
+def test_values_in_messages_are_short(tmp_path: Path) -> None:
+    """Nested ones were written out whole, and so were integers of thousands of digits."""
+    nested = b'{"a":' * 300 + b"1" + b"}" * 300
+    text = b'{"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [%b, 4], [0, 0]]]}' % nested
+    with pytest.raises(xa.FormatError, match="not a number: ") as error:
+        xa.load(put(KINDS["geojson"], tmp_path, text), start=(9, 9))
+    assert len(str(error.value)) < len(str(tmp_path)) + 200
+    for part, value in (("after", 10**4000), ("radius", -(10**4000)), ("version", 10**4000)):
+        run = json.loads(RUN)
+        (run["events"][0] if part == "after" else run)[part] = value
+        with pytest.raises(xa.FormatError, match="000") as error:
+            xa.load_run(put(KINDS["run"], tmp_path, json.dumps(run).encode()))
+        assert len(str(error.value)) < len(str(tmp_path)) + 200
+
+
+def test_what_is_no_image_is_refused_without_names_of_objects(tmp_path: Path) -> None:
+    with pytest.raises(xa.FormatError, match="no image of a known kind, or its header is damaged"):
+        xa.load(put(KINDS["png"], tmp_path, b"\x89PNG\r\n\x1a\n" + bytes(99)), start=(9, 9))
+
+
+@pytest.mark.parametrize("x", ["99", "4000001/1000000"])
+def test_arcs_of_a_path_end_on_their_circles(tmp_path: Path, x: str) -> None:
+    """Otherwise their lengths, asked for later, were an internal error."""
+    run = json.loads(RUN)
+    arc = next(piece["arc"] for piece in run["path"] if "arc" in piece)
+    arc["center"][0] = x
+    with pytest.raises(xa.FormatError, match="an arc of the path does not end on its circle"):
+        xa.load_run(put(KINDS["run"], tmp_path, json.dumps(run).encode()))
+
+
+def test_a_path_beside_the_boundary_has_no_map(tmp_path: Path) -> None:
+    run = json.loads(RUN)
+    square = next(
+        k for k, piece in enumerate(run["path"]) if piece["kind"] == "boundary" and "arc" not in piece
+    )
+    run["path"][square]["end"] = ["1/3", "1/7"]
+    found = xa.load_run(put(KINDS["run"], tmp_path, json.dumps(run).encode()))
+    with pytest.raises(xa.FormatError, match="no edge of the boundary carries"):
+        _ = found.map

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from flint import arb, fmpq, fmpz
 
-from exactacq.errors import FormatError
+from exactacq.errors import FormatError, shown
 
 if TYPE_CHECKING:
     import sympy
@@ -60,7 +60,7 @@ def rational(value: object) -> fmpq:
         item = value.item()
         if item is not value and isinstance(item, int | float):
             return rational(item)
-    raise FormatError(f"not a number: {value!r}")
+    raise FormatError(f"not a number: {shown(value)}")
 
 
 def _literal(text: str) -> fmpq:

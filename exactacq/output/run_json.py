@@ -14,7 +14,9 @@ import re
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from exactacq.errors import ExactacqError, FormatError
+from flint import fmpq
+
+from exactacq.errors import ExactacqError, FormatError, shown
 from exactacq.files.scene_json import parse_json, scene_of, scene_to_json
 from exactacq.files.source import one_line, read_bytes
 from exactacq.files.whole_files import readable
@@ -102,7 +104,7 @@ def load_run(source: str | os.PathLike[str] | dict[str, Any]) -> Run:
             raise FormatError("not a run: write one with exactacq explore SCENE --trace F.json")
         version = int(document["version"])
         if version not in (*OLD_VERSIONS, VERSION):
-            raise FormatError(f"version {version} of a run is not known here")
+            raise FormatError(f"version {shown(document['version'])} of a run is not known here")
         return _run(document if version == VERSION else upgraded(document))
     except ExactacqError as error:
         raise type(error)(
@@ -119,7 +121,7 @@ def _run(document: dict[str, Any]) -> Run:
     scene = scene_of(document["scene"])
     radius, start = rational(document["radius"]), numbers.point(document["start"])
     if radius <= 0:
-        raise FormatError(f"the radius must be positive, not {radius}")
+        raise FormatError(f"the radius must be positive, not {shown(document['radius'])}")
     strategy = document["strategy"]
     if strategy not in (SightseerRun.strategy, SeedSpreaderRun.strategy):
         raise FormatError(f"a run of the unknown strategy {str(strategy)[:40]!r}")
@@ -285,6 +287,8 @@ def _read_piece(numbers: _Points, document: dict[str, Any], count: int) -> Piece
     if "arc" in document:
         arc = document["arc"]
         center, square = numbers.point(arc["center"]), rational(arc["radius_sq"])
+        if not all(_may_lie_on(place, center, square) for place in (start, end)):
+            raise FormatError("an arc of the path does not end on its circle")
         curve = Arc(start, end, center, square, arc["ccw"] is True, arc["full"] is True)
     is_straight, obstacle = document["kind"] == "straight", document["obstacle"]
     obstacle = None if obstacle is None else _obstacle(obstacle, count)
@@ -293,6 +297,15 @@ def _read_piece(numbers: _Points, document: dict[str, Any], count: int) -> Piece
     if is_straight != (obstacle is None) or (is_straight and isinstance(curve, Arc)):
         raise FormatError("a piece of the path is straight, or on the boundary of an obstacle")
     return Piece(document["kind"], obstacle, curve)
+
+
+def _may_lie_on(place: Point, center: Point, square: fmpq) -> bool:
+    """Whether a place lies on a circle: exact for rational ones, else told by balls of 64 bits."""
+    if place.rational is not None and center.rational is not None:
+        (x, y), (a, b) = place.rational, center.rational
+        return bool((x - a) ** 2 + (y - b) ** 2 == square)
+    dx, dy = (p.ball(64) - c.ball(64) for p, c in ((place.x, center.x), (place.y, center.y)))
+    return bool((dx**2 + dy**2).contains(square))
 
 
 def _read_link(numbers: _Points, document: dict[str, Any], count: int) -> TreeLink:
@@ -340,7 +353,7 @@ def _read_events(
             raise FormatError(f"an event of kind {kind} has no point")
         after, inside = int(document["after"]), document["inside"] is True
         if not 0 <= after <= len(path) - inside:
-            raise FormatError(f"an event after piece {after} of a path of {len(path)}")
+            raise FormatError(f"an event after piece {shown(document['after'])} of a path of {len(path)}")
         other = None if "other" not in document else _node(document["other"], count)
         reason = None if "reason" not in document else Reason(document["reason"])
         ending = None if "ending" not in document else Ending(document["ending"])

@@ -10,6 +10,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from exactacq.errors import FormatError
 from exactacq.geometry.box_index import box
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve, Segment
@@ -251,8 +252,8 @@ def _through_space(table: EdgeTable, way: Segment) -> list[Leg]:
 def _edge_of(table: EdgeTable, obstacle: int, piece: Curve) -> int:
     """The edge of an obstacle that carries a piece of its boundary.
 
-    A whole edge is known by its ends; else balls leave one or a few. ValueError if none does. Cost: that of
-    finding the edges near one place, however many the boundary has.
+    A whole edge is known by its ends; else balls leave one or a few. `FormatError` if none does. Cost: that
+    of finding the edges near one place, however many the boundary has.
     """
     start, edges = piece.start.xy, table.edges_of(obstacle)
     near: list[int] = [e for e in table.near(start, start, 0.0).tolist() if e in edges]
@@ -262,7 +263,7 @@ def _edge_of(table: EdgeTable, obstacle: int, piece: Curve) -> int:
     near = [e for e in near if _may_carry(table.curves[e], piece)]
     found = near if len(near) == 1 else [e for e in near if _carries(table.curves[e], piece)]
     if not found:
-        raise ValueError(f"no edge of the boundary carries {piece}")
+        raise FormatError(f"no edge of the boundary carries {piece}")
     return found[0]
 
 

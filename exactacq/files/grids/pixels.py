@@ -88,6 +88,10 @@ def _pillow(data: bytes) -> Pixels:
             array = np.asarray(image.convert("RGBA" if see_through else "RGB"))
     except FormatError:
         raise
+    except library.UnidentifiedImageError:  # its message names an object of Python
+        raise FormatError(
+            "no image of a known kind, or its header is damaged; save it as PNG or PGM"
+        ) from None
     except Exception as error:  # decoders meet damage in many ways: OSError, ValueError ...
         raise FormatError(f"not a readable image ({one_line(error)}); save it as PNG or PGM") from None
     clear = array[:, :, 3] == 0 if see_through else None
