@@ -29,6 +29,8 @@ DEATHS = 2
 """A task over which so many processes died is given up: the first may have been killed from outside."""
 LIFE = 500
 """Tasks after which a process is replaced, so that what it remembers cannot grow without end."""
+SPARE = 3
+"""So many more processes than work at once may end, one after another, before they take up a task."""
 END = object()
 """Stands for the end of what a process answers."""
 
@@ -124,8 +126,9 @@ class Team(Generic[Task, Answer]):
         self._dismiss(process)
         if process.job is None:
             self._stillborn += not process.ready
-            if self._stillborn > self._size:
-                raise ProcessError("processes end before they take up a task; see above for why")
+            if self._stillborn > self._size + SPARE:
+                last = f"the last with exit status {process.status}"
+                raise ProcessError(f"processes end before they take up a task, {last}; see above for why")
             return
         process.job.deaths += 1
         if process.job.deaths < DEATHS:
