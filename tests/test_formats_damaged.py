@@ -203,6 +203,17 @@ def test_arcs_of_a_path_end_on_their_circles(tmp_path: Path, x: str) -> None:
         xa.load_run(put(KINDS["run"], tmp_path, json.dumps(run).encode()))
 
 
+def test_events_within_arcs_lie_on_their_circles(tmp_path: Path) -> None:
+    run = json.loads(RUN)
+    k, piece = next((k, piece) for k, piece in enumerate(run["path"]) if "arc" in piece)
+    event = {"kind": "sight", "obstacle": 1, "point": ["1/3", "1/7"], "after": k, "inside": True}
+    run["events"] = [event]
+    with pytest.raises(xa.FormatError, match="an event does not lie on the arc of the path that it names"):
+        xa.load_run(put(KINDS["run"], tmp_path, json.dumps(run).encode()))
+    run["events"] = [event | {"point": piece["start"]}]
+    assert xa.load_run(put(KINDS["run"], tmp_path, json.dumps(run).encode())).to_json()
+
+
 def test_a_path_beside_the_boundary_has_no_map(tmp_path: Path) -> None:
     run = json.loads(RUN)
     square = next(

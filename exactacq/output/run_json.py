@@ -354,6 +354,9 @@ def _read_events(
         after, inside = int(document["after"]), document["inside"] is True
         if not 0 <= after <= len(path) - inside:
             raise FormatError(f"an event after piece {shown(document['after'])} of a path of {len(path)}")
+        within = path[after].curve if inside and document["point"] is not None else None
+        if isinstance(within, Arc) and not _may_lie_on(place, within.center, within.radius_sq):
+            raise FormatError("an event does not lie on the arc of the path that it names")
         other = None if "other" not in document else _node(document["other"], count)
         reason = None if "reason" not in document else Reason(document["reason"])
         ending = None if "ending" not in document else Ending(document["ending"])
