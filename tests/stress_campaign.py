@@ -343,7 +343,8 @@ def _pending(stage: Stage, seed: int) -> Path:
     """A whole campaign whose results are still in the file beside, as after a kill."""
     path = stage.folder / f"pending-{seed}.sqlite"
     with closing(sqlite3.connect(stage.undisturbed(FEW, seed))) as base:
-        lines = list(base.iterdump())
+        lines = [f"{sql};" for (sql,) in base.execute("SELECT sql FROM sqlite_master WHERE sql IS NOT NULL")]
+        lines += [line for line in base.iterdump() if line.startswith("INSERT")]
     code = (
         "import os, sqlite3, sys\n"
         f"base = sqlite3.connect({str(path)!r}, isolation_level=None)\n"

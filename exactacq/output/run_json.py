@@ -14,7 +14,7 @@ import re
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from flint import fmpq
+from flint import arb, fmpq
 
 from exactacq.errors import ExactacqError, FormatError, shown
 from exactacq.files.scene_json import parse_json, scene_of, scene_to_json
@@ -300,12 +300,12 @@ def _read_piece(numbers: _Points, document: dict[str, Any], count: int) -> Piece
 
 
 def _may_lie_on(place: Point, center: Point, square: fmpq) -> bool:
-    """Whether a place lies on a circle: exact for rational ones, else told by balls of 64 bits."""
+    """Whether a place lies on a circle: exact for rational ones, else not excluded by balls."""
     if place.rational is not None and center.rational is not None:
         (x, y), (a, b) = place.rational, center.rational
         return bool((x - a) ** 2 + (y - b) ** 2 == square)
     dx, dy = (p.ball(64) - c.ball(64) for p, c in ((place.x, center.x), (place.y, center.y)))
-    return bool((dx**2 + dy**2).contains(square))
+    return bool((dx**2 + dy**2).overlaps(arb(square)))
 
 
 def _read_link(numbers: _Points, document: dict[str, Any], count: int) -> TreeLink:

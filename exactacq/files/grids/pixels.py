@@ -90,7 +90,7 @@ def _pillow(data: bytes) -> Pixels:
         raise
     except library.UnidentifiedImageError:  # its message names an object of Python
         raise FormatError(
-            "no image of a known kind, or its header is damaged; save it as PNG or PGM"
+            "not a readable image (of no known kind, or damaged); save it as PNG or PGM"
         ) from None
     except Exception as error:  # decoders meet damage in many ways: OSError, ValueError ...
         raise FormatError(f"not a readable image ({one_line(error)}); save it as PNG or PGM") from None
