@@ -344,7 +344,10 @@ def _pending(stage: Stage, seed: int) -> Path:
     path = stage.folder / f"pending-{seed}.sqlite"
     with closing(sqlite3.connect(stage.undisturbed(FEW, seed))) as base:
         lines = [f"{sql};" for (sql,) in base.execute("SELECT sql FROM sqlite_master WHERE sql IS NOT NULL")]
-        lines += [line for line in base.iterdump() if line.startswith("INSERT")]
+        rows = [line for line in base.iterdump() if line.startswith("INSERT")]
+    found = [line for line in rows if line.startswith(('INSERT INTO "scenes"', 'INSERT INTO "findings"'))]
+    begun = [line for line in rows if line not in found]
+    lines = ["BEGIN;", *lines, *begun, "COMMIT;", "BEGIN;", *found, "COMMIT;"]
     code = (
         "import os, sqlite3, sys\n"
         f"base = sqlite3.connect({str(path)!r}, isolation_level=None)\n"
