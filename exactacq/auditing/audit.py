@@ -3,8 +3,8 @@
 Lengths are re-added in balls, pieces are located among all edges, events are replayed, bounds are computed
 again from the paper's formulas, and knowledge is decided from the target's side (see `visibility`, here as
 the other files of this folder). For the Seed Spreader the components, the M-line and what blocks it are found
-again (`ground`), and its rules are replayed (`seed_spreader`). Nothing of the strategies, the robot, the
-links or the sensing is used.
+again (`ground`), and its rules are replayed (`seed_spreader`), with a look ahead of its own (`look_ahead`).
+Nothing of the strategies, the robot, the links or the sensing is used.
 
 Places that are not rational are compared with the path and with each other at `DIGITS` digits: there a
 deviation beyond them is not found. Everything else is exact, or a ball proves the flaw.
@@ -35,13 +35,14 @@ from exactacq.strategies.run import Run, SeedSpreaderRun, SightseerRun
 def audit(run: Run, *, samples: int = 64, seed: int = 0, progress: Progress | None = None) -> None:
     """Check a finished run by other means than those that made it; raises `AuditError` with the first flaw.
 
-    Path, events, links, bounds and length are checked completely. What is known, and what a sweep was about
-    to lose, is checked on samples: *samples* random boundary points, as many beside ends of known parts, and
-    as many places on the path. Equal seeds give equal samples. *progress* is told how many of how many steps
-    are done. Returns None if no flaw is found. ValueError
-    for runs of another strategy, `Undecided` where an exact comparison is beyond the limits. Cost: about ten
-    milliseconds a sample at ten obstacles in range, less than one for each piece and event, and that of
-    `MOMENTS` maps; for the Seed Spreader also of one map for each piece on its lines.
+    Path, events, links, bounds and length are checked completely, and so is each place at which a sweep lets
+    an obstacle go out of sight or diverts to it. What is known is checked on samples: *samples* random
+    boundary points, as many beside ends of known parts, and as many places on the path; that nothing at stake
+    goes out of reach, where pieces of a line begin and at places inside `MOMENTS` of them. Equal seeds give
+    equal samples. *progress* is told how many of how many steps are done. Returns None if no flaw is found.
+    ValueError for runs of another strategy, `Undecided` where an exact comparison is beyond the limits. Cost:
+    about ten milliseconds a sample at ten obstacles in range, less than one for each piece and event, and
+    that of `MOMENTS` maps; for the Seed Spreader also of one map for each piece on its lines.
 
     >>> import exactacq as xa
     >>> audit(xa.sightseer(xa.load("circles")), samples=8)

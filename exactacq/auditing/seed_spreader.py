@@ -27,7 +27,9 @@ from exactacq.auditing.comparisons import (
     same,
 )
 from exactacq.auditing.ground import CrossingPoint, Field, Stretch
-from exactacq.auditing.knowledge import MOMENTS, is_whole, point_on
+from exactacq.auditing.knowledge import MOMENTS, is_whole
+from exactacq.auditing.look_ahead import Answer, seen_later
+from exactacq.auditing.rest_of_line import KnownPieces, Rest
 from exactacq.auditing.visibility import Viewpoints, visible
 from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Curve, Segment
@@ -39,8 +41,6 @@ from exactacq.progress import Meter
 from exactacq.sensing.event import Ending, Event, EventKind, Reason
 from exactacq.strategies.run import Diversion, SeedSpreaderRun
 
-PAIRS = 64
-"""Lines of sight that are tried where an obstacle is said not to be seen later."""
 MOVES = tuple(map(EventKind, ("start", "hit", "cross", "leave", "divert", "return", "stop")))
 """What the robot does on a sweep."""
 
@@ -420,35 +420,29 @@ class Replay:
         elif reason is Reason.OUT_OF_SIGHT:
             is_due = self._is_visible(i) is not False
             if self.run.lookahead or leap is not None:
-                self._check_unseen_later(name, chart, i, onward)
+                self._check_unseen_later(name, chart, i, leap)
         else:
             is_due = False
         if not is_due:
             raise AuditError(f"{name} is due to {event.note!r}, which is not so")
 
-    def _check_unseen_later(self, name: str, chart: Any, i: int, start: Point) -> None:
-        """By the map no sampled place of the rest of the line sees a sampled known point of an obstacle."""
-        if same(start, self._line_end):
-            return
-        rest, body = Segment(start, self._line_end), self.bodies[i]
-        walls = [c for k in chart.seen for c in self._known(chart, k) if not isinstance(c, Point)]
-        parts = [part for part in chart.known(i) if not same(part.start, part.end)]
-        for _ in range(PAIRS if parts else 0):
-            part = self.rng.choice(parts)
-            edge, share = body.curves[part.edge], self._share()
-            target = point_on(
-                self.field.world.edges[body.edges[part.edge]], edge.part(part.start, part.end), share
-            )
-            place = rational_on(rest, self._share())
-            if place is None or target is None or (place - target).norm_sq() > self.run.radius**2:
-                continue
-            ahead = edge.direction if isinstance(edge, Segment) else edge.tangent(target)
-            in_front = ahead.cross(place - target).sign() < 0
-            met = (c for wall in walls for c in contacts(Segment(place, target), wall))
-            if in_front and all(same(c.start, target) and same(c.end, target) for c in met):
-                raise AuditError(
-                    f"{name} is needless: by the map {place_text(target)} is seen from {place_text(place)}"
-                )
+    def _check_unseen_later(self, name: str, chart: Any, i: int, leap: CrossingPoint | None) -> None:
+        """By the map nothing of an obstacle is seen from the rest of the line."""
+        answer = self._seen_later(chart, i, self.here if leap is None else leap.point, leap is not None)
+        if answer.sees:
+            raise AuditError(f"{name} is needless: by the map {answer.goal} is seen from {answer.place}")
+
+    def _seen_later(self, chart: Any, i: int, start: Point, including: bool) -> Answer:
+        """What by the map is seen of an obstacle from the rest of the line, or from its start alone.
+
+        The start is left out unless *including*, which also means that without a look ahead it is all.
+        """
+        stop = self._line_end if self.run.lookahead else start
+        known = self._known(chart, i)
+        others = [c for k in chart.seen if k != i for c in self._known(chart, k) if not isinstance(c, Point)]
+        targets = [curve for curve in known if not isinstance(curve, Point)]
+        points = [point for point in known if isinstance(point, Point)]
+        return seen_later(Rest(start, stop, including), KnownPieces(targets, points, others), self.run.radius)
 
     def _share(self) -> fmpq:
         return fmpq(self.rng.randrange(1, 1 << 10), 1 << 10)
@@ -469,17 +463,44 @@ class Replay:
         place = rational_on(curve, self._share()) if isinstance(curve, Segment) else None
         if self.done in self.probes and place is not None:
             self._check_rest(self._chart(place), place, "on the line")
-        if self.run.lookahead:
-            return
-        passed = [e for e in self.run.events if e.after == self.done and e.inside]
+        passed = [e for e in self._after_last_move() if e.after == self.done]
         for n, event in enumerate(passed):
             if event.kind is EventKind.LOSE:
                 later = (e for e in passed[n + 1 :] if e.obstacle == event.obstacle)
                 back = next(later, None)
                 if back is not None and same(back.point, event.point):
                     continue
-                if event.obstacle in self._at_stake(self.run.map_at(event)):
-                    raise AuditError(f"{self.name(event)} is not followed by a diversion")
+                self._check_lost(event)
+
+    def _after_last_move(self) -> list[Event]:
+        """The events since the robot began or went on to follow this line."""
+        events = self.run.events
+        last = next(n for n, event in enumerate(events) if event is self.moves[self.next - 1])
+        return list(events[last + 1 :])
+
+    def _check_lost(self, event: Event) -> None:
+        """What goes out of sight without a diversion is not at stake, or by the map it is seen later."""
+        assert event.obstacle is not None
+        chart = self.run.map_at(event)
+        if event.obstacle not in self._at_stake(chart):
+            return
+        if self.run.lookahead:
+            answer = self._seen_later(chart, event.obstacle, event.point, False)
+            if answer.sees or answer.is_open:
+                return
+        raise AuditError(f"{self.name(event)} is not followed by a diversion")
+
+    def _is_in_sight(self, obstacle: int) -> bool:
+        """Whether by the events an obstacle is in sight here; one that is lost here is, at this place."""
+        state = False
+        for event in self.run.events:
+            if event.obstacle != obstacle or (event.after, event.inside) > (self.done, False):
+                continue
+            if event.kind in (EventKind.SIGHT, EventKind.REGAIN):
+                state = True
+            elif event.kind is EventKind.LOSE and event.after < self.done:
+                state = False
+        return state
 
     def _check_hop(self, leave: CrossingPoint) -> None:
         """Nothing that is at stake is lost between a hit and the leave point."""
@@ -488,6 +509,15 @@ class Replay:
         chart = self._chart()
         if leave.piece == self.piece:
             self._check_rest(chart, leave.point, "beyond the obstacle")
+            for k in self._at_stake(chart):
+                if not self._is_in_sight(k):
+                    continue
+                answer = self._seen_later(chart, k, leave.point, True)
+                if not (answer.sees or answer.is_open):
+                    where = place_text(leave.point)
+                    raise AuditError(
+                        f"obstacle {k} is lost without a diversion: it is not seen from {where} on"
+                    )
         else:
             for k in self._at_stake(chart):
                 raise AuditError(
