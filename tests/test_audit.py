@@ -11,6 +11,7 @@ from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from functools import cache
 from random import Random
+from typing import Any
 
 import pytest
 from flint import fmpq
@@ -27,7 +28,9 @@ from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.sensing.event import SENSED, Ending, Event, EventKind, Reason
 from exactacq.sensing.path import Path, Piece
-from exactacq.strategies.run import Run, SightseerRun
+from exactacq.strategies.run import Run, SeedSpreaderRun, SightseerRun
+from exactacq.study.claims.model import Subject
+from exactacq.study.random_scenes import random_scene
 
 Q = Fraction
 SIDE = [Point(2, -2), Point(6, -2), Point(6, 2), Point(2, 2)]
@@ -517,3 +520,54 @@ class TestMaps:
         a, b, c, d, e = square_run().events
         lose = replace(b, kind=EventKind.LOSE, reason=Reason.OCCLUSION, point=Point(1, 0), inside=True)
         refused(replace(square_run(), events=(a, b, lose, c, d, e)), "obstacle 0 is not out of sight from")
+
+
+class MovedEnd:
+    """The final map of a run, but for an end of a known part: it is moved along its straight edge."""
+
+    def __init__(self, chart: Any, obstacle: int, part: int, size: Fraction) -> None:
+        self.chart, self.obstacle, self.part = chart, obstacle, part
+        old = chart.known(obstacle)[part]
+        way = old.end - old.start
+        self.old, self.moved = old, old.start + way * (1 + size)
+        self.sliver, self.grows = Segment(*sorted((old.end, self.moved), key=lambda p: p.xy)), size > 0
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.chart, name)
+
+    def known(self, i: int) -> list[Any]:
+        parts = list(self.chart.known(i))
+        if i == self.obstacle:
+            parts[self.part] = replace(self.old, end=self.moved, curve=Segment(self.old.start, self.moved))
+        return parts
+
+    def known_length(self, i: int) -> Length:
+        return Length.sum(part.length for part in self.known(i))
+
+    def knows(self, i: int, point: Point) -> bool:
+        if i == self.obstacle and point != self.moved and self.sliver.passes(point):
+            return self.grows
+        return bool(self.chart.knows(i, point))
+
+    @property
+    def frontier(self) -> list[tuple[int, Point]]:
+        ends = [(i, p) for i, p in self.chart.frontier if p != self.old.end]
+        return [*ends, (self.obstacle, self.moved)]
+
+
+class TestEndsOfTheFinalMap:
+    """Each end of what is known in the end is asked for, whatever is sampled."""
+
+    @pytest.mark.parametrize(("size", "word"), [(Q(1, 10**8), "knows"), (-Q(1, 10**8), "lacks")])
+    def test_a_moved_end(self, size: Fraction, word: str) -> None:
+        """The sweep is trapped in a hook, of which a part of the ground, up to (17/8, 3/2), is known."""
+        run = xa.seed_spreader(random_scene(Subject.SEED_SPREADER, 45))
+        audit(run, samples=0)
+        parts = run.map.known(0)
+        (part,) = (k for k, part in enumerate(parts) if part.end == Point("17/8", "3/2"))
+
+        class Lying(SeedSpreaderRun):
+            map = MovedEnd(run.map, 0, part, size)  # type: ignore[assignment]
+
+        lying_run = Lying(**{field.name: getattr(run, field.name) for field in fields(run)})
+        refused(lying_run, f"the final map {word} the point (2.12", samples=0)

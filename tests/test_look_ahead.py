@@ -102,6 +102,12 @@ class TestByHand:
         assert sees([], roof, points=point, start=0, stop=9)
         assert not sees([], [*roof, wall(1, -9, 2)], points=point, start=0, stop=9)
 
+    def test_along_the_side_of_an_obstacle(self) -> None:
+        """The line runs along a block west of it: from its corners too what lies west is hidden."""
+        known = [*block(-1, 0, -5, 5), *block(-3, -2, 20, 21)]
+        assert not sees([wall(-2, 0, 1).reversed()], known, start=5, stop=-5)
+        assert sees([wall(-2, 0, 1).reversed()], known[1:], start=5, stop=-5, points=[Point(3, 3)])
+
     def test_around_a_disc(self) -> None:
         """From the far side of a disc of radius 1 about (3, 0) nothing of it is hidden but by itself."""
         assert sees(disc(3, 0, 1), [])

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain
 from random import Random
 from typing import Any, NamedTuple
 
@@ -46,6 +47,14 @@ class _Instant(NamedTuple):
     after: int
     inside: Point | None
     chart: Any
+
+
+class _PartEnd(NamedTuple):
+    """An end of a known part: of which obstacle, on which edge, and where."""
+
+    obstacle: int
+    edge: int
+    point: Point
 
 
 class Knowledge:
@@ -123,8 +132,11 @@ class Knowledge:
     # -- maps against the path ---------------------------------------------------------------------
 
     def check_targets(self, samples: int) -> None:
-        """Sampled boundary points are known when, and only when, some place of the path has seen them."""
-        for i, target in self._targets(samples):
+        """Boundary points are known when, and only when, some place of the path has seen them.
+
+        The points are sampled ones, and those beside all ends of what is known in the end.
+        """
+        for i, target in chain(self._targets(samples), self._beside(self._ends(self.moments[-1].chart))):
             first = self.lookout.first(target)
             where = f"the point {place_text(target)} of obstacle {i}"
             for name, after, inside, chart in self.moments:
@@ -184,14 +196,21 @@ class Knowledge:
             place = point_on(edge, body.curves[k], share)
             if place is not None:
                 yield body.number, place
-        ends = [
-            (i, part.edge, end)
-            for moment in self.moments
-            for i in moment.chart.incomplete
-            for part in moment.chart.known(i)
+        ends = [end for moment in self.moments[:-1] for end in self._ends(moment.chart)]
+        yield from self._beside(self.rng.sample(ends, min(samples // 2, len(ends))))
+
+    def _ends(self, chart: Any) -> list[_PartEnd]:
+        """The ends of the known parts of incomplete obstacles."""
+        return [
+            _PartEnd(i, part.edge, end)
+            for i in chart.incomplete
+            for part in chart.known(i)
             for end in (part.start, part.end)
         ]
-        for i, k, end in self.rng.sample(ends, min(samples // 2, len(ends))):
+
+    def _beside(self, ends: Iterable[_PartEnd]) -> Iterator[tuple[int, Point]]:
+        """Rational points close to ends on both sides, if on the edge, and the ends that are rational."""
+        for i, k, end in ends:
             edge, curve = self.world.edges[self.bodies[i].edges[k]], self.bodies[i].curves[k]
             beside = [point_near(edge, end, shift) for shift in (-ASIDE, ASIDE)]
             for place in (*beside, end if end.rational else None):

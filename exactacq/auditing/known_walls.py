@@ -87,6 +87,10 @@ class Departure(NamedTuple):
         return Departure(self.way.reversed(), -self.bend)
 
 
+UPRIGHT = tuple(Departure(BallPoint(arb(0), arb(y)), arb(0)) for y in (1, -1))
+"""Up and down."""
+
+
 class Wall:
     """A known piece in balls, with the blocked side on its left; ``target`` if it is of the obstacle sought.
 
@@ -231,7 +235,8 @@ class Walls:
     def is_free(self, p: BallPoint, q: BallPoint, leaves_any_side: bool = False) -> bool:
         """Whether the way from a place p to a known point q crosses no wall and enters no blocked side.
 
-        With *leaves_any_side* it may enter what is blocked at p itself.
+        With *leaves_any_side* it may enter what is blocked at p, if to go up or down enters it too: then
+        p is the end of a stretch of a vertical line that lies within what a wall bounds.
         """
         sight = q.minus(p)
         if not (sign(sight.x) or sign(sight.y)):
@@ -273,7 +278,8 @@ class Walls:
         if beside is None:
             beside = Departure(own.way.reversed(), arb(0))
         leave, back = (own, beside) if is_start else (beside, own)
-        ways = [] if at_goal or (at_place and lax) else [sight]
+        within = at_place and lax and any(_lies_between(leave, ray, back) for ray in UPRIGHT)
+        ways = [] if at_goal or within else [sight]
         ways += [] if at_place else [sight.reversed()]
         return any(_lies_between(leave, Departure(way, arb(0)), back) for way in ways)
 
@@ -296,7 +302,8 @@ def _is_crossed(p: BallPoint, q: BallPoint, sight: BallPoint, wall: Wall, lax: b
         return False
     chord = wall.end.minus(wall.start)
     here, there = sign(chord.cross(p.minus(wall.start))), sign(chord.cross(q.minus(wall.start)))
-    return here * there < 0 or (not here and there > 0 and not lax) or (not there and here > 0)
+    within = lax and sign(chord.x)
+    return here * there < 0 or (not here and there > 0 and not within) or (not there and here > 0)
 
 
 def _is_cut(p: BallPoint, q: BallPoint, sight: BallPoint, wall: Wall, lax: bool) -> bool:
@@ -307,18 +314,19 @@ def _is_cut(p: BallPoint, q: BallPoint, sight: BallPoint, wall: Wall, lax: bool)
     """
     assert wall.center is not None
     offset, size = wall.center.minus(p), sight.dot(sight)
+    within = lax and (wall.sense < 0 or sign(offset.y) != 0)
     along, aside = sight.dot(offset), sight.cross(offset)
     square = wall.square * size - aside * aside
     if sign(square) < 0:
         return False
     if not sign(square):
         t = along / size
-        touches = sign(t) >= (1 if lax else 0) and sign(1 - t) >= 0 and _is_inner(wall, p.along(sight, t))
+        touches = sign(t) >= (1 if within else 0) and sign(1 - t) >= 0 and _is_inner(wall, p.along(sight, t))
         return touches and wall.sense < 0
     root = square.sqrt()
     for t, goes_in in (((along - root) / size, True), ((along + root) / size, False)):
         begins, ends = sign(t), sign(1 - t)
-        if begins < 0 or ends < 0 or (lax and not begins) or not _is_inner(wall, p.along(sight, t)):
+        if begins < 0 or ends < 0 or (within and not begins) or not _is_inner(wall, p.along(sight, t)):
             continue
         if (begins and ends) or goes_in is (wall.sense > 0 if not begins else wall.sense < 0):
             return True

@@ -481,6 +481,9 @@ class Replay:
     def _check_lost(self, event: Event) -> None:
         """What goes out of sight without a diversion is not at stake, or by the map it is seen later."""
         assert event.obstacle is not None
+        after = Event(EventKind.MOMENT, self.run.path[self.done].end, None, self.done + 1, self.run.path)
+        if not any(self._is_west(c) for c in self._known(self.run.map_at(after), event.obstacle)):
+            return  # Nor is it known west of the line before: that spares a map within a piece.
         chart = self.run.map_at(event)
         if event.obstacle not in self._at_stake(chart):
             return
