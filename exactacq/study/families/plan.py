@@ -1,0 +1,48 @@
+"""What a family draws: obstacles, perhaps a wall about them, and the distances and places that make ties."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from flint import fmpq
+
+from exactacq.scene.shapes import Shape
+
+Corner = tuple[fmpq, fmpq]
+
+
+class Box(NamedTuple):
+    """A rectangle along the axes."""
+
+    left: fmpq
+    bottom: fmpq
+    right: fmpq
+    top: fmpq
+
+    def wider(self, margin: fmpq | int) -> Box:
+        """The rectangle that is wider by a margin on every side."""
+        return Box(self.left - margin, self.bottom - margin, self.right + margin, self.top + margin)
+
+    @property
+    def middle(self) -> Corner:
+        """The centre."""
+        return (self.left + self.right) / 2, (self.bottom + self.top) / 2
+
+
+class Plan(NamedTuple):
+    """A drawing without a robot.
+
+    ``box`` bounds the obstacles. ``gap`` is a distance of neighbours, ``pitch`` that from one to the next of
+    the same kind; a radius may equal either. ``bite`` is so small that a terrain whose border is so far
+    within ``box`` still meets every obstacle. ``places`` are where ties are: on axes of symmetry, on lines
+    of a grid, equally far from several obstacles; some may not be free.
+    """
+
+    shapes: Sequence[Shape]
+    wall: Shape | None
+    box: Box
+    gap: fmpq
+    pitch: fmpq
+    bite: fmpq
+    places: Sequence[Corner]
