@@ -48,7 +48,7 @@ def _gathered(dask: Any, client: Any, settings: Settings, tasks: list[Task]) -> 
             judged = future.result()
         except dask.KilledWorker as error:
             if len(batch) == 1:
-                yield lost(batch[0], Result.CRASHED, 0.0, str(error))
+                yield lost(settings, batch[0], Result.CRASHED, 0.0, str(error))
                 continue
             for task in batch:
                 again = _submit(client, settings, [task])

@@ -13,7 +13,17 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from exactacq.errors import FormatError
-from exactacq.study.campaign.settings import MOST_SCENES, Settings, Task, claims_at, parts
+from exactacq.study.campaign.settings import (
+    MOST_SCENES,
+    RANDOM,
+    Settings,
+    Source,
+    Task,
+    claims_at,
+    parts,
+    sizes_of,
+)
+from exactacq.study.families.names import Family
 
 if TYPE_CHECKING:
     from exactacq.study.campaign.judging import Record
@@ -40,6 +50,13 @@ def verify(
     ] = 100,
     seed: Annotated[int, typer.Option(min=0, max=10**9, metavar="S", help="Another seed, other scenes.")] = 0,
     strategy: Annotated[Chosen, typer.Option(help="Which strategies to try.")] = Chosen.BOTH,
+    family: Annotated[
+        Family | None, typer.Option(help="Scenes like such drawings in place of small random ones.")
+    ] = None,
+    size: Annotated[
+        str | None,
+        typer.Option(metavar="N..M", help="Sizes of these drawings, 5 to 300; default: 5..40."),
+    ] = None,
     workers: Annotated[
         int | None, typer.Option(min=1, metavar="K", help="Processes on this machine; default: one a core.")
     ] = None,
@@ -72,13 +89,14 @@ def verify(
     from exactacq.files.whole_files import check_output
     from exactacq.study.campaign.table import SUFFIXES, arrow
 
+    source = _source(family, size)
     if replay is not None:
         if out is not None or table is not None or scheduler is not None:
             raise FormatError("--replay: judges one scene here and writes nothing; leave the files out")
-        _replay(_task(replay), Settings(audit=audited), as_json)
+        _replay(_task(replay), Settings(audit=audited, source=source), as_json)
         return
     chosen = Settings().strategies if strategy is Chosen.BOTH else (strategy.value,)
-    settings = Settings(scenes, seed, chosen, audited, timeout)
+    settings = Settings(scenes, seed, chosen, audited, timeout, source=source)
     target = None if table is None else check_output(table, SUFFIXES)
     if target is not None:
         arrow()
@@ -121,6 +139,14 @@ def run_campaign(
         return bool(faults(store))
 
 
+def _source(family: Family | None, size: str | None) -> Source:
+    if family is None:
+        if size is not None:
+            raise FormatError("--size: is that of drawings; name their --family too")
+        return RANDOM
+    return Source(family.value) if size is None else Source(family.value, *sizes_of(size))
+
+
 def _task(text: str) -> Task:
     strategy, _, seed = text.rpartition(":")
     if strategy not in Settings().strategies or not (seed.isascii() and seed.isdecimal()):
@@ -135,7 +161,7 @@ def _replay(task: Task, settings: Settings, as_json: bool) -> None:
     from exactacq.study.campaign.summary import is_faulty, record_data, record_report
 
     statements = list(parts(claims_at(settings.claims)))
-    record = judge(task, statements, settings.audit)
+    record = judge(task, statements, settings.audit, settings.source)
     if as_json:
         sys.stdout.write(text_of(record_data(record)))
     else:

@@ -13,11 +13,11 @@ from typing import NamedTuple
 from exactacq.auditing.audit import audit
 from exactacq.errors import AuditError, InvalidScene, Undecided
 from exactacq.files.scene_json import scene_to_json
+from exactacq.scene.scene import Scene
 from exactacq.strategies.run import Run
-from exactacq.study.campaign.settings import Called, Settings, Task, claims_at, parts
+from exactacq.study.campaign.settings import RANDOM, Called, Settings, Source, Task, claims_at, parts
 from exactacq.study.claims.model import Case, Finding, Outcome, Statement, Subject
 from exactacq.study.processes import Lost, Team
-from exactacq.study.random_scenes import random_scene
 
 SAMPLES = 8
 """Samples of each kind that an audit takes: few, and others on each scene, for there are many scenes."""
@@ -60,14 +60,16 @@ class Record(NamedTuple):
     rows: tuple[Row, ...] = ()
 
 
-def judge(task: Task, statements: Iterable[tuple[Called, Statement]], audited: bool) -> Record:
+def judge(
+    task: Task, statements: Iterable[tuple[Called, Statement]], audited: bool, source: Source = RANDOM
+) -> Record:
     """Make the scene, run the strategy on it, audit the run, and put the case to all its statements.
 
     Never raises: what goes wrong is part of the record. Apart from ``seconds`` it depends on nothing but the
     arguments. Cost: the run's, the audit's and the checks'; seconds.
     """
     began = perf_counter()
-    case = Case(random_scene(Subject(task.strategy), task.seed))
+    case = Case(source.scene(task))
     result, detail, length = _run(case, task, audited)
     # Without a run there is nothing to say, and each check would only meet the same error again.
     asked = [] if length is None else [s for s in statements if s[0].strategy == task.strategy]
@@ -78,7 +80,9 @@ def judge(task: Task, statements: Iterable[tuple[Called, Statement]], audited: b
             result, detail = spoilt, f"{row.claim} ({row.statement}): {row.detail}"
     seconds = perf_counter() - began
     failing = result is not Result.PASSED or any(row.outcome == FAILS for row in rows)
-    return Record(task, result.value, seconds, length, detail, scene_text(task) if failing else None, rows)
+    return Record(
+        task, result.value, seconds, length, detail, scene_text(case.scene) if failing else None, rows
+    )
 
 
 def records(settings: Settings, tasks: Iterable[Task], size: int) -> Generator[Record, None, None]:
@@ -87,28 +91,30 @@ def records(settings: Settings, tasks: Iterable[Task], size: int) -> Generator[R
     A scene that takes longer than ``settings.timeout`` seconds is recorded as a timeout, one over which two
     processes died as crashed. Raises `exactacq.study.processes.ProcessError`.
     """
-    with Team(partial(_judge_of, settings.claims, settings.audit), size, settings.timeout) as team:
+    with Team(
+        partial(_judge_of, settings.claims, settings.audit, settings.source), size, settings.timeout
+    ) as team:
         for task, record in team.results(tasks):
             if isinstance(record, Lost):
                 result = Result.CRASHED if record.died else Result.TIMEOUT
-                yield lost(task, result, record.seconds, record.detail)
+                yield lost(settings, task, result, record.seconds, record.detail)
             else:
                 yield record
 
 
-def _judge_of(claims: str, audited: bool) -> Callable[[Task], Record]:
+def _judge_of(claims: str, audited: bool, source: Source) -> Callable[[Task], Record]:
     statements = list(parts(claims_at(claims)))
-    return lambda task: judge(task, statements, audited)
+    return lambda task: judge(task, statements, audited, source)
 
 
-def lost(task: Task, result: Result, seconds: float, detail: str) -> Record:
+def lost(settings: Settings, task: Task, result: Result, seconds: float, detail: str) -> Record:
     """The record of a scene whose process gave no answer."""
-    return Record(task, result.value, seconds, detail=detail, scene=scene_text(task))
+    return Record(task, result.value, seconds, detail=detail, scene=scene_text(settings.source.scene(task)))
 
 
-def scene_text(task: Task) -> str:
+def scene_text(scene: Scene) -> str:
     """The scene as a JSON document that every command reads."""
-    return json.dumps(scene_to_json(random_scene(Subject(task.strategy), task.seed)))
+    return json.dumps(scene_to_json(scene))
 
 
 _ORDER = list(Result)

@@ -8,10 +8,12 @@ from importlib import import_module
 from importlib.metadata import version
 from typing import TYPE_CHECKING, NamedTuple
 
-from exactacq.errors import ExactacqError
+from exactacq.errors import ExactacqError, FormatError
 from exactacq.strategies.options import Strategy
+from exactacq.study.families.names import SIZES
 
 if TYPE_CHECKING:
+    from exactacq.scene.scene import Scene
     from exactacq.study.claims.model import Claim, Statement
 
 CLAIMS = "exactacq.study.claims:CLAIMS"
@@ -44,6 +46,49 @@ class Called(NamedTuple):
     text: str
 
 
+class Source(NamedTuple):
+    """Where scenes come from: small random ones, or drawings of a family, of all sizes of a range in turn."""
+
+    family: str = ""
+    least: int = 5
+    most: int = 40
+
+    def scene(self, task: Task) -> Scene:
+        """The scene of a task. Raises what `family_scene` raises."""
+        if not self.family:
+            from exactacq.study.claims.model import Subject
+            from exactacq.study.random_scenes import random_scene
+
+            return random_scene(Subject(task.strategy), task.seed)
+        from exactacq.study.families.catalogue import family_scene
+
+        size = self.least + task.seed % (self.most - self.least + 1)
+        return family_scene(self.family, size, task.seed, task.strategy)
+
+    @property
+    def options(self) -> str:
+        """What the command line is told for these scenes, with a space before each option."""
+        return f" --family {self.family} --size {self.least}..{self.most}" if self.family else ""
+
+    def __str__(self) -> str:
+        return self.options.strip() or "random"
+
+
+RANDOM = Source()
+"""The scenes of `exactacq.study.random_scenes`."""
+
+
+def sizes_of(text: str) -> tuple[int, int]:
+    """The least and the greatest size of "12" or "5..40". Raises `FormatError`."""
+    least, dots, most = text.partition("..")
+    most = most if dots else least
+    if not all(part.isascii() and part.isdecimal() and len(part) < 10 for part in (least, most)):
+        raise FormatError(f"--size: give a size like 12, or sizes like 5..40, not {text!r}")
+    if not SIZES[0] <= int(least) <= int(most) <= SIZES[-1]:
+        raise FormatError(f"--size: sizes ascend from {SIZES[0]} to {SIZES[-1]}, not {text}")
+    return int(least), int(most)
+
+
 @dataclass(frozen=True)
 class Settings:
     """A campaign: *scenes* of each strategy, from the *seed*; *timeout* is in seconds a scene."""
@@ -54,6 +99,7 @@ class Settings:
     audit: bool = True
     timeout: float = 120.0
     claims: str = CLAIMS
+    source: Source = RANDOM
 
     def tasks(self) -> Iterator[Task]:
         """All scenes, the strategies in turn. Campaigns of different seeds share no scene."""

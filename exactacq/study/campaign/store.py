@@ -47,7 +47,7 @@ class Store:
     """
 
     def __init__(self, path: Path | None, settings: Settings, statements: Sequence[Called]) -> None:
-        self.path = path
+        self.path, self.settings = path, settings
         with self._told("cannot be used as a campaign's file"):
             if path is not None and _is_begun(path):
                 # What cannot write does not merge the files beside, whose they may ever be.

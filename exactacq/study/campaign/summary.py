@@ -9,7 +9,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 
 from exactacq.study.campaign.judging import FAILS, HOLDS, SILENT, Record, Result
-from exactacq.study.campaign.settings import Called, Task
+from exactacq.study.campaign.settings import Called, Source, Task
 from exactacq.study.campaign.store import Store
 
 SHOWN = 12
@@ -89,7 +89,10 @@ def summary(store: Store) -> RenderableType:
         numbers = map(str, (t.tried, t.held, t.failed, t.silent, t.unanswered))
         worst = ("", "") if t.worst is None else (f"{t.worst:.6g}", str(t.at))
         table.add_row(t.called.claim, t.called.part, t.called.truth, *numbers, *worst)
-    wrong, others = _named("wrong", faults(store)), _named("open", unfinished(store))
+    wrong, others = (
+        _named(title, found, store.settings.source)
+        for title, found in (("wrong", faults(store)), ("open", unfinished(store)))
+    )
     return Group(table, "", _counts(store), *wrong, *others)
 
 
@@ -144,7 +147,7 @@ def _counts(store: Store) -> str:
     return f"{sum(counts.values())} scenes: {', '.join(words)}; {store.wall:.1f} s{slowest}"
 
 
-def _named(title: str, found: list[tuple[Task, str, str]]) -> Iterator[RenderableType]:
+def _named(title: str, found: list[tuple[Task, str, str]], source: Source) -> Iterator[RenderableType]:
     if not found:
         return
     yield ""
@@ -154,7 +157,7 @@ def _named(title: str, found: list[tuple[Task, str, str]]) -> Iterator[Renderabl
     yield table
     if len(found) > SHOWN:
         yield f"and {len(found) - SHOWN} more in the file"
-    yield f"see one again with: exactacq verify --replay {found[0][0]}"
+    yield f"see one again with: exactacq verify{source.options} --replay {found[0][0]}"
 
 
 def record_report(record: Record) -> RenderableType:

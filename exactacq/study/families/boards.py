@@ -1,9 +1,10 @@
-"""Circuit boards: an outline with fillets and notches, mounting holes, and pads, pins and chips between them."""
+"""Circuit boards: an outline with fillets and notches, mounting holes, and pads, pins and chips."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from math import isqrt
+from typing import NamedTuple
 
 from flint import fmpq
 
@@ -24,33 +25,30 @@ DEEP = 4
 ONE, HALF = fmpq(1), fmpq(1, 2)
 
 
-def _package() -> list[Shape]:
-    """Two rows of four pads."""
-    return [box(around((fmpq(x), fmpq(y)), HALF)) for y in (-2, 2) for x in (-3, -1, 1, 3)]
+class Part(NamedTuple):
+    """Shapes about the origin, and half the width and height that they take."""
+
+    shapes: tuple[Shape, ...]
+    wide: fmpq
+    high: fmpq
 
 
-def _header() -> list[Shape]:
-    """Two by three pins."""
-    return [Circle((x, y), HALF) for y in (-1, 1) for x in (-2, 0, 2)]
+def _pad(x: int, y: int) -> Shape:
+    return box(around((fmpq(x), fmpq(y)), HALF))
 
 
-def _chip() -> list[Shape]:
-    """A case with fillets between two slots."""
-    case = rounded(Box(fmpq(-2), fmpq(-2), fmpq(2), fmpq(2)), ONE)
-    return [case, *(slot(Box(x - HALF, fmpq(-2), x + HALF, fmpq(2))) for x in (fmpq(-4), fmpq(4)))]
+def _slot(x: int) -> Shape:
+    return slot(Box(x - HALF, fmpq(-2), x + HALF, fmpq(2)))
 
 
-def _resistor() -> list[Shape]:
-    """Two pads with fillets."""
-    return [rounded(around((fmpq(x), fmpq(0)), ONE), fmpq(1, 4)) for x in (-2, 2)]
-
-
-def _via() -> list[Shape]:
-    """One drill hole."""
-    return [Circle((0, 0), 1)]
-
-
-PARTS: tuple[Callable[[], list[Shape]], ...] = (_package, _header, _chip, _resistor, _via)
+PARTS = (
+    Part(tuple(_pad(x, y) for y in (-2, 2) for x in (-3, -1, 1, 3)), 3 + HALF, 2 + HALF),
+    Part(tuple(Circle((x, y), HALF) for y in (-1, 1) for x in (-2, 0, 2)), 2 + HALF, 1 + HALF),
+    Part((rounded(around((fmpq(0), fmpq(0)), 2), ONE), _slot(-4), _slot(4)), 4 + HALF, 2 * ONE),
+    Part(tuple(rounded(around((fmpq(x), fmpq(0)), ONE), HALF / 2) for x in (-2, 2)), 3 * ONE, ONE),
+    Part((Circle((0, 0), 1),), ONE, ONE),
+)
+"""Two rows of pads, a header of pins, a chip between slots, two pads with fillets, a drill hole."""
 
 
 def board(dice: Dice, n: int, walled: bool) -> Plan:
@@ -65,27 +63,31 @@ def board(dice: Dice, n: int, walled: bool) -> Plan:
     bounds = Box(fmpq(0), fmpq(0), fmpq(columns * SITE), fmpq(rows * SITE))
     shapes: list[Shape] = []
     places: list[Corner] = []
+    drawn = None
     for k, part in enumerate(parts):
         x, y = (k % columns) * SITE + SITE // 2, (k // columns) * SITE + SITE // 2
-        shapes += [moved(shape, x, y) for shape in part()]
+        shapes += [moved(shape, x, y) for shape in part.shapes]
+        drawn = Box(x - part.wide, y - part.high, x + part.wide, y + part.high).united(drawn)
         places += [(fmpq(x), fmpq(y)), (x + HALF * SITE, fmpq(y)), (fmpq(x), y + HALF * SITE)]
     edge = bounds.wider(MARGIN)
     inset = edge.wider(-FILLET)
     corners = [(inset.left, inset.top), (inset.right, inset.bottom)]
     corners += [(inset.left, inset.bottom), (inset.right, inset.top)]
     radius = dice.choice((ONE, fmpq(3, 2)))
-    shapes += [Circle(corner, radius) for corner in corners[:holes]]
+    for corner in corners[:holes]:
+        shapes.append(Circle(corner, radius))
+        drawn = around(corner, radius).united(drawn)
+    assert drawn is not None
     wall = _edge(edge, [dice.chance(40) for _ in range(4)]) if walled else None
-    drawn = inset.wider(radius) if holes else bounds.wider(-3)
-    return Plan(shapes, wall, drawn, ONE, fmpq(2), fmpq(0), places)
+    return Plan(shapes, wall, drawn, ONE, fmpq(2), HALF / 2, places)
 
 
-def _chosen(dice: Dice, n: int) -> Iterator[Callable[[], list[Shape]]]:
+def _chosen(dice: Dice, n: int) -> Iterator[Part]:
     """Parts of *n* shapes in all."""
     while n:
-        part = dice.choice([p for p in PARTS if len(p()) <= n])
+        part = dice.choice([part for part in PARTS if len(part.shapes) <= n])
         yield part
-        n -= len(part())
+        n -= len(part.shapes)
 
 
 def _edge(place: Box, notched: list[bool]) -> Outline:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from enum import StrEnum
 
 from flint import fmpq
 
@@ -16,27 +15,12 @@ from exactacq.study.dice import Dice
 from exactacq.study.families.boards import board
 from exactacq.study.families.floor_plans import floor_plan
 from exactacq.study.families.gears import gears
+from exactacq.study.families.names import SIZES, Family
 from exactacq.study.families.plan import Corner, Plan
 from exactacq.study.families.plates import plate
 from exactacq.study.families.slots import slots
 from exactacq.study.families.staircases import staircases
 from exactacq.study.families.words import words
-
-SIZES = range(5, 301)
-"""Sizes that every family has."""
-
-
-class Family(StrEnum):
-    """Kinds of drawings; n counts the obstacles, of gears and staircases their edges."""
-
-    PLATES = "plates"
-    BOARDS = "boards"
-    FLOOR_PLANS = "floor-plans"
-    GEARS = "gears"
-    SLOTS = "slots"
-    WORDS = "words"
-    STAIRCASES = "staircases"
-
 
 PLANS: dict[Family, Callable[[Dice, int, bool], Plan]] = {
     Family.PLATES: plate,
@@ -54,10 +38,11 @@ def family_scene(name: str, n: int, seed: int, strategy: str) -> Scene:
     """A valid scene of a family with its radius, the same on every platform for the same arguments.
 
     *n* is the number of obstacles, of gears and staircases that of their edges; an enclosure is not counted.
-    The radius equals a gap, a pitch or twice that, is generic, or exceeds the scene. The Sightseer starts where
-    ties are, on a boundary or anywhere, in half of the scenes within a wall. The Seed Spreader's terrain
-    has some room about the obstacles, or its border touches them, or cuts them. ValueError for an unknown
-    family or strategy, a size outside `SIZES`, or a negative seed.
+    The radius equals a gap, a pitch or twice that, is generic, or exceeds the scene. The Sightseer starts
+    where ties are, on a boundary or anywhere, in half of the scenes within a wall. The Seed Spreader's
+    terrain leaves some room on each side, or has obstacles that touch its border there, or cuts them.
+    ValueError for an unknown family or strategy, a size outside `SIZES`, or a negative seed. Near linear in
+    *n*: 10 milliseconds for each ten.
 
     >>> family_scene("plates", 12, 1, "sightseer")
     <Scene 'plates-12-sightseer-1': 12 obstacles>
@@ -90,7 +75,9 @@ def _start(dice: Dice, plan: Plan) -> Corner:
     if kind < 7:
         return _vertex(dice.choice(plan.shapes), dice)
     left, bottom, right, top = plan.box.wider(plan.gap / 2)
-    return left + (right - left) * fmpq(dice.below(98), 97), bottom + (top - bottom) * fmpq(dice.below(102), 101)
+    return left + (right - left) * fmpq(dice.below(98), 97), bottom + (top - bottom) * fmpq(
+        dice.below(102), 101
+    )
 
 
 def _vertex(shape: Shape, dice: Dice) -> Corner:

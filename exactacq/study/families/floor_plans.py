@@ -133,4 +133,4 @@ def _polygon(ring: list[tuple[int, int]]) -> Polygon:
 def _size(ring: list[tuple[int, int]]) -> int:
     """The half perimeter of a ring's bounding box: the building's wall has the two longest."""
     (west, east), (south, north) = (sorted(axis)[:: len(ring) - 1] for axis in zip(*ring, strict=True))
-    return east - west + north - south
+    return int(east - west + north - south)

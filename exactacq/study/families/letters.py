@@ -1,48 +1,48 @@
-"""Simple letters of strokes of width 1 and height 6, of lines and arcs, all in one piece and without holes."""
+"""Simple letters of strokes of width 1 and height 6, of lines and arcs: in one piece, and without holes."""
 
 from __future__ import annotations
 
 from flint import fmpq
 
 from exactacq.scene.bends import Around
-from exactacq.scene.shapes import Outline, Shape
+from exactacq.scene.shapes import Outline
 
-HEIGHT = 6
-WIDTH = 5
-"""Of the widest letter."""
-_HALF = fmpq(1, 2)
+HEIGHT, WIDTH = 6, 5
+"""Of the largest letter."""
+LOW, MID, HIGH, TOP = (fmpq(n, 2) for n in (3, 5, 7, 9))
 
-LETTERS: dict[str, Shape] = {
-    "A": Outline([(0, 0), (1, 0), (5 * _HALF, 9 * _HALF), (4, 0), (5, 0), (3, 6), (2, 6)]),
+# fmt: off
+LETTERS: dict[str, Outline] = {
+    "A": Outline([(0, 0), (1, 0), (MID, TOP), (4, 0), (5, 0), (3, 6), (2, 6)]),
     "B": Outline([(0, 0), (2, 0, 1), (2, 3, 1), (2, 6), (0, 6)]),
     "C": Outline([(3, 6, 1), (3, 0), (4, 0), (4, 1), (3, 1, -1), (3, 5), (4, 5), (4, 6)]),
     "D": Outline([(0, 0), (1, 0, 1), (1, 6), (0, 6)]),
-    "E": Outline(
-        [(0, 0), (4, 0), (4, 1), (1, 1), (1, 5 * _HALF), (3, 5 * _HALF)]
-        + [(3, 7 * _HALF), (1, 7 * _HALF), (1, 5), (4, 5), (4, 6), (0, 6)]
-    ),
-    "H": Outline(
-        [(0, 0), (1, 0), (1, 5 * _HALF), (3, 5 * _HALF), (3, 0), (4, 0)]
-        + [(4, 6), (3, 6), (3, 7 * _HALF), (1, 7 * _HALF), (1, 6), (0, 6)]
-    ),
+    "E": Outline([
+        (0, 0), (4, 0), (4, 1), (1, 1), (1, MID), (3, MID),
+        (3, HIGH), (1, HIGH), (1, 5), (4, 5), (4, 6), (0, 6),
+    ]),
+    "H": Outline([
+        (0, 0), (1, 0), (1, MID), (3, MID), (3, 0), (4, 0),
+        (4, 6), (3, 6), (3, HIGH), (1, HIGH), (1, 6), (0, 6),
+    ]),
     "I": Outline([(0, 0), (1, 0), (1, 6), (0, 6)]),
-    "J": Outline(
-        [(0, 0), (2, 0, Around((2, 2))), (4, 2), (4, 6), (3, 6), (3, 2, Around((2, 2), False)), (2, 1), (0, 1)]
-    ),
+    "J": Outline([
+        (0, 0), (2, 0, Around((2, 2))), (4, 2), (4, 6), (3, 6), (3, 2, Around((2, 2), False)), (2, 1), (0, 1),
+    ]),
     "L": Outline([(0, 0), (4, 0), (4, 1), (1, 1), (1, 6), (0, 6)]),
     "N": Outline([(0, 0), (1, 0), (1, 4), (4, 0), (5, 0), (5, 6), (4, 6), (4, 2), (1, 6), (0, 6)]),
-    "O": Outline(
-        [(4, 2), (4, 4, Around((2, 4))), (2, 6, Around((2, 4))), (0, 4)]
-        + [(0, 2, Around((2, 2))), (2, 0, Around((2, 2)))]
-    ),
+    "O": Outline([
+        (4, 2), (4, 4, Around((2, 4))), (2, 6, Around((2, 4))),
+        (0, 4), (0, 2, Around((2, 2))), (2, 0, Around((2, 2))),
+    ]),
     "P": Outline([(0, 0), (1, 0), (1, 2), (2, 2, 1), (2, 6), (0, 6)]),
-    "S": Outline(
-        [(0, 0), (2, 0, 1), (2, 7 * _HALF, -1), (2, 5), (4, 5), (4, 6)]
-        + [(2, 6, 1), (2, 5 * _HALF, -1), (2, 1), (0, 1)]
-    ),
+    "S": Outline([
+        (0, 0), (2, 0, 1), (2, HIGH, -1), (2, 5), (4, 5), (4, 6), (2, 6, 1), (2, MID, -1), (2, 1), (0, 1),
+    ]),
     "T": Outline([(2, 0), (3, 0), (3, 5), (5, 5), (5, 6), (0, 6), (0, 5), (2, 5)]),
     "U": Outline([(0, 6), (0, 2, 1), (4, 2), (4, 6), (3, 6), (3, 2, -1), (1, 2), (1, 6)]),
-    "V": Outline([(0, 6), (2, 0), (3, 0), (5, 6), (4, 6), (5 * _HALF, 3 * _HALF), (1, 6)]),
+    "V": Outline([(0, 6), (2, 0), (3, 0), (5, 6), (4, 6), (MID, LOW), (1, 6)]),
     "Z": Outline([(0, 0), (4, 0), (4, 1), (1, 1), (4, 5), (4, 6), (0, 6), (0, 5), (3, 5), (0, 1)]),
 }
-"""With their left ends at x = 0. The bowls of B meet in a cusp; the bows of S are two half circles each way."""
+# fmt: on
+"""With their left ends at x = 0. The bowls of B meet in a cusp; the bows of S are pairs of half circles."""

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 from flint import fmpq
 
-from exactacq.geometry.intersections import signed_area
 from exactacq.scene.bends import Around
 from exactacq.scene.shapes import Circle, Outline, Polygon, Shape
 from exactacq.study.families.plan import Box, Corner

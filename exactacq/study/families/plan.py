@@ -24,6 +24,13 @@ class Box(NamedTuple):
         """The rectangle that is wider by a margin on every side."""
         return Box(self.left - margin, self.bottom - margin, self.right + margin, self.top + margin)
 
+    def united(self, other: Box | None) -> Box:
+        """The least rectangle about both, if there is another."""
+        if other is None:
+            return self
+        west, south = min(self.left, other.left), min(self.bottom, other.bottom)
+        return Box(west, south, max(self.right, other.right), max(self.top, other.top))
+
     @property
     def middle(self) -> Corner:
         """The centre."""

@@ -1,4 +1,4 @@
-"""Plates with pins on a grid: square, staggered, or one of equal distances; symmetric about the line x = 0."""
+"""Plates with pins on a grid: square, staggered or of equal distances; symmetric about the line x = 0."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def _centers(count: int, columns: int, pitch: int, rise: int, shift: int) -> Ite
 
 
 def _thin(dice: Dice, centers: list[Corner], n: int) -> None:
-    """Take centres away until *n* are left: one on the axis for an odd number, the others with their images."""
+    """Take centres away until *n* are left: one on the axis if that many are odd, the others in pairs."""
     if (len(centers) - n) % 2:
         centers.remove(dice.choice([c for c in centers if c[0] == 0]))
     while len(centers) > n:

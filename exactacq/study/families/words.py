@@ -12,7 +12,21 @@ from exactacq.study.families.letters import HEIGHT, LETTERS, WIDTH
 from exactacq.study.families.parts import box, moved, rounded
 from exactacq.study.families.plan import Box, Corner, Plan
 
-WORDS = ("HALT", "SCALE", "DATUM", "PLATE", "HOLE", "BOLT", "NUT", "DECA", "SLOT", "UNIT", "VIA", "ZONE", "JOIST")
+WORDS = (
+    "HALT",
+    "SCALE",
+    "DATUM",
+    "PLATE",
+    "HOLE",
+    "BOLT",
+    "NUT",
+    "DECA",
+    "SLOT",
+    "UNIT",
+    "VIA",
+    "ZONE",
+    "JOIST",
+)
 """Some have letters that no outline is given for; these are left out."""
 
 
@@ -35,7 +49,11 @@ def words(dice: Dice, n: int, walled: bool) -> Plan:
         for letter in word:
             shapes.append(moved(LETTERS[letter], x, y))
             width = fmpq(WIDTH) if is_even else _width(letter)
-            places += [(x + width + gap / 2, y), (x + width + gap / 2, y + HEIGHT / fmpq(2)), (x, y - gap / 2)]
+            places += [
+                (x + width + gap / 2, y),
+                (x + width + gap / 2, y + HEIGHT / fmpq(2)),
+                (x, y - gap / 2),
+            ]
             east = max(east, x + width)
             x += width + gap
         x += WIDTH
@@ -52,5 +70,5 @@ def _width(letter: str) -> fmpq:
     return _WIDTHS.get(letter) or max(x for x, _, _ in LETTERS[letter].vertices)
 
 
-_WIDTHS = {"B": fmpq(7, 2), "D": fmpq(4), "P": fmpq(4), "S": fmpq(4)}
+_WIDTHS = {"B": fmpq(7, 2), "D": fmpq(4), "P": fmpq(4)}
 """Letters that end in a bow."""
