@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from enum import StrEnum
 from pathlib import Path
 from time import monotonic
@@ -16,8 +17,8 @@ from exactacq.errors import FormatError
 from exactacq.study.campaign.settings import (
     MOST_SCENES,
     RANDOM,
+    SceneSource,
     Settings,
-    Source,
     Task,
     claims_at,
     parts,
@@ -79,6 +80,9 @@ def verify(
         float, typer.Option(min=0.1, metavar="T", help="Seconds a scene may take; more count as a timeout.")
     ] = 120.0,
     audited: Annotated[bool, typer.Option("--audit/--no-audit", help="Audit every run.")] = True,
+    claimed: Annotated[
+        bool, typer.Option("--claims/--no-claims", help="Put every scene to the claims.")
+    ] = True,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON, and no table.")] = False,
 ) -> None:
     """Put random exact scenes to every claim: run, audit, and check each statement.
@@ -93,10 +97,10 @@ def verify(
     if replay is not None:
         if out is not None or table is not None or scheduler is not None:
             raise FormatError("--replay: judges one scene here and writes nothing; leave the files out")
-        _replay(_task(replay), Settings(audit=audited, source=source), as_json)
+        _replay(_task(replay), _asked(Settings(audit=audited, source=source), claimed), as_json)
         return
     chosen = Settings().strategies if strategy is Chosen.BOTH else (strategy.value,)
-    settings = Settings(scenes, seed, chosen, audited, timeout, source=source)
+    settings = _asked(Settings(scenes, seed, chosen, audited, timeout, source=source), claimed)
     target = None if table is None else check_output(table, SUFFIXES)
     if target is not None:
         arrow()
@@ -139,12 +143,16 @@ def run_campaign(
         return bool(faults(store))
 
 
-def _source(family: Family | None, size: str | None) -> Source:
+def _source(family: Family | None, size: str | None) -> SceneSource:
     if family is None:
         if size is not None:
             raise FormatError("--size: is that of drawings; name their --family too")
         return RANDOM
-    return Source(family.value) if size is None else Source(family.value, *sizes_of(size))
+    return SceneSource(family.value) if size is None else SceneSource(family.value, *sizes_of(size))
+
+
+def _asked(settings: Settings, claimed: bool) -> Settings:
+    return settings if claimed else replace(settings, claims="")
 
 
 def _task(text: str) -> Task:

@@ -15,7 +15,7 @@ from exactacq.errors import AuditError, InvalidScene, Undecided
 from exactacq.files.scene_json import scene_to_json
 from exactacq.scene.scene import Scene
 from exactacq.strategies.run import Run
-from exactacq.study.campaign.settings import RANDOM, Called, Settings, Source, Task, claims_at, parts
+from exactacq.study.campaign.settings import RANDOM, Called, SceneSource, Settings, Task, claims_at, parts
 from exactacq.study.claims.model import Case, Finding, Outcome, Statement, Subject
 from exactacq.study.processes import Lost, Team
 
@@ -61,7 +61,7 @@ class Record(NamedTuple):
 
 
 def judge(
-    task: Task, statements: Iterable[tuple[Called, Statement]], audited: bool, source: Source = RANDOM
+    task: Task, statements: Iterable[tuple[Called, Statement]], audited: bool, source: SceneSource = RANDOM
 ) -> Record:
     """Make the scene, run the strategy on it, audit the run, and put the case to all its statements.
 
@@ -102,7 +102,7 @@ def records(settings: Settings, tasks: Iterable[Task], size: int) -> Generator[R
                 yield record
 
 
-def _judge_of(claims: str, audited: bool, source: Source) -> Callable[[Task], Record]:
+def _judge_of(claims: str, audited: bool, source: SceneSource) -> Callable[[Task], Record]:
     statements = list(parts(claims_at(claims)))
     return lambda task: judge(task, statements, audited, source)
 

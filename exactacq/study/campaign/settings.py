@@ -46,7 +46,7 @@ class Called(NamedTuple):
     text: str
 
 
-class Source(NamedTuple):
+class SceneSource(NamedTuple):
     """Where scenes come from: small random ones, or drawings of a family, of all sizes of a range in turn."""
 
     family: str = ""
@@ -60,7 +60,7 @@ class Source(NamedTuple):
             from exactacq.study.random_scenes import random_scene
 
             return random_scene(Subject(task.strategy), task.seed)
-        from exactacq.study.families.catalogue import family_scene
+        from exactacq.study.families.scenes import family_scene
 
         size = self.least + task.seed % (self.most - self.least + 1)
         return family_scene(self.family, size, task.seed, task.strategy)
@@ -74,7 +74,7 @@ class Source(NamedTuple):
         return self.options.strip() or "random"
 
 
-RANDOM = Source()
+RANDOM = SceneSource()
 """The scenes of `exactacq.study.random_scenes`."""
 
 
@@ -99,7 +99,7 @@ class Settings:
     audit: bool = True
     timeout: float = 120.0
     claims: str = CLAIMS
-    source: Source = RANDOM
+    source: SceneSource = RANDOM
 
     def tasks(self) -> Iterator[Task]:
         """All scenes, the strategies in turn. Campaigns of different seeds share no scene."""
@@ -115,7 +115,9 @@ class Settings:
 
 
 def claims_at(reference: str) -> tuple[Claim, ...]:
-    """The claims that "module:name" names. Raises `CampaignError`."""
+    """The claims that "module:name" names, or none for no words. Raises `CampaignError`."""
+    if not reference:
+        return ()
     module, _, name = reference.partition(":")
     try:
         return tuple(getattr(import_module(module), name))

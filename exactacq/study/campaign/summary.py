@@ -9,7 +9,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 
 from exactacq.study.campaign.judging import FAILS, HOLDS, SILENT, Record, Result
-from exactacq.study.campaign.settings import Called, Source, Task
+from exactacq.study.campaign.settings import Called, SceneSource, Task
 from exactacq.study.campaign.store import Store
 
 SHOWN = 12
@@ -147,7 +147,7 @@ def _counts(store: Store) -> str:
     return f"{sum(counts.values())} scenes: {', '.join(words)}; {store.wall:.1f} s{slowest}"
 
 
-def _named(title: str, found: list[tuple[Task, str, str]], source: Source) -> Iterator[RenderableType]:
+def _named(title: str, found: list[tuple[Task, str, str]], source: SceneSource) -> Iterator[RenderableType]:
     if not found:
         return
     yield ""

@@ -12,7 +12,7 @@ from exactacq.scene.bends import Around
 from exactacq.scene.shapes import Circle, Outline, Shape
 from exactacq.study.dice import Dice
 from exactacq.study.families.parts import around, box, moved, rounded, slot
-from exactacq.study.families.plan import Box, Corner, Plan
+from exactacq.study.families.plan import Corner, Plan, Rectangle
 
 SITE = 12
 """Side of the square about each part."""
@@ -25,7 +25,7 @@ DEEP = 4
 ONE, HALF = fmpq(1), fmpq(1, 2)
 
 
-class Part(NamedTuple):
+class Footprint(NamedTuple):
     """Shapes about the origin, and half the width and height that they take."""
 
     shapes: tuple[Shape, ...]
@@ -38,15 +38,15 @@ def _pad(x: int, y: int) -> Shape:
 
 
 def _slot(x: int) -> Shape:
-    return slot(Box(x - HALF, fmpq(-2), x + HALF, fmpq(2)))
+    return slot(Rectangle(x - HALF, fmpq(-2), x + HALF, fmpq(2)))
 
 
 PARTS = (
-    Part(tuple(_pad(x, y) for y in (-2, 2) for x in (-3, -1, 1, 3)), 3 + HALF, 2 + HALF),
-    Part(tuple(Circle((x, y), HALF) for y in (-1, 1) for x in (-2, 0, 2)), 2 + HALF, 1 + HALF),
-    Part((rounded(around((fmpq(0), fmpq(0)), 2), ONE), _slot(-4), _slot(4)), 4 + HALF, 2 * ONE),
-    Part(tuple(rounded(around((fmpq(x), fmpq(0)), ONE), HALF / 2) for x in (-2, 2)), 3 * ONE, ONE),
-    Part((Circle((0, 0), 1),), ONE, ONE),
+    Footprint(tuple(_pad(x, y) for y in (-2, 2) for x in (-3, -1, 1, 3)), 3 + HALF, 2 + HALF),
+    Footprint(tuple(Circle((x, y), HALF) for y in (-1, 1) for x in (-2, 0, 2)), 2 + HALF, 1 + HALF),
+    Footprint((rounded(around((fmpq(0), fmpq(0)), 2), ONE), _slot(-4), _slot(4)), 4 + HALF, 2 * ONE),
+    Footprint(tuple(rounded(around((fmpq(x), fmpq(0)), ONE), HALF / 2) for x in (-2, 2)), 3 * ONE, ONE),
+    Footprint((Circle((0, 0), 1),), ONE, ONE),
 )
 """Two rows of pads, a header of pins, a chip between slots, two pads with fillets, a drill hole."""
 
@@ -60,14 +60,14 @@ def board(dice: Dice, n: int, walled: bool) -> Plan:
     parts = list(_chosen(dice, n - holes))
     columns = max(1, isqrt(len(parts)) + dice.choice((0, 1)))
     rows = -(-len(parts) // columns)
-    bounds = Box(fmpq(0), fmpq(0), fmpq(columns * SITE), fmpq(rows * SITE))
+    bounds = Rectangle(fmpq(0), fmpq(0), fmpq(columns * SITE), fmpq(rows * SITE))
     shapes: list[Shape] = []
     places: list[Corner] = []
     drawn = None
     for k, part in enumerate(parts):
         x, y = (k % columns) * SITE + SITE // 2, (k // columns) * SITE + SITE // 2
         shapes += [moved(shape, x, y) for shape in part.shapes]
-        drawn = Box(x - part.wide, y - part.high, x + part.wide, y + part.high).united(drawn)
+        drawn = Rectangle(x - part.wide, y - part.high, x + part.wide, y + part.high).united(drawn)
         places += [(fmpq(x), fmpq(y)), (x + HALF * SITE, fmpq(y)), (fmpq(x), y + HALF * SITE)]
     edge = bounds.wider(MARGIN)
     inset = edge.wider(-FILLET)
@@ -82,7 +82,7 @@ def board(dice: Dice, n: int, walled: bool) -> Plan:
     return Plan(shapes, wall, drawn, ONE, fmpq(2), HALF / 2, places)
 
 
-def _chosen(dice: Dice, n: int) -> Iterator[Part]:
+def _chosen(dice: Dice, n: int) -> Iterator[Footprint]:
     """Parts of *n* shapes in all."""
     while n:
         part = dice.choice([part for part in PARTS if len(part.shapes) <= n])
@@ -90,7 +90,7 @@ def _chosen(dice: Dice, n: int) -> Iterator[Part]:
         n -= len(part.shapes)
 
 
-def _edge(place: Box, notched: list[bool]) -> Outline:
+def _edge(place: Rectangle, notched: list[bool]) -> Outline:
     """The board's edge; a side may have a notch in its middle, 2 wide, with a round end.
 
     From the south counterclockwise: each side is drawn towards the east and turned about the middle.

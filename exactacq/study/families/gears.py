@@ -14,7 +14,7 @@ from exactacq.scene.bends import Around
 from exactacq.scene.shapes import Circle, Outline
 from exactacq.study.dice import Dice
 from exactacq.study.families.plan import Corner, Plan
-from exactacq.study.families.rows import Piece, in_rows
+from exactacq.study.families.rows import Tile, in_rows
 
 FINENESS = 500
 """Half tangents of angles are multiples of 1 / FINENESS."""
@@ -31,14 +31,14 @@ def gears(dice: Dice, n: int, walled: bool) -> Plan:
     """
     teeth = n // 4
     slope = dice.choice((fmpq(1), fmpq(1), fmpq(3, 4), fmpq(1, 2)))
-    pieces: list[Piece] = []
+    pieces: list[Tile] = []
     while teeth:
         count = min(teeth, dice.choice(TEETH))
         root = max(fmpq(2), PITCH * count)
         tip = root + 1
-        pieces.append(Piece(gear((tip, tip), count, root, tip, slope), 2 * tip, 2 * tip))
+        pieces.append(Tile(gear((tip, tip), count, root, tip, slope), 2 * tip, 2 * tip))
         teeth -= count
-    pieces += [Piece(Circle((1, 1), 1), fmpq(2), fmpq(2))] * (n % 4)
+    pieces += [Tile(Circle((1, 1), 1), fmpq(2), fmpq(2))] * (n % 4)
     gap = dice.choice((fmpq(1, 3), fmpq(1), fmpq(2)))
     shapes, bounds, places = in_rows(pieces, gap)
     x, y = bounds.middle

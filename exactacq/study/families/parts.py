@@ -6,16 +6,16 @@ from flint import fmpq
 
 from exactacq.scene.bends import Around
 from exactacq.scene.shapes import Circle, Outline, Polygon, Shape
-from exactacq.study.families.plan import Box, Corner
+from exactacq.study.families.plan import Corner, Rectangle
 
 
-def box(place: Box) -> Polygon:
+def box(place: Rectangle) -> Polygon:
     """A rectangle."""
     left, bottom, right, top = place
     return Polygon([(left, bottom), (right, bottom), (right, top), (left, top)])
 
 
-def chamfered(place: Box, cut: fmpq) -> Polygon:
+def chamfered(place: Rectangle, cut: fmpq) -> Polygon:
     """A rectangle whose corners are cut off, so far along both sides, which are longer than twice that."""
     left, bottom, right, top = place
     return Polygon(
@@ -32,13 +32,13 @@ def chamfered(place: Box, cut: fmpq) -> Polygon:
     )
 
 
-def rounded(place: Box, radius: fmpq) -> Outline:
+def rounded(place: Rectangle, radius: fmpq) -> Outline:
     """A rectangle with quarter circles for corners; twice the radius may be a side, or both sides.
 
     Then quarter circles follow each other, and what is meant for a half circle is two arcs of one circle.
     """
     left, bottom, right, top = place
-    inner = Box(left + radius, bottom + radius, right - radius, top - radius)
+    inner = Rectangle(left + radius, bottom + radius, right - radius, top - radius)
     corners: list[tuple[object, ...]] = [
         (inner.left, bottom),
         (inner.right, bottom, Around((inner.right, inner.bottom))),
@@ -53,7 +53,7 @@ def rounded(place: Box, radius: fmpq) -> Outline:
     return Outline(kept)
 
 
-def slot(place: Box) -> Shape:
+def slot(place: Rectangle) -> Shape:
     """A stadium with half circles at the ends of the longer sides; a circle in a square."""
     left, bottom, right, top = place
     width, height = right - left, top - bottom
@@ -66,16 +66,16 @@ def slot(place: Box) -> Shape:
     return Outline([(right, ends[0]), (right, ends[1], 1), (left, ends[1]), (left, ends[0], 1)])
 
 
-def diamond(place: Box) -> Polygon:
+def diamond(place: Rectangle) -> Polygon:
     """The rhombus between the middles of a rectangle's sides."""
     left, bottom, right, top = place
     x, y = place.middle
     return Polygon([(x, bottom), (right, y), (x, top), (left, y)])
 
 
-def around(center: Corner, half: fmpq | int) -> Box:
+def around(center: Corner, half: fmpq | int) -> Rectangle:
     """The square about a centre."""
-    return Box(center[0] - half, center[1] - half, center[0] + half, center[1] + half)
+    return Rectangle(center[0] - half, center[1] - half, center[0] + half, center[1] + half)
 
 
 def moved(shape: Shape, east: fmpq | int, north: fmpq | int) -> Shape:

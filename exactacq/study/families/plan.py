@@ -12,7 +12,7 @@ from exactacq.scene.shapes import Shape
 Corner = tuple[fmpq, fmpq]
 
 
-class Box(NamedTuple):
+class Rectangle(NamedTuple):
     """A rectangle along the axes."""
 
     left: fmpq
@@ -20,16 +20,16 @@ class Box(NamedTuple):
     right: fmpq
     top: fmpq
 
-    def wider(self, margin: fmpq | int) -> Box:
+    def wider(self, margin: fmpq | int) -> Rectangle:
         """The rectangle that is wider by a margin on every side."""
-        return Box(self.left - margin, self.bottom - margin, self.right + margin, self.top + margin)
+        return Rectangle(self.left - margin, self.bottom - margin, self.right + margin, self.top + margin)
 
-    def united(self, other: Box | None) -> Box:
+    def united(self, other: Rectangle | None) -> Rectangle:
         """The least rectangle about both, if there is another."""
         if other is None:
             return self
         west, south = min(self.left, other.left), min(self.bottom, other.bottom)
-        return Box(west, south, max(self.right, other.right), max(self.top, other.top))
+        return Rectangle(west, south, max(self.right, other.right), max(self.top, other.top))
 
     @property
     def middle(self) -> Corner:
@@ -48,7 +48,7 @@ class Plan(NamedTuple):
 
     shapes: Sequence[Shape]
     wall: Shape | None
-    box: Box
+    box: Rectangle
     gap: fmpq
     pitch: fmpq
     bite: fmpq

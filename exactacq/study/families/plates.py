@@ -9,7 +9,7 @@ from flint import fmpq
 from exactacq.scene.shapes import Circle, Shape
 from exactacq.study.dice import Dice
 from exactacq.study.families.parts import around, box, chamfered, diamond, rounded
-from exactacq.study.families.plan import Box, Corner, Plan
+from exactacq.study.families.plan import Corner, Plan, Rectangle
 
 GRIDS = ((8, 8, 0, 8), (8, 7, 4, 8), (6, 4, 3, 5), (8, 6, 0, 6))
 """Distance in a row, from row to row, how far every other row is shifted, and the least distance of two.
@@ -42,7 +42,7 @@ def plate(dice: Dice, n: int, walled: bool) -> Plan:
     shapes = [kinds[int(y / rise) % len(kinds)]((x, y), half) for x, y in centers]
     west, east = min(x for x, _ in centers), max(x for x, _ in centers)
     south, north = min(y for _, y in centers), max(y for _, y in centers)
-    bounds = Box(west, south, east, north).wider(half)
+    bounds = Rectangle(west, south, east, north).wider(half)
     gap = least - 2 * half
     wall = _edge(dice, bounds, gap) if walled else None
     return Plan(shapes, wall, bounds, gap, fmpq(pitch), half, list(_places(centers, pitch, rise)))
@@ -79,7 +79,7 @@ def _thin(dice: Dice, centers: list[Corner], n: int) -> None:
             del centers[:2]
 
 
-def _edge(dice: Dice, bounds: Box, gap: fmpq) -> Shape:
+def _edge(dice: Dice, bounds: Rectangle, gap: fmpq) -> Shape:
     place = bounds.wider(dice.choice((gap, gap / 2, fmpq(3))))
     kind = dice.below(4)
     if kind == 0:

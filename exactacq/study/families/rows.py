@@ -10,10 +10,10 @@ from flint import fmpq
 
 from exactacq.scene.shapes import Shape
 from exactacq.study.families.parts import moved
-from exactacq.study.families.plan import Box, Corner
+from exactacq.study.families.plan import Corner, Rectangle
 
 
-class Piece(NamedTuple):
+class Tile(NamedTuple):
     """A shape in the rectangle from the origin to (width, height)."""
 
     shape: Shape
@@ -25,11 +25,11 @@ class Layout(NamedTuple):
     """Shapes, the rectangle about them, and places between neighbours, in the middle of gaps."""
 
     shapes: list[Shape]
-    box: Box
+    box: Rectangle
     places: list[Corner]
 
 
-def in_rows(pieces: Sequence[Piece], gap: fmpq) -> Layout:
+def in_rows(pieces: Sequence[Tile], gap: fmpq) -> Layout:
     """The pieces from west to east in rows of about the same length, with a gap between their rectangles."""
     long = isqrt(int(sum((piece.width + gap) * (piece.height + gap) for piece in pieces))) + 1
     shapes: list[Shape] = []
@@ -43,4 +43,4 @@ def in_rows(pieces: Sequence[Piece], gap: fmpq) -> Layout:
         x += width + gap
         places += [(x - gap / 2, bottom + height / 2), (x - gap / 2, bottom)]
         places += [(x - gap - width / 2, top + gap / 2)]
-    return Layout(shapes, Box(fmpq(0), fmpq(0), east, top), places)
+    return Layout(shapes, Rectangle(fmpq(0), fmpq(0), east, top), places)

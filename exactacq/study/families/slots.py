@@ -9,7 +9,7 @@ from flint import fmpq
 from exactacq.scene.shapes import Shape
 from exactacq.study.dice import Dice
 from exactacq.study.families.parts import box, rounded, slot
-from exactacq.study.families.plan import Box, Corner, Plan
+from exactacq.study.families.plan import Corner, Plan, Rectangle
 
 SIZES = ((6, 2), (4, 2), (2, 8), (3, 3), (5, 1))
 """Width and height of a slot."""
@@ -36,18 +36,18 @@ def slots(dice: Dice, n: int, walled: bool) -> Plan:
         x, y = column * pitch + shift * (row % 2), row * rise
         is_upright = is_woven and (row + column) % 2 == 1
         w, h = (height / 2, width / 2) if is_upright else (width / 2, height / 2)
-        place = Box(x - w, y - h, x + w, y + h)
+        place = Rectangle(x - w, y - h, x + w, y + h)
         shapes.append(rounded(place, share * min(width, height)) if share else slot(place))
         places += [(x + pitch / 2, y), (x, y + rise / 2), (x + pitch / 2, y + rise / 2)]
     last = (n - 1) // columns
     east = (min(n, columns) - 1) * pitch + (shift if last else 0)
-    bounds = Box(-width / 2, -(width if is_woven else height) / 2, east + width / 2, last * rise)
+    bounds = Rectangle(-width / 2, -(width if is_woven else height) / 2, east + width / 2, last * rise)
     bounds = bounds._replace(top=bounds.top - bounds.bottom)
     wall = _sheet(dice, bounds.wider(gap), gap + share * min(width, height)) if walled else None
     return Plan(shapes, wall, bounds, gap, pitch, min(width, height) / 4, places)
 
 
-def _sheet(dice: Dice, place: Box, radius: fmpq) -> Shape:
+def _sheet(dice: Dice, place: Rectangle, radius: fmpq) -> Shape:
     kind = dice.below(3)
     if kind == 0:
         return box(place)
@@ -55,4 +55,4 @@ def _sheet(dice: Dice, place: Box, radius: fmpq) -> Shape:
         return rounded(place, radius)
     # A slot's ends are round: it is longer by its height, so that they are off the rows.
     half = (place.top - place.bottom) / 2
-    return slot(Box(place.left - half, place.bottom, place.right + half, place.top))
+    return slot(Rectangle(place.left - half, place.bottom, place.right + half, place.top))

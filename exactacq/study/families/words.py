@@ -10,7 +10,7 @@ from exactacq.scene.shapes import Shape
 from exactacq.study.dice import Dice
 from exactacq.study.families.letters import HEIGHT, LETTERS, WIDTH
 from exactacq.study.families.parts import box, moved, rounded
-from exactacq.study.families.plan import Box, Corner, Plan
+from exactacq.study.families.plan import Corner, Plan, Rectangle
 
 WORDS = (
     "HALT",
@@ -57,7 +57,7 @@ def words(dice: Dice, n: int, walled: bool) -> Plan:
             east = max(east, x + width)
             x += width + gap
         x += WIDTH
-    bounds = Box(fmpq(0), y, east, fmpq(HEIGHT))
+    bounds = Rectangle(fmpq(0), y, east, fmpq(HEIGHT))
     wall = None
     if walled:
         place = bounds.wider(dice.choice((gap, fmpq(3))))

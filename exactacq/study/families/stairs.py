@@ -8,8 +8,8 @@ from flint import fmpq
 
 from exactacq.scene.shapes import Circle, Polygon, Shape
 from exactacq.study.dice import Dice
-from exactacq.study.families.plan import Box, Plan
-from exactacq.study.families.rows import Piece, in_rows
+from exactacq.study.families.plan import Plan, Rectangle
+from exactacq.study.families.rows import Tile, in_rows
 
 Step = tuple[fmpq, fmpq]
 Cells = list[tuple[int, int]]
@@ -36,7 +36,7 @@ def staircases(dice: Dice, n: int, walled: bool) -> Plan:
         pieces.append(_turned(dice, _drawn(dice, edges), step))
         left -= edges
     if n % 2:
-        pieces.append(Piece(Circle((1, 1), 1), fmpq(2), fmpq(2)))
+        pieces.append(Tile(Circle((1, 1), 1), fmpq(2), fmpq(2)))
     gap = dice.choice((fmpq(1), fmpq(1), fmpq(1, 2), fmpq(3)))
     shapes, bounds, places = in_rows(pieces, gap)
     wall = _room(bounds, gap, dice.choice((1, 3)), step) if walled else None
@@ -70,7 +70,7 @@ def _drawn(dice: Dice, edges: int) -> Cells:
     return dice.choice(makers)(edges // 4)
 
 
-def _turned(dice: Dice, cells: Cells, step: Step) -> Piece:
+def _turned(dice: Dice, cells: Cells, step: Step) -> Tile:
     """The outline with steps of that size, perhaps mirrored."""
     high = max(x for x, _ in cells), max(y for _, y in cells)
     if dice.chance(50):
@@ -78,10 +78,10 @@ def _turned(dice: Dice, cells: Cells, step: Step) -> Piece:
     if dice.chance(50):
         cells = [(x, high[1] - y) for x, y in cells]
     shape = Polygon([(x * step[0], y * step[1]) for x, y in cells])
-    return Piece(shape, high[0] * step[0], high[1] * step[1])
+    return Tile(shape, high[0] * step[0], high[1] * step[1])
 
 
-def _room(bounds: Box, gap: fmpq, steps: int, step: Step) -> Shape:
+def _room(bounds: Rectangle, gap: fmpq, steps: int, step: Step) -> Shape:
     """A rectangle that is wider by the gap and by its corners, which are stairs."""
     east, north = steps * step[0], steps * step[1]
     x, y = bounds.middle

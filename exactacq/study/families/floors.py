@@ -16,7 +16,7 @@ from exactacq.files.grids.outlines import STEPS, Cells, outlines
 from exactacq.scene.shapes import Circle, Polygon, Shape
 from exactacq.study.dice import Dice
 from exactacq.study.families.parts import around, box, rounded
-from exactacq.study.families.plan import Box, Corner, Plan
+from exactacq.study.families.plan import Corner, Plan, Rectangle
 
 SIDES = (6, 6, 8, 10)
 """Inner widths of rooms, in cells."""
@@ -59,7 +59,7 @@ def floor_plan(dice: Dice, n: int, walled: bool) -> Plan:
     shape = dice.choice(PILLARS)
     while len(pieces) < n:
         pieces.append(shape(sites.pop(dice.below(len(sites)))))
-    bounds = Box(fmpq(0), fmpq(0), fmpq(across[-1].end + 1), fmpq(along[-1].end + 1))
+    bounds = Rectangle(fmpq(0), fmpq(0), fmpq(across[-1].end + 1), fmpq(along[-1].end + 1))
     places = [(fmpq(x.first + x.end, 2), fmpq(y.first + y.end, 2)) for x in across for y in along]
     places += [(x.end + HALF, y + dice.below(8)) for x in across[:-1] for _, y in places]
     wall = None if outer is None else _polygon(outer)

@@ -13,13 +13,13 @@ from exactacq.scene.terrain_components import ground_of
 from exactacq.strategies.options import Strategy
 from exactacq.study.dice import Dice
 from exactacq.study.families.boards import board
-from exactacq.study.families.floor_plans import floor_plan
+from exactacq.study.families.floors import floor_plan
 from exactacq.study.families.gears import gears
 from exactacq.study.families.names import SIZES, Family
 from exactacq.study.families.plan import Corner, Plan
 from exactacq.study.families.plates import plate
 from exactacq.study.families.slots import slots
-from exactacq.study.families.staircases import staircases
+from exactacq.study.families.stairs import staircases
 from exactacq.study.families.words import words
 
 PLANS: dict[Family, Callable[[Dice, int, bool], Plan]] = {
@@ -94,7 +94,7 @@ def _radius(dice: Dice, plan: Plan) -> fmpq:
             plan.pitch,
             2 * plan.pitch,
             plan.gap + plan.pitch * fmpq(dice.between(20, 97), 31),
-            2 * (right - left + top - bottom),
+            4 * (right - left + top - bottom),
         )
     )
 
