@@ -25,7 +25,15 @@ from exactacq.files.scene_json import parse_json, scene_of, scene_to_json
 from exactacq.study.campaign import command, judging
 from exactacq.study.campaign.coordinator import conduct
 from exactacq.study.campaign.judging import Record, judge
-from exactacq.study.campaign.settings import CampaignError, Settings, Task, claims_at, parts
+from exactacq.study.campaign.settings import (
+    CampaignError,
+    SceneSource,
+    Settings,
+    Task,
+    claims_at,
+    parts,
+    sizes_of,
+)
 from exactacq.study.campaign.store import Store
 from exactacq.study.campaign.summary import faults, tallies, unfinished
 from exactacq.study.claims.model import Case, Claim, Finding, Outcome, Statement, Subject
@@ -152,6 +160,24 @@ class TestVerdicts:
             record = judge(task, list(parts(SOUND)), audited=True)
             assert (record.result, record.detail) == ("passed", "")
             assert len(record.rows) == (2 if task.strategy == "sightseer" else 0)
+
+    def test_of_families_have_all_sizes_in_turn(self) -> None:
+        source = SceneSource("staircases", 6, 8)
+        settings = replace(QUICK, source=source)
+        with opened(settings) as store:
+            conduct(settings, store, 1)
+            found = dict(store.rows("SELECT seed, outcome FROM scenes"))
+            assert found == dict.fromkeys(range(4), "passed")
+        edges = [
+            sum(len(o.edges) for o in source.scene(t).obstacles if not o.is_enclosure)
+            for t in settings.tasks()
+        ]
+        assert edges == [6, 7, 8, 6]
+
+    def test_without_claims_are_those_of_run_and_audit(self) -> None:
+        record = judge(Task("sightseer", 0), list(parts(claims_at(""))), audited=True)
+        assert (record.result, record.rows) == ("passed", ())
+        assert record.length is not None and record.length > 0
 
     def test_seeds_of_campaigns_are_apart(self) -> None:
         first, second = (set(Settings(scenes=50, seed=seed).tasks()) for seed in (4, 5))
@@ -309,7 +335,8 @@ class TestFile:
         ("changed", "word"),
         [({"seed": 1}, "seed"), ({"scenes": 7}, "scenes"), ({"audit": True}, "audit"),
          ({"timeout": 9}, "timeout"), ({"strategies": ("seed-spreader",)}, "strategies"),
-         ({"claims": "test_campaign:FALSE"}, "claims")],
+         ({"claims": "test_campaign:FALSE"}, "claims"), ({"source": SceneSource("gears")}, "source"),
+         ({"source": SceneSource("gears", 5, 6)}, "source")],
     )  # fmt: skip
     def test_of_another_campaign_is_refused(self, tmp_path: Path, changed: Any, word: str) -> None:
         path = tmp_path / "campaign.sqlite"
@@ -385,6 +412,25 @@ class TestCommand:
         again = CliRunner().invoke(app, ["--replay", "sightseer:3", "--no-audit"])
         assert again.exit_code == 1
         assert "the third" in again.output
+
+    def test_families_are_named_where_a_scene_is_to_be_seen_again(self) -> None:
+        options = ("--family", "staircases", "--size", "6..8")
+        done = CliRunner().invoke(app, [*self.ARGUMENTS, *options])
+        assert "exactacq verify --family staircases --size 6..8 --replay sightseer:3" in done.output
+        again = CliRunner().invoke(app, [*options, "--replay", "sightseer:3", "--no-audit"])
+        assert (again.exit_code, "the third" in again.output) == (1, True)
+        silent = CliRunner().invoke(app, [*options, "--replay", "sightseer:3", "--no-claims"])
+        assert (silent.exit_code, "the third" in silent.output) == (0, False)
+
+    @pytest.mark.parametrize("text", ["4", "301", "9..8", "5..", "..9", "5..6..7", "-5", "x", "5,6", ""])
+    def test_sizes_that_are_none_are_refused(self, text: str) -> None:
+        with pytest.raises(FormatError, match="--size"):
+            CliRunner().invoke(app, ["--family", "gears", "--size", text], catch_exceptions=False)
+
+    def test_sizes_are_those_of_a_family(self) -> None:
+        assert (sizes_of("12"), sizes_of("5..300")) == ((12, 12), (5, 300))
+        with pytest.raises(FormatError, match="--family"):
+            CliRunner().invoke(app, ["--size", "5..9"], catch_exceptions=False)
 
     def test_exit_status_0_if_nothing_true_fails(self) -> None:
         done = CliRunner().invoke(app, [*self.ARGUMENTS, "--scenes", "2"])

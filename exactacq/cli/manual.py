@@ -74,6 +74,10 @@ EXAMPLES = {
             "A small campaign that can be stopped, and goes on when the same line is given again.",
         ),
         Example("verify --replay seed-spreader:2000040", "One scene of a campaign, judged again."),
+        Example(
+            "verify --family gears --size 8..12 --scenes 2 --no-claims",
+            "Scenes like drawings, of several sizes, run and audited.",
+        ),
     ),
     "search": (
         Example(
