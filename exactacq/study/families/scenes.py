@@ -44,8 +44,8 @@ def family_scene(name: str, n: int, seed: int, strategy: str) -> Scene:
     ValueError for an unknown family or strategy, a size outside `SIZES`, or a negative seed. Near linear in
     *n*: 10 milliseconds for each ten.
 
-    >>> family_scene("plates", 12, 1, "sightseer")
-    <Scene 'plates-12-sightseer-1': 12 obstacles>
+    >>> family_scene("plates", 12, 1, "seed-spreader")
+    <Scene 'plates-12-seed-spreader-1': 12 obstacles>
     """
     family, way = Family(name), Strategy(strategy)
     if n not in SIZES or seed < 0:
