@@ -193,7 +193,7 @@ def changed(tree: Node, other: Node, structure: Structure, rng: Random) -> bool:
 
 def _value(leaf: bytes, alike: list[Node], structure: Structure, rng: Random) -> bytes:
     draw = rng.randrange(5)
-    if draw == 0 and leaf.lstrip(b"-").isdigit() and len(leaf) < 99:
+    if draw == 0 and leaf.removeprefix(b"-").isdigit() and len(leaf) < 99:
         return b"%d" % (int(leaf) + rng.choice((-1, 1, 2, 10**6)))
     if draw == 1:
         return b"-" + leaf
