@@ -167,7 +167,7 @@ class _LookAhead:
                         yield LineOfSight(rest.place(y), post.at)
 
     def _normals(self, wall: Wall) -> Iterator[LineOfSight]:
-        """As long as the range, and normal to a piece."""
+        """Sights as long as the range, and normal to a piece."""
         rest = self.rest
         if wall.center is None:
             chord = wall.end.minus(wall.start)
@@ -194,7 +194,7 @@ class _LookAhead:
                         yield LineOfSight(place, foot)
 
     def _from_stands(self, wall: Wall) -> Iterator[LineOfSight]:
-        """As long as the range, from a stand to an inner point of a piece."""
+        """Sights as long as the range, from a stand to an inner point of a piece."""
         radius = self.rest.radius
         for stand in self.stands:
             at = stand.at
@@ -222,7 +222,7 @@ class _LookAhead:
                         yield LineOfSight(at, goal)
 
     def _touching(self, wall: Wall) -> Iterator[LineOfSight]:
-        """As long as the range, and touching a convex arc of the obstacle there."""
+        """Sights as long as the range that touch a convex arc of the obstacle there."""
         assert wall.center is not None
         radius = self.rest.radius
         for place in self._within(wall.center, (wall.square + radius * radius).sqrt()):

@@ -35,7 +35,7 @@ MOST = 1 << 16
 """Parts at a time; where more are left the question stays open."""
 
 
-class _Family(NamedTuple):
+class _TouchingSights(NamedTuple):
     """The lines through inner points of a piece that touch a post; ``own`` if this is an end of the piece:
     1 its start, -1 its end, else 0."""
 
@@ -47,7 +47,7 @@ class _Family(NamedTuple):
 class _FamilyTable:
     """Families in floats, one a row: the piece, the post, and how the lines from an own end turn."""
 
-    def __init__(self, targets: Sequence[Wall], families: Sequence[_Family]) -> None:
+    def __init__(self, targets: Sequence[Wall], families: Sequence[_TouchingSights]) -> None:
         walls = [targets[family.piece] for family in families]
         posts = [family.touch.post.at for family in families]
         self.center = _floats(posts)
@@ -111,7 +111,7 @@ class SightsOfRange:
                 return found
         return None
 
-    def _families(self, posts: Sequence[Post]) -> Iterator[_Family]:
+    def _families(self, posts: Sequence[Post]) -> Iterator[_TouchingSights]:
         rest = self.rest
         for touch in turned(posts):
             post, turn = touch.post, abs(float(touch.turn))
@@ -136,11 +136,11 @@ class SightsOfRange:
                         continue
                 elif post.lies_on(wall):
                     own = 1 if post.leaving is wall else -1
-                yield _Family(k, touch, own)
+                yield _TouchingSights(k, touch, own)
 
     # -- floats ------------------------------------------------------------------------------------
 
-    def _parts(self) -> Iterator[tuple[_Family, float, float]]:
+    def _parts(self) -> Iterator[tuple[_TouchingSights, float, float]]:
         """Parts of pieces that may hold a root: joined where they meet."""
         count = len(self.families)
         if not count:
@@ -213,7 +213,7 @@ class SightsOfRange:
 
     # -- balls -------------------------------------------------------------------------------------
 
-    def _first_in(self, family: _Family, low: arb, high: arb, halvings: int) -> LineOfSight | None:
+    def _first_in(self, family: _TouchingSights, low: arb, high: arb, halvings: int) -> LineOfSight | None:
         """A free sight at a root of G between two parameters."""
         self._left -= 1
         if sign(self._gain(family, low.union(high))):
@@ -231,15 +231,15 @@ class SightsOfRange:
             family, middle, high, halvings - 1
         )
 
-    def _beside_extremum(self, family: _Family, low: arb, high: arb) -> LineOfSight | None:
-        """The same where G has one extremum at most: on either side of it G is monotonous."""
+    def _beside_extremum(self, family: _TouchingSights, low: arb, high: arb) -> LineOfSight | None:
+        """A free sight at a root of G where G has one extremum at most: it is monotonous on either side."""
         slopes = [sign(self._values(family, u)[1]) for u in (low, high)]
         if slopes[0] * slopes[1] > 0:
             return self._at_root(family, low, high)
         top = self._root(family, low, high, 1) if all(slopes) else high if slopes[0] else low
         return self._at_root(family, low, top) or self._at_root(family, top, high)
 
-    def _at_root(self, family: _Family, low: arb, high: arb) -> LineOfSight | None:
+    def _at_root(self, family: _TouchingSights, low: arb, high: arb) -> LineOfSight | None:
         """The sight at the only root of G between two parameters, if there is one and the sight is free."""
         ends = [sign(self._gain(family, u)) for u in (low, high)]
         if ends[0] * ends[1] > 0:
@@ -247,7 +247,7 @@ class SightsOfRange:
         u = self._root(family, low, high, 0) if all(ends) else high if ends[0] else low
         return self._sight(family, u)
 
-    def _root(self, family: _Family, low: arb, high: arb, order: int) -> arb:
+    def _root(self, family: _TouchingSights, low: arb, high: arb, order: int) -> arb:
         """The root of G, or of G', between parameters where it has different signs, and none of its slope."""
         u = low.union(high)
         while True:
@@ -258,18 +258,18 @@ class SightsOfRange:
                 return narrower
             u = narrower
 
-    def _values(self, family: _Family, u: arb) -> tuple[arb, arb, arb]:
+    def _values(self, family: _TouchingSights, u: arb) -> tuple[arb, arb, arb]:
         """G, G' and G'' at all parameters of a ball; no numbers where g may be 0."""
         series = self._gain(family, arb_series([u, 1], prec=3))
         return series[0], series[1], 2 * series[2]
 
-    def _gain(self, family: _Family, u: Any) -> Any:
+    def _gain(self, family: _TouchingSights, u: Any) -> Any:
         """G at a parameter, a ball or a series."""
         qx, _, _, ny, _ = self._line(family, u)
         off = qx - self.rest.x
         return ny * ny * (self.rest.radius * self.rest.radius) - off * off
 
-    def _line(self, family: _Family, u: Any) -> tuple[Any, ...]:
+    def _line(self, family: _TouchingSights, u: Any) -> tuple[Any, ...]:
         """q, n, and the way from q to the post, at a parameter that is a ball or a series."""
         wall, (post, turn) = self.rest.targets[family.piece], family.touch
         if wall.center is None:
@@ -295,7 +295,7 @@ class SightsOfRange:
             nx, ny = (dx * turn - dy * gap) / size, (dy * turn + dx * gap) / size
         return qx, qy, nx, ny, (dx, dy)
 
-    def _sight(self, family: _Family, u: arb) -> LineOfSight | None:
+    def _sight(self, family: _TouchingSights, u: arb) -> LineOfSight | None:
         """The sight to the goal at a parameter, if its post is on the way and it is free."""
         rest = self.rest
         qx, qy, nx, ny, (dx, dy) = self._line(family, u)
