@@ -307,7 +307,7 @@ def _is_crossed(p: BallPoint, q: BallPoint, sight: BallPoint, wall: Wall, lax: b
 
 
 def _is_cut(p: BallPoint, q: BallPoint, sight: BallPoint, wall: Wall, lax: bool) -> bool:
-    """Whether a sight crosses an arc so: the line p + t sight at the t of its two points, or where it touches.
+    """Whether a sight crosses an arc so: the line p + t sight at its two points, or where it touches.
 
     Where it comes into the circle it leaves the blocked side of a clockwise arc; a line that touches one from
     without is on the blocked side all along.
