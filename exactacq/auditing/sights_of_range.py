@@ -7,7 +7,7 @@ X in the distance l = |q_x - X| / |n_y|. So l is the range R where
 
     G(u) = R^2 n_y^2 - (q_x - X)^2 = 0.
 
-When q moves by dq the line turns by at most dq / g, so |G'| <= 2 R (1 + R / g) |q'| where |q_x - X| <= R.
+When q moves by dq the line turns by at most dq / g, so G' is bounded: see `_may_hold`.
 Floats halve the pieces until no root is left, all sights are certainly blocked or off the rest, or the parts
 are tiny. In these balls find the roots: where G' or G'' has no zero G has two at most, and an extremum that
 balls do not part from 0 is one. Elsewhere they halve again; where that does not end the question stays open.
@@ -191,7 +191,11 @@ class SightsOfRange:
         may &= np.abs(off) <= rest.reach + half + grain
         value = (rest.reach * n[:, 1]) ** 2 - off**2
         with np.errstate(invalid="ignore"):
-            may &= ~(np.abs(value) > 2.1 * (rest.reach + half) * (rest.reach * turn + half + 2 * grain))
+            # Of G' = 2 R^2 n_y n_y' - 2 (q_x - X) q_x', both factors at their greatest.
+            change = rest.reach**2 * (np.abs(n[:, 1]) + turn) * turn + (np.abs(off) + 2 * half) * (
+                half + grain
+            )
+            may &= ~(np.abs(value) > 2.1 * (change + rest.reach * grain))
         steep = np.abs(n[:, 1]) - turn
         clear = may & (steep > 0)
         with np.errstate(all="ignore"):
