@@ -7,6 +7,7 @@ The build itself, which computes all pictures and verdicts, is a command of its 
 from __future__ import annotations
 
 import importlib
+import json
 import re
 import sys
 from collections.abc import Iterator
@@ -122,6 +123,39 @@ def test_scenes_are_found_where_they_are_named() -> None:
 def test_everything_public_is_in_the_reference() -> None:
     documented = set(re.findall(r"^\.\. auto\w+:: (\w+)$", PAGES["api"], re.MULTILINE))
     assert documented == set(exactacq.__all__)
+
+
+# -- stored results ----------------------------------------------------------------------------------
+
+
+RESULTS = sorted((DOCS / "results").glob("*.json"))
+
+
+@pytest.mark.parametrize("path", RESULTS, ids=lambda path: path.stem)
+def test_results_are_whole_and_name_what_made_them(path: Path, extension: ModuleType) -> None:
+    result = json.loads(path.read_text(encoding="utf-8"))
+    text = "\n".join(importlib.import_module("trust_page").section(result))
+    assert re.fullmatch("[0-9a-f]{7,40}", result["version"])
+    assert text.count("$ ") >= len(result["commands"]) > 0
+    for command in result["commands"]:
+        files = [DOCS.parent / name for name in re.findall(r"\btests/\w+\.py", command)]
+        assert "exactacq verify" in command or (files and all(file.is_file() for file in files))
+    for row in result.get("rows", ()):
+        assert len(row) == len(result["columns"])
+
+
+def test_a_campaign_is_told_with_what_is_open(extension: ModuleType) -> None:
+    statement = {"claim": "L1", "called": "true", "held": 3, "failed": 1, "unanswered": 2}
+    summary = {
+        "statements": [statement, {**statement, "called": "false", "held": 50}],
+        "scenes": {"passed": 5, "undecided": 1},
+        "wrong": [],
+        "open": [{"scene": f"sightseer:{k}", "what": "undecided", "why": "a tie"} for k in range(45)],
+    }
+    lines = list(importlib.import_module("trust_page")._campaign(summary))
+    assert lines[:3] == ["| passed | undecided |", "|---|---|", "| 5 | 1 |"]
+    assert "The 1 statements that are called true held 3 times on single scenes, failed 1 times" in lines[4]
+    assert lines[-3] == "| `sightseer:39` | undecided | a tie |" and lines[-1].startswith("5 more")
 
 
 # -- the page of claims ----------------------------------------------------------------------------

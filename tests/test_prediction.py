@@ -347,6 +347,26 @@ def _mirrored(curve: Curve, across: int, up: int) -> Curve:
     return Arc(start, end, image(curve.center), curve.radius_sq, curve.ccw)
 
 
+@pytest.mark.parametrize("radius", [20, fmpq(13, 2), 6])
+@pytest.mark.parametrize(("start", "stop"), [(2, 8), (8, 2)])
+def test_a_slit_along_the_line_itself(start: int, stop: int, radius: int) -> None:
+    """Two walls, one from the west and one from the east, leave the line x = 0 alone between them and a disc
+    below. It is seen from the end of the walk at 2, 13/2 away, or from just after it if that is the start. Of
+    lines of sight along the walk only those as long as the range were asked."""
+    disc = [
+        Arc(
+            Point(fmpq(1, 4), fmpq(-17, 4)),
+            Point(fmpq(1, 4), fmpq(-19, 4)),
+            Point(fmpq(1, 4), fmpq(-9, 2)),
+            fmpq(1, 16),
+            ccw=True,
+        )
+    ]
+    walls = [Segment(Point(0, -3), Point(60, -3)), Segment(Point(-60, -2), Point(0, -2))]
+    assert sees(disc, walls, radius, start, stop) == (radius == 20 or (radius != 6 and stop == 2))
+    assert not sees(disc, [*walls, Segment(Point(-1, 0), Point(1, 0))], radius, start, stop)
+
+
 def test_the_sampler_agrees() -> None:
     counts: Counter[bool] = Counter()
     for seed in range(100, 130):

@@ -1,8 +1,8 @@
 """What the documentation shows and does not store: pictures and verdicts, computed when it is built.
 
 ``docs/_generated`` receives the SVG files of `PICTURES`, the text of the page of claims with its pictures and
-arguments, the table of bounds, and the help of all commands with what their examples print.
-``-D claims_scenes=N`` tries the claims on N random scenes of each kind.
+arguments, the table of bounds, those of stored results, and the help of all commands with what their
+examples print. ``-D claims_scenes=N`` tries the claims on N random scenes of each kind.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from typing import Any
 import claims_page
 import command_page
 import tightest
+import trust_page
 
 import exactacq as xa
 from exactacq.files import gallery
@@ -55,7 +56,7 @@ PICTURES: dict[str, Callable[[Path], None]] = {
     "polygon_limit.svg": lambda path: limit_figure().savefig(path),
 }
 """The pictures that pages name, each with what draws it."""
-TEXTS = ("verdicts.md", "tightest.md", "commands.md")
+TEXTS = ("verdicts.md", "tightest.md", "trust.md", "commands.md")
 """The texts that pages include."""
 
 
@@ -69,6 +70,7 @@ def generate(app: Any) -> None:
     arguments = Path(app.srcdir).parent / "proofs" / "arguments"
     claims_page.write(folder, claims.CLAIMS, int(app.config.claims_scenes), arguments)
     tightest.write(folder, _cases())
+    trust_page.write(folder, Path(app.srcdir) / "results")
     command_page.write(folder)
 
 

@@ -16,7 +16,7 @@ there the lengths are bounded between neighbouring lines through two features, w
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from itertools import pairwise
+from itertools import chain, pairwise
 
 import numpy as np
 from flint import arb, fmpq
@@ -121,7 +121,7 @@ class _Candidates:
         stands = self._stands()
         if stands is None or self._sees_from_grid():
             return True
-        if any(self._is_seen(p, q) for p, q in self._at_range(stands)):
+        if any(self._is_seen(p, q) for p, q in chain(self._along_line(stands), self._at_range(stands))):
             return True
         features = [*features_of(self.pieces, set(range(len(self.targets))))]
         features += [KnownFeature(point, goal=True) for point in self.dots]
@@ -223,6 +223,33 @@ class _Candidates:
             self._is_seen(Point(walk.x, ys[rows[k]]), ends[columns[k]][1].point(ends[columns[k]][2]))
             for k in tries
         )
+
+    # -- lines of sight along the walk's own line --------------------------------------------------
+
+    def _along_line(self, stands: Sequence[KnownFeature]) -> Iterator[tuple[Point, Point]]:
+        """From the places of the walk that are nearest to known points on its line, before or beyond it.
+
+        Those before it are seen from just after the start if from anywhere, as free and short as from there.
+        """
+        walk, origin = self.walk, Point(self.walk.x, 0)
+        ends = [Point(walk.x, y) for curve in self.targets for y in self._contacts(curve, origin)]
+        ends += [point for point in self.dots if point.x.compare(walk.x) == 0]
+        for q in ends:
+            if q.y.compare(walk.stop) == walk.sense:
+                yield Point(walk.x, walk.stop), q
+                continue
+            spare = walk.radius - (q.y - walk.start) * -walk.sense
+            if walk.including or spare.sign() <= 0:
+                yield Point(walk.x, walk.start), q
+                continue
+            after = [(stand.shape.y - walk.start) * walk.sense for stand in stands]  # type: ignore[union-attr]
+            step = min([spare, *(y for y in after if y.sign() > 0)]) * fmpq(1, 2)
+            yield Point(walk.x, walk.start + step * walk.sense), q
+
+    def _contacts(self, curve: Curve, origin: Point) -> list[Real]:
+        low, _, high, _ = hull(curve)
+        slack, x = self.pieces.slack, float(self.walk.x)
+        return line_contacts(origin, UP, curve) if low - slack <= x <= high + slack else []
 
     # -- lines of sight as long as the range -----------------------------------------------------------
 
