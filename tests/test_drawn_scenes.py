@@ -8,13 +8,13 @@ from fractions import Fraction
 from itertools import combinations
 
 import pytest
+from drawn_scenes import KINDS, scenes, steps, terrains
+from drawn_scenes import placing as p
+from drawn_scenes.kinds import VARIANTS, Kind, a_disc
+from drawn_scenes.plane import box, edges, lines, minus, rounds, square, vertices
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 from oracles import Disc, Room
-from scenes import KINDS, scenes, steps, terrains
-from scenes import placing as p
-from scenes.kinds import VARIANTS, Kind, a_disc
-from scenes.plane import box, edges, lines, minus, rounds, square, vertices
 from strategies import ONE, ZERO, Pair, Terrain, build
 
 import exactacq as xa

@@ -16,11 +16,11 @@ from random import Random
 import networkx as nx
 import pytest
 from brute_links import FINE, Loops, brute_force, mp
+from drawn_scenes import STRAIGHT, terrains
+from drawn_scenes.kinds import a_box, a_diamond, a_hook, a_triangle, on_pins
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from oracles import Disc, Room
-from scenes import STRAIGHT, terrains
-from scenes.kinds import a_box, a_diamond, a_hook, a_triangle, on_pins
 from strategies import EPS, Similarity, Terrain, box, reversed_order, split_point
 
 import exactacq as xa

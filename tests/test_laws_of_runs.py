@@ -11,11 +11,11 @@ from random import Random
 
 import numpy as np
 import pytest
+from drawn_scenes import CURVED, terrains
+from drawn_scenes.kinds import PINNED, ROUND
 from hypothesis import given
 from hypothesis import strategies as st
 from oracles import Disc, Room, free, world
-from scenes import CURVED, terrains
-from scenes.kinds import PINNED, ROUND
 from strategies import Similarity, Terrain, box, circle_grid, square_grid
 from test_laws import (
     EXAMPLES,

@@ -8,12 +8,12 @@ from dataclasses import replace
 from fractions import Fraction
 
 import pytest
+from drawn_scenes import motions, scenes, terrains
+from drawn_scenes.placing import cut
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from map_oracle import Answer, Spot, known, spots
 from oracles import Room
-from scenes import motions, scenes, terrains
-from scenes.placing import cut
 from strategies import ONE, ZERO, Similarity, Terrain, box
 from test_exact_only import told
 from test_laws_of_arcs import has_ties

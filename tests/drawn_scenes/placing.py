@@ -14,9 +14,8 @@ from itertools import count, islice
 from oracles import reverse_loop
 from strategies import ONE, ZERO, Pair, build, split_point
 
-from exactacq.errors import InvalidScene
-from scenes.kinds import Group, Kind
-from scenes.plane import (
+from drawn_scenes.kinds import Group, Kind
+from drawn_scenes.plane import (
     Box,
     Line,
     Round,
@@ -34,6 +33,7 @@ from scenes.plane import (
     square,
     turn,
 )
+from exactacq.errors import InvalidScene
 
 Q = Fraction
 PLACES = 12

@@ -15,9 +15,7 @@ from hypothesis import strategies as st
 from strategies import ONE, ZERO, Similarity, Terrain
 
 import exactacq as xa
-from exactacq.files.scene_json import whole_text
-from exactacq.study.claims.model import Subject
-from scenes.drawing import (
+from drawn_scenes.drawing import (
     FACTORS,
     MARGINS,
     WAYS_TO_BOUND,
@@ -27,8 +25,10 @@ from scenes.drawing import (
     swept,
     toured,
 )
-from scenes.kinds import CURVED, KINDS, STRAIGHT, VARIANTS, Kind
-from scenes.placing import GAPS, HAIRS, RELATIONS, TURNS, Step
+from drawn_scenes.kinds import CURVED, KINDS, STRAIGHT, VARIANTS, Kind
+from drawn_scenes.placing import GAPS, HAIRS, RELATIONS, TURNS, Step
+from exactacq.files.scene_json import whole_text
+from exactacq.study.claims.model import Subject
 
 __all__ = ["CURVED", "KINDS", "STRAIGHT", "motions", "scenes", "terrains"]
 

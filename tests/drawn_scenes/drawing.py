@@ -10,10 +10,10 @@ from itertools import combinations
 from oracles import Room
 from strategies import ONE, ZERO, Pair, Similarity, Terrain, arcs_of_circle, split_point
 
+from drawn_scenes.placing import Ground, Step, pick
+from drawn_scenes.plane import Box, box, edges, has_root, lines, minus, plus, root, rounds, square, vertices
 from exactacq.errors import InvalidScene
 from exactacq.scene.terrain_components import ground_of
-from scenes.placing import Ground, Step, pick
-from scenes.plane import Box, box, edges, has_root, lines, minus, plus, root, rounds, square, vertices
 
 Q = Fraction
 RADII = (Q(5), Q(3), Q(2), Q(1), Q(10), Q(60), Q(5, 2))
