@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 import exactacq as xa
-from exactacq.study.random_scenes import Subject, arc_scene
+from exactacq.study.random_scenes import Subject, arc_scene, random_scene
 
 DATA = Path(__file__).parent / "data" / "undecided"
 WALKED = {5: "656.353119540", 14: "656.353119540", 20: "656.353119540", 30: "656.897193", 100: "656.897193"}
@@ -66,3 +66,14 @@ def test_a_map_where_a_view_becomes_as_long_as_the_range() -> None:
     for event in at_range:
         chart = run.map_at(event)
         assert sum(float(chart.known_length(k)) for k in range(len(slots))) > 0
+
+
+def test_the_map_where_an_obstacle_is_acquired_has_all_of_it() -> None:
+    """What is known from both sides meets there, in two forms of one nested number: once `Undecided`."""
+    run = xa.seed_spreader(random_scene(Subject.SEED_SPREADER, 60000067))
+    acquired = [event for event in run.events if event.kind == "acquire"]
+    assert len(acquired) > 2
+    for event in acquired:
+        chart = run.map_at(event)
+        assert event.obstacle not in chart.incomplete
+        assert chart.known_length(event.obstacle) == run.obstacles[event.obstacle].perimeter

@@ -9,6 +9,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from flint import fmpq
 
@@ -101,6 +102,16 @@ class Moment(Mapping[int, Cover]):
         return sum(1 for _ in self)
 
 
+class ReportedPlace(NamedTuple):
+    """A place of the path where something was reported: its parameter on which leg of the piece, and the
+    obstacle that was acquired there, if one was."""
+
+    place: Point
+    u: Real
+    leg: int
+    acquired: int | None
+
+
 class Memory:
     """What a robot has learned on its way so far, with all ``reports``. *radius* is rational and positive.
 
@@ -121,9 +132,8 @@ class Memory:
         targets = None if ground is None else Targets.of_components(ground.components, self._table, range_)
         self._sensor = Sensor(self._table, range_, targets)
         self.reports: list[Report] = []
-        # Of every piece the places of its reports, their parameters, and on which leg of the piece they are:
-        # numbers that families share, so that ties with them are free.
-        self._reported_at: list[list[tuple[Point, Real, int]]] = []
+        # Of every piece the places of its reports: numbers that families share, so that ties are free.
+        self._reported_at: list[list[ReportedPlace]] = []
         self._looked: tuple[Piece | None, Ahead | None] = None, None
         self._walked: set[tuple[object, object]] = set()
         self._retraced: set[int] = set()
@@ -160,13 +170,14 @@ class Memory:
         known, ahead = self._looked
         legs = [ahead.leg] if ahead is not None and known is piece else self._legs_of(piece)
         count, reports, retraced = len(self._legs), [], self._is_retraced(piece)
-        places: list[tuple[Point, Real, int]] = []
+        places: list[ReportedPlace] = []
         for k, leg in enumerate(legs):
             took = ahead if ahead is not None and leg is ahead.leg else self._sensor.ahead(leg, retraced)
             notices, learned = self._sensor.follow(took)
             self._learn(learned)
             for n in notices:
-                places.append((n.place, n.u, k))
+                acquired = n.obstacle if n.kind is EventKind.ACQUIRE else None
+                places.append(ReportedPlace(n.place, n.u, k, acquired))
                 at_start = k == 0 and leg.order(n.u, leg.first) == 0
                 at_end = k == len(legs) - 1 and leg.order(n.u, leg.last) == 0
                 after = count + 1 if at_end and not at_start else count
@@ -274,15 +285,16 @@ class Memory:
             # What it shows is known, in other forms of the same numbers.
             return self._map(Moment(self._history, before, {}))
         # The last report there: where two legs meet there may be one of each.
-        told = [(u, k) for point, u, k in self._reported_at[count] if point is place][-1:]
+        told = [at for at in self._reported_at[count] if at.place is place]
         for k, leg in enumerate(legs):
-            if told and k < told[0][1]:
+            if told and k < told[-1].leg:
                 continue
-            u = told[0][0] if told else leg.rail.parameter(place)
+            u = told[-1].u if told else leg.rail.parameter(place)
             if leg.span.low.compare(u) <= 0 and leg.span.high.compare(u) >= 0:
                 known = Moment(self._history, before + k, {})
                 if leg.order(u, leg.first) > 0:
-                    newer = self._sensor.known_within(leg, u, place, known)
+                    acquired = [at.acquired for at in told if at.acquired is not None]
+                    newer = self._sensor.known_within(leg, u, place, known, acquired)
                     known = Moment(self._history, before + k, newer)
                 return self._map(known)
         return self._map(Moment(self._history, before + len(legs), {}))

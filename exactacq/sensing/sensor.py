@@ -8,7 +8,7 @@ its two ends (see `view_families`). Only obstacles that are not acquired yet are
 from __future__ import annotations
 
 from collections import ChainMap, deque
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from functools import cmp_to_key
 
@@ -131,16 +131,18 @@ class Sensor:
         notices.sort(key=cmp_to_key(lambda a, b: leg.order(a.u, b.u) or ORDER[a.kind] - ORDER[b.kind]))
         return notices, learned
 
-    def known_within(self, leg: Leg, u: Real, place: Point, covers: Covers) -> Underway:
+    def known_within(
+        self, leg: Leg, u: Real, place: Point, covers: Covers, acquired: Collection[int]
+    ) -> Underway:
         """The covers that grow up to a place of a leg, if *covers* are known before it; see `Underway`.
 
-        What the last leg shows is kept.
+        Some obstacles may be *acquired* just there. What the last leg shows is kept.
         """
         if self._last is None or self._last.shares.leg is not leg:
             known = KnownSpans(covers, self.rails)
             shares = Shares(self.complex, self.targets, leg, self._near(leg), self._view, known)
             self._last = LegNews(shares, covers)
-        return self._last.upto(u, place)
+        return self._last.upto(u, place, acquired)
 
     def shares(self, leg: Leg) -> Shares:
         """All that a leg shows, also of acquired obstacles."""

@@ -59,6 +59,10 @@ class Targets:
                 self._on.setdefault(target.edge, []).append((k, target))
         self._owners = {e: tuple({k for k, _ in found}) for e, found in self._on.items()}
 
+    def whole_covers(self, k: int) -> Iterator[tuple[int, Cover]]:
+        """The edges that count for an obstacle with all they are, covered all over."""
+        return ((target.edge, Cover((target.span,))) for target in self.of[k] if target.whole)
+
     @cached_property
     def owners(self) -> dict[int, list[tuple[int, bool]]]:
         """The obstacles that edges count for, and whether all of the edge does."""

@@ -7,7 +7,7 @@ what is known of another one is the same at all places that have passed the same
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from functools import cached_property
 from itertools import chain
 
@@ -26,9 +26,12 @@ class LegNews:
         self.shares, self.covers = shares, covers
         self._on: dict[int, EdgeNews] = {}
 
-    def upto(self, u: Real, place: Point) -> Underway:
-        """The covers that have grown when the robot is at a place. Made in constant time."""
-        return Underway(self, u, place)
+    def upto(self, u: Real, place: Point, acquired: Collection[int] = ()) -> Underway:
+        """The covers that have grown when the robot is at a place. Made in constant time.
+
+        Some obstacles may be known to be *acquired* there.
+        """
+        return Underway(self, u, place, acquired)
 
     def on(self, edge: int) -> EdgeNews:
         """What the leg adds to the cover of one edge."""
@@ -115,9 +118,11 @@ class EdgeNews:
 class Underway(Mapping[int, Cover]):
     """The covers that have grown along a leg when the robot is at a place; each is made when it is read."""
 
-    def __init__(self, news: LegNews, u: Real, place: Point) -> None:
+    def __init__(self, news: LegNews, u: Real, place: Point, acquired: Collection[int]) -> None:
         self._news, self._u, self._place = news, u, place
-        self._found: dict[int, Cover | None] = {}
+        # Where an obstacle is acquired, ends of what is known meet: numbers may not tell that they do.
+        whole = news.shares.targets.whole_covers
+        self._found: dict[int, Cover | None] = {e: cover for k in acquired for e, cover in whole(k)}
 
     @cached_property
     def _near(self) -> frozenset[int]:
