@@ -225,6 +225,8 @@ class TestSweepCounts:
             (Outline([(0, 0, "-1/5"), (1, 0), (1, 1)]), False),
             (Outline([(0, 0, 1), (2, 0, 0), ("3/2", 1, 0), ("1/2", 1, 0)]), True),
             (Outline([(0, 0, 1), (2, 0, 0), (3, 1, 0), (-1, 1, 0)]), False),
+            # It only turns left but at (2, 2), where it turns back: a cusp.
+            (Outline([(2, 0), (3, 0), (3, 3), (0, 3), (0, 2, 1), (2, 2)]), False),
         ]
         for shape, expected in shapes:
             assert is_convex(Scene([shape]).obstacles[0].edges) is expected, shape

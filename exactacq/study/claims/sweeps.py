@@ -155,7 +155,13 @@ def is_convex(edges: Sequence[Curve]) -> bool:
     if len(edges) == 1:
         return True
     turns = zip(edges, [*edges[1:], edges[0]], strict=True)
-    return all(_leaving(a, a.end).cross(_leaving(b, b.start)).sign() >= 0 for a, b in turns)
+    return all(_turns_left(_leaving(a, a.end), _leaving(b, b.start)) for a, b in turns)
+
+
+def _turns_left(before: Point, after: Point) -> bool:
+    """Whether one goes on to the left or straight; at a cusp one turns back, and nothing convex has one."""
+    turn = before.cross(after).sign()
+    return turn > 0 or (turn == 0 and before.dot(after).sign() > 0)
 
 
 def _leaving(edge: Curve, point: Point) -> Point:
