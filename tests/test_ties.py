@@ -77,3 +77,12 @@ def test_the_map_where_an_obstacle_is_acquired_has_all_of_it() -> None:
         chart = run.map_at(event)
         assert event.obstacle not in chart.incomplete
         assert chart.known_length(event.obstacle) == run.obstacles[event.obstacle].perimeter
+
+
+@pytest.mark.parametrize("seed", [61000367, 61000691])
+def test_the_view_is_told_whatever_edge_is_asked_for_first(seed: int) -> None:
+    """An edge out of reach came first: the view was made before it was told of its ends at the range."""
+    run = xa.seed_spreader(random_scene(Subject.SEED_SPREADER, seed))
+    for event in run.events:
+        if event.kind == "lose" and event.note == "range":
+            assert all(run.map_at(event).known(k) is not None for k in range(len(run.obstacles)))

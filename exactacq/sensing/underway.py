@@ -133,11 +133,9 @@ class Underway(Mapping[int, Cover]):
     def _cover(self, edge: int) -> Cover | None:
         if edge not in self._found:
             news = self._news.on(edge)
-            if edge in self._near:
-                self._tell_view()
-                self._found[edge] = news.upto(self._u, self._place)
-            else:
-                self._found[edge] = news.beyond(self._u, self._place)
+            grown = news.upto if edge in self._near else news.beyond
+            self._tell_view()
+            self._found[edge] = grown(self._u, self._place)
         return self._found[edge]
 
     def _tell_view(self) -> None:
