@@ -103,7 +103,7 @@ def _perform(arguments: Sequence[str] | None) -> object:
 def _one_line(error: BaseException) -> str:
     """What is wrong, on one line."""
     if isinstance(error, UsageError) and hasattr(error, "format_message"):
-        text = error.format_message()
+        text = error.format_message().replace("Value error, ", "", 1)  # Some releases of typer say so.
     elif isinstance(error, InvalidScene) and len(error.violations) > VIOLATIONS:
         shown = "; ".join(error.violations[:VIOLATIONS])
         text = f"{len(error.violations)} violations: {shown}; and {len(error.violations) - VIOLATIONS} more"

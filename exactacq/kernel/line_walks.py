@@ -43,9 +43,9 @@ class WalkedLine:
 
     The last of that blocks the line, if it ``is_blocked`` there. *passed* are the vertices that the line
     passes, *touched* arcs on the circles that it touches; *circles* has the first arc on the circle of each
-    arc. The contact is the vertex *own* or, with *is_round*, on the arc *own*. What
-    is farther than *reach* is left out, but for the end of an edge along the line. If floats leave anything
-    open, the line is not told of: ``is_told`` is false.
+    arc. The contact is the vertex *own* or, with *is_round*, on the arc *own*. What is farther than *reach*
+    is left out, but for the end of an edge along the line. If floats leave anything open, the line is not
+    told of: ``is_told`` is false.
     """
 
     def __init__(
@@ -84,11 +84,8 @@ class WalkedLine:
                 self._meet_round(e)
             if not self.is_told:
                 return
-        at_once = (
-            (False, False) if self._is_round else (self._blocks(self._own, 1), self._blocks(self._own, -1))
-        )
-        self.is_blocked_ahead = at_once[0] or self._follow(1, self.ahead)
-        self.is_blocked_behind = at_once[1] or self._follow(-1, self.behind)
+        self.is_blocked_ahead = self._is_blocked_at_once(1) or self._follow(1, self.ahead)
+        self.is_blocked_behind = self._is_blocked_at_once(-1) or self._follow(-1, self.behind)
 
     # -- what is met -----------------------------------------------------------------------------
 
@@ -235,6 +232,10 @@ class WalkedLine:
         self.is_told = self.is_told and (far - bound > 0.0 or far + bound < 0.0) and bound < inf
 
     # -- as far as it is free ----------------------------------------------------------------------
+
+    def _is_blocked_at_once(self, sense: int) -> bool:
+        """Whether the line enters an obstacle at its contact: it may at a vertex, at the tip of a cusp."""
+        return not self._is_round and self._blocks(self._own, sense)
 
     def _follow(self, sense: int, hits: list[Hit]) -> bool:
         """Collect what is met ahead (1) or behind (-1) up to what blocks the line; whether anything does."""

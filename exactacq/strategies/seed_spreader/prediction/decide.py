@@ -6,7 +6,8 @@ start, then in the pair farthest along the line neither point can be moved on (e
 - the place is the end of the line or on a known piece, or the target is an end of a piece, and the line of
   sight touches a feature or is as long as the range;
 - the line of sight touches two features (a corner, a lone end, a convex arc, the target's own too);
-- it is as long as the range and perpendicular to the target, or touches one feature.
+- it is as long as the range and perpendicular to the target, or touches one feature;
+- it runs along the line itself.
 
 Floats list these candidates and drop what is certainly blocked or out of range; what is left is decided
 exactly. Only where a line of sight that touches one feature is as long as the range there is no closed form:
