@@ -120,6 +120,16 @@ try:
 except Over:
     pass
 """
+HEAP = """
+import tracemalloc
+import exactacq as xa
+from exactacq.files.octagons import random_octagons
+scene = random_octagons({n}, 1)
+tracemalloc.start()
+run = xa.sightseer(scene, 10)
+held, most = (size / 2**20 for size in tracemalloc.get_traced_memory())
+print(f"{n} octagons: {{held:.0f}} MB held by the run, {{most:.0f}} MB at most, {{len(run.events)}} events")
+"""
 MINUTES = 10
 DATA = Path(__file__).resolve().parents[1] / "data"
 WORKS = {
@@ -166,3 +176,15 @@ def test_many_octagons(benchmark: object) -> None:
     answer = benchmark.pedantic(subprocess.run, (command,), asked, rounds=1)
     print(f"\n{answer.stdout}")
     assert f"of {size} visited" in answer.stdout
+
+
+@pytest.mark.parametrize("size", [2, 100, 1000, 10_000])
+def test_heap(benchmark: object, size: int) -> None:
+    """What Python's own objects take, by `tracemalloc`, which makes runs some four times slower."""
+    if benchmark.disabled and size > 2:
+        pytest.skip("takes too long for the everyday suite: run with --benchmark-enable")
+    command = [sys.executable, "-c", HEAP.format(n=size)]
+    asked = {"capture_output": True, "check": True, "text": True}
+    answer = benchmark.pedantic(subprocess.run, (command,), asked, rounds=1)
+    print(f"\n{answer.stdout}")
+    assert f"{size} octagons" in answer.stdout
