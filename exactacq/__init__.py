@@ -7,7 +7,7 @@ A robot with a limited radius of vision maps unknown obstacles by one of two str
 
 from importlib import import_module
 
-from exactacq.scene.ports import JSON, SVG, offer
+from exactacq.scene.ports import JSON, PLAYER, SVG, offer
 
 TYPE_CHECKING = False  # That of typing, whose import takes as long as all else here.
 if TYPE_CHECKING:
@@ -127,6 +127,7 @@ _HOMES = {
 offer(SVG, "exactacq.scene.scene.Scene", "exactacq.output.figures", "svg")
 offer(SVG, "exactacq.strategies.run.Run", "exactacq.output.figures", "svg")
 offer(SVG, "exactacq.visibility.isovist.Isovist", "exactacq.output.isovist_svg", "svg")
+offer(PLAYER, "exactacq.strategies.run.Run", "exactacq.output.animation.player", "Player")
 offer(JSON, "exactacq.strategies.run.Run", "exactacq.output.run_json", "run_to_json")
 
 

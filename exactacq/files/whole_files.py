@@ -8,9 +8,9 @@ from collections.abc import Collection
 from pathlib import Path
 
 from exactacq.errors import FormatError
+from exactacq.numbers.exact import is_short
 from exactacq.numbers.length import Length
 from exactacq.numbers.rationals import plain
-from exactacq.numbers.real import Real
 
 FIGURES = (".svg", ".pdf", ".png")
 """File types of figures."""
@@ -21,31 +21,22 @@ PAGES = (".html",)
 FILMS = (".gif", ".mp4")
 """File types of films."""
 
-BITS_PER_CHARACTER = 4
-"""More than the 3.33 bits of a decimal digit."""
-
 
 def readable(length: Length, limit: int, digits: int) -> tuple[str, ...]:
     """The closed form, if it has at most *limit* characters, and ``≈`` the decimal value.
 
-    A finite decimal is its own value and comes alone. Forms of more radicals than *limit* are not even
-    written out, which would take seconds: k distinct radicals take more than k characters. Nor are forms of
-    numbers so long that their digits alone are too many.
+    A finite decimal is its own value and comes alone.
     """
     decimal = length.decimal(digits)
     if "e" not in decimal and "." in decimal:
         decimal = decimal.rstrip("0").rstrip(".")
-    closed = str(length) if all(_is_short(number, limit) for number in length.numbers) else ""
+    closed = str(length) if all(is_short(number, limit) for number in length.numbers) else ""
     value = length.algebraic.rational if closed and length == Length(length.algebraic) else None
     if value is not None:
         closed = plain(value)
     if closed == decimal or (value is not None and "/" not in closed):
         return (closed,)
     return (closed, f"≈ {decimal}") if 0 < len(closed) <= limit else (f"≈ {decimal}",)
-
-
-def _is_short(number: Real, limit: int) -> bool:
-    return len(number.generators()) <= limit and number.height_bound() <= BITS_PER_CHARACTER * limit
 
 
 def check_output(path: str | os.PathLike[str], suffixes: Collection[str]) -> Path:

@@ -2,24 +2,44 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from decimal import Decimal
 from math import isnan
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from flint import fmpq
 
 from exactacq.numbers.rationals import nonfinite
 
+if TYPE_CHECKING:
+    import sympy
+
+    from exactacq.numbers.atoms import Form
+
 GUARD = 10
 """Digits beyond those that are shown: rounding twice is then rounding once, but for ties no one could see."""
 HALF = fmpq(1, 2)
+BITS_PER_CHARACTER = 4
+"""More than the 3.33 bits of a decimal digit."""
+SHORT, SHOWN = 80, 15
+"""Closed forms of about this many characters at most are shown in notebooks; digits of others."""
+
+
+def is_short(number: Form, limit: int) -> bool:
+    """Whether the closed form of a real may have no more than *limit* characters.
+
+    Forms of more radicals are not even to be written out, which would take seconds: k distinct radicals take
+    more than k characters. Nor are those with numbers whose digits alone are too many.
+    """
+    return len(number.generators()) <= limit and number.height_bound() <= BITS_PER_CHARACTER * limit
 
 
 class Exact:
     """A number with an exact order.
 
     A subclass says what it takes for a number (`_coerced`) and how it compares with one (`_against`). It has
-    ``rational`` (None if it is irrational), `sign`, `enclosure`, `decimal` and a product with rationals.
+    ``rational`` (None if it is irrational), ``numbers``, the reals in its closed form, `sign`, `enclosure`,
+    `decimal`, `sympy` and a product with rationals.
 
     >>> from exactacq.numbers.length import Length
     >>> root = Length(2) * Length("3/2").algebraic
@@ -30,6 +50,19 @@ class Exact:
     __slots__ = ()
 
     rational: fmpq | None
+
+    @property
+    def numbers(self) -> Sequence[Form]:
+        """The reals in the closed form."""
+        raise NotImplementedError
+
+    def decimal(self, digits: int) -> str:
+        """The number rounded to so many significant digits."""
+        raise NotImplementedError
+
+    def sympy(self) -> sympy.Expr:
+        """The closed form as a sympy expression."""
+        raise NotImplementedError
 
     def _coerced(self, other: object) -> Any:
         """Another number as one to compare with, or None for what is none."""
@@ -130,6 +163,23 @@ class Exact:
         number: Any = self
         whole = len(str(max(int(abs(end).floor()) for end in number.enclosure(8))))
         return format(Decimal(number.decimal(whole + wanted + GUARD)), spec)
+
+    def latex(self) -> str:
+        r"""The closed form in LaTeX.
+
+        >>> from exactacq.numbers.length import Length
+        >>> print((1 + Length.turns(1, "1/6")).latex())
+        1 + \frac{\pi}{3}
+        """
+        from sympy import latex
+
+        return str(latex(self.sympy()))
+
+    def _repr_latex_(self) -> str:
+        """For notebooks: the closed form where it is short, else the decimal value."""
+        if all(is_short(number, SHORT) for number in self.numbers) and len(str(self)) <= SHORT:
+            return f"$\\displaystyle {self.latex()}$"
+        return f"$\\approx {self.decimal(SHOWN)}$"
 
     def __round__(self, places: int | None = None) -> int | fmpq:
         """The nearest integer, or the nearest multiple of 10^-places as a rational; ties to even, exactly."""

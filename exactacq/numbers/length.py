@@ -357,16 +357,6 @@ class Length(Exact):
         angles = (c.sympy() * angle for c, angle in terms)
         return Add(self._algebraic.sympy(), turn.sympy() * pi, *angles)
 
-    def latex(self) -> str:
-        r"""The closed form in LaTeX.
-
-        >>> print((1 + Length.turns(1, "1/6")).latex())
-        1 + \frac{\pi}{3}
-        """
-        from sympy import latex
-
-        return str(latex(self.sympy()))
-
     def __str__(self) -> str:
         return str(self._algebraic if self._is_algebraic else self.sympy())
 

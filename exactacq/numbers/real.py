@@ -515,15 +515,10 @@ class Real(Exact):
 
         return Add(*(sympy_rational(c) * atom_sympy(a) for a, c in self._terms.items()))
 
-    def latex(self) -> str:
-        r"""The closed form in LaTeX.
-
-        >>> print((1 / Real(2).sqrt()).latex())
-        \frac{\sqrt{2}}{2}
-        """
-        from sympy import latex
-
-        return str(latex(self.sympy()))
+    @property
+    def numbers(self) -> tuple[Real]:
+        """The number itself: the only one in its closed form."""
+        return (self,)
 
     def __str__(self) -> str:
         return str(self.rational) if self.rational is not None else str(self.sympy())

@@ -10,7 +10,7 @@ TYPE_CHECKING = False  # The package begins with this file, so it does not wait 
 if TYPE_CHECKING:
     from typing import Any
 
-SVG, JSON = "svg", "json"
+SVG, JSON, PLAYER = "svg", "json", "player"
 _MAKERS: dict[tuple[str, str], tuple[str, str]] = {}
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
+from html import escape
 
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
@@ -167,6 +168,13 @@ class Event:
         about = "" if self.obstacle is None else f" of obstacle {self.obstacle}"
         x, y = self.point.xy
         return f"<Event: {self.kind}{about} at ({x:.6g}, {y:.6g}){self.note and ', '}{self.note}>"
+
+    def _repr_html_(self) -> str:
+        """For notebooks: what happened, where, and after which length."""
+        about = "" if self.obstacle is None else f" of obstacle {self.obstacle}"
+        x, y = self.point.xy
+        note = f", {escape(self.note)}" if self.note else ""
+        return f"<p><b>{self.kind}</b>{about} at ({x:.6g}, {y:.6g}) after {self.at._repr_latex_()}{note}</p>"
 
     @property
     def at(self) -> Length:

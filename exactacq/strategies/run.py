@@ -17,7 +17,7 @@ from exactacq.geometry.geo import Geo
 from exactacq.geometry.points import Point, distance
 from exactacq.numbers.length import Length
 from exactacq.numbers.rationals import plain
-from exactacq.scene.ports import JSON, SVG, made
+from exactacq.scene.ports import JSON, PLAYER, SVG, made
 from exactacq.scene.scene import Scene
 from exactacq.scene.terrain_components import Ground, ground_of
 from exactacq.sensing.event import Ending, Event, EventKind, Reason
@@ -51,6 +51,11 @@ class Bound:
     holds: bool
     ratio: float = field(compare=False)
     applies: bool = field(default=True, compare=False)
+
+    def _repr_latex_(self) -> str:
+        """For notebooks: the formula's number and value, with the verdict."""
+        verdict = "holds" if self.holds else "does not hold"
+        return f"{self.name}, {self.source}: {self.value._repr_latex_()} {verdict}"
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
@@ -223,12 +228,25 @@ class Run:
         return self.path.__geo_interface__ if self.path else self.start.__geo_interface__
 
     def _repr_html_(self) -> str:
-        """A line that says what the run is, and its figure."""
+        """A line that says what the run is, its figure, and the bounds."""
         picture = self._repr_svg_()
-        return f"<div><p>{escape(repr(self)[1:-1])}</p>{picture[picture.index('<svg') :]}</div>"
+        bounds = self.bound_table._repr_html_() if self.bounds else ""
+        return f"<div><p>{escape(repr(self)[1:-1])}</p>{picture[picture.index('<svg') :]}{bounds}</div>"
 
     def _repr_svg_(self) -> str:
         return str(made(SVG, self))
+
+    def animate(self) -> Any:
+        """The page that plays the run, for a notebook to show or to `save` as an .html file.
+
+        It is made when it is first shown: a map and a view for each place where something happens, and for
+        some between them. (`exactacq.output.animation.player.Player` has labels and progress too.)
+
+        >>> import exactacq as xa
+        >>> xa.sightseer(xa.load("circles")).animate()
+        <Player of <SightseerRun on circles, R = 20, length 42.6991, 2 of 2 obstacles visited>>
+        """
+        return made(PLAYER, self)
 
     def to_json(self) -> dict[str, Any]:
         """The run as JSON data with exact numbers; `exactacq.load_run` reads it back. Linear in the path.

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from html import escape
 from typing import Any, TypeAlias, overload
 
 from exactacq.files.extras import extra
 from exactacq.sensing.event import Event
 
 Row: TypeAlias = "dict[str, str | int | float | bool | None]"
+
+
+SHOWN = 100
+"""Rows of a table that a notebook shows."""
 
 
 class Table(Sequence[Row]):
@@ -40,6 +45,15 @@ class Table(Sequence[Row]):
     def __repr__(self) -> str:
         return f"<Table of {len(self)} rows: {', '.join(self.columns)}>"
 
+    def _repr_html_(self) -> str:
+        """For notebooks: the first rows as a table; all is text, whatever an obstacle's name contains."""
+        head = "".join(f"<th>{escape(name)}</th>" for name in self.columns)
+        rows = (_cells(row[name] for name in self.columns) for row in self._rows[:SHOWN])
+        body = "".join(f"<tr>{row}</tr>" for row in rows)
+        left_out = len(self) - SHOWN
+        more = f"<p>and {left_out} rows more</p>" if left_out > 0 else ""
+        return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>{more}"
+
     def to_dicts(self) -> list[Row]:
         """The rows as dicts, which may be changed.
 
@@ -60,6 +74,11 @@ class Table(Sequence[Row]):
         """
         frame = extra("polars", "tables").DataFrame
         return frame({name: [row[name] for row in self._rows] for name in self.columns}, strict=False)
+
+
+def _cells(entries: Iterable[str | int | float | bool | None]) -> str:
+    texts = ("" if e is None else f"{e:.6g}" if isinstance(e, float) else str(e) for e in entries)
+    return "".join(f"<td>{escape(text)}</td>" for text in texts)
 
 
 EVENTS = (
