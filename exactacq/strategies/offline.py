@@ -215,11 +215,12 @@ def _distance_sq(place: Point, curve: Curve) -> Real:
         along = curve.direction
         share = (place - curve.start).dot(along) / along.norm_sq()
         if 0 < share < 1:
-            return (curve.start + along * share - place).norm_sq()
+            foot = curve.start + along * share
+            return (foot - place).norm_sq()
         return min(ends)
     offset = place - curve.center
     if offset.norm_sq().sign() == 0:
-        return curve.radius_sq * Real(1)
+        return Real(curve.radius_sq)
     if curve.full or spans(curve, raw(offset)):
         gap = offset.norm_sq().sqrt() - curve.radius
         return gap * gap
