@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from fractions import Fraction
+from itertools import pairwise
 from random import Random
 
 import pytest
@@ -16,7 +17,10 @@ from strategies import EPS, box, build
 from test_audit import EXAMPLES, Q, terrain_of
 from test_laws_of_runs import run_of
 
+from exactacq.auditing import rays
+from exactacq.auditing.rays import Direction
 from exactacq.auditing.visibility import Viewpoints, World, point_at, point_near, visible
+from exactacq.errors import Undecided
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.points import Point
 
@@ -151,3 +155,26 @@ class TestLookout:
         bottom = Segment(Point(0, 0), Point(4, 0))
         assert point_near(bottom, Point(4, 0), fmpq(1, 1000)) is None
         assert point_near(bottom, Point(4, 0), fmpq(-1, 1000)) == Point(Q(3999, 1000), 0)
+
+
+@pytest.mark.parametrize("count", [2, 3, 4])
+@pytest.mark.parametrize("seed", range(4))
+def test_rays_whose_order_is_undecided_are_all_looked_along(
+    monkeypatch: pytest.MonkeyPatch, count: int, seed: int
+) -> None:
+    """In whatever order they come, there is a ray in each cell between two of them.
+
+    A comparison of critical rays of one audit took nested roots beyond the library's limits.
+    """
+
+    def undecided(a: Direction, b: Direction) -> int:
+        raise Undecided("planted")
+
+    monkeypatch.setattr(rays, "_compare", undecided)
+    vectors = [Point(1, fmpq(k, 1 << 60)) for k in range(count)]
+    shuffled = Random(seed).sample(vectors, count)
+    found = [ray.exact() for ray in rays.with_cells([rays.ray_along(vector) for vector in shuffled])]
+    for low, high in pairwise(vectors):
+        assert low in found and high in found
+        assert any(low.cross(ray).sign() > 0 and ray.cross(high).sign() > 0 for ray in found)
+    assert any(ray.x.sign() < 0 for ray in found)  # and one in the rest of the turn

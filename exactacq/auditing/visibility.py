@@ -11,17 +11,24 @@ code of `exactacq.visibility` or `exactacq.sensing` is used.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cmp_to_key
 from itertools import accumulate, pairwise
-from math import atan2, cos, hypot, pi, sin, tan
+from math import atan2, pi, tan
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from flint import fmpq
 from numpy.typing import NDArray
 
+from exactacq.auditing.rays import (
+    Direction,
+    ray_along,
+    rounded,
+    tangent_directions,
+    unit_vector,
+    with_cells,
+)
 from exactacq.geometry.box_index import BoxIndex, bounds
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import contacts, line_contacts
@@ -38,8 +45,6 @@ TIE_BITS = 256
 """Numbers that differ by less are taken for candidates of a tie."""
 EPS = 2.0**-48
 """Relative error of a product with an offset from q (rounded once: 2^-53) and a ray (2^-50), with room."""
-APART = 2.0**-44
-"""Angles farther apart than this are ordered by their floats, whose error is below 2^-50."""
 TINY = 1e-290
 """Added to margins: covers what underflow loses."""
 
@@ -118,18 +123,6 @@ class World:
         boxes = self.boxes[list(near)]
         inside = (boxes[:, 0] <= x) & (x <= boxes[:, 2]) & (boxes[:, 1] <= y) & (y <= boxes[:, 3])
         return [e for e, box in zip(near, inside, strict=True) if box and self.edges[e].passes(point)]
-
-
-class Direction:
-    """A direction: a float unit vector within 2^-50 of it, and the exact vector, made on demand.
-
-    ``aim`` is the number of the point that is one such vector away, if it has one.
-    """
-
-    def __init__(self, unit: tuple[float, float], exact: Callable[[], Point], aim: int | None = None) -> None:
-        self.unit, self.exact = unit, exact
-        self.angle = atan2(unit[1], unit[0])
-        self.aim = aim
 
 
 class HitDistances(NamedTuple):
@@ -259,7 +252,7 @@ class _View:
         ends = np.concatenate((world.ends[self.edge_numbers], self.lookout.ends[self.near]))
         self.targets = np.unique(ends)
         self.offsets = {int(k): self._offset(world.points[k]) for k in self.targets}
-        self.rays = _with_cells(self._critical())
+        self.rays = with_cells(self._critical())
 
     # -- rays --------------------------------------------------------------------------------------
 
@@ -272,12 +265,12 @@ class _View:
             rays += self._ray_to(point, self._offset(point))
         arcs = (curve for curve in (*self.edges, *self.curves) if isinstance(curve, Arc))
         for arc in {(arc.center.key, arc.radius_sq): arc for arc in arcs}.values():
-            rays += [_ray(vector) for vector in _tangents(self.q, arc)]
+            rays += [ray_along(vector) for vector in tangent_directions(self.q, arc)]
         return rays
 
     def _ray_to(self, point: Point, offset: tuple[float, float], aim: int | None = None) -> list[Direction]:
         """The ray to a point; none to q itself."""
-        unit = _unit(*offset)
+        unit = unit_vector(*offset)
         return [] if unit is None else [Direction(unit, lambda: point - self.q, aim)]
 
     def _range_crossings(self) -> Iterator[Point]:
@@ -292,7 +285,7 @@ class _View:
 
     def _offset(self, point: Point) -> tuple[float, float]:
         """point - q, exactly, then rounded once."""
-        return _rounded(point.x - self.q.x), _rounded(point.y - self.q.y)
+        return rounded(point.x - self.q.x), rounded(point.y - self.q.y)
 
     # -- verdicts ----------------------------------------------------------------------------------
 
@@ -352,7 +345,7 @@ class _View:
             turn = -turn
         if turn.sign() == 0 and tangents[0].dot(tangents[-1]).sign() < 0:
             return np.zeros(count, dtype=bool), np.zeros(count, dtype=bool)
-        sides = _cross(np.array([_ray(tangent).unit for tangent in tangents])[:, None], units)
+        sides = _cross(np.array([ray_along(tangent).unit for tangent in tangents])[:, None], units)
         left: Bools = sides > EPS
         right: Bools = sides < -EPS
         if turn.sign() > 0:
@@ -371,7 +364,7 @@ class _View:
         parts[0].sure[:, np.isin(straight, own)] = False
         arcs = [c for c in curves if isinstance(c, Arc)]
         centers = np.array([self._offset(arc.center) for arc in arcs]).reshape(-1, 2)
-        shape = np.array([(_rounded(a.radius), 1 if a.ccw else -1, a.full) for a in arcs]).reshape(-1, 3)
+        shape = np.array([(rounded(a.radius), 1 if a.ccw else -1, a.full) for a in arcs]).reshape(-1, 3)
         chords = spots[round_, 0], np.array([_vector(arc) for arc in arcs]).reshape(-1, 2)
         for far in (False, True):
             parts.append(_arc_hits(units, centers, shape, chords, np.isin(round_, own), far))
@@ -409,74 +402,12 @@ class _View:
         return world.blocker(self.q, direction, nearest, sorted(numbers), self.own, ending) is None
 
 
-def _rounded(value: Real) -> float:
-    exact = value.rational
-    return float(value) if exact is None else nearest_float(exact)
-
-
-def _unit(x: float, y: float) -> tuple[float, float] | None:
-    size = hypot(x, y)
-    return (x / size, y / size) if size else None
-
-
-def _ray(vector: Point) -> Direction:
-    unit = _unit(_rounded(vector.x), _rounded(vector.y))
-    assert unit is not None
-    return Direction(unit, lambda: vector)
-
-
 def _vector(arc: Arc) -> tuple[float, float]:
-    return _rounded(arc.end.x - arc.start.x), _rounded(arc.end.y - arc.start.y)
+    return rounded(arc.end.x - arc.start.x), rounded(arc.end.y - arc.start.y)
 
 
 def _tangent(edge: Curve, q: Point) -> Point:
     return edge.direction if isinstance(edge, Segment) else edge.tangent(q)
-
-
-def _tangents(q: Point, arc: Arc) -> list[Point]:
-    """The directions from q that touch the circle: L c +- r left(c), c to its centre, L^2 = c^2 - r^2."""
-    c = arc.center - q
-    square = c.norm_sq() - arc.radius_sq
-    side = square.sign()
-    if side < 0:
-        return []
-    if side == 0:
-        return [c.left(), -c.left()]
-    along, across = c * square.sqrt(), c.left() * arc.radius
-    return [along + across, along - across]
-
-
-def _with_cells(critical: Iterable[Direction]) -> list[Direction]:
-    """The critical rays, counterclockwise, equal ones once, each followed by one of the cell behind it."""
-    ordered: list[Direction] = []
-    for ray in sorted(critical, key=cmp_to_key(_compare)):
-        if not ordered or _compare(ordered[-1], ray):
-            ordered.append(ray)
-    found = []
-    for ray, after in zip(ordered, [*ordered[1:], ordered[0]], strict=True):
-        gap = (after.angle - ray.angle) % (2 * pi) or 2 * pi
-        found += [ray, _middle(ray.angle + gap / 2) if gap > APART else _halfway(ray, after)]
-    return found
-
-
-def _compare(a: Direction, b: Direction) -> int:
-    """Order by the angle in (-pi, pi]: rounding keeps the signs of coordinates, so none leaves that range."""
-    if abs(a.angle - b.angle) > APART:
-        return -1 if a.angle < b.angle else 1
-    return -a.exact().cross(b.exact()).sign()
-
-
-def _middle(angle: float) -> Direction:
-    """A ray within a cell; the float vector is the exact one."""
-    unit = cos(angle), sin(angle)
-    return Direction(unit, lambda: Point(*unit))
-
-
-def _halfway(a: Direction, b: Direction) -> Direction:
-    """A ray between two that floats cannot tell apart: the sum of vectors of about equal length."""
-    u, v = a.exact(), b.exact()
-    scale = rational(hypot(*u.xy) / hypot(*v.xy))
-    return Direction(a.unit, lambda: u + v * scale)
 
 
 def _cross(a: Floats, b: Floats) -> Floats:
