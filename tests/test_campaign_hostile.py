@@ -21,10 +21,11 @@ import pytest
 from test_campaign import QUICK, SOUND, opened, verdicts
 
 from exactacq.cli.entry import main
+from exactacq.study import processes
 from exactacq.study.campaign import store as stores
 from exactacq.study.campaign.judging import Record, judge
 from exactacq.study.campaign.settings import CampaignError, parts
-from exactacq.study.processes import Lost, Team
+from exactacq.study.processes import Lost, ProcessError, Team
 
 NOISE = bytes(range(256)) * 16
 
@@ -224,3 +225,18 @@ def test_results_that_came_in_time_are_taken_late() -> None:
             if len(found) == 4:  # by now both are at work
                 time.sleep(2)
     assert set(found) == set(range(8))
+
+
+def _never_ready() -> Callable[[int], int]:
+    time.sleep(600)
+    raise AssertionError("the process is killed before")
+
+
+def test_processes_that_never_start_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One that was stopped while it started had no deadline, and the campaign waited for ever."""
+    monkeypatch.setattr(processes, "START", 0.5)
+    with (
+        Team(_never_ready, 1, 5) as team,
+        pytest.raises(ProcessError, match=r"not ready .* after 0.5 seconds"),
+    ):
+        list(team.results([1]))

@@ -31,6 +31,8 @@ LIFE = 500
 """Tasks after which a process is replaced, so that what it remembers cannot grow without end."""
 SPARE = 3
 """So many more processes than work at once may end, one after another, before they take up a task."""
+START = 300.0
+"""Seconds in which a process must be ready for its first task, however busy the machine is."""
 END = object()
 """Stands for the end of what a process answers."""
 
@@ -101,7 +103,7 @@ class Team(Generic[Task, Answer]):
 
     def _next_message(self) -> Message | None:
         """The next message, or None if a deadline comes first."""
-        deadline = min((p.deadline for p in self._processes if p.job is not None), default=None)
+        deadline = min((p.deadline for p in self._processes if p.is_awaited), default=None)
         try:
             return self._inbox.get(timeout=None if deadline is None else max(0.0, deadline - monotonic()))
         except Empty:
@@ -125,10 +127,8 @@ class Team(Generic[Task, Answer]):
     def _died(self, process: _Process, todo: deque[_Job]) -> Iterator[tuple[Task, Lost]]:
         self._dismiss(process)
         if process.job is None:
-            self._stillborn += not process.ready
-            if self._stillborn > self._size + SPARE:
-                last = f"the last with exit status {process.status}"
-                raise ProcessError(f"processes end before they take up a task, {last}; see above for why")
+            if not process.ready:
+                self._is_stillborn(f"end before they take up a task, the last with status {process.status}")
             return
         process.job.deaths += 1
         if process.job.deaths < DEATHS:
@@ -137,10 +137,18 @@ class Team(Generic[Task, Answer]):
             detail = f"{DEATHS} processes died, the last with exit status {process.status}"
             yield process.job.task, Lost(True, process.seconds, detail)
 
+    def _is_stillborn(self, what: str) -> None:
+        """Count a process that never took up a task; so many of them have a reason that will not go away."""
+        self._stillborn += 1
+        if self._stillborn > self._size + SPARE:
+            raise ProcessError(f"processes {what}; see above for why")
+
     def _overdue(self) -> Iterator[tuple[Task, Lost]]:
-        for process in [p for p in self._processes if p.job is not None and p.deadline <= monotonic()]:
-            assert process.job is not None
+        for process in [p for p in self._processes if p.is_awaited and p.deadline <= monotonic()]:
             self._dismiss(process)
+            if process.job is None:
+                self._is_stillborn(f"are not ready for a task after {START:g} seconds")
+                continue
             limit = f"not finished after {self._timeout:g} seconds"
             yield process.job.task, Lost(False, process.seconds, limit)
 
@@ -162,7 +170,8 @@ class _Process:
 
     def __init__(self, make: bytes, inbox: SimpleQueue[Message]) -> None:
         self.job: _Job | None = None
-        self.ready, self.given, self.began, self.deadline = False, 0, 0.0, 0.0
+        self.ready, self.given, self.began = False, 0, monotonic()
+        self.deadline = self.began + START
         # The processes must find what this one finds, and nothing else that lies about here (-P).
         paths = os.pathsep.join(path or os.getcwd() for path in sys.path)
         self._process = subprocess.Popen(
@@ -194,6 +203,11 @@ class _Process:
         with suppress(OSError):  # If the process is dead, the end of its answers will tell.
             self._process.stdin.write(message)
             self._process.stdin.flush()
+
+    @property
+    def is_awaited(self) -> bool:
+        """Whether an answer is to come before the deadline: it is at a job, or starts."""
+        return self.job is not None or not self.ready
 
     @property
     def seconds(self) -> float:
