@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from typing import Any
 
     from exactacq.auditing.audit import audit
-    from exactacq.errors import AuditError, ExactacqError, FormatError, InvalidScene, Undecided
+    from exactacq.errors import AuditError, ExactacqError, FormatError, InvalidScene, MoveError, Undecided
     from exactacq.files.checking.inspection import Inspection, inspect
     from exactacq.files.formats import formats
     from exactacq.files.load import load
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from exactacq.sensing.map import Map
     from exactacq.sensing.path import Path
     from exactacq.sensing.view_events import sweep
+    from exactacq.strategies.robot import Robot
     from exactacq.strategies.run import Run, SeedSpreaderRun, SightseerRun
     from exactacq.strategies.seed_spreader.strategy import seed_spreader
     from exactacq.strategies.sightseer.strategy import sightseer
@@ -53,11 +54,13 @@ __all__ = [
     "Isovist",
     "Length",
     "Map",
+    "MoveError",
     "Outline",
     "Path",
     "Point",
     "Polygon",
     "Real",
+    "Robot",
     "Run",
     "Scene",
     "SeedSpreaderRun",
@@ -95,11 +98,13 @@ _HOMES = {
     "Isovist": "exactacq.visibility.isovist",
     "Length": "exactacq.numbers.length",
     "Map": "exactacq.sensing.map",
+    "MoveError": "exactacq.errors",
     "Outline": "exactacq.scene.shapes",
     "Path": "exactacq.sensing.path",
     "Point": "exactacq.geometry.points",
     "Polygon": "exactacq.scene.shapes",
     "Real": "exactacq.numbers.real",
+    "Robot": "exactacq.strategies.robot",
     "Run": "exactacq.strategies.run",
     "Scene": "exactacq.scene.scene",
     "SeedSpreaderRun": "exactacq.strategies.run",

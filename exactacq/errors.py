@@ -49,6 +49,16 @@ class FormatError(ExactacqError, ValueError):
     """
 
 
+class MoveError(ExactacqError, ValueError):
+    """A robot was to do, or asked, what makes no sense where it is; the message says what is wrong.
+
+    >>> import exactacq as xa
+    >>> xa.Robot(xa.load("circles")).walk()
+    Traceback (most recent call last):
+    exactacq.errors.MoveError: the robot is at no boundary: go to one first
+    """
+
+
 class Undecided(ExactacqError, ArithmeticError):
     """An exact comparison is beyond the library's limits; the message names it. It is never guessed.
 

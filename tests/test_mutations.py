@@ -17,8 +17,8 @@ from exactacq.numbers.length import Length
 from exactacq.scene.boundary_walk import Boundary
 from exactacq.sensing.leg_views import Shares
 from exactacq.strategies import bounds
+from exactacq.strategies.robot import Robot
 from exactacq.strategies.seed_spreader.robot import SeedSpreaderRobot
-from exactacq.strategies.sightseer.robot import SightseerRobot
 from exactacq.study.claims import CLAIMS, Case, Outcome, Statement
 
 Patch = pytest.MonkeyPatch
@@ -47,13 +47,14 @@ def _change_bounds(patch: Patch, function: str, name: str) -> None:
 
 def skipped_obstacle(patch: Patch) -> None:
     """The Sightseer never goes to the last obstacle."""
-    original = SightseerRobot.nearest_unvisited
+    original = Robot.nearest_unvisited
 
-    def blind(self: SightseerRobot, node: Any) -> Any:
-        link = original(self, node)
-        return None if link is not None and link.target == self._links.count - 1 else link
+    def blind(self: Robot, source: Any) -> Any:
+        link = original(self, source)
+        last = len(self._table.obstacles) - 1
+        return None if link is not None and self._numbers[link.target] == last else link
 
-    patch.setattr(SightseerRobot, "nearest_unvisited", blind)
+    patch.setattr(Robot, "nearest_unvisited", blind)
 
 
 def lost_interval(patch: Patch) -> None:

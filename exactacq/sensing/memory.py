@@ -220,8 +220,15 @@ class Memory:
         """The parts of a straight way of which each is one leg (see `ahead`)."""
         return [part for _, part in parts_of(self._table, way)]
 
+    def divided(self, piece: Piece) -> list[Piece]:
+        """A piece along a boundary in pieces of which each is one leg (see `ahead`)."""
+        legs = self._legs_of(piece)
+        if len(legs) == 1:
+            return [piece]
+        return [Piece(piece.kind, piece.obstacle, piece.curve.part(leg.start, leg.end)) for leg in legs]
+
     def ahead(self, piece: Piece) -> Ahead:
-        """What a straight piece will tell when it is walked next."""
+        """What a piece that is one leg will tell when it is walked next."""
         (leg,) = self._legs_of(piece)
         self._looked = piece, self._sensor.ahead(leg)
         return self._looked[1]

@@ -95,22 +95,22 @@ FAR = """
 import resource, time
 import exactacq as xa
 from exactacq.files.octagons import random_octagons
-from exactacq.strategies.sightseer.robot import SightseerRobot
+from exactacq.strategies.robot import Robot
 from exactacq.strategies.sightseer.strategy import explored_by
 
 class Over(Exception):
     pass
 
 scene = random_octagons({n}, 1)
-robot = SightseerRobot(scene, scene.radius, scene.start)
+robot = Robot(scene)
 begin, told = time.process_time(), [0.0]
 
 def progress(circled, total):
     spent = time.process_time() - begin
     if spent > told[0] + {seconds} / 10 or circled == total or spent > {seconds}:
         most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-        print(f"{{len(robot.visited)}} of {n} visited, {{robot.count}} legs in {{spent:.0f}} s, "
-              f"{{robot.count / spent:.1f}} a second, {{most:.0f}} MB", flush=True)
+        print(f"{{len(robot.visited)}} of {n} visited, {{len(robot.path)}} legs in {{spent:.0f}} s, "
+              f"{{len(robot.path) / spent:.1f}} a second, {{most:.0f}} MB", flush=True)
         told[0] = spent
     if spent > {seconds}:
         raise Over

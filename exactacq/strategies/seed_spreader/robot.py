@@ -23,9 +23,9 @@ from exactacq.sensing.map import Map, Spots
 from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Piece
 from exactacq.sensing.sensor import Ahead
-from exactacq.strategies.robot import Robot
 from exactacq.strategies.seed_spreader.blocked import Blocking, Gap
 from exactacq.strategies.seed_spreader.mline import Crossing, MLine
+from exactacq.strategies.walker import Walker
 
 
 class Hit(NamedTuple):
@@ -39,7 +39,7 @@ Watch = Callable[[Ahead], Point | None]
 """Is shown what the next way will tell, and answers where the robot is to stop, if anywhere."""
 
 
-class SeedSpreaderRobot(Robot):
+class SeedSpreaderRobot(Walker):
     """A point robot in the SW corner of a terrain, with a vision sensor of limited *radius* (rational).
 
     The corner must be free.
@@ -68,25 +68,25 @@ class SeedSpreaderRobot(Robot):
     @property
     def map(self) -> Map:
         """What is known now."""
-        return self._memory.now
+        return self.memory.now
 
     @property
     def in_sight(self) -> Set[int]:
         """The obstacles in sight that are not acquired."""
-        return self._memory.in_sight
+        return self.memory.in_sight
 
     @property
     def incomplete(self) -> Set[int]:
         """The obstacles of which some, but not all, is known."""
-        return self._memory.incomplete
+        return self.memory.incomplete
 
     def is_acquired(self, obstacle: int) -> bool:
         """Whether all of an obstacle is known."""
-        return obstacle in self._memory.acquired
+        return obstacle in self.memory.acquired
 
     def map_ahead(self, ahead: Ahead, u: Real, place: Point, obstacles: Set[int]) -> Map:
         """What will be known of some obstacles at a place of a way that was looked along."""
-        return self._memory.map_ahead(ahead, u, place, obstacles)
+        return self.memory.map_ahead(ahead, u, place, obstacles)
 
     def meeting(self, box: Sequence[float]) -> set[int]:
         """Obstacles that may have points in a box: to ask the map for no others."""
@@ -99,13 +99,13 @@ class SeedSpreaderRobot(Robot):
 
     def visible(self, obstacle: int) -> list[Curve]:
         """The pieces of an obstacle in sight from here; a single point is a piece without length."""
-        return self._memory.visible(self.position, obstacle)
+        return self.memory.visible(self.position, obstacle)
 
     def news(self) -> set[int]:
         """The obstacles of which more became known or a crossing point was passed since the last time."""
         passed = {crossing.component.index for crossing in self._crossings[self._passed_by : self._next]}
         self._passed_by = self._next
-        return self._memory.news() | passed
+        return self.memory.news() | passed
 
     def blocks_ahead(self, obstacle: int, chart: Map) -> bool:
         """Whether a crossing point of an obstacle on the rest of the M-line is on a map."""
@@ -195,13 +195,13 @@ class SeedSpreaderRobot(Robot):
         """Walk to a point that can be reached; False if *watch* stopped the robot before."""
         if self.position == target:
             return True
-        for part in self._memory.parts(Segment(self.position, target)):
+        for part in self.memory.parts(Segment(self.position, target)):
             piece = Piece("straight", None, part)
-            stop = None if watch is None else watch(self._memory.ahead(piece))
+            stop = None if watch is None else watch(self.memory.ahead(piece))
             if stop is not None and stop != part.end:
                 piece = Piece("straight", None, Segment(self.position, stop))
             if stop is None or stop != self.position:
-                self._move(piece)
+                self.move(piece)
                 self.position = piece.end
             if stop is not None:
                 return False

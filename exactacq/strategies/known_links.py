@@ -1,0 +1,103 @@
+"""The links that a robot knows: from the start, and from boundaries that it has walked all around.
+
+Of equally long ones that to the obstacle with the least number in the scene comes first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Container, Iterable
+from functools import partial
+from heapq import heappop, heappush
+
+from exactacq.geometry.points import Point
+from exactacq.numbers.float_bounds import margin
+from exactacq.visibility.links import START, Link, Links, Node
+
+SLACK = 1e-12
+"""Floats of lengths that differ by more than this part tell which is less."""
+
+
+class _LinksByLength:
+    """The links from one node, the least (then that to the least index) first; each is compared once.
+
+    *near* are the obstacles that they may lead to, each with a lower bound of the length; lower bounds decide
+    which links are computed.
+    """
+
+    def __init__(self, near: Iterable[tuple[float, int]], link: Callable[[int], Link | None]) -> None:
+        self._link = link
+        self._near = sorted(near, reverse=True)
+        self._found: list[tuple[float, int, Link]] = []
+        # The links that floats cannot tell from the least, in order, the first one last.
+        self._least: list[Link] = []
+
+    def first(self, visited: Container[int]) -> Link | None:
+        """The least link to an obstacle that was not visited."""
+        while True:
+            while self._least and self._least[-1].target in visited:
+                self._least.pop()
+            if self._least:
+                return self._least[-1]
+            self._least = self._next(visited)
+            if not self._least:
+                return None
+
+    def _next(self, visited: Container[int]) -> list[Link]:
+        while self._found and self._found[0][1] in visited:
+            heappop(self._found)
+        while self._near and not (self._found and self._near[-1][0] > _at_most(self._found[0][0])):
+            _, j = self._near.pop()
+            link = None if j in visited else self._link(j)
+            if link is not None:
+                heappush(self._found, (float(link.length), j, link))
+        least = _at_most(self._found[0][0]) if self._found else 0.0
+        close = []
+        while self._found and self._found[0][0] <= least:
+            _, j, link = heappop(self._found)
+            if j not in visited:
+                close.append(link)
+        close.sort(key=lambda link: link.target)
+        close.sort(key=lambda link: link.length)
+        return close[::-1]
+
+
+def _at_most(length: float) -> float:
+    """An upper bound of a length, from its float."""
+    return length + margin(SLACK * length)
+
+
+class KnownLinks:
+    """The links from the start and from visited obstacles; numbers are the scene's.
+
+    A robot that has walked all around a boundary has seen where each link from it ends.
+    """
+
+    def __init__(self, links: Links, start: Point) -> None:
+        self._links, self._start = links, start
+        self._nearest: dict[Node, _LinksByLength] = {}
+
+    def nearest(self, node: Node, visited: Container[int]) -> Link | None:
+        """The shortest link (then the least number) from a node to an obstacle that was not visited.
+
+        What was visited once stays so.
+        """
+        if node not in self._nearest:
+            self._nearest[node] = self._by_length(node)
+        return self._nearest[node].first(visited)
+
+    def _by_length(self, node: Node) -> _LinksByLength:
+        if node == START:
+            links = self._links.from_point(self._start)
+            return _LinksByLength(((0.0, j) for j in links), links.get)
+        assert isinstance(node, int)
+        bounds = self._links.lower_bounds(node)
+        near = ((float(bounds[j]), j) for j in self._links.neighbours(node))
+        return _LinksByLength(near, partial(self._links.between, node))
+
+    def of(self, node: Node) -> list[Link]:
+        """All links from a node, in the order of the obstacles that they lead to."""
+        if node == START:
+            return [link for _, link in sorted(self._links.from_point(self._start).items())]
+        assert isinstance(node, int)
+        between = (self._links.between(node, j) for j in sorted(self._links.neighbours(node)))
+        return [link for link in between if link is not None]

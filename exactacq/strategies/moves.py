@@ -1,0 +1,94 @@
+"""How the moves of a robot end, and the ways that it knows."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from exactacq.geometry.points import Point
+from exactacq.numbers.length import Length
+from exactacq.sensing.event import SENSED, EventKind
+from exactacq.strategies.known_map import Sighting
+from exactacq.strategies.walker import Walker
+from exactacq.visibility.links import Link
+
+
+class HaltKind(StrEnum):
+    """Why a move ended."""
+
+    ARRIVED = "arrived"
+    """The robot is where it was to go."""
+    HIT = "hit"
+    """An obstacle is in the way: the robot stands on its boundary."""
+    EVENT = "event"
+    """What the robot was to look out for happened here."""
+    ROUND = "round"
+    """The robot has walked all around, and is back where this lap began."""
+
+
+@dataclass(frozen=True)
+class Halt:
+    """How a move ended: why, where, at which obstacle (None in free space), and at which sighting, if at one.
+
+    >>> import exactacq as xa
+    >>> halt = xa.Robot(xa.load("squares")).go_to((5, 0))
+    >>> print(halt.kind, halt.place, halt.obstacle)
+    hit (2, 0) 0
+    """
+
+    kind: HaltKind
+    place: Point
+    obstacle: int | None
+    sighting: Sighting | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class KnownLink:
+    """The shortest segment in sight from one boundary to another, or from the start, whose number is None.
+
+    Robots make them.
+
+    >>> import exactacq as xa
+    >>> (link,) = xa.Robot(xa.load("squares")).links(None)
+    >>> print(link.source, link.target, link.length)
+    None 0 2
+    """
+
+    source: int | None
+    target: int
+    length: Length
+    _of: Walker = field(repr=False)
+    _link: Link = field(repr=False)
+
+
+@dataclass(frozen=True, eq=False)
+class Way:
+    """A straight way that a robot has gone, from ``leave`` on ``source`` to ``hit`` on ``target``.
+
+    >>> import exactacq as xa
+    >>> robot = xa.Robot(xa.load("squares"))
+    >>> way = robot.take(robot.nearest_unvisited(None))
+    >>> print(way.leave, way.hit, way.length)
+    (0, 0) (2, 0) 2
+    """
+
+    source: int | None
+    target: int
+    leave: Point
+    hit: Point
+    length: Length
+    _of: Walker = field(repr=False)
+
+
+class EnoughMoves(BaseException):
+    """A robot was to move more often than it may. Not an `Exception`, so that no strategy goes on."""
+
+
+def kinds_of(until: EventKind | Collection[EventKind]) -> frozenset[EventKind]:
+    """Kinds of sightings that were given as one or several."""
+    kinds = frozenset(map(EventKind, [until] if isinstance(until, str) else until))
+    if not kinds <= set(SENSED):
+        words = ", ".join(SENSED)
+        raise ValueError(f"a robot looks out for {words}, not for {', '.join(sorted(kinds - set(SENSED)))}")
+    return kinds
