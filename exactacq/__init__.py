@@ -132,7 +132,7 @@ _HOMES = {
 offer(SVG, "exactacq.scene.scene.Scene", "exactacq.output.figures", "svg")
 offer(SVG, "exactacq.strategies.run.Run", "exactacq.output.figures", "svg")
 offer(SVG, "exactacq.visibility.isovist.Isovist", "exactacq.output.isovist_svg", "svg")
-offer(PLAYER, "exactacq.strategies.run.Run", "exactacq.output.animation.player", "Player")
+offer(PLAYER, "exactacq.strategies.run.Run", "exactacq.output.animation.notebook", "Player")
 offer(JSON, "exactacq.strategies.run.Run", "exactacq.output.run_json", "run_to_json")
 
 

@@ -240,7 +240,7 @@ class Run:
         """The page that plays the run, for a notebook to show or to `save` as an .html file.
 
         It is made when it is first shown: a map and a view for each place where something happens, and for
-        some between them. (`exactacq.output.animation.player.Player` has labels and progress too.)
+        some between them. (`exactacq.output.animation.notebook.Player` has labels and progress too.)
 
         >>> import exactacq as xa
         >>> xa.sightseer(xa.load("circles")).animate()
