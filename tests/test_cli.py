@@ -428,9 +428,9 @@ def test_interruptions_and_faults_cost_one_line(
 
 
 def test_process_leaves_nothing_on_standard_error(tmp_path: Path) -> None:
-    done = process("explore", "plate", "--figure", str(tmp_path / "f.svg"))
+    done = process("explore", "circles", "--figure", str(tmp_path / "f.svg"))
     assert (done.returncode, done.stderr) == (0, "")
-    assert "15 obstacles" in done.stdout
+    assert "2 obstacles" in done.stdout
 
 
 def test_process_refuses_with_one_line_and_status_2(tmp_path: Path) -> None:
@@ -456,11 +456,11 @@ def test_reader_that_stops_early_is_no_fault() -> None:
         assert running.wait(60) in (1, 2)
 
 
-def test_progress_is_shown_on_a_terminal_only() -> None:
+def test_progress_is_shown_on_a_terminal_only(capsys: pytest.CaptureFixture[str]) -> None:
     """A terminal gets a bar on standard error, and standard output is the same as without."""
-    out, seen = on_a_terminal("explore", "m9")
+    out, seen = on_a_terminal("explore", "circles")
     assert b"exploring" in seen
-    assert out.decode() == process("explore", "m9").stdout
+    assert out.decode() == answered(capsys, "explore", "circles")
 
 
 def readme() -> str:

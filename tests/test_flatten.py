@@ -10,6 +10,7 @@ import pytest
 from flint import fmpq
 from hypothesis import given
 from hypothesis import strategies as st
+from nightly import NIGHTLY, examples
 
 from exactacq.errors import FormatError
 from exactacq.files.repairs.bezier import BezierPiece, arc_pieces, polynomial, spline
@@ -31,6 +32,8 @@ CURVES = {
     "far from the origin": [(10**7, 10**7), (10**7 + 1, 10**7 + 2), (10**7 + 3, 10**7)],
     "degree 5": [(0, 0), (1, 4), (2, -3), (3, 5), (4, -2), (5, 0)],
 }
+PLACES = 1200 if NIGHTLY else 500
+"""How many places of a curve are looked at."""
 number = st.integers(-60, 60).map(lambda n: fmpq(n, 8))
 place = st.tuples(number, number)
 
@@ -78,7 +81,7 @@ def apart(points: np.ndarray, polyline: np.ndarray) -> float:
     return worst
 
 
-def check(pieces: list[BezierPiece], chain: FlatChain, tolerance: float, count: int = 1200) -> None:
+def check(pieces: list[BezierPiece], chain: FlatChain, tolerance: float, count: int = PLACES) -> None:
     """Hausdorff's distance by samples; both polylines sag below their curves by much less than they miss."""
     x0, y0 = pieces[0].point(fmpq(0))
     moved = [[(x - x0 * w, y - y0 * w, w) for x, y, w in piece.rows] for piece in pieces]
@@ -117,6 +120,7 @@ def test_a_curve_and_its_arcs_are_within_the_tolerance(name: str, tolerance: str
     check([piece], flatten([piece], bound), float(high(bound)))
 
 
+@examples(10, 400)
 @given(st.lists(place, min_size=2, max_size=5), st.lists(st.integers(1, 9), min_size=5, max_size=5))
 def test_any_curve_and_its_arcs_are_within_the_tolerance(points: list, masses: list[int]) -> None:
     rows = [(x * w, y * w, fmpq(w)) for (x, y), w in zip(points, masses, strict=False)]

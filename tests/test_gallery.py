@@ -10,6 +10,7 @@ import networkx as nx
 import numpy as np
 import pytest
 import shapely
+from gallery_runs import gallery_run
 from oracles import GRAZE, Disc, Floats, Room, World, world
 from sampled_links import boundary_samples
 
@@ -74,7 +75,7 @@ def total_perimeter(scene: xa.Scene) -> Length:
 def test_every_scene_runs(name: str) -> None:
     scene = gallery.scene(name)
     assert (scene.name, scene.start is None, scene.radius is None) == (name, False, False)
-    run = xa.seed_spreader(scene) if gallery.is_swept(name) else xa.sightseer(scene)
+    run = gallery_run(name)
     assert run.length > 0
     assert run.complete == (name not in ("m4", "m14", "sss9", "tight-sss2"))
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import shlex
 from collections.abc import Iterable
+from functools import cache
 from pathlib import Path
 from random import Random
 
@@ -18,6 +19,7 @@ import numpy as np
 import pytest
 import shapely
 from flint import fmpq
+from nightly import NIGHTLY, some
 
 import exactacq as xa
 from exactacq import cli
@@ -32,9 +34,21 @@ FILES = sorted(
     for path in DATA.rglob("*")
     if path.suffix in (".dxf", ".svg", ".wkt", ".yaml", ".kicad_pcb") or path.parent.name == "arcs"
 )
-SMALL = [path for path in FILES if path.stat().st_size < 60_000]
+EVERY_DAY = (
+    "board.kicad_pcb", "bricks.svg", "film.svg", "gear.dxf", "inpa.wkt", "issue21.dxf", "mousebites.dxf",
+    "ref_dxf_metric.dxf", "samecircle-b182.json", "turtlebot3.yaml", "vignette.svg",
+)  # fmt: skip
+"""Of each format; some are legal as they are, some have violations or open chains with cures."""
+CHOSEN = [path for path in FILES if NIGHTLY or path.name in EVERY_DAY]
+SMALL = [path for path in CHOSEN if path.stat().st_size < 60_000]
 SLOW = ("ref_dxf_complex.dxf", "outline.dxf", "browser-safari.svg", "mousebites.dxf")
 """The runs that are proposed for them take long; that their starts are free is tested."""
+TRIED = [path for path in SMALL if path.name not in SLOW and path.suffix != ".wkt"]
+
+
+@cache
+def inspected(path: Path) -> xa.Inspection:
+    return xa.inspect(path)
 
 
 def drawing(path: Path, *lines: Iterable[tuple[float, float]], layers: dict[int, str] | None = None) -> Path:
@@ -96,9 +110,9 @@ def check_cures(path: Path, found: xa.Inspection, **options: object) -> None:
 # -- laws, on real files and on random ones --------------------------------------------------------
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
+@pytest.mark.parametrize("path", CHOSEN, ids=lambda path: path.name)
 def test_starts_are_free_and_cures_cure(path: Path) -> None:
-    found = xa.inspect(path)
+    found = inspected(path)
     assert found.ok == (
         not found.violations and not any(c.encloses for c in found.open_chains) and not found.trouble
     )
@@ -112,10 +126,10 @@ def test_starts_are_free_and_cures_cure(path: Path) -> None:
     assert float(xa.Real(found.radius)) >= found.gap or found.contents.radius is not None
 
 
-@pytest.mark.parametrize("path", [p for p in SMALL if p.name not in SLOW], ids=lambda path: path.name)
+@pytest.mark.parametrize("path", TRIED, ids=lambda path: path.name)
 def test_the_command_works_as_printed(path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    found = xa.inspect(path)
-    if not found.command or path.suffix == ".wkt":
+    found = inspected(path)
+    if not found.command:
         return
     program, *arguments = shlex.split(found.command)
     assert program == "exactacq"
@@ -125,7 +139,7 @@ def test_the_command_works_as_printed(path: Path, capsys: pytest.CaptureFixture[
     assert "never seen" not in out or found.contents.radius is not None
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", some(range(12), 4))
 def test_random_drawings(tmp_path: Path, seed: int) -> None:
     """Boxes on a small grid: they cross, touch, overlap, lie in each other; some stay open."""
     random = Random(seed)
@@ -147,7 +161,7 @@ def test_random_drawings(tmp_path: Path, seed: int) -> None:
         assert xa.load(path, start=found.start, **found.options) == found.scene
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", some(range(12), 4))
 def test_the_gap_is_the_widest_link_of_a_shortest_tree(seed: int) -> None:
     """Of shapely's distances; the radius that follows from it lets the Sightseer see everything."""
     random = Random(seed)
@@ -375,9 +389,9 @@ def test_a_tolerance_that_makes_nothing_of_a_loop_is_no_cure(tmp_path: Path) -> 
 def test_violations_beyond_count_are_not_tried(tmp_path: Path) -> None:
     """Two combs, each of whose teeth cross all of the other's: a union would find thousands of crossings."""
     teeth = [
-        (x, y) for k in range(60) for x, y in ((3 * k, 0), (3 * k + 1, 200), (3 * k + 2, 200), (3 * k + 3, 0))
+        (x, y) for k in range(37) for x, y in ((3 * k, 0), (3 * k + 1, 120), (3 * k + 2, 120), (3 * k + 3, 0))
     ]
-    comb = [*teeth, (180, -5), (0, -5), (0, 0)]
+    comb = [*teeth, (111, -5), (0, -5), (0, 0)]
     path = drawing(tmp_path / "d.dxf", comb, [(y, x) for x, y in comb])
     found = xa.inspect(path)
     assert len(found.violations) == 5000 and {flaw.cures for flaw in found.violations} == {()}

@@ -6,13 +6,14 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
+from itertools import pairwise, product
 from random import Random
 
 import mpmath
 import networkx as nx
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
+from nightly import examples, some
 from oracles import Disc, reverse_loop, shortest_visible
 from sampled_links import Tour, ambiguous, sightseer_order, visibility_weights
 from strategies import (
@@ -36,7 +37,6 @@ from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
 
 Q = Fraction
-LAW_EXAMPLES = 40 if settings.get_current_profile_name() == "nightly" else 2
 SQUARES = [box(2, 4, -1, 1), box(7, 9, -1, 1)]
 CIRCLES = [Disc(5, 0, 2), Disc(12, 0, 3)]
 
@@ -395,12 +395,12 @@ def shuffled(count: int, seed: int) -> list[int]:
 
 
 TURNS = {"upright": Similarity(), "turned": Similarity(turn=(Q(3, 5), Q(4, 5)), shift=(Q(1, 3), Q(-2, 7)))}
+GRIDS = some(product(TURNS, range(4), (False, True)), 5)
+"""How a grid is turned, a seed of its numbering, and whether R reaches its diagonals."""
 
 
 class TestGrids:
-    @pytest.mark.parametrize("turn", TURNS)
-    @pytest.mark.parametrize("seed", range(4))
-    @pytest.mark.parametrize("diagonals", [False, True])
+    @pytest.mark.parametrize(("turn", "seed", "diagonals"), GRIDS)
     def test_squares(self, turn: str, seed: int, *, diagonals: bool) -> None:
         """S in the middle of four squares; R is the gap itself, or reaches the diagonal neighbours too."""
         columns, rows = 4, 3
@@ -419,9 +419,7 @@ class TestGrids:
         assert run.length == expected
         check_run(run)
 
-    @pytest.mark.parametrize("turn", TURNS)
-    @pytest.mark.parametrize("seed", range(4))
-    @pytest.mark.parametrize("diagonals", [False, True])
+    @pytest.mark.parametrize(("turn", "seed", "diagonals"), GRIDS)
     def test_circles(self, turn: str, seed: int, *, diagonals: bool) -> None:
         """S half way between the first two circles; gaps are 1 and 3 sqrt(2) - 2."""
         columns, rows = 4, 3
@@ -468,7 +466,7 @@ def is_generic(terrain: Terrain, tour: Tour) -> bool:
 
 
 class TestRandomScenes:
-    @pytest.mark.parametrize("seed", range(8))
+    @pytest.mark.parametrize("seed", some(range(8), 4))
     def test_agrees_with_the_float_simulation(self, seed: int) -> None:
         terrain = random_terrain(Random(seed))
         weights = visibility_weights(terrain.shapes, terrain.radius, terrain.start)
@@ -490,6 +488,7 @@ class TestRandomScenes:
         check_run(run)
         check_lemmas(run)
 
+    @examples(8, 400)
     @given(terrains())
     def test_lemmas(self, terrain: Terrain) -> None:
         run = run_of(terrain)
@@ -504,20 +503,20 @@ class TestRandomScenes:
         check_lemmas(run)
 
     @given(terrains(room=True))
-    @settings(max_examples=LAW_EXAMPLES)
+    @examples(2, 40)
     def test_lemmas_in_a_room(self, terrain: Terrain) -> None:
         run = run_of(terrain)
         check_run(run)
         check_lemmas(run)
 
+    @examples(8, 400)
     @given(degenerate_terrains())
     def test_lemmas_with_ties(self, terrain: Terrain) -> None:
         run = run_of(terrain)
         check_run(run)
         check_lemmas(run)
 
-    @pytest.mark.parametrize("name", [*SIMILARITIES, "reversed"])
-    @pytest.mark.parametrize("seed", [2, 11])
+    @pytest.mark.parametrize(("name", "seed"), some(product([*SIMILARITIES, "reversed"], (2, 11)), 7))
     def test_similar_scenes_have_similar_runs(self, name: str, seed: int) -> None:
         """A mirror swaps left and right, so it is tested where nothing ties."""
         terrain = random_terrain(

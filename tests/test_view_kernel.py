@@ -9,8 +9,9 @@ from random import Random
 
 import pytest
 from flint import fmpq
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from nightly import examples
 from strategies import degenerate_terrain, random_terrain
 
 from exactacq import Circle, Outline, Point, Polygon, Real, Scene, isovist, kernel
@@ -79,8 +80,8 @@ MAKERS = [
 
 
 @pytest.mark.parametrize("make", MAKERS, ids=["degenerate", "random", "room", "arcs"])
+@examples(5, 100)
 @given(seed=st.integers(0, 10**6))
-@settings(max_examples=12, deadline=None)
 def test_terrains(make: Callable[[Random], Scene], seed: int) -> None:
     rng = Random(seed)
     scene = make(rng)
@@ -149,8 +150,8 @@ def seen_beyond(seen: Seen, known: Mapping) -> dict:
     return seen.beyond(known, seen.edges)
 
 
+@examples(16, 200)
 @given(seed=st.integers(0, 10**6))
-@settings(max_examples=20, deadline=None)
 def test_beyond_what_is_known(seed: int) -> None:
     """Added to what is known, what is told to lie beyond it makes the same as all that is seen."""
     rng = Random(seed)
@@ -196,8 +197,8 @@ def test_what_is_known_is_not_made() -> None:
 # -- bounds ----------------------------------------------------------------------------------------
 
 
+@examples(24, 400)
 @given(seed=st.integers(0, 10**6))
-@settings(max_examples=60, deadline=None)
 def test_bounds_hold(seed: int) -> None:
     """Offsets, tangents, ways to faces and brackets of ends hold the exact values."""
     rng = Random(seed)
