@@ -1,7 +1,8 @@
-"""Hypothesis profiles: `everyday` (default, deterministic, few examples) and `nightly` (random, many).
+"""How tests are run: profiles `everyday` (default, deterministic, few examples) and `nightly` (many).
 
-Choose with the environment variable HYPOTHESIS_PROFILE or pytest's ``--hypothesis-profile``. What the nightly
-profile finds is kept in `.hypothesis/nightly`, and tried first the next time.
+Choose with the environment variable HYPOTHESIS_PROFILE or pytest's ``--hypothesis-profile``. What Hypothesis
+finds at night is kept in `.hypothesis/nightly`, and tried first the next time. What else is tried at night
+only is told by the module `nightly`.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+import pytest
 from hypothesis import HealthCheck, Phase, settings
 from hypothesis.database import DirectoryBasedExampleDatabase
 
@@ -35,3 +37,13 @@ settings.register_profile(
     suppress_health_check=SLOW_SCENES,
 )
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "everyday"))
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: object) -> object:
+    """With ``-n`` the tests of one file run in one process, which makes once what they share."""
+    if config.getoption("dist") != "load":
+        return None
+    from xdist.scheduler import LoadFileScheduling
+
+    return LoadFileScheduling(config, log)

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 from flint import fmpq
+from nightly import some
 
 import exactacq as xa
 from exactacq.geometry.curves import Segment
@@ -131,7 +132,7 @@ class TestNormalsThroughTheCentre:
         swept = xa.sweep(scene, Segment(xa.Point(-12, -6), xa.Point(-12, 6)), radius=60)
         assert [event for event in swept.events if event.obstacle == 0] == []
 
-    @pytest.mark.parametrize("first", range(8))
+    @pytest.mark.parametrize("first", some(range(8), 3))
     def test_a_hook_whose_corner_is_the_centre_of_its_own_arc(self, first: int) -> None:
         hook = [(0, -1, -1), (0, 1), ("1/2", "1/2"), (0, 0), (2, "-1/4"), (2, 2), (-2, 2), (-2, -1)]
         outline = xa.Outline(hook[first:] + hook[:first])

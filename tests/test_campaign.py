@@ -68,7 +68,7 @@ def odd(case: Case) -> Finding:
 def hang(case: Case) -> Finding:
     """Never comes back from the scene of seed 1."""
     while str(case.scene.name).endswith("-1"):
-        pass
+        time.sleep(0.05)
     return Finding(Outcome.HOLDS)
 
 

@@ -16,10 +16,13 @@ import pytest
 from hostile_files import LAUGHS, OUTSIDE, Kind, hostile, kinds, put, read
 from hostile_structures import STRUCTURES, structured
 from hostile_trees import text
+from nightly import NIGHTLY
 
 import exactacq as xa
+from exactacq.files.loops import nesting
+from exactacq.files.repairs import flattened
 
-COUNT = int(os.environ.get("EXACTACQ_MUTATIONS", "60"))
+COUNT = int(os.environ.get("EXACTACQ_MUTATIONS", "60" if NIGHTLY else "20"))
 SECONDS = 20
 """More than any file may take, on a busy machine too; most take milliseconds."""
 LONGEST = 1000
@@ -121,7 +124,7 @@ def test_a_path_through_one_corner_many_times(tmp_path: Path) -> None:
     """To find paths drawn twice, all their rotations that begin in the least corner were compared."""
     begun = time.process_time()
     with pytest.raises(xa.InvalidScene):
-        svg(tmp_path, f'<path d="M0 0{"l5 0 0 5-5-5" * 1500}z"/>')
+        svg(tmp_path, f'<path d="M0 0{"l5 0 0 5-5-5" * (1500 if NIGHTLY else 500)}z"/>')
     assert time.process_time() - begun < SECONDS
 
 
@@ -138,22 +141,26 @@ def test_long_numbers_are_not_written_out_in_messages(tmp_path: Path, option: st
         svg(tmp_path, '<path d="M0 0C5 9 9 5 9 0M0 0h3"/>', **{"flatten": 1, option: -(10**4000)})
 
 
-def test_curves_under_transforms_of_long_numbers(tmp_path: Path) -> None:
+def test_curves_under_transforms_of_long_numbers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Each arc takes longer, so fewer are found before the rest is refused."""
     turned = '<g transform="rotate(30) scale(2 1)">' * 30
+    most = 4000 if NIGHTLY else 1000
+    monkeypatch.setattr(flattened, "MAX_MADE", most)
     begun = time.process_time()
-    with pytest.raises(xa.FormatError, match="more than 4000 arcs"):
+    with pytest.raises(xa.FormatError, match=f"more than {most} arcs"):
         svg(tmp_path, turned + '<path d="M1 1C15 30 30 30 30 10"/>' + "</g>" * 30, flatten="1e-3")
     assert time.process_time() - begun < SECONDS
 
 
-def test_one_loop_over_and_over(tmp_path: Path) -> None:
+def test_one_loop_over_and_over(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """All pairs of edges meet, at few places: the search for violations stops, and nothing is merged."""
-    path = put(KINDS["wkt"], tmp_path, f"POLYGON({','.join(['(0 0, 4 0, 1 3, 0 0)'] * 500)})".encode())
+    few, many = (500, 1000) if NIGHTLY else (150, 300)
+    monkeypatch.setattr(nesting, "MAX_COMPARED", few * few // 3)
+    path = put(KINDS["wkt"], tmp_path, f"POLYGON({','.join(['(0 0, 4 0, 1 3, 0 0)'] * few)})".encode())
     begun = time.process_time()
     with pytest.raises(xa.ExactacqError, match=r"pairs of edges nearly meet; select"):
         xa.load(path, start=(9, 9), union=True)
-    path = put(KINDS["visilibity"], tmp_path, b"//\n0 0\n9 0\n9 9\n0 9\n" + b"//\n1 1\n2 1\n2 2\n" * 1000)
+    path = put(KINDS["visilibity"], tmp_path, b"//\n0 0\n9 0\n9 9\n0 9\n" + b"//\n1 1\n2 1\n2 2\n" * many)
     with pytest.raises(xa.InvalidScene) as error:
         xa.load(path, start=(8, 8))
     assert len(error.value.violations) < 60

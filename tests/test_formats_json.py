@@ -9,8 +9,10 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from nightly import NIGHTLY
 
 from exactacq.errors import ExactacqError, FormatError, InvalidScene
+from exactacq.files import source
 from exactacq.files.by_suffix import load
 from exactacq.files.scene_json import scene_to_json
 from exactacq.geometry.points import Point
@@ -204,9 +206,13 @@ def test_noise_is_refused_quickly(tmp_path: Path, content: bytes, message: str) 
     assert len(str(caught.value)) < 400
 
 
-def test_too_many_edges_are_refused_before_validation(tmp_path: Path) -> None:
-    rows = ",".join([*["[0,0]"] * 200_000, "[1,0]"])
-    with pytest.raises(FormatError, match="200001 edges are more than the 200000"):
+def test_too_many_edges_are_refused_before_validation(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    most = source.MAX_EDGES if NIGHTLY else 20_000
+    monkeypatch.setattr(source, "MAX_EDGES", most)
+    rows = ",".join([*["[0,0]"] * most, "[1,0]"])
+    with pytest.raises(FormatError, match=f"{most + 1} edges are more than the {most}"):
         load(write(tmp_path, f'{{"obstacles": [{{"boundary": [{rows}]}}]}}'))
 
 

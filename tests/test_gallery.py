@@ -92,8 +92,8 @@ def test_the_names_are_a_copy() -> None:
 
 
 def test_closed_forms() -> None:
-    assert str(xa.sightseer(gallery.scene("circles")).length) == "5 + 12*pi"
-    assert str(xa.sightseer(gallery.scene("squares")).length) == "24"
+    assert str(gallery_run("circles").length) == "5 + 12*pi"
+    assert str(gallery_run("squares").length) == "24"
 
 
 # -- Figure 1 (claim F1) -------------------------------------------------------------------------------
@@ -105,7 +105,7 @@ def test_a_completely_known_obstacle_must_still_be_visited(name: str) -> None:
     graph = xa.visibility_graph(scene)
     links = {frozenset(edge) for edge in graph.edges}
     assert links == {frozenset(edge) for edge in [("S", 0), (0, 1), (1, 2)]}, "O3 is linked to O2 only"
-    run = xa.sightseer(scene)
+    run = gallery_run(name)
     assert run.visits == (0, 1, 2)
 
     w, radius = world(oracle_shapes(scene)), float(Real(scene.radius))
@@ -122,7 +122,7 @@ def test_a_completely_known_obstacle_must_still_be_visited(name: str) -> None:
 
 
 def test_figure_4_shows_what_the_paper_labels() -> None:
-    run = xa.seed_spreader(gallery.scene("figure4"))
+    run = gallery_run("figure4")
     moves = [
         (e.kind, run.obstacles[e.obstacle].label, e.point.xy, e.after)
         for e in run.events
@@ -189,7 +189,7 @@ def outlines(scene: xa.Scene) -> list[shapely.Polygon]:
 def test_figure_2_every_obstacle_is_visited_and_circumnavigated() -> None:
     scene = gallery.scene("figure2")
     assert nx.is_connected(xa.visibility_graph(scene)), "model (a) holds"
-    run = xa.sightseer(scene)
+    run = gallery_run("figure2")
     assert run.complete
     assert sorted(run.visits) == list(range(11))
     assert (run.events[0].kind, run.events[-1].kind) == ("start", "stop")
@@ -202,7 +202,7 @@ def test_figure_2_every_obstacle_is_visited_and_circumnavigated() -> None:
 
 def test_figure_2_length_is_near_the_estimate_and_below_the_bounds() -> None:
     scene = gallery.scene("figure2")
-    run = xa.sightseer(scene)
+    run = gallery_run("figure2")
     estimate = Length(scene.radius * 11) + total_perimeter(scene) * Fraction(3, 2)
     assert estimate * Fraction(99, 100) <= run.length <= estimate * Fraction(101, 100)
     assert all(bound.holds for bound in run.bounds)
@@ -235,7 +235,7 @@ def test_m4_an_obstacle_is_on_the_map_but_not_linked() -> None:
     graph = xa.visibility_graph(scene)
     assert not graph.has_edge(0, 2)
     assert not graph.has_edge(1, 2)
-    run = xa.sightseer(scene)
+    run = gallery_run("m4")
     assert (run.visits, run.unvisited, run.unseen) == ((0, 1), (2,), ())
     assert not run.complete
 
@@ -245,13 +245,13 @@ def test_m8_a_tree_edge_is_longer_than_the_largest_distance() -> None:
     rings = outlines(scene)
     largest = max(a.distance(b) for a, b in combinations(rings, 2))
     assert largest == pytest.approx(3.5)
-    run = xa.sightseer(scene)
+    run = gallery_run("m8")
     assert [(link.source, link.target) for link in run.links] == [("S", 0), (0, 1), (1, 2)]
     assert Length("7.79") < run.links[-1].length < Length("7.80")
 
 
 def test_m9_the_printed_bound_fails_and_the_corrected_one_holds() -> None:
-    run = xa.sightseer(gallery.scene("m9"))
+    run = gallery_run("m9")
     assert run.length == Length("2248.735")
     assert len(run.visits) == 12
     holds = {bound.name: (bound.holds, str(bound.value)) for bound in run.bounds}
@@ -267,7 +267,7 @@ def test_the_plate_has_a_wall_and_fourteen_holes_all_visited() -> None:
     assert scene.enclosure is not None
     assert len(scene.shapes) == 14
     assert any(isinstance(edge, Arc) for edge in scene.obstacles[-1].edges)
-    run = xa.sightseer(scene)
+    run = gallery_run("plate")
     assert sorted(run.visits) == list(range(15))
 
 

@@ -7,6 +7,7 @@ import weakref
 from collections.abc import Callable, Iterator
 
 import pytest
+from nightly import NIGHTLY
 
 import exactacq as xa
 from exactacq.strategies.gc_pause import MOST, uncollected
@@ -15,8 +16,9 @@ FEW = 100
 """Objects that belong to others: the libraries below, and the tests themselves."""
 RUNS: dict[str, Callable[[xa.Scene], xa.Run]] = {
     "m11": xa.sightseer,
-    "plate": xa.sightseer,
-    "relay": xa.seed_spreader,
+    "circles": xa.sightseer,
+    "m20-3": xa.seed_spreader,
+    **({"plate": xa.sightseer, "relay": xa.seed_spreader} if NIGHTLY else {}),
 }
 
 

@@ -20,6 +20,7 @@ from drawn_scenes import STRAIGHT, terrains
 from drawn_scenes.kinds import a_box, a_diamond, a_hook, a_triangle, on_pins
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from nightly import examples
 from oracles import Disc, Room
 from strategies import EPS, Similarity, Terrain, box, reversed_order, split_point
 
@@ -29,8 +30,7 @@ from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 
 Q = Fraction
-NIGHTLY = settings.get_current_profile_name() == "nightly"
-EXAMPLES = settings(max_examples=150 if NIGHTLY else 5)
+EXAMPLES = examples(4, 150)
 
 
 # -- the same scene drawn otherwise -----------------------------------------------------------------

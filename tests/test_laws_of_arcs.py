@@ -15,9 +15,10 @@ import pytest
 from flint import fmpq
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from nightly import examples
 from oracles import Disc, Room
 from strategies import Similarity, Terrain, arc_terrain, build, reversed_order
-from test_laws import NIGHTLY, is_valid, refined, weights
+from test_laws import is_valid, refined, weights
 
 import exactacq as xa
 from exactacq.errors import Undecided
@@ -27,7 +28,7 @@ from exactacq.study.claims.model import Subject
 from exactacq.study.random_scenes import arc_scene
 
 Q = Fraction
-EXAMPLES = settings(max_examples=120 if NIGHTLY else 12)
+EXAMPLES = examples(6, 120)
 DIGITS = 25
 
 terrains = st.randoms(use_true_random=False).map(arc_terrain).filter(is_valid)

@@ -10,7 +10,8 @@ from random import Random
 import networkx as nx
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
+from nightly import NIGHTLY, examples
 from oracles import Disc, Room, free, shortest_visible, world
 from sampled_links import ambiguous, free_sample_shorter
 from strategies import (
@@ -41,7 +42,7 @@ from exactacq.visibility.features import features
 from exactacq.visibility.links import near_hull
 
 Q = Fraction
-LAW_EXAMPLES = 60 if settings.get_current_profile_name() == "nightly" else 3
+LAW_EXAMPLES = examples(3, 60)
 
 
 def graph_of(terrain: Terrain) -> nx.Graph:
@@ -114,19 +115,22 @@ def boundary_gap(w: object, terrain: Terrain, i: object, point: tuple[float, flo
 
 
 class TestAgainstTheOracle:
+    @examples(8, 400)
     @given(terrains(kinds=POLYGONS))
     def test_polygons(self, terrain: Terrain) -> None:
         check_against_oracle(terrain)
 
+    @examples(8, 400)
     @given(terrains(kinds=ROUND))
     def test_arcs(self, terrain: Terrain) -> None:
         check_against_oracle(terrain)
 
-    @settings(max_examples=max(4, settings().max_examples // 2))
+    @examples(5, 200)
     @given(terrains(room=True))
     def test_rooms(self, terrain: Terrain) -> None:
         check_against_oracle(terrain)
 
+    @examples(10, 400)
     @given(degenerate_terrains())
     def test_small_integers(self, terrain: Terrain) -> None:
         """Chords that end tangent to a circle are common here, and there the floats are good to 1e-7 only."""
@@ -349,7 +353,7 @@ def turn_of_grid(key: frozenset, columns: int, turn: int) -> frozenset:
 
 class TestLaws:
     @pytest.mark.parametrize("name", SIMILARITIES)
-    @settings(max_examples=LAW_EXAMPLES)
+    @LAW_EXAMPLES
     @given(terrains(columns=2))
     def test_similar_scenes_have_the_same_graph(self, name: str, terrain: Terrain) -> None:
         similarity = SIMILARITIES[name]
@@ -357,12 +361,12 @@ class TestLaws:
         assert after.keys() == before.keys()
         assert all(after[key] == value * similarity.scale for key, value in before.items())
 
-    @settings(max_examples=LAW_EXAMPLES)
+    @LAW_EXAMPLES
     @given(terrains())
     def test_vertex_order_does_not_matter(self, terrain: Terrain) -> None:
         assert weights(graph_of(reversed_order(terrain))) == weights(graph_of(terrain))
 
-    @settings(max_examples=LAW_EXAMPLES)
+    @LAW_EXAMPLES
     @given(terrains())
     def test_numbering_does_not_matter(self, terrain: Terrain) -> None:
         n = len(terrain.shapes)
@@ -409,7 +413,7 @@ def in_hull(place: np.ndarray, points: np.ndarray) -> bool:
 def test_circles_beside_a_hull_are_told() -> None:
     rng = np.random.default_rng(4)
     beside = 0
-    for _ in range(25):
+    for _ in range(25 if NIGHTLY else 10):
         points = rng.integers(-5, 6, (6, 2)).astype(float)
         places, sizes = rng.integers(-9, 10, (20, 2)) / 2, rng.integers(0, 3, 20) / 2 + 1e-9
         for place, size, near in zip(places, sizes, near_hull(places, points, sizes), strict=True):
@@ -418,7 +422,7 @@ def test_circles_beside_a_hull_are_told() -> None:
             meets = in_hull(place, points) or any(in_hull(p, points) for p in rim)
             assert near or not meets
             beside += not near
-    assert beside > 120
+    assert beside > (120 if NIGHTLY else 48)
 
 
 @pytest.mark.parametrize("points", [[(2, 3)] * 8, [(0, 0)] * 4 + [(4, 4)] * 4])

@@ -22,6 +22,7 @@ from map_oracle import (
     spots,
     view,
 )
+from nightly import some
 from oracles import free
 from stepping import Stepper
 from strategies import POLYGONS, degenerate_terrain, random_terrain
@@ -159,7 +160,7 @@ def test_views_in_closed_form() -> None:
     assert parts(room, 20, (1, 0)) == {(0, 0): pytest.approx([0, 1])}
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", some(range(6), 2))
 def test_views_agree_with_what_a_path_of_one_point_knows(seed: int) -> None:
     """Rays from the place against the search from the target's side."""
     terrain = random_terrain(Random(seed), room=seed % 2 == 1)
@@ -181,7 +182,7 @@ def test_views_agree_with_what_a_path_of_one_point_knows(seed: int) -> None:
 # -- other oracles ---------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", some(range(6), 2))
 def test_answers_agree_with_free_segments(seed: int) -> None:
     """A YES has a witness on the path, a NO has none among many of its points."""
     rng = Random(seed)
@@ -205,7 +206,7 @@ def test_answers_agree_with_free_segments(seed: int) -> None:
 @cache
 def explored() -> tuple[Run, list[tuple[float, float]]]:
     """A run among polygons, and bounds of the lengths at which the obstacles are first seen."""
-    terrain = random_terrain(Random(3), POLYGONS)
+    terrain = random_terrain(Random(3), POLYGONS, columns=2)
     run = sightseer(terrain.scene(), radius=terrain.radius)
     return run, [sight_length(run.scene, run.radius, run.path, o.index) for o in run.scene.obstacles]
 

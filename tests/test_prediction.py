@@ -13,6 +13,7 @@ from random import Random
 
 import numpy as np
 import pytest
+from nightly import some
 
 from exactacq import kernel
 from exactacq.geometry.curves import Arc, Curve, Segment
@@ -310,7 +311,7 @@ def _answer(seed: int) -> bool:
     return sees(targets, others, radius, start, stop)
 
 
-@pytest.mark.parametrize("seed", range(0, 60, 5))
+@pytest.mark.parametrize("seed", some(range(0, 60, 5), 4))
 def test_larger_ranges_and_fewer_pieces_see_no_less(seed: int) -> None:
     for k in range(seed, seed + 5):
         targets, others, radius, start, stop = _scene(k)
@@ -323,7 +324,7 @@ def test_larger_ranges_and_fewer_pieces_see_no_less(seed: int) -> None:
             assert not sees(targets, others, radius, (start + stop) / 2, stop)
 
 
-@pytest.mark.parametrize("seed", range(0, 60, 5))
+@pytest.mark.parametrize("seed", some(range(0, 60, 5), 4))
 def test_mirror_images_answer_alike(seed: int) -> None:
     for k in range(seed, seed + 5):
         targets, others, radius, start, stop = _scene(k)
@@ -369,7 +370,8 @@ def test_a_slit_along_the_line_itself(start: int, stop: int, radius: int) -> Non
 
 def test_the_sampler_agrees() -> None:
     counts: Counter[bool] = Counter()
-    for seed in range(100, 130):
+    seeds = some(range(100, 130), 15)
+    for seed in seeds:
         targets, others, radius, start, stop = _scene(seed)
         answer = sees(targets, others, radius, start, stop)
         sampler = _Sampler(targets, others, float(radius))
@@ -378,7 +380,7 @@ def test_the_sampler_agrees() -> None:
         ys = (y for n in steps for y in np.linspace(float(stop), float(start), n)[:-1])
         assert answer == any(sampler.sees(y) for y in ys), seed
         counts[answer] += 1
-    assert min(counts[True], counts[False]) > 8, counts
+    assert min(counts[True], counts[False]) > len(seeds) / 4, counts
 
 
 class _Sampler:

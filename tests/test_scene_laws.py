@@ -10,9 +10,10 @@ from fractions import Fraction
 import pytest
 from drawn_scenes import motions, scenes, terrains
 from drawn_scenes.placing import cut
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from map_oracle import Answer, Spot, known, spots
+from nightly import examples
 from oracles import Room
 from strategies import ONE, ZERO, Similarity, Terrain, box
 from test_exact_only import told
@@ -25,8 +26,7 @@ from exactacq.geometry.curves import Arc
 from exactacq.study.claims.model import Subject
 
 Q = Fraction
-NIGHTLY = settings.get_current_profile_name() == "nightly"
-EXAMPLES = settings(max_examples=100 if NIGHTLY else 6)
+EXAMPLES = examples(6, 100)
 DIGITS = 40
 LARGEST = 10**4
 """Radius of an arc up to which the oracle's floats are good to its margin."""

@@ -9,7 +9,8 @@ from random import Random
 import numpy as np
 import pytest
 from flint import fmpq
-from hypothesis import given, settings
+from hypothesis import given
+from nightly import examples
 from strategies import Terrain, degenerate_terrain, random_terrain, terrains
 
 import exactacq as xa
@@ -112,8 +113,8 @@ class TestExactEvents:
 
 
 class TestLaws:
+    @examples(3, 100)
     @given(terrains())
-    @settings(max_examples=6)
     def test_audited(self, terrain: Terrain) -> None:
         law_of_the_audit(terrain)
 
@@ -149,8 +150,8 @@ class TestLaws:
             assert not {x for x in lost if not chart.knows(x[0], place_of(x[1]))}
             before = ends
 
+    @examples(4, 100)
     @given(terrains())
-    @settings(max_examples=6)
     def test_links_after_a_loop_are_on_the_map(self, terrain: Terrain) -> None:
         """v on the map equals v on the scene: once a boundary is walked, its shortest segments are known."""
         run = explored(terrain)

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from random import Random
 
 import pytest
+from nightly import some
 from strategies import degenerate_terrain, random_terrain
 
 import exactacq as xa
@@ -147,14 +148,14 @@ def test_a_full_circle_is_two_legs_when_its_start_is_passed() -> None:
 
 
 @pytest.mark.parametrize("make", [random_terrain, degenerate_terrain])
-@pytest.mark.parametrize("seed", [0, 1, 3, 4, 5])
+@pytest.mark.parametrize("seed", some([0, 1, 3, 4, 5], 2))
 def test_every_cell_has_the_views_of_isovists(make: object, seed: int) -> None:
     cases = list(pieces(make(Random(seed)), 12))
     assert sum(check_cells(*case) for case in cases) > len(cases)
 
 
 @pytest.mark.parametrize("make", [random_terrain, degenerate_terrain])
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", some(range(4), 2))
 def test_cells_together_teach_what_the_piece_teaches(make: object, seed: int) -> None:
     for scene, radius, piece in pieces(make(Random(seed)), 8):
         memory = Memory(scene, xa.Scene([], radius=radius).radius)

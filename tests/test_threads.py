@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 from flint import arb, ctx
+from nightly import some
 
 import exactacq as xa
 from exactacq.numbers.atoms import Node
@@ -71,10 +72,10 @@ def swept(name: str) -> list[Any]:
 @pytest.mark.usefixtures("restless")
 def test_runs_of_two_threads_are_those_of_one() -> None:
     def first() -> list[Any]:
-        return [tour(name) for name in ("m4", "circles", "figure1", "m8")]
+        return [tour(name) for name in some(("circles", "m4", "figure1", "m8"), 2)]
 
     def second() -> list[Any]:
-        return [swept(name) for name in ("case3", "m25", "m15")]
+        return [swept(name) for name in some(("m25", "case3", "m15"), 1)]
 
     assert together(first, second, first) == [first(), second(), first()]
     assert ctx.prec == 53, "the precision is back where it was"

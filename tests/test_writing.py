@@ -14,6 +14,7 @@ import ezdxf
 import pytest
 import shapely
 from flint import fmpq
+from gallery_runs import gallery_run
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -54,7 +55,7 @@ ROOM = xa.Scene(
 
 @pytest.fixture(scope="module")
 def run() -> xa.Run:
-    return xa.sightseer(gallery.scene("figure2"))
+    return gallery_run("figure2")
 
 
 def shapes(scene: xa.Scene) -> list[object]:

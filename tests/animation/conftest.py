@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 import pytest
+from gallery_runs import gallery_run
 from pages import HOSTILE
 
-from exactacq.files import gallery
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle, Outline, Polygon
 from exactacq.strategies.run import Run
-from exactacq.strategies.seed_spreader.strategy import seed_spreader
 from exactacq.strategies.sightseer.strategy import sightseer
 
 
 @pytest.fixture(scope="module")
 def circles() -> Run:
-    return sightseer(gallery.scene("circles"))
+    return gallery_run("circles")
 
 
 @pytest.fixture(scope="module")
 def eleven() -> Run:
-    return sightseer(gallery.scene("m11"))
+    return gallery_run("m11")
 
 
 @pytest.fixture(scope="module")
@@ -34,4 +33,4 @@ def room() -> Run:
 @pytest.fixture(scope="module")
 def swept() -> Run:
     """A sweep that diverts twice; one obstacle lies over the border."""
-    return seed_spreader(gallery.scene("case2"))
+    return gallery_run("case2")
