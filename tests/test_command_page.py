@@ -7,6 +7,7 @@ import re
 import sys
 from collections.abc import Iterator
 from contextlib import chdir
+from functools import partial
 from pathlib import Path
 from shutil import copyfile
 from types import ModuleType
@@ -15,6 +16,8 @@ import pytest
 
 from exactacq.cli import entry
 from exactacq.cli.manual import EXAMPLES, STATUSES, Example
+from exactacq.output.animation import frames
+from exactacq.study.campaign import coordinator
 
 DOCS = Path(__file__).parent.parent / "docs"
 
@@ -32,7 +35,10 @@ def extension() -> Iterator[ModuleType]:
 def text(extension: ModuleType, tmp_path_factory: pytest.TempPathFactory) -> str:
     """The page; making it runs all examples, one after the other in one folder."""
     folder = tmp_path_factory.mktemp("made")
-    extension.write(folder)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(coordinator, "_cores", lambda: 1)  # each process takes a second to start
+        patch.setattr(frames, "frames_of", partial(frames.frames_of, limit=9, fine=0))
+        extension.write(folder)
     return (folder / "commands.md").read_text()
 
 

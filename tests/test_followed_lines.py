@@ -7,6 +7,7 @@ from random import Random
 
 import pytest
 from flint import fmpq
+from nightly import some
 from strategies import arc_terrain, build, circle_grid, degenerate_terrain, square_grid
 
 import exactacq as xa
@@ -67,7 +68,7 @@ def places(line: FollowedLine) -> list[set[tuple[int, str, str]]]:
     return [found[k] for k in sorted(found)]
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", some(SCENES, 5))
 def test_names_tell_what_exact_contacts_tell(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Every line at which a cell of a pencil ends; reaches are no gaps, where either may be told."""
     scene = SCENES[name]

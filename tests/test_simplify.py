@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import shapely
 from flint import fmpq
+from nightly import some
 
 from exactacq.errors import FormatError
 from exactacq.files.by_suffix import load
@@ -55,7 +56,7 @@ def check(before: list, after: list, tolerance: float) -> None:
 
 
 @pytest.mark.parametrize("corners", [JOIN, PART])
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", some(range(8), 3))
 def test_rings_stay_near_simple_disjoint_and_nested(seed: int, corners: str) -> None:
     rings = outlines(blobs(seed), corners)
     last = sum(map(len, rings))

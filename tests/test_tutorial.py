@@ -6,6 +6,7 @@ import doctest
 import re
 import shlex
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from shutil import copyfile
 
@@ -36,7 +37,7 @@ def test_command_lines_print_what_the_page_says(
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(film, "FRAMES", 3)
     monkeypatch.setattr(film, "FEWEST", 3)
-    monkeypatch.setattr(frames, "HEAVY", 0)  # no views between the stops
+    monkeypatch.setattr(frames, "frames_of", partial(frames.frames_of, limit=9, fine=0))
     told = list(commands(PAGE))
     assert len(told) >= 10
     for line, printed in told:
