@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from nightly import some
+from nightly import NIGHTLY, some
 
 import exactacq as xa
 from exactacq import kernel
@@ -48,7 +48,7 @@ RUNS: dict[str, Callable[[], xa.Run]] = {
         f"random sightseer {seed}": (lambda s=seed: xa.sightseer(random_scene(Subject.SIGHTSEER, s)))
         for seed in some(range(10), 4)
     },
-    "spreader figure4": spreader("figure4"),
+    **({"spreader figure4": spreader("figure4")} if NIGHTLY else {"spreader case2": spreader("case2")}),
     "spreader m25, what is visible": spreader("m25", target="visible"),
     "spreader m25, without looking ahead": spreader("m25", lookahead=False),
     **{

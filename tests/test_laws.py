@@ -30,7 +30,7 @@ from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 
 Q = Fraction
-EXAMPLES = examples(4, 150)
+EXAMPLES = examples(3, 150)
 
 
 # -- the same scene drawn otherwise -----------------------------------------------------------------

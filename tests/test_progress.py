@@ -97,6 +97,8 @@ def test_a_meter_never_tells_more_than_the_total() -> None:
 def test_a_terminal_sees_audits_and_drawings(tmp_path: Path) -> None:
     figure, page = tmp_path / "run.svg", tmp_path / "run.html"
     options = ["--audit", "--figure", str(figure), "--animate", str(page)]
-    out, seen = on_a_terminal("explore", "circles", *options)
+    scene = tmp_path / "scene.json"
+    scene.write_text('{"start": [0, 0], "radius": 9, "obstacles": [{"boundary": [[3, 0], [5, 0], [4, 1]]}]}')
+    out, seen = on_a_terminal("explore", str(scene), *options)
     assert b"audit passed" in out
     assert all(word in seen for word in (b"exploring", b"drawing", b"auditing"))
