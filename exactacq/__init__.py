@@ -39,6 +39,8 @@ if TYPE_CHECKING:
     from exactacq.strategies.sightseer.strategy import sightseer
     from exactacq.visibility.isovist import Isovist, isovist
     from exactacq.visibility.links import visibility_graph
+    from exactacq.visibility.shortest_path import ShortestPath, shortest_path
+    from exactacq.visibility.tangent_graph import tangent_graph
 
 __all__ = [
     "Arc",
@@ -65,6 +67,7 @@ __all__ = [
     "Scene",
     "SeedSpreaderRun",
     "Segment",
+    "ShortestPath",
     "SightseerRun",
     "Terrain",
     "Undecided",
@@ -77,8 +80,10 @@ __all__ = [
     "load",
     "load_run",
     "seed_spreader",
+    "shortest_path",
     "sightseer",
     "sweep",
+    "tangent_graph",
     "terrain_around",
     "visibility_graph",
     "write",
@@ -109,6 +114,7 @@ _HOMES = {
     "Scene": "exactacq.scene.scene",
     "SeedSpreaderRun": "exactacq.strategies.run",
     "Segment": "exactacq.geometry.curves",
+    "ShortestPath": "exactacq.visibility.shortest_path",
     "SightseerRun": "exactacq.strategies.run",
     "Terrain": "exactacq.scene.shapes",
     "Undecided": "exactacq.errors",
@@ -121,8 +127,10 @@ _HOMES = {
     "load": "exactacq.files.load",
     "load_run": "exactacq.output.run_json",
     "seed_spreader": "exactacq.strategies.seed_spreader.strategy",
+    "shortest_path": "exactacq.visibility.shortest_path",
     "sightseer": "exactacq.strategies.sightseer.strategy",
     "sweep": "exactacq.sensing.view_events",
+    "tangent_graph": "exactacq.visibility.tangent_graph",
     "terrain_around": "exactacq.scene.bounding",
     "visibility_graph": "exactacq.visibility.links",
     "write": "exactacq.output.results",
@@ -133,6 +141,7 @@ offer(SVG, "exactacq.scene.scene.Scene", "exactacq.output.figures", "svg")
 offer(SVG, "exactacq.strategies.run.Run", "exactacq.output.figures", "svg")
 offer(SVG, "exactacq.visibility.isovist.Isovist", "exactacq.output.isovist_svg", "svg")
 offer(PLAYER, "exactacq.strategies.run.Run", "exactacq.output.animation.notebook", "Player")
+offer(SVG, "exactacq.visibility.shortest_path.ShortestPath", "exactacq.output.figures", "svg")
 offer(JSON, "exactacq.strategies.run.Run", "exactacq.output.run_json", "run_to_json")
 
 

@@ -24,6 +24,7 @@ from exactacq.sensing.event import Ending
 from exactacq.strategies.bounds import census
 from exactacq.strategies.run import Bound, Run, SeedSpreaderRun, SightseerRun
 from exactacq.visibility.isovist import Isovist, ViewKind
+from exactacq.visibility.shortest_path import ShortestPath
 
 CLOSED_FORM = 60
 """Closed forms of at most this many characters are shown; longer ones are in the trace."""
@@ -141,6 +142,23 @@ def view_report(view: Isovist) -> RenderableType:
     for row in rows.items():
         table.add_row(*row)
     title = f"View from {_place(view.point)} within {_rational(view.radius)}"
+    return Group(Text(title, style="bold"), table)
+
+
+def path_report(found: ShortestPath) -> RenderableType:
+    """What a shortest path is made of."""
+    arcs = sum(isinstance(piece, Arc) for piece in found.path)
+    table = Table.grid(padding=(0, 2))
+    rows = {
+        "length": "  ".join(readable(found.length, CLOSED_FORM, 20)),
+        "pieces": f"{_counted(len(found.path) - arcs, 'segment')}, {_counted(arcs, 'arc')}",
+        "by way of": ", ".join(map(_place, found.points[1:-1])) or "nothing",
+    }
+    if found.count > 1:
+        rows["equally short"] = f"{found.count} paths"
+    for row in rows.items():
+        table.add_row(*row)
+    title = f"Shortest path from {_place(found.start)} to {_place(found.end)}"
     return Group(Text(title, style="bold"), table)
 
 

@@ -26,9 +26,10 @@ def write(
 ) -> tuple[str, ...]:
     """Write a scene or a result to a file; the suffix of its name chooses the format. Returns remarks.
 
-    *subject* is a `Scene`, a `Run`, the `Path`, the links or a `Map` of a run, or an `Isovist`. With *at*, an
-    event or a length of the path, a run is written as it was then. *only* selects kinds of things, such as
-    "path"; in a file they are layers (DXF), groups (SVG), a property (GeoJSON) or a column (CSV).
+    *subject* is a `Scene`, a `Run`, the `Path`, the links or a `Map` of a run, an `Isovist`, or a
+    `ShortestPath`. With *at*, an event or a length of the path, a run is written as it was then. *only*
+    selects kinds of things, such as "path"; in a file they are layers (DXF), groups (SVG), a property
+    (GeoJSON) or a column (CSV).
 
     Numbers that are finite decimals stay as they are (as doubles in DXF: up to 15 digits); others are
     rounded, and arcs become chords in GeoJSON. The remarks say by how much any point has moved at most, which

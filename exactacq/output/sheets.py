@@ -22,10 +22,11 @@ from exactacq.sensing.map import Map
 from exactacq.sensing.path import Path, Piece
 from exactacq.strategies.run import Diversion, Run, SeedSpreaderRun, SightseerRun, TreeLink
 from exactacq.visibility.isovist import Isovist
+from exactacq.visibility.shortest_path import ShortestPath
 
 
 def sheet_of(subject: object, at: Event | Length | object = None) -> Sheet:
-    """The sheet of a scene, a run, a path, a map, a view, or a list of links or diversions.
+    """The sheet of a scene, a run, a path or shortest path, a map, a view, or a list of links or diversions.
 
     That of a run shows it at the end, or with *at* at a moment: an event or a length of the path. Raises
     `FormatError` for anything else, ValueError for a length that the path does not have. Linear in what it
@@ -43,6 +44,8 @@ def sheet_of(subject: object, at: Event | Length | object = None) -> Sheet:
         return Sheet("map", tuple(_map(subject)))
     if isinstance(subject, Isovist):
         return Sheet("isovist", tuple(_view(subject)))
+    if isinstance(subject, ShortestPath):
+        return Sheet("shortest path", tuple(_shortest(subject)))
     return Sheet("links", tuple(_links(_listed(subject))))
 
 
@@ -103,6 +106,14 @@ def _path(pieces: Iterable[Piece]) -> Iterator[Item]:
         yield Item("path", place=walked[0].start, properties={"length": 0.0})
     elif walked:
         yield Item("path", curves, properties={"length": float(length)})
+
+
+def _shortest(found: ShortestPath) -> Iterator[Item]:
+    told: dict[str, Property] = {"length": float(found.length)}
+    if found.path:
+        yield Item("path", found.path, properties=told)
+    else:
+        yield Item("path", place=found.start, properties=told)
 
 
 def _map(known: Map) -> Iterator[Item]:

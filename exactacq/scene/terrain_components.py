@@ -208,7 +208,7 @@ def _letter(owners: Sequence[int], k: int) -> str:
 
 def _shores(obstacle: Obstacle, terrain: Terrain) -> Iterator[tuple[Shore, bool]]:
     """The maximal runs of an obstacle's boundary in the terrain, and whether they are the whole loop."""
-    pieces = [piece for k, edge in enumerate(obstacle.edges) for piece in _pieces(k, edge, terrain)]
+    pieces = [piece for k, edge in enumerate(obstacle.edges) for piece in pieces_within(k, edge, terrain)]
     breaks = [k for k, piece in enumerate(pieces) if piece is None]
     if not breaks:
         yield tuple(piece for piece in pieces if piece is not None), True
@@ -223,7 +223,7 @@ def _shores(obstacle: Obstacle, terrain: Terrain) -> Iterator[tuple[Shore, bool]
             run = []
 
 
-def _pieces(k: int, edge: Curve, terrain: Terrain) -> Iterator[Part | None]:
+def pieces_within(k: int, edge: Curve, terrain: Terrain) -> Iterator[Part | None]:
     """The parts of an edge inside the terrain in its direction, with None for what lies between them."""
     rail = Rail(edge)
     if lies_inside(edge, terrain):

@@ -41,10 +41,11 @@ def is_free(table: EdgeTable, start: Point, end: Point) -> bool:
     if 1 in verdicts:
         return False
     doubtful = [e for e, verdict in zip(edges, verdicts, strict=True) if verdict == 0]
-    return _is_free_exactly(table, start, end, doubtful)
+    return is_free_among(table, start, end, doubtful)
 
 
-def _is_free_exactly(table: EdgeTable, start: Point, end: Point, edges: list[int]) -> bool:
+def is_free_among(table: EdgeTable, start: Point, end: Point, edges: list[int]) -> bool:
+    """Whether a segment is free that meets no edges but some of these, decided exactly (see `is_free`)."""
     direction = end - start
     cuts: dict[int, list[Real]] = {}
     for e in edges:

@@ -9,10 +9,7 @@ They bound no area. They belong to the isovist, but not to its outline, and are 
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any, ClassVar
-from weakref import WeakKeyDictionary
-
-import numpy as np
+from typing import Any
 
 from exactacq.errors import InvalidScene, about
 from exactacq.geometry.coordinates import raw
@@ -23,13 +20,13 @@ from exactacq.geometry.points import Location, Point
 from exactacq.numbers.length import Length
 from exactacq.numbers.rationals import plain
 from exactacq.numbers.real import fmpq
-from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.ports import SVG, made
-from exactacq.scene.scene import Obstacle, Scene, radius_of
+from exactacq.scene.scene import Scene, radius_of
 from exactacq.scene.validation import place_text
 from exactacq.visibility.free_segment import is_free
 from exactacq.visibility.outline import ViewKind, ViewPiece, outline
 from exactacq.visibility.range_clip import Span
+from exactacq.visibility.scene_tables import SceneTables
 from exactacq.visibility.sensor_range import Range
 from exactacq.visibility.visible_boundary import BoundaryView
 
@@ -53,7 +50,7 @@ class Isovist:
 
     def __init__(self, scene: Scene, point: Point, radius: fmpq, own: tuple[int, ...] | None = None) -> None:
         self.scene, self.point, self.radius = scene, point, radius
-        self._view = BoundaryView(_Tables.of(scene).edges, point, Range(radius), own)
+        self._view = BoundaryView(SceneTables.of(scene).edges, point, Range(radius), own)
 
     @cached_property
     def pieces(self) -> tuple[ViewPiece, ...]:
@@ -113,7 +110,7 @@ class Isovist:
         """
         if self._view.range.order(self.point, point) > 0:
             return False
-        if any(place is Location.INSIDE for place, _ in _Tables.of(self.scene).around(point)):
+        if any(place is Location.INSIDE for place, _ in SceneTables.of(self.scene).around(point)):
             return False
         if point == self.point:
             return True
@@ -158,37 +155,7 @@ def isovist(scene: Scene, point: object, radius: object = None) -> Isovist:
     with about("point"):
         place = Point.of(point)  # type: ignore[arg-type]
     reach = radius_of(scene, radius, place)
-    around = _Tables.of(scene).around(place)
+    around = SceneTables.of(scene).around(place)
     if flaws := [f"the point {place} lies inside {o!r}" for where, o in around if where is Location.INSIDE]:
         raise InvalidScene(flaws)
     return Isovist(scene, place, reach, None if around else ())
-
-
-class _Tables:
-    """What all views of a scene share; kept as long as the scene itself."""
-
-    _known: ClassVar[WeakKeyDictionary[Scene, _Tables]] = WeakKeyDictionary()
-
-    def __init__(self, scene: Scene) -> None:
-        self.obstacles = scene.obstacles
-        self.edges = EdgeTable(scene.obstacles)
-
-    @classmethod
-    def of(cls, scene: Scene) -> _Tables:
-        """The tables of a scene, made at the first call."""
-        known = cls._known.get(scene)
-        if known is None:
-            known = cls._known[scene] = cls(scene)
-        return known
-
-    def around(self, point: Point) -> list[tuple[Location, Obstacle]]:
-        """The obstacles that a point lies inside of or on; only those whose box holds it, and the enclosure,
-        are asked."""
-        x, y = point.xy
-        slack = 8 * self.edges.roundoff_at((x, y))
-        left, low, right, high = self.edges.hulls.T
-        near = (left <= x + slack) & (right >= x - slack) & (low <= y + slack) & (high >= y - slack)
-        if self.obstacles and self.obstacles[-1].is_enclosure:
-            near[-1] = True
-        asked = (self.obstacles[k] for k in np.flatnonzero(near).tolist())
-        return [(where, o) for o in asked if (where := o.locate(point)) is not Location.OUTSIDE]

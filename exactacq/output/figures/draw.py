@@ -15,18 +15,20 @@ from exactacq.files.whole_files import FIGURES, check_output, write_whole
 from exactacq.numbers.length import Length
 from exactacq.output.figures.canvas import Canvas, steps
 from exactacq.output.figures.layout import in_axes, inches, on_page
+from exactacq.output.figures.way_figure import way_figure
 from exactacq.output.vocabulary import Labels
 from exactacq.progress import Meter, Progress
 from exactacq.scene.scene import Scene
 from exactacq.sensing.event import Event
 from exactacq.strategies.run import Run
+from exactacq.visibility.shortest_path import ShortestPath
 
 DOTS = 200
 """Resolution of PNG files in dots per inch."""
 
 
 def figure(
-    subject: Run | Scene,
+    subject: Run | Scene | ShortestPath,
     at: Event | Length | object = None,
     *,
     labels: Labels | str = Labels.ALL,
@@ -39,7 +41,8 @@ def figure(
     length so far, hit and leave points, links, start S, end T and the radius of vision R; of the Seed
     Spreader also the M-line, its crossing points and the diversions from D to Q. With *at*, an event or a
     length of the path, it shows that moment: the path so far, the view (shaded), known boundary (strong),
-    unknown boundary (dotted), and the frontier between them.
+    unknown boundary (dotted), and the frontier between them. A `ShortestPath` is shown in its scene,
+    from A to B, and takes no other argument.
 
     *labels* are "all", "names", "numbers" (of visits) or "none". Those that do not fit into their obstacle
     stand beside it, or farther away with a leader line; none covers another one, and the legend says how many
@@ -54,6 +57,8 @@ def figure(
     >>> [text.get_text() for text in figure(xa.sightseer(xa.load("circles"))).axes[0].texts]
     ['O1', '#1', 'O2', '#2', 'S', 'T']
     """
+    if isinstance(subject, ShortestPath):
+        return way_figure(subject)
     choice, meter = Labels(labels), Meter(progress, steps(subject))
     if ax is None:
         return on_page([Canvas(subject, at, meter)], choice)
@@ -70,13 +75,13 @@ def pair(
     return on_page([Canvas(run, None, meter) for run in (first, second)], choice)
 
 
-def svg(subject: Run | Scene) -> str:
+def svg(subject: Run | Scene | ShortestPath) -> str:
     """The figure as SVG text; the same subject always gives the same text."""
     return rendered(lambda: figure(subject), ".svg").decode()
 
 
 def save(
-    subject: Run | Scene,
+    subject: Run | Scene | ShortestPath,
     path: str | os.PathLike[str],
     at: Event | Length | object = None,
     *,

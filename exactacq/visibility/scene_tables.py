@@ -1,0 +1,66 @@
+"""What all views and paths of a scene share: its edges as a table, and who is around a point."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import ClassVar
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from exactacq.errors import InvalidScene, about
+from exactacq.geometry.points import Location, Point
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.scene.scene import Obstacle, Scene
+from exactacq.visibility.pegs import Pegs, is_within
+from exactacq.visibility.tangents import Tangents
+
+
+class SceneTables:
+    """What is made of a scene when it is first needed; kept as long as the scene itself."""
+
+    _known: ClassVar[WeakKeyDictionary[Scene, SceneTables]] = WeakKeyDictionary()
+
+    def __init__(self, scene: Scene) -> None:
+        self.obstacles = scene.obstacles
+        self.edges, self._terrain = EdgeTable(scene.obstacles), scene.terrain
+
+    @classmethod
+    def of(cls, scene: Scene) -> SceneTables:
+        """The tables of a scene, made at the first call."""
+        known = cls._known.get(scene)
+        if known is None:
+            known = cls._known[scene] = cls(scene)
+        return known
+
+    @cached_property
+    def tangents(self) -> Tangents:
+        """What is known of the free tangents of corners and arcs."""
+        return Tangents(Pegs(self.edges, self._terrain))
+
+    def around(self, point: Point) -> list[tuple[Location, Obstacle]]:
+        """The obstacles that a point lies inside of or on; only those whose box holds it, and the enclosure,
+        are asked."""
+        x, y = point.xy
+        slack = 8 * self.edges.roundoff_at((x, y))
+        left, low, right, high = self.edges.hulls.T
+        near = (left <= x + slack) & (right >= x - slack) & (low <= y + slack) & (high >= y - slack)
+        if self.obstacles and self.obstacles[-1].is_enclosure:
+            near[-1] = True
+        asked = (self.obstacles[k] for k in np.flatnonzero(near).tolist())
+        return [(where, o) for o in asked if (where := o.locate(point)) is not Location.OUTSIDE]
+
+
+def place_in(scene: Scene, name: str, point: object) -> Point:
+    """A point of free space; `FormatError` or `InvalidScene` otherwise, with the point's name."""
+    with about(name):
+        place = Point.of(point)  # type: ignore[arg-type]
+    around = SceneTables.of(scene).around(place)
+    flaws = [
+        f"{name}: the point {place} lies inside {o!r}" for where, o in around if where is Location.INSIDE
+    ]
+    if not is_within(place, scene.terrain):
+        flaws.append(f"{name}: the point {place} lies outside the terrain")
+    if flaws:
+        raise InvalidScene(flaws)
+    return place

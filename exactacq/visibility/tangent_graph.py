@@ -1,0 +1,204 @@
+"""The tangent graph of a scene: corners, contacts and given points, joined by free tangents and arcs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from functools import cmp_to_key
+from itertools import count, pairwise
+from typing import TypeAlias
+
+import networkx as nx
+
+from exactacq.geometry.curve_parameter import Rail
+from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.points import Point
+from exactacq.numbers.length import Length
+from exactacq.numbers.real import Real
+from exactacq.scene.scene import Scene
+from exactacq.visibility.pegs import Peg
+from exactacq.visibility.scene_tables import SceneTables, place_in
+from exactacq.visibility.tangents import FreeTangent, Tangents
+
+BITS = 64
+
+
+def tangent_graph(scene: Scene, points: Iterable[object] = ()) -> nx.MultiGraph:
+    """The graph on which shortest paths lie: its edges are what a taut path may be made of.
+
+    Nodes are numbers, the given *points* first, in their order; equal ones share the first of their numbers.
+    A node has its exact ``point``, and its ``kind``: "place", "corner" (a convex one), "contact" (a tangent
+    touches an arc there) or "joint" (where one convex arc goes on smoothly in another). Edges have their
+    exact ``length``, ``curve``, ``kind`` and ``obstacle``:
+
+    - "tangent": a free segment that touches no further corner or arc on its way; no obstacle;
+    - "edge": such a segment along straight boundary;
+    - "arc": a part of a convex arc between neighbouring nodes. Two nodes of a circle may be joined by two.
+
+    Free space is closed: tangents may graze. If the scene has a terrain, what lies beyond its border is left
+    out. Distances between the given points, as by networkx's Dijkstra with ``weight="length"``, are those of
+    `shortest_path`. Raises `InvalidScene` for a point inside an obstacle or outside the terrain,
+    `FormatError` for what is no point, and `Undecided`. Cost: quadratic in the corners and arcs, times the
+    edges near a segment; for few pairs `shortest_path` does far less.
+
+    >>> import exactacq as xa, networkx as nx
+    >>> graph = xa.tangent_graph(xa.Scene([xa.Circle((0, 0), 1)]), [(-2, 0), (2, 0)])
+    >>> graph.number_of_nodes(), sorted(kind for _, _, kind in graph.edges(data="kind"))
+    (6, ['arc', 'arc', 'arc', 'arc', 'tangent', 'tangent', 'tangent', 'tangent'])
+    >>> print(nx.dijkstra_path_length(graph, 0, 1, weight="length"))
+    pi/3 + 2*sqrt(3)
+    """
+    places = [place_in(scene, f"point {k}", point) for k, point in enumerate(points)]
+    return _GraphOfTangents(SceneTables.of(scene).tangents.with_places(places)).graph
+
+
+class _GraphOfTangents:
+    """A tangent graph in the making."""
+
+    def __init__(self, tangents: Tangents) -> None:
+        self.graph, self.tangents = nx.MultiGraph(), tangents
+        self.pegs, self.table = tangents.pegs, tangents.table
+        self.places: dict[int, Point] = {}
+        """The nodes of places."""
+        self.node_of: dict[int, int] = {}
+        """Nodes by what they are at: numbers of pegs, and identities of contacts' points."""
+        self._joints: dict[int, int] = {}
+        self._straight: set[tuple[int, int]] = set()
+        own = self.pegs.own
+        self._next = count(len(self.pegs.pegs) - own)
+        for peg in self.pegs.pegs[own:]:
+            node = self._place_at(peg.center)
+            if node is None:
+                node = peg.number - own
+                self.places[node] = peg.center
+                self.graph.add_node(node, point=peg.center, kind="place")
+            self.node_of[peg.number] = node
+        for peg in self.pegs.pegs[:own]:
+            if peg.arc is None:
+                node = self._place_at(peg.center)
+                self.node_of[peg.number] = self._node(peg.center, "corner") if node is None else node
+        found = [(i, j, tangent) for i, j in self._pairs() if (tangent := tangents.between(i, j))]
+        contacts: dict[int, list[Point]] = {}
+        for i, j, tangent in found:
+            contacts.setdefault(i, []).append(tangent.start)
+            contacts.setdefault(j, []).append(tangent.end)
+        for peg in self.pegs.pegs:
+            if peg.arc is not None:
+                sides = (self.pegs.entry(peg, side) for side in (1, -1))
+                self._add_arc(peg, peg.arc, [point for entry in sides for point in contacts.get(entry, ())])
+        for i, j, tangent in found:
+            self._add_tangent(i, j, tangent)
+
+    def _pairs(self) -> Iterator[tuple[int, int]]:
+        """Each tangent that floats allow, in one of its two directions."""
+        turned = self.pegs.turned
+        for i in range(len(self.pegs.entries)):
+            for j in self.tangents.beams(i).entries.tolist():
+                if (i, j) <= (turned(j), turned(i)):
+                    yield i, j
+
+    def _place_at(self, point: Point) -> int | None:
+        return next((node for node, place in self.places.items() if place == point), None)
+
+    def _node(self, point: Point, kind: str) -> int:
+        node = next(self._next)
+        self.graph.add_node(node, point=point, kind=kind)
+        return node
+
+    # -- arcs ----------------------------------------------------------------------------------------
+
+    def _add_arc(self, peg: Peg, arc: Arc, contacts: list[Point]) -> None:
+        """The nodes on an arc, and the parts of it between them."""
+        rail, (e,) = Rail(arc), peg.edges
+        spots: list[_Spot] = [(rail.parameter(point), point, None) for point in contacts]
+        for other, u, end in ((peg.before, Real(0), arc.start), (peg.after, rail.top, arc.end)):
+            if other is not None:
+                spots.append((u, end, self._at_end(peg, other, end)))
+        for place in self.pegs.pegs[self.pegs.own :]:
+            if e in place.edges and arc.contains(place.center):
+                spots.append((rail.parameter(place.center), place.center, self.node_of[place.number]))
+        spots.sort(key=cmp_to_key(_by_parameter))
+        row: list[tuple[int, Point]] = []
+        for same in _groups(spots):
+            nodes = [node for _, _, node in same if node is not None]
+            node = nodes[0] if nodes else self._node(same[0][1], "contact")
+            self.node_of.update({id(point): node for _, point, _ in same})
+            row.append((node, same[0][1]))
+        if arc.full and len(row) > 1:
+            row.append(row[0])
+        for (node, start), (following, end) in pairwise(row):
+            piece = arc.part(start, end)
+            self._add_edge(node, following, piece, piece.length, "arc", e)
+
+    def _at_end(self, peg: Peg, other: int, end: Point) -> int:
+        """The node at the end of an arc: of a corner, or of a joint with another arc."""
+        if self.pegs.pegs[other].arc is None:
+            return self.node_of[other]
+        joint = other if other == peg.after else peg.number
+        if joint not in self._joints:
+            node = self._place_at(end)
+            self._joints[joint] = self._node(end, "joint") if node is None else node
+        return self._joints[joint]
+
+    # -- tangents ------------------------------------------------------------------------------------
+
+    def _add_tangent(self, i: int, j: int, tangent: FreeTangent) -> None:
+        (one, _), (other, _) = self.pegs.entries[i], self.pegs.entries[j]
+        a = self.node_of[one.number if one.arc is None else id(tangent.start)]
+        b = self.node_of[other.number if other.arc is None else id(tangent.end)]
+        key = min(a, b), max(a, b)
+        curve = tangent.curve
+        if (
+            a == b
+            or key in self._straight
+            or any(self._passes(curve, node) for node in {*self.places} - {a, b})
+        ):
+            return
+        self._straight.add(key)
+        edge = self._edge_along(curve, one)
+        self._add_edge(a, b, curve, Length(tangent.length), "tangent" if edge is None else "edge", edge)
+
+    def _passes(self, curve: Segment, node: int) -> bool:
+        place = self.places[node]
+        return curve.may_pass(place, BITS) and curve.passes(place)
+
+    def _edge_along(self, curve: Segment, peg: Peg) -> int | None:
+        """The straight edge that a free segment from a peg begins along.
+
+        It goes on along boundary then: where that turns away there is a corner or an arc, where it turns to
+        the other side the segment would be blocked.
+        """
+        edges = peg.edges
+        if peg.arc is not None:
+            is_end = curve.start == peg.arc.start or curve.start == peg.arc.end
+            edges = self.table.edges_at(curve.start) if is_end else ()
+        for e in edges:
+            edge = self.table.curves[e]
+            if isinstance(edge, Segment) and edge.direction.cross(curve.direction).sign() == 0:
+                far = edge.end if edge.direction.dot(curve.direction).sign() > 0 else edge.start
+                if far != curve.start:
+                    return e
+        return None
+
+    def _add_edge(self, a: int, b: int, curve: Curve, length: Length, kind: str, edge: int | None) -> None:
+        obstacle = None if edge is None else self.table.owners[edge]
+        self.graph.add_edge(a, b, length=length, curve=curve, kind=kind, obstacle=obstacle)
+
+
+_Spot: TypeAlias = "tuple[Real, Point, int | None]"
+"""A point of an arc: its parameter, and its node if it has one."""
+
+
+def _by_parameter(one: _Spot, other: _Spot) -> int:
+    return one[0].compare(other[0])
+
+
+def _groups(spots: list[_Spot]) -> Iterator[list[_Spot]]:
+    """Spots, in order, by their places."""
+    group: list[_Spot] = []
+    for spot in spots:
+        if group and _by_parameter(group[0], spot):
+            yield group
+            group = []
+        group.append(spot)
+    if group:
+        yield group
