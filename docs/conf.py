@@ -26,7 +26,9 @@ html_theme_options = {
     "header_links_before_dropdown": 7,
 }
 # Pages without pages below them need no column for these.
-html_sidebars = {page: [] for page in ("tutorial", "course", "sensing", "exactness", "figures")}
+html_sidebars = {
+    page: [] for page in ("tutorial", "course", "sensing", "shortest_paths", "exactness", "figures")
+}
 
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3

@@ -50,9 +50,15 @@ def _moment(path: Path) -> None:
     figures.save(run, path, at=run.near(1000))
 
 
+def _way(path: Path) -> None:
+    found = xa.shortest_path(xa.load("figure2"), (23, 3), (8, 25))
+    figures.save(found, path)
+
+
 PICTURES: dict[str, Callable[[Path], None]] = {
     **{f"{name}.svg": _whole(name) for name in ("figure1", "figure2", "figure3", "figure4", "plate")},
     "plate_moment.svg": _moment,
+    "shortest_path.svg": _way,
     "polygon_limit.svg": lambda path: limit_figure().savefig(path),
 }
 """The pictures that pages name, each with what draws it."""

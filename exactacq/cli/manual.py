@@ -68,6 +68,13 @@ EXAMPLES = {
             "isovist figure2 --at 15,13 --radius 8 --out view.dxf", "The region that is seen, as a drawing."
         ),
     ),
+    "path": (
+        Example("path circles 0,0 16,0", "The shortest way past two discs."),
+        Example(
+            "path figure2 23,3 8,25 --figure way.svg",
+            "Out of one hollow and into another: a drawing of the way.",
+        ),
+    ),
     "verify": (
         Example(
             "verify --scenes 3 --seed 2 --out night.sqlite",
