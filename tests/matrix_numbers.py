@@ -1,9 +1,9 @@
-"""An oracle for algebraic numbers: trees of operations, as 1,000 digits and as eigenvalues of rational matrices.
+"""An oracle for algebraic numbers: trees of operations, as 1,000 digits and as eigenvalues of matrices.
 
-A number that a tree tells is an eigenvalue of a matrix: a root of a polynomial of its companion; sums, products
-and quotients of Kronecker sums and products and of inverses; a square root of a block matrix. By Cauchy's bound
-the least eigenvalue that is not 0 is not very small: what is smaller is proved to be 0, and nothing is assumed
-of expressions. Nothing here shares code with the library's numbers.
+A number that a tree tells is an eigenvalue of a rational matrix: a root of a polynomial of its companion;
+sums, products and quotients of Kronecker sums and products and of inverses; a square root of a block matrix.
+By Cauchy's bound the least eigenvalue that is not 0 is not very small: what is smaller is proved to be 0, and
+nothing is assumed of expressions. Nothing here shares code with the library's numbers.
 
 `rewritten` makes another tree of the same number, by identities: so ties are planted, not found.
 """
@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from fractions import Fraction
 from functools import cache
+from itertools import pairwise
 from typing import Any, TypeAlias
 
 import mpmath
@@ -25,7 +26,7 @@ CLEAR = mp.mpf(10) ** -500
 """Trees are so small that what is below this is 0 wherever no proof is asked for."""
 
 Tree: TypeAlias = "tuple[Any, ...]"
-"""("q", rational) | ("root", ascending coefficients, index) | ("sqrt", tree) | (one of + - * /, tree, tree)."""
+"""("q", rational), ("root", ascending coefficients, index), ("sqrt", tree), or an operation and two trees."""
 
 
 def q(value: Fraction | int) -> Tree:
@@ -95,7 +96,7 @@ def at(f: tuple[Any, ...], x: Any) -> Any:
 
 def _changes(chain: list[tuple[Fraction, ...]], x: Fraction) -> int:
     signs = [value > 0 for f in chain if (value := at(f, x))]
-    return sum(a != b for a, b in zip(signs, signs[1:], strict=False))
+    return sum(a != b for a, b in pairwise(signs))
 
 
 def _refined(f: tuple[Fraction, ...], low: Fraction, high: Fraction) -> Any:

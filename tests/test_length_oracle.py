@@ -95,7 +95,7 @@ COEFFICIENTS = {
     "-3/2": lambda: Real("-3/2"),
     "sqrt 2": lambda: Real(2).sqrt(),
     "1 + sqrt 5": lambda: 1 + Real(5).sqrt(),
-    "nested": lambda: (2 + Real(3).sqrt() * 3).sqrt(),
+    "nested": (2 + Real(3).sqrt() * 3).sqrt,
 }
 
 
@@ -299,7 +299,7 @@ def cuts(draw: Draw) -> tuple[tuple[Bow, ...], Bow]:
 
 
 def check_cuts(case: tuple[tuple[Bow, ...], Bow]) -> None:
-    """The arcs make the whole circle, each is as long as its digits say, and what is left of it is the rest."""
+    """The arcs make the whole circle; each is as long as its digits say, and the rest is what is left."""
     bows, whole = case
     known: dict[Spot, Any] = {}
     arcs = [library_curve(bow, known) for bow in bows]

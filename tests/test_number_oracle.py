@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from itertools import combinations
+from itertools import combinations, pairwise
 from typing import Any
 
 import pytest
@@ -34,7 +34,7 @@ POLYNOMIALS = [
     *((-2, 0, 0, 1), (1, -3, 0, 1), (-1, -1, 0, 1), (1, 0, -10, 0, 1), (1, -4, 0, 2)),
     (-1, -1, 0, 0, 0, 1),
 ]
-"""Irreducible: a pure cube root, one of three real roots, one of one, sqrt(2) + sqrt(3) and its conjugates, ..."""
+"""Irreducible, of degree 3 to 5, with one, three or four real roots; the fourth is of sqrt(2) + sqrt(3)."""
 HAIRS = [Fraction(0)] * 3 + [Fraction(s, 10**n) for n in (40, 100, 200) for s in (1, -1)]
 
 MOST_ROWS = 16
@@ -183,9 +183,9 @@ def test_roots_that_are_told_otherwise_tie(case: tuple[Tree, Tree, Fraction, int
 
 
 def check_fields(case: tuple[Tree, Tree, Tree]) -> None:
-    """(a + b) - b = a, (a b) / b = a, a (b + c) = a b + a c, and what is moved by one number keeps its order."""
+    """(a + b) - b = a, (a b) / b = a, a (b + c) = a b + a c; what is moved by one number keeps its order."""
     a, b, c = map(exact, case)
-    assert (a + b) - b == a and a - a == 0 and a + (-a) == 0 and -(-a) == a
+    assert (a + b) - b == a and a - a == 0 and a + (-a) == 0 and -(0 - a) == a
     assert a * (b + c) == a * b + a * c
     assert (a + b) * (a - b) == a * a - b * b
     if clear_sign(case[1]):
@@ -236,7 +236,7 @@ def element_in(field: tuple[int, int, int], x: Element) -> Real:
 
 
 FIELDS = [(2, 3, 1), (5, 7, -3), (3, 2, 1), (2, 2, 1), (6, 5, 2), (17, 5, -1)]
-"""Of (6, 5, 2) t is sqrt(2) + sqrt(3): the field is not what it seems to be, and elements tie all the same."""
+"""Of (6, 5, 2) t is sqrt(2) + sqrt(3): the field is not what it seems to be, and elements tie as well."""
 elements = st.tuples(small, small, small, small)
 
 
@@ -307,7 +307,7 @@ def check_roots(case: tuple[list[Fraction], list[Any]]) -> None:
     f, expected = case
     found = roots(f)
     assert len(found) == len(expected)
-    assert all(a < b for a, b in zip(found, found[1:], strict=False))
+    assert all(a < b for a, b in pairwise(found))
     for value, place in zip(found, expected, strict=True):
         low, high = value.enclosure(900)
         assert abs(mp.mpf(int(low.p)) / int(low.q) - place) < mp.mpf(10) ** -250
@@ -331,7 +331,7 @@ def moved_roots(f: tuple[int, ...], shift: Fraction) -> list[Fraction]:
 
 
 def check_transformed(case: tuple[tuple[int, ...], Fraction, Fraction]) -> None:
-    """Roots of polynomials that were made so that their roots are moved, stretched, turned over or squared."""
+    """Roots of polynomials made so that their roots are moved, stretched, turned over or squared."""
     f, shift, hair = case
     found = roots(f)
     order = (hair < 0) - (hair > 0)
