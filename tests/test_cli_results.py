@@ -172,3 +172,25 @@ def test_verify_as_json(capsys: pytest.CaptureFixture[str]) -> None:
     again = json.loads(capsys.readouterr().out)
     assert (again["scene"], again["result"]) == ("sightseer:0", "passed")
     assert again["statements"][0]["claim"]
+
+
+def test_a_path_is_told_drawn_and_written(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    """Points may begin with a minus sign."""
+    figure, out = tmp_path / "way.svg", tmp_path / "way.wkt"
+    files = ("--figure", figure, "--out", out)
+    told = answered(capsys, "path", "circles", "-1,0", "16,0", *files)
+    assert told.startswith("Shortest path from (-1, 0) to (16, 0)\n")
+    assert re.search(r"^pieces +3 segments, 2 arcs", told, re.M)
+    assert re.search(r"^equally short +2 paths", told, re.M)
+    assert f"figure written to {figure}" in told and f"path written to {out}; " in told
+    assert figure.read_text().startswith("<?xml") and out.stat().st_size > 100
+
+
+def test_path_refuses(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    assert "end: the point (5, 0) lies inside" in refused(capsys, "path", "circles", "0,0", "5,0")
+    assert "A: not two numbers" in refused(capsys, "path", "circles", "0", "5,0")
+    assert "Missing argument 'B'" in refused(capsys, "path", "circles", "0,0")
+    assert "--figur" in refused(capsys, "path", "circles", "0,0", "9,9", "--figur", "x.svg")
+    cut = tmp_path / "cut.json"
+    xa.write(xa.Scene([[(4, -1), (5, -1), (5, 9), (4, 9)]], terrain=xa.Terrain(8, 8)), cut)
+    assert "no path leads from 0,0 to 8,0" in refused(capsys, "path", cut, "0,0", "8,0")

@@ -427,6 +427,18 @@ def test_the_graph_of_a_square_and_places() -> None:
     assert graph.number_of_edges() == 7
 
 
+def test_two_arcs_have_two_joints() -> None:
+    """One of them is a place, from which a tangent and both arcs go on."""
+    bulge = Q(1, 2)
+    scene = xa.Scene([xa.Outline(arcs_of_circle((Q(0), Q(0)), Q(1), bulge)), xa.Circle((4, 0), 1)])
+    joints = [edge.start for edge in scene.obstacles[0].edges]
+    ends = [*joints, xa.Point(0, -1), xa.Point(-1, 0), xa.Point(0, 3)]
+    graph = xa.tangent_graph(scene, ends)
+    for i, a in enumerate(ends):
+        for j, b in enumerate(ends[:i]):
+            assert nx.dijkstra_path_length(graph, i, j, weight="length") == found(scene, a, b).length
+
+
 def test_joints_join_arcs() -> None:
     graph = xa.tangent_graph(
         xa.Scene([xa.Outline(arcs_of_circle((Q(0), Q(0)), Q(1), Q(1)))]), [(-2, 0), (2, 0)]

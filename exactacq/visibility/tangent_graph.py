@@ -110,9 +110,10 @@ class _GraphOfTangents:
         """The nodes on an arc, and the parts of it between them."""
         rail, (e,) = Rail(arc), peg.edges
         spots: list[_Spot] = [(rail.parameter(point), point, None) for point in contacts]
-        for other, u, end in ((peg.before, Real(0), arc.start), (peg.after, rail.top, arc.end)):
-            if other is not None:
-                spots.append((u, end, self._at_end(peg, other, end)))
+        if peg.before is not None:
+            spots.append((Real(0), arc.start, self._at_end(peg.before, peg.number, arc.start)))
+        if peg.after is not None:
+            spots.append((rail.top, arc.end, self._at_end(peg.after, peg.after, arc.end)))
         for place in self.pegs.pegs[self.pegs.own :]:
             if e in place.edges and arc.contains(place.center):
                 spots.append((rail.parameter(place.center), place.center, self.node_of[place.number]))
@@ -129,11 +130,10 @@ class _GraphOfTangents:
             piece = arc.part(start, end)
             self._add_edge(node, following, piece, piece.length, "arc", e)
 
-    def _at_end(self, peg: Peg, other: int, end: Point) -> int:
-        """The node at the end of an arc: of a corner, or of a joint with another arc."""
+    def _at_end(self, other: int, joint: int, end: Point) -> int:
+        """The node at the end of an arc: of a corner, or of a joint, known by the arc that begins there."""
         if self.pegs.pegs[other].arc is None:
             return self.node_of[other]
-        joint = other if other == peg.after else peg.number
         if joint not in self._joints:
             node = self._place_at(end)
             self._joints[joint] = self._node(end, "joint") if node is None else node
