@@ -1,7 +1,4 @@
-"""Campaigns: verdicts do not depend on who judges, and no kill loses what is judged.
-
-The claims here are planted; the workers import them from this module.
-"""
+"""Campaigns: verdicts do not depend on who judges, and no kill loses what is judged."""
 
 from __future__ import annotations
 
@@ -18,9 +15,10 @@ from typing import Any
 
 import pytest
 import typer
+from planted_claims import MARK, SOUND, no_third
 from typer.testing import CliRunner
 
-from exactacq.errors import AuditError, FormatError, Undecided
+from exactacq.errors import AuditError, FormatError
 from exactacq.files.scene_json import parse_json, scene_of, scene_to_json
 from exactacq.study.campaign import command, judging
 from exactacq.study.campaign.coordinator import conduct
@@ -36,85 +34,11 @@ from exactacq.study.campaign.settings import (
 )
 from exactacq.study.campaign.store import Store
 from exactacq.study.campaign.summary import faults, tallies, unfinished
-from exactacq.study.claims.model import Case, Claim, Finding, Outcome, Statement, Subject
+from exactacq.study.claims.model import Case, Outcome, Subject
 from exactacq.study.processes import ProcessError
 from exactacq.study.random_scenes import random_scene
 
-MARK = "EXACTACQ_TEST_MARK"
-"""Names the file that a planted check leaves when it kills its process, so that it does so only once."""
-
-
-# -- planted claims --------------------------------------------------------------------------------
-
-
-def positive(case: Case) -> Finding:
-    """Holds wherever something is to be visited."""
-    run = case.sightseer
-    if not run.visits:
-        return Finding(Outcome.SILENT)
-    return Finding(Outcome.HOLDS if run.length.sign() > 0 else Outcome.FAILS, "", float(run.length) / 1000)
-
-
-def no_third(case: Case) -> Finding:
-    """Fails on the scenes of seed 3."""
-    return Finding(Outcome.FAILS if str(case.scene.name).endswith("-3") else Outcome.HOLDS, "the third")
-
-
-def odd(case: Case) -> Finding:
-    """Fails on every scene with an odd number of obstacles."""
-    return Finding(Outcome.FAILS if len(case.scene.obstacles) % 2 else Outcome.HOLDS)
-
-
-def hang(case: Case) -> Finding:
-    """Never comes back from the scene of seed 1."""
-    while str(case.scene.name).endswith("-1"):
-        time.sleep(0.05)
-    return Finding(Outcome.HOLDS)
-
-
-def die_once(case: Case) -> Finding:
-    """Kills its process the first time."""
-    mark = Path(os.environ[MARK])
-    if not mark.exists():
-        mark.write_text("died")
-        os.kill(os.getpid(), signal.SIGKILL)
-    return positive(case)
-
-
-def die(case: Case) -> Finding:
-    """Kills its process on the scene of seed 2, every time."""
-    if str(case.scene.name).endswith("-2"):
-        os.kill(os.getpid(), signal.SIGKILL)
-    return Finding(Outcome.HOLDS)
-
-
-def dawdle(case: Case) -> Finding:
-    """Takes its time."""
-    time.sleep(0.3)
-    return positive(case)
-
-
-def doubt(case: Case) -> Finding:
-    """Is beyond its limits on the scene of seed 0, and broken on that of seed 1."""
-    if str(case.scene.name).endswith("-0"):
-        raise Undecided("two lengths")
-    if str(case.scene.name).endswith("-1"):
-        raise ZeroDivisionError("planted")
-    print("this must not get among the answers")
-    return Finding(Outcome.HOLDS)
-
-
-def _planted(check: Callable[[Case], Finding], **options: Any) -> Claim:
-    return Claim(check.__name__, "here", Statement(str(check.__doc__), Subject.SIGHTSEER, check, **options))
-
-
-SOUND = (_planted(positive), _planted(odd, counterexamples=("m4",)))
-FALSE = (*SOUND, _planted(no_third))
-HANGING, DYING, DOUBTFUL, SLOW = (_planted(hang),), (_planted(die),), (_planted(doubt),), (_planted(dawdle),)
-DYING_ONCE = (replace(_planted(die_once), name="positive"), SOUND[1])
-"""Like SOUND to the eye, so that the verdicts can be compared."""
-
-QUICK = Settings(scenes=4, strategies=("sightseer",), audit=False, claims="test_campaign:SOUND")
+QUICK = Settings(scenes=4, strategies=("sightseer",), audit=False, claims="planted_claims:SOUND")
 
 
 def opened(settings: Settings, path: Path | None = None) -> Store:
@@ -187,7 +111,7 @@ class TestVerdicts:
 
 class TestFailures:
     def test_a_failing_scene_is_stored_and_can_be_replayed(self) -> None:
-        settings = replace(QUICK, claims="test_campaign:FALSE", scenes=4)
+        settings = replace(QUICK, claims="planted_claims:FALSE", scenes=4)
         with opened(settings) as store:
             conduct(settings, store, 1)
             assert faults(store) == [(Task("sightseer", 3), "no_third (printed) fails", "the third")]
@@ -225,7 +149,7 @@ class TestFailures:
             assert faults(store) == [(record.task, "audit failed", "planted flaw")]
 
     def test_undecided_and_broken_checks_are_no_passes(self) -> None:
-        settings = replace(QUICK, claims="test_campaign:DOUBTFUL", scenes=3)
+        settings = replace(QUICK, claims="planted_claims:DOUBTFUL", scenes=3)
         with opened(settings) as store:
             conduct(settings, store, 1)
             assert store.rows("SELECT outcome FROM scenes ORDER BY seed") == [
@@ -238,7 +162,7 @@ class TestFailures:
             assert "ZeroDivisionError: planted (in doubt)" in faults(store)[0][2]
 
     def test_a_scene_that_hangs_is_a_timeout(self) -> None:
-        settings = replace(QUICK, claims="test_campaign:HANGING", scenes=3, timeout=4)
+        settings = replace(QUICK, claims="planted_claims:HANGING", scenes=3, timeout=4)
         with opened(settings) as store:
             conduct(settings, store, 1)
             assert store.rows("SELECT outcome, json IS NULL FROM scenes ORDER BY seed") == [
@@ -253,26 +177,26 @@ class TestKills:
         self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, expected: list[Any]
     ) -> None:
         monkeypatch.setenv(MARK, str(tmp_path / "mark"))
-        settings = replace(QUICK, claims="test_campaign:DYING_ONCE")
+        settings = replace(QUICK, claims="planted_claims:DYING_ONCE")
         with opened(settings) as store:
             conduct(settings, store, 2)
             assert (tmp_path / "mark").exists()
             assert verdicts(store) == expected
 
     def test_a_scene_that_kills_every_process_is_given_up(self) -> None:
-        settings = replace(QUICK, claims="test_campaign:DYING", scenes=4)
+        settings = replace(QUICK, claims="planted_claims:DYING", scenes=4)
         with opened(settings) as store:
             conduct(settings, store, 1)
             assert store.rows("SELECT seed FROM scenes WHERE outcome = 'passed'") == [(0,), (1,), (3,)]
             assert [(task.seed, what) for task, what, _ in faults(store)] == [(2, "crashed")]
 
     def test_workers_that_cannot_start_are_an_error(self) -> None:
-        settings = replace(QUICK, claims="test_campaign:NOTHING")
+        settings = replace(QUICK, claims="planted_claims:NOTHING")
         with Store(None, settings, []) as store, pytest.raises(ProcessError, match="end before they take up"):
             conduct(settings, store, 1)
 
     def test_a_killed_coordinator_loses_nothing(self, tmp_path: Path) -> None:
-        path, settings = tmp_path / "campaign.sqlite", replace(QUICK, claims="test_campaign:SLOW")
+        path, settings = tmp_path / "campaign.sqlite", replace(QUICK, claims="planted_claims:SLOW")
         code = (
             "from test_campaign import *\n"
             f"settings = replace(QUICK, claims={settings.claims!r})\n"
@@ -335,7 +259,7 @@ class TestFile:
         ("changed", "word"),
         [({"seed": 1}, "seed"), ({"scenes": 7}, "scenes"), ({"audit": True}, "audit"),
          ({"timeout": 9}, "timeout"), ({"strategies": ("seed-spreader",)}, "strategies"),
-         ({"claims": "test_campaign:FALSE"}, "claims"), ({"source": SceneSource("gears")}, "source"),
+         ({"claims": "planted_claims:FALSE"}, "claims"), ({"source": SceneSource("gears")}, "source"),
          ({"source": SceneSource("gears", 5, 6)}, "source")],
     )  # fmt: skip
     def test_of_another_campaign_is_refused(self, tmp_path: Path, changed: Any, word: str) -> None:
@@ -384,7 +308,7 @@ def planted(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def _with_claims(make: Callable[..., None]) -> Callable[..., None]:
     def init(self: Settings, *values: object, **named: object) -> None:
-        make(self, *values, **{"claims": "test_campaign:FALSE", **named})
+        make(self, *values, **{"claims": "planted_claims:FALSE", **named})
 
     return init
 
@@ -403,7 +327,7 @@ class TestCommand:
         assert "verify: 4 of 4 scenes, 0 not passed" in done.output
         read = parquet.read_table(table)
         assert read.schema.metadata[b"seed"] == b"0"
-        settings = replace(QUICK, scenes=4, claims="test_campaign:FALSE")
+        settings = replace(QUICK, scenes=4, claims="planted_claims:FALSE")
         with opened(replace(settings, timeout=120.0), out) as store:
             rows = store.rows("SELECT strategy, seed, claim, outcome, ratio FROM findings ORDER BY 2, 1, 3")
         names = ("strategy", "seed", "claim", "outcome", "ratio")

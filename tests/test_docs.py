@@ -11,6 +11,7 @@ import json
 import re
 import sys
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from types import ModuleType
 
@@ -35,7 +36,9 @@ NAMED = re.compile(
 
 @pytest.fixture(scope="module")
 def extension(monkeypatch_module: pytest.MonkeyPatch) -> ModuleType:
-    return importlib.import_module("claims_page")
+    module = importlib.import_module("claims_page")
+    monkeypatch_module.setattr(module, "frames_of", partial(module.frames_of, fine=0))
+    return module
 
 
 @pytest.fixture(scope="module")

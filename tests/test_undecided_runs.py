@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pickle
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ import pytest
 import exactacq as xa
 from exactacq import cli
 from exactacq.auditing import audit as auditing
+from exactacq.output.animation import frames
 from exactacq.sensing.event import Ending
 from exactacq.sensing.memory import Memory
 
@@ -69,6 +71,7 @@ def test_the_command_line_tells_what_there_is(
     undecided_after(monkeypatch, 5)
     figure, trace, page = (tmp_path / f"run.{kind}" for kind in ("svg", "json", "html"))
     wanted = ["--figure", str(figure), "--trace", str(trace), "--animate", str(page), "--audit"]
+    monkeypatch.setattr(frames, "frames_of", partial(frames.frames_of, limit=9, fine=0))
     assert cli.main(["explore", STRATEGIES[name][1], "--strategy", name, *wanted]) == 3
     monkeypatch.undo()
     out, err = capsys.readouterr()

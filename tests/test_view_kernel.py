@@ -11,7 +11,7 @@ import pytest
 from flint import fmpq
 from hypothesis import given
 from hypothesis import strategies as st
-from nightly import examples
+from nightly import NIGHTLY, examples
 from strategies import degenerate_terrain, random_terrain
 
 from exactacq import Circle, Outline, Point, Polygon, Real, Scene, isovist, kernel
@@ -127,7 +127,7 @@ def test_special_scenes(name: str) -> None:
     """From corners, middles of edges, lines of edges, centres, and places that two lines of edges share."""
     scene, radii = SPECIAL[name]
     rng = Random(1)
-    for _ in range(2):
+    for _ in range(2 if NIGHTLY else 1):
         for place in places(scene, rng):
             for radius in radii:
                 compare(scene, place, radius)

@@ -6,10 +6,10 @@ import re
 from pathlib import Path
 
 import pytest
+from gallery_runs import gallery_run
 
 import exactacq as xa
 from exactacq import cli
-from exactacq.files import gallery
 from exactacq.output import vocabulary
 from exactacq.output.animation.frames import frames_of
 from exactacq.output.animation.page import page
@@ -26,8 +26,7 @@ REMARK = r"R [=≈] .*|#1, #2, \.\.\.: order of visits|\d+ labels? left out|walk
 
 def runs() -> list[Run]:
     """Runs that miss something, divert, stop early, or are cut by the border, and a complete one."""
-    sightseen = [xa.sightseer(gallery.scene(name)) for name in ("circles", "m4", "m9")]
-    return sightseen + [xa.seed_spreader(gallery.scene(name)) for name in ("m14", "m15", "e3", "case2")]
+    return [gallery_run(name) for name in ("circles", "m4", "m9", "m14", "m15", "e3", "case2")]
 
 
 def test_legends_have_words_of_the_vocabulary_only() -> None:

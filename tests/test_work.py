@@ -15,6 +15,7 @@ from typing import Any
 
 import pytest
 from flint import fmpq
+from nightly import NIGHTLY
 
 import exactacq as xa
 from exactacq.files.octagons import random_octagons
@@ -26,6 +27,7 @@ from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.visibility.sensor_range import Range
 
 HALF, QUARTER = fmpq(1, 2), fmpq(1, 4)
+SIZES = (6, 12) if NIGHTLY else (4, 8)
 GROWTH = 2.4
 """Work in a scene of twice the size, at most: 2, and what comes at its ends."""
 
@@ -78,13 +80,13 @@ def is_linear(small: Counter[str], large: Counter[str], *files: str) -> bool:
 
 @pytest.mark.parametrize("lookahead", [True, False])
 def test_a_sweep_is_not_quadratic(lookahead: bool) -> None:
-    small, large = (calls(lambda n=n: xa.seed_spreader(bars(n), lookahead=lookahead)) for n in (6, 12))
+    small, large = (calls(lambda n=n: xa.seed_spreader(bars(n), lookahead=lookahead)) for n in SIZES)
     spreader = "strategies/seed_spreader/losses.py", "strategies/seed_spreader/robot.py"
     assert is_linear(small, large, *spreader, "sensing/memory.py", "sensing/map.py")
 
 
 def test_a_tour_is_not_quadratic() -> None:
-    small, large = (calls(lambda n=n: xa.sightseer(comb(n))) for n in (6, 12))
+    small, large = (calls(lambda n=n: xa.sightseer(comb(n))) for n in SIZES)
     assert is_linear(
         small,
         large,

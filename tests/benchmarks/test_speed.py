@@ -47,12 +47,13 @@ def test_length_of_a_run(benchmark: object, n: int) -> None:
 
 def test_one_link_with_a_free_closest_pair(benchmark: object) -> None:
     """v of an obstacle and its nearest neighbour, which nothing stands between; another pair each round."""
-    scene = random_octagons(100, SEED)
+    scene = random_octagons(30 if benchmark.disabled else 100, SEED)
     pairs = iter(nearest_pairs(Links(scene, scene.radius)))
     links = Links(scene, scene.radius)
     links.between(*next(pairs))  # the spatial index is built once a scene
 
-    found = benchmark.pedantic(links.between, setup=lambda: (next(pairs), {}), rounds=40)
+    rounds = 1 if benchmark.disabled else 40
+    found = benchmark.pedantic(links.between, setup=lambda: (next(pairs), {}), rounds=rounds)
     assert found is not None
 
 
@@ -68,4 +69,5 @@ def nearest_pairs(links: Links) -> list[tuple[int, int]]:
 
 def test_random_octagons(benchmark: object) -> None:
     """Making and validating a scene of 1000 obstacles."""
-    assert len(benchmark.pedantic(random_octagons, (1000, SEED), rounds=1).shapes) == 1000
+    n = 100 if benchmark.disabled else 1000
+    assert len(benchmark.pedantic(random_octagons, (n, SEED), rounds=1).shapes) == n
