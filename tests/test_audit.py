@@ -446,7 +446,7 @@ class TestMaps:
         run = lying(at_the_start([(1, Q(1, 2), Q(1, 2)), (3, Q(1, 8), Q(7, 8))]))
         refused(run, "knows the point (6, 0)")
 
-    @pytest.mark.parametrize("size", [Q(1, 10), Q(1, 10**5), Q(1, 10**9)])
+    @pytest.mark.parametrize("size", some([Q(1, 10**9), Q(1, 10**5), Q(1, 10)], 1))
     def test_a_part_is_longer_or_shorter(self, size: Fraction) -> None:
         for shift, words in ((size, "knows the point (2, -1."), (-size, "lacks the point (2, -1.")):
             refused(lying(at_the_start([(3, Q(1, 8), Q(7, 8) + shift)])), "the map at event", words)

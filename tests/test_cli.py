@@ -113,7 +113,8 @@ def test_both_strategies_side_by_side(capsys: pytest.CaptureFixture[str], tmp_pa
     alone = answered(capsys, "compare", "figure4")
     assert "no sightseer: obstacle O1 meets the terrain's border" in alone
     assert "Seed Spreader Strategy" in alone
-    assert "no seed-spreader: the Seed Spreader sweeps a rectangle" in answered(capsys, "compare", "plate")
+    room = scene(tmp_path, circle(3, -3, 1), enclosure=[[-9, -9], [9, -9], [0, 9]])
+    assert "no seed-spreader: the Seed Spreader sweeps a rectangle" in answered(capsys, "compare", room)
 
 
 def test_numbers_are_exact(capsys: pytest.CaptureFixture[str]) -> None:

@@ -14,6 +14,7 @@ from drawn_scenes.kinds import VARIANTS, Kind, a_disc
 from drawn_scenes.plane import box, edges, lines, minus, rounds, square, vertices
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
+from nightly import some
 from oracles import Disc, Room
 from strategies import ONE, ZERO, Pair, Terrain, build
 
@@ -52,7 +53,7 @@ def test_nothing_is_rejected(subject: Subject) -> None:
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
 def test_kinds_are_legal(kind: Kind) -> None:
     """All variants, in the corners of what sizes are drawn."""
-    for width, height in ((1, 1), (4, 1), (1, 3), (4, 3)):
+    for width, height in some(((1, 1), (4, 1), (1, 3), (4, 3)), 2):
         for variant in range(VARIANTS):
             group = kind(width, height, variant)
             scene = build(group.shapes)

@@ -22,7 +22,7 @@ import exactacq as xa
 from exactacq.files.loops import nesting
 from exactacq.files.repairs import flattened
 
-COUNT = int(os.environ.get("EXACTACQ_MUTATIONS", "60" if NIGHTLY else "20"))
+COUNT = int(os.environ.get("EXACTACQ_MUTATIONS", "60" if NIGHTLY else "12"))
 SECONDS = 20
 """More than any file may take, on a busy machine too; most take milliseconds."""
 LONGEST = 1000

@@ -14,6 +14,7 @@ import shapely
 from flint import fmpq
 from hypothesis import given
 from hypothesis import strategies as st
+from nightly import some
 from shapely.geometry import shape
 
 import exactacq as xa
@@ -101,7 +102,7 @@ class TestShapes:
         assert sliver.__geo_interface__["coordinates"] == (((1.0, 1.0), (3.0, 1.0), (1.0, 2.0), (1.0, 1.0)),)
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", some(SCENES, 3))
 def test_a_scene_and_all_that_is_known_of_it(name: str) -> None:
     run = explored(name)
     scene, end, view = run.scene, run.map, xa.isovist(run.scene, run.start, run.radius)

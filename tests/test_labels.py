@@ -112,8 +112,7 @@ def test_far_labels_have_leader_lines() -> None:
     ],
 )
 def test_labels_can_be_chosen(labels: str, present: set[str], absent: set[str], tmp_path: Path) -> None:
-    run = xa.sightseer(xa.load("circles"))
-    drawn = xa.figure(run, labels=labels)
+    drawn = xa.figure(gallery_run("circles"), labels=labels)
     shown = {word for word, _ in boxes(drawn)}
     assert present <= shown and absent.isdisjoint(shown)
     legend = [t.get_text() for t in drawn.legends[0].get_texts()]

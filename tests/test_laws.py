@@ -20,7 +20,7 @@ from drawn_scenes import STRAIGHT, terrains
 from drawn_scenes.kinds import a_box, a_diamond, a_hook, a_triangle, on_pins
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from nightly import examples
+from nightly import examples, some
 from oracles import Disc, Room
 from strategies import EPS, Similarity, Terrain, box, reversed_order, split_point
 
@@ -124,7 +124,7 @@ MOVES = (
 
 def law_of_similarity(terrain: Terrain) -> None:
     before = weights(terrain)
-    for move in MOVES:
+    for move in some(reversed(MOVES), 3):
         after = weights(move.terrain(terrain))
         found = differences({key: value * move.scale for key, value in before.items()}, after)
         assert not found, (found, move)

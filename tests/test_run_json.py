@@ -79,7 +79,7 @@ def room() -> Run:
     return sightseer(Scene(inside, start=(0, 0), enclosure=wall), radius=Fraction(9, 2))
 
 
-@pytest.mark.parametrize("name", some(reversed([*gallery.names()]), 10))
+@pytest.mark.parametrize("name", some(reversed([*gallery.names()]), 7))
 def test_gallery_runs_come_back(name: str, tmp_path: Path) -> None:
     run = gallery_run(name)
     path = tmp_path / "run.json"

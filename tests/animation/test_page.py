@@ -114,7 +114,7 @@ def test_progress_of_frames_grows_to_the_total(circles: Run) -> None:
 
 
 def test_a_page_with_many_events_stays_small() -> None:
-    name, most = ("figure2", 1_000_000) if NIGHTLY else ("case3", 300_000)
+    name, most = ("figure2", 1_000_000) if NIGHTLY else ("m25", 300_000)
     run = gallery_run(name)
     assert len(page(run, animation.frames_of(run)).encode()) < most
 
