@@ -46,14 +46,14 @@ RUNS: dict[str, Callable[[], xa.Run]] = {
     "octagons": lambda: xa.sightseer(random_octagons(5, 1), 5),
     **{
         f"random sightseer {seed}": (lambda s=seed: xa.sightseer(random_scene(Subject.SIGHTSEER, s)))
-        for seed in some(range(10), 4)
+        for seed in some(range(10), 3)
     },
     **({"spreader figure4": spreader("figure4")} if NIGHTLY else {"spreader case2": spreader("case2")}),
     "spreader m25, what is visible": spreader("m25", target="visible"),
     "spreader m25, without looking ahead": spreader("m25", lookahead=False),
     **{
         f"random spreader {seed}": (lambda s=seed: xa.seed_spreader(random_scene(Subject.SEED_SPREADER, s)))
-        for seed in some(range(10), 4)
+        for seed in some(range(10), 3)
     },
 }
 

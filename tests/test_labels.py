@@ -104,12 +104,15 @@ def test_far_labels_have_leader_lines() -> None:
 
 @pytest.mark.parametrize(
     ("labels", "present", "absent"),
-    [
-        ("all", {"O1", "#1", "S", "T"}, set()),
-        ("names", {"O1", "O2", "S", "T"}, {"#1", "#2"}),
-        ("numbers", {"#1", "#2", "S", "T"}, {"O1", "O2"}),
-        ("none", set(), {"O1", "#1", "S", "T", "R = 20"}),
-    ],
+    some(
+        [
+            ("names", {"O1", "O2", "S", "T"}, {"#1", "#2"}),
+            ("all", {"O1", "#1", "S", "T"}, set()),
+            ("numbers", {"#1", "#2", "S", "T"}, {"O1", "O2"}),
+            ("none", set(), {"O1", "#1", "S", "T", "R = 20"}),
+        ],
+        2,
+    ),
 )
 def test_labels_can_be_chosen(labels: str, present: set[str], absent: set[str], tmp_path: Path) -> None:
     drawn = xa.figure(gallery_run("circles"), labels=labels)

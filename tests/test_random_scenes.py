@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Iterator
+from functools import cache
 from hashlib import sha256
 
 import pytest
@@ -26,19 +27,24 @@ DIGESTS = {
 """Of the first scenes: a change of the generator changes all stored seeds, and must be meant."""
 
 
+@cache
+def first_scenes(subject: Subject) -> list[Scene]:
+    return [random_scene(subject, seed) for seed in range(COUNT)]
+
+
 @pytest.fixture(scope="module", params=list(Subject), ids=lambda subject: subject.value)
 def drawn(request: pytest.FixtureRequest) -> tuple[Subject, list[Scene]]:
-    return request.param, [random_scene(request.param, seed) for seed in range(COUNT)]
+    return request.param, first_scenes(request.param)
 
 
 @pytest.fixture(scope="module")
 def seen() -> list[Scene]:
-    return [random_scene(Subject.SIGHTSEER, seed) for seed in range(COUNT)]
+    return first_scenes(Subject.SIGHTSEER)
 
 
 @pytest.fixture(scope="module")
 def swept() -> list[Scene]:
-    return [random_scene(Subject.SEED_SPREADER, seed) for seed in range(COUNT)]
+    return first_scenes(Subject.SEED_SPREADER)
 
 
 def written(scene: Scene) -> str:

@@ -26,7 +26,7 @@ from exactacq.geometry.curves import Arc
 from exactacq.study.claims.model import Subject
 
 Q = Fraction
-EXAMPLES = examples(3, 100)
+EXAMPLES = examples(2, 100)
 DIGITS = 40
 LARGEST = 10**4
 """Radius of an arc up to which the oracle's floats are good to its margin."""
