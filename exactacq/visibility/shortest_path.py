@@ -15,7 +15,7 @@ from exactacq.scene.ports import SVG, made
 from exactacq.scene.scene import Scene
 from exactacq.scene.validation import place_text
 from exactacq.visibility.scene_tables import SceneTables, place_in
-from exactacq.visibility.taut_search import Label, PathSearch, Way
+from exactacq.visibility.taut_search import Label, PathSearch, TautWay
 
 BITS = 64
 
@@ -98,7 +98,7 @@ def shortest_path(scene: Scene, start: object, end: object) -> ShortestPath | No
     return ShortestPath(scene, *ends, tuple(tree.chosen()), goal.length, tree.count)
 
 
-_Link: TypeAlias = "tuple[Way, Label]"
+_Link: TypeAlias = "tuple[TautWay, Label]"
 _Spot: TypeAlias = "tuple[Label, _Link | None, int]"
 """A label, or how many pieces of the way to the next label are walked."""
 

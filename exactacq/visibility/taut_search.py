@@ -34,7 +34,7 @@ BITS = 64
 
 
 @dataclass(frozen=True, slots=True)
-class Way:
+class TautWay:
     """The pieces from a label to the next, with their lengths."""
 
     source: Label
@@ -52,7 +52,7 @@ class Label:
     entry: int
     contact: Point
     tail: int
-    ways: list[Way]
+    ways: list[TautWay]
     ball: arb
     turn: float = 0.0
     slack: float = 0.0
@@ -268,7 +268,7 @@ class PathSearch:
         ball = label.ball
         for _, length in pieces:
             ball = ball + length.ball(BITS)
-        way = Way(label, pieces)
+        way = TautWay(label, pieces)
         self._arrive(Label(entry, contact, tail, [way], ball, turn, slack, beyond))
 
     def _arrive(self, label: Label) -> None:
@@ -296,7 +296,7 @@ class PathSearch:
         else:
             self._push(self._tries(label))
 
-    def _number(self, way: Way) -> tuple[int, int]:
+    def _number(self, way: TautWay) -> tuple[int, int]:
         """What tells ways to one label apart: the peg that they come from, and its label if it is an arc."""
         peg, _ = self.pegs.entries[way.source.entry]
         return peg.number, id(way.source) if peg.arc is not None else len(way.pieces)
@@ -311,6 +311,6 @@ class PathSearch:
         if not pieces:
             return pieces is not None and label.compare(other) > 0
         (piece,) = pieces
-        way = Way(other, ((piece, piece.length),))
+        way = TautWay(other, ((piece, piece.length),))
         longer = Label(label.entry, label.contact, -1, [way], other.ball + piece.length.ball(BITS))
         return label.compare(longer) > 0
