@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 from random import Random
 
@@ -151,6 +152,43 @@ def test_circles_in_a_row_are_joined_by_two_mirrored_chords(circles: list[tuple]
         for point, (center, r) in ((chord.start, circles[0]), (chord.end, circles[2])):
             distance = (point - Point(*center)).norm_sq()
             assert float(distance) == pytest.approx(float(r) ** 2, rel=1e-14)
+
+
+@pytest.mark.parametrize("parts", [False, True], ids=["whole circles", "circles in arcs"])
+@pytest.mark.parametrize(("x", "y"), [(1, 0), (4, 3)])
+def test_chords_past_two_mirrored_corners_are_equal(x: int, y: int, parts: bool) -> None:
+    """A square hides a disc from another: past one corner or the other, the ways are mirror images.
+
+    They were compared as roots of two polynomials, which was undecided. With (4, 3) the axis
+    is not one of coordinates.
+    """
+    size = math.isqrt(x * x + y * y)
+    c, s = Fraction(x, size), Fraction(y, size)
+
+    def turned(u: object, v: object) -> tuple[Fraction, Fraction]:
+        u, v = Fraction(u), Fraction(v)
+        return c * u - s * v, s * u + c * v
+
+    def disc(u: int, r: int) -> object:
+        if not parts:
+            return Circle(turned(u, 0), r)
+        return Outline([(*turned(u + r, 0), 1), (*turned(u - r, 0), 1)])
+
+    square = Polygon([turned(-1, -1), turned(1, -1), turned(1, 1), turned(-1, 1)])
+    scene = Scene([disc(5, 2), square, disc(-6, 1)])
+    found = visibility_graph(scene, 20).edges[0, 2]["link"].shortest
+    assert len(found) == 2
+    for chord in found:
+        ends = [(float(p.x), float(p.y)) for p in (chord.start, chord.end)]
+        for (px, py), u, r in zip(ends, (5, -6), (2, 1), strict=True):
+            assert math.hypot(px - float(c * u), py - float(s * u)) == pytest.approx(r, rel=1e-12)
+        assert float(chord.length) == pytest.approx(math.dist(*ends), rel=1e-12)
+        (ax, ay), (bx, by) = ends
+        corners = [turned(u, v) for u in (-1, 1) for v in (-1, 1)]
+        sides = [(bx - ax) * (float(v) - ay) - (by - ay) * (float(u) - ax) for u, v in corners]
+        assert min(map(abs, sides)) < 1e-9 and (min(sides) > -1e-9 or max(sides) < 1e-9)
+    one, other = found
+    assert one.length == other.length
 
 
 def test_a_way_from_afar_is_cut_at_the_corner_that_it_touches() -> None:

@@ -231,7 +231,7 @@ class Links:
         bounds = box_gaps(centers, self.table.hulls[i], sizes) + box_gaps(centers, self.table.hulls[j], sizes)
         order = count()
         heap: list[tuple[float, int, tuple[Pencil, Cell, bool]]] = []
-        mirrors: dict[tuple[Hashable, ...], Mirrors] = {}
+        mirrors: dict[tuple[int, ...], Mirrors] = {}
         close = np.flatnonzero(bounds <= best.guess)
         # A chord lies in the convex hull of what it joins, and with it the place where a feature holds it.
         margins = sizes[close] + 4 * self.table.roundoff
@@ -250,8 +250,8 @@ class Links:
                     best.offer(chord.length, chord if ends == (i, j) else chord.reversed())
         while heap and heap[0][0] <= best.guess:
             _, _, (sweep, cell, flip) = heappop(heap)
-            pair = sweep.sector.center, *sorted((cell.behind or 0, cell.ahead or 0))
-            kept = mirrors.setdefault(pair, Mirrors())
+            circles = (self.table.circles.get(e, e) for e in (cell.behind, cell.ahead) if e is not None)
+            kept = mirrors.setdefault(tuple(sorted(circles)), Mirrors())
             for chord in self._cell_chords(sweep, cell, kept):
                 best.offer(chord.length, chord.reversed() if flip else chord)
 

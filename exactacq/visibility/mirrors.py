@@ -1,14 +1,16 @@
 """Mirrored chords: equal lengths recognised by symmetry, where comparing them would take long.
 
-If the centres of a feature and of the two arcs that a chord ends on lie on one line, reflection in it maps
-all three circles to themselves. A stationary chord's mirror image is then stationary too, so its parameter
-is a root of the polynomial that belongs to the sector it falls in. If balls leave exactly one of that
-polynomial's roots there, it is that root: the chord is then built as the mirror image of the one met
-first, so that lengths, and coordinates along an axis, are equal term by term.
+A reflection in the line through the centres of the two arcs that a chord ends on maps both circles to
+themselves. If it maps one feature to another, or to itself, the mirror image of a stationary chord of the
+one is a stationary chord of the other: its parameter is a root of the polynomial that belongs to the sector
+it falls in. If balls leave exactly one of that polynomial's roots there, it is that root. The chord is then
+built as the mirror image of the one met first, so that lengths, and coordinates along an axis, are equal
+term by term.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from exactacq.geometry.curves import Arc, Curve
@@ -22,9 +24,9 @@ BITS = 256
 
 @dataclass(slots=True)
 class Mirrors:
-    """The stationary chords of one feature and one pair of edges that were met so far."""
+    """The stationary chords between two circles that were met so far."""
 
-    known: list[tuple[Sector, Real, list[Real], Chord, Curve]] = field(default_factory=list)
+    known: list[tuple[Sector, Real, list[Real], Chord]] = field(default_factory=list)
 
     def chord(
         self, sector: Sector, t: Real, candidates: list[Real], chord: Chord, ends: tuple[Curve, Curve]
@@ -33,26 +35,38 @@ class Mirrors:
 
         *candidates* are all roots of the sector's polynomial, *t* one of them, *ends* the chord's edges.
         """
-        axis = _axis(sector, ends)
-        if axis is None:
+        behind, ahead = ends
+        if not (isinstance(behind, Arc) and isinstance(ahead, Arc)):
             return chord
-        center = Point(*sector.center)
-        for other, root, roots, met, behind in self.known:
-            image = _mirrored(sector, t, axis, other)
-            if image is not None and _is_only(image, root, roots):
-                p, q = (center + _reflected(point - center, axis) for point in (met.start, met.end))
-                return Chord(p, q, met.length) if behind is ends[0] else Chord(q, p, met.length)
-        self.known.append((sector, t, candidates, chord, ends[0]))
+        for other, root, roots, met in self.known:
+            for axis in _axes(sector, other, behind.center, ahead.center):
+                image = _mirrored(sector, t, axis, other)
+                if image is not None and _is_only(image, root, roots):
+                    center = behind.center
+                    p, q = (center + _reflected(point - center, axis) for point in (met.start, met.end))
+                    # A mirror turns lines round: their obstacle, on the left, comes to the right.
+                    return Chord(q, p, met.length)
+        self.known.append((sector, t, candidates, chord))
         return chord
 
 
-def _axis(sector: Sector, ends: tuple[Curve, Curve]) -> Point | None:
-    """Direction of the line through the three centres, None if there is none or more than one."""
-    center = Point(*sector.center)
-    offsets = [end.center - center for end in ends if isinstance(end, Arc)]
-    if len(offsets) < 2 or offsets[0].cross(offsets[1]).sign() != 0:
-        return None
-    return next((offset for offset in offsets if offset.norm_sq().sign() > 0), None)
+def _axes(sector: Sector, other: Sector, one: Point, two: Point) -> Iterator[Point]:
+    """The directions of lines through two centres in which features of two sectors are mirror images.
+
+    A feature is a corner or a circle. Through one common centre there is one line for each two corners that
+    are equally far from it.
+    """
+    if sector.round != other.round:
+        return
+    if sector.round and Point(*sector.base).norm_sq() != Point(*other.base).norm_sq():
+        return
+    here, there = Point(*sector.center) - one, Point(*other.center) - one
+    if one != two:
+        if _reflected(here, two - one) == there:
+            yield two - one
+    elif here.norm_sq() == there.norm_sq() and here.norm_sq().sign():
+        axis = here + there
+        yield axis if axis.norm_sq().sign() else here.left()
 
 
 def _mirrored(sector: Sector, t: Real, axis: Point, other: Sector) -> Real | None:
