@@ -16,6 +16,11 @@ from types import TracebackType
 from typing import Any
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+KEYS = {
+    "Tab": 9, "Enter": 13, "Escape": 27, " ": 32, "End": 35, "Home": 36,
+    "ArrowLeft": 37, "ArrowUp": 38, "ArrowRight": 39, "ArrowDown": 40,
+}  # fmt: skip
+"""Numbers of keys without which a page does not act on them as it does for a user."""
 PATIENCE = 60.0
 """Seconds to wait for an answer: a busy machine takes long to start a browser."""
 
@@ -77,19 +82,23 @@ class Chromium:
 
     def send(self, method: str, **parameters: Any) -> Any:
         """Call a method of the protocol and return its result; RuntimeError if it fails."""
-        self._sent += 1
-        message: dict[str, Any] = {"id": self._sent, "method": method, "params": parameters}
-        if self._session is not None:
-            message["sessionId"] = self._session
-        assert self._process.stdin is not None
-        self._process.stdin.write(json.dumps(message).encode() + b"\0")
-        number = self._sent
+        number = self._begin(method, **parameters)
         for answer in self._messages():
             if answer.get("id") == number:
                 if "error" in answer:
                     raise RuntimeError(f"{method}: {answer['error']}")
                 return answer["result"]
         raise RuntimeError(f"{method}: no answer from the browser")
+
+    def _begin(self, method: str, **parameters: Any) -> int:
+        """Call a method of the protocol; the number by which its answer is known."""
+        self._sent += 1
+        message: dict[str, Any] = {"id": self._sent, "method": method, "params": parameters}
+        if self._session is not None:
+            message["sessionId"] = self._session
+        assert self._process.stdin is not None
+        self._process.stdin.write(json.dumps(message).encode() + b"\0")
+        return self._sent
 
     def _messages(self) -> Iterator[dict[str, Any]]:
         """What the browser says, until it says nothing for too long; events are noted on the way."""
@@ -115,6 +124,8 @@ class Chromium:
             self.complaints.append(json.dumps(said["args"]))
         elif method == "Log.entryAdded":
             self.complaints.append(said["entry"]["text"])
+        elif method == "Page.javascriptDialogOpening":  # A page that asks whether to leave it is left.
+            self._begin("Page.handleJavaScriptDialog", accept=True)
         elif method == "Network.requestWillBeSent":
             self.requests.append(said["request"]["url"])
         elif method == "Network.loadingFailed":
@@ -159,7 +170,7 @@ class Chromium:
     def press(self, key: str, code: str | None = None, text: str = "") -> None:
         """Press and release a key."""
         common: dict[str, Any] = {"key": key, "code": code or key}
-        number = {" ": 32, "Enter": 13, "End": 35, "Home": 36, "ArrowLeft": 37, "ArrowRight": 39}.get(key)
+        number = KEYS.get(key)
         if number is not None:
             common["windowsVirtualKeyCode"] = number
         if text:

@@ -44,7 +44,7 @@ def write(folder: Path) -> None:
             context = typer.Context(command, info_name=name, parent=parent)
             lines += section(name, command, context)
             for example in EXAMPLES[name]:
-                lines += told(example, *printed(example))
+                lines += told(example, *(printed(example) if example.ends else (0, "")))
             lines += [f"[Exit statuses](#exit-statuses): {SHORTLY}.", ""]
     (folder / "commands.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
 

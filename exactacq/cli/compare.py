@@ -18,7 +18,7 @@ from exactacq.cli.arguments import (
     scene_of,
 )
 from exactacq.cli.options import reads_files
-from exactacq.cli.runs import at_corner, explored, watched
+from exactacq.cli.runs import explored, watched
 from exactacq.errors import FormatError, InvalidScene
 from exactacq.output.vocabulary import Labels
 from exactacq.strategies.options import Strategy
@@ -43,6 +43,7 @@ def compare(
     from exactacq.files.whole_files import FIGURES, check_output
     from exactacq.output.report import comparison, console, run_report
     from exactacq.output.report_data import comparison_data, text_of
+    from exactacq.scene.bounding import at_corner
 
     range_ = range_of(radius)
     if figure is not None and same_file(check_output(figure, FIGURES), scene):

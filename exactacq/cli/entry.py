@@ -18,6 +18,7 @@ from exactacq.cli.gallery import gallery
 from exactacq.cli.isovist import isovist
 from exactacq.cli.manual import epilog, statuses
 from exactacq.cli.path import path
+from exactacq.cli.play import play
 from exactacq.errors import ExactacqError, InvalidScene, Undecided
 from exactacq.study.campaign.command import verify
 from exactacq.study.search.command import search
@@ -56,7 +57,7 @@ def _top(
         print(context.get_help())
 
 
-for command in (explore, compare, check, gallery, convert, isovist, path, verify, search):
+for command in (explore, compare, play, check, gallery, convert, isovist, path, verify, search):
     # A point may begin with a minus sign, so it must not be taken for an option that there is not.
     settings = {"ignore_unknown_options": command is path}
     app.command(epilog=epilog(command.__name__), context_settings=settings)(command)

@@ -23,7 +23,7 @@ from exactacq.cli.arguments import (
     scene_of,
 )
 from exactacq.cli.options import reads_files
-from exactacq.cli.runs import at_corner, explored, watched
+from exactacq.cli.runs import explored, watched
 from exactacq.errors import AuditError, ExactacqError, FormatError, Undecided
 from exactacq.output.vocabulary import Labels
 from exactacq.strategies.options import Strategy, TargetChoice
@@ -77,6 +77,7 @@ def explore(
     """
     from exactacq.files.whole_files import FIGURES, FILMS, PAGES, TRACES, check_output, write_whole
     from exactacq.output.report import console, run_report
+    from exactacq.scene.bounding import at_corner
 
     range_ = range_of(radius)
     if at is not None and figure is None:

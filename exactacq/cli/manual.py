@@ -20,6 +20,8 @@ class Example(NamedTuple):
 
     line: str
     words: str
+    ends: bool = True
+    """Whether it ends by itself, without control-C."""
 
 
 EXAMPLES = {
@@ -42,6 +44,14 @@ EXAMPLES = {
         Example(
             "compare circles --terrain bbox:2",
             "A scene without a terrain gets one: the rectangle about what there is, 2 units wider.",
+        ),
+    ),
+    "play": (
+        Example("play", "Draw a scene in the browser, and watch the robot explore it.", ends=False),
+        Example(
+            "play figure3 --no-browser --port 8421",
+            "Begin with a scene of the gallery, and open the address that is printed oneself.",
+            ends=False,
         ),
     ),
     "check": (

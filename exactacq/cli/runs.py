@@ -48,11 +48,3 @@ def watched(what: str) -> Iterator[Progress | None]:
     with progress_bar(what) as bar:
         task = bar.add_task("", total=None)
         yield lambda done, total: bar.update(task, completed=done, total=total)
-
-
-def at_corner(scene: Scene) -> Scene:
-    """The scene with its start in the SW corner of what the Seed Spreader sweeps, if there is such."""
-    from exactacq.scene.bounding import rectangular_room
-
-    terrain = scene.terrain or rectangular_room(scene)
-    return scene if terrain is None else scene.replace(start=terrain.south_west)

@@ -22,8 +22,16 @@ VIEW, HIT, TREE, AWAY, AWAY_AGAIN = "#3b7dd8", "#d6273d", "#f6b64b", "#e8590c", 
 """View, range and robot; hit points and frontier; links; diversions, and what of them is walked again."""
 SHADE = 0.16
 """How opaque the view is."""
-SCALE, SCALE_END = "viridis", 0.94
-"""Matplotlib's scale of colours along the path, up to this share: the last of it is too pale on paper."""
+SCALE, SCALE_END, SCALE_END_DARK = "viridis", 0.94, 0.7
+"""Matplotlib's scale of colours along the path, up to this share: the last of it is too pale on paper. On
+dark ground the first of it is too dark, and this share is left from the other end."""
+DARK = {
+    "INK": "#e8eaed", "SOFT": "#a3a9b1", "PAPER": "#16181b", "GROUND": "#1c1f23", "LINE": "#3a3f46",
+    "FILL": "#4a463e", "EDGE": "#8f887b", "FAINT": "#26272a", "PARTIAL": "#35332f",
+    "MISSED": "#e08a68", "MISSED_FILL": "#43302a", "VIEW": "#6ba4f5", "HIT": "#ff6b78", "TREE": "#f6b64b",
+    "AWAY": "#ff8a4c", "AWAY_AGAIN": "#8a5334",
+}  # fmt: skip
+"""The same on dark ground, for those who want it."""
 
 
 class Word(StrEnum):
@@ -79,9 +87,10 @@ class Labels(StrEnum):
         raise FormatError(f"labels: {', '.join(cls)}, not {shown(value)}")
 
 
-def colours() -> dict[str, str]:
-    """All colours by their names."""
-    return {name: value for name, value in globals().items() if str(value).startswith("#")}
+def colours(*, dark: bool = False) -> dict[str, str]:
+    """All colours by their names, on light or on dark ground."""
+    light = {name: value for name, value in globals().items() if str(value).startswith("#")}
+    return {name: DARK[name] for name in light} if dark else light
 
 
 def rgb(colour: str) -> tuple[int, int, int]:

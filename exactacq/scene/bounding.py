@@ -58,6 +58,12 @@ def rectangular_room(scene: Scene) -> Terrain | None:
     return Terrain(east - west, north - south, (west, south))
 
 
+def at_corner(scene: Scene) -> Scene:
+    """The scene with its start in the SW corner of what the Seed Spreader sweeps, if there is such."""
+    terrain = scene.terrain or rectangular_room(scene)
+    return scene if terrain is None else scene.replace(start=terrain.south_west)
+
+
 def _extent(edges: Sequence[Curve]) -> tuple[fmpq, fmpq, fmpq, fmpq]:
     """Bounds of the coordinates: west, south, east, north."""
     points = [_rational(edge.start) for edge in edges]

@@ -45,6 +45,15 @@ class ProcessError(ExactacqError):
     """Processes cannot be started: they end before they take up a task."""
 
 
+def program(module: str) -> tuple[list[str], dict[str, str]]:
+    """The command line and the environment that run a module of this package as a process.
+
+    It finds what this process finds, and nothing else that lies about here (-P).
+    """
+    paths = os.pathsep.join(path or os.getcwd() for path in sys.path)
+    return [sys.executable, "-P", "-m", module], {**os.environ, "PYTHONPATH": paths}
+
+
 class Lost(NamedTuple):
     """What stands for a result that never came: processes ``died`` over it, or it was not there in time."""
 
@@ -172,14 +181,8 @@ class _Process:
         self.job: _Job | None = None
         self.ready, self.given, self.began = False, 0, monotonic()
         self.deadline = self.began + START
-        # The processes must find what this one finds, and nothing else that lies about here (-P).
-        paths = os.pathsep.join(path or os.getcwd() for path in sys.path)
-        self._process = subprocess.Popen(
-            [sys.executable, "-P", "-m", "exactacq.study.processes"],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            env={**os.environ, "PYTHONPATH": paths},
-        )
+        line, environment = program("exactacq.study.processes")
+        self._process = subprocess.Popen(line, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment)
         Thread(target=self._listen, args=(inbox,), daemon=True).start()
         self._send(make)
 

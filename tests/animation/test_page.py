@@ -26,7 +26,7 @@ from exactacq.numbers.real import Real
 from exactacq.output import vocabulary
 from exactacq.output.animation import frames as animation
 from exactacq.output.animation.frames import LIMIT, Stop, chosen, stops
-from exactacq.output.animation.page import COARSE, FAR, SIZE, Changes, Paper, page, scale
+from exactacq.output.animation.page import COARSE, FAR, SCRIPTS, SIZE, Changes, Paper, bundled, page, scale
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle, Polygon, Terrain
 from exactacq.sensing.event import Event, EventKind
@@ -389,9 +389,29 @@ def test_what_a_user_writes_is_in_the_block_of_data_only(room: Run) -> None:
     assert "hacked" not in before + after
     assert "<" not in block
     assert [o["name"] for o in json.loads(block)["obstacles"]][:2] == list(HOSTILE)
-    script = (CODE / "page.js").read_text("utf-8")
+    script = "".join((CODE / name).read_text("utf-8") for name in (*SCRIPTS, "page.js"))
     for danger in ("innerHTML", "outerHTML", "insertAdjacentHTML", "document.write", "eval(", "Function("):
         assert danger not in script
+
+
+def test_modules_make_one_script() -> None:
+    """What they import comes before them, and no two have a name in common at their outermost level."""
+    modules = {name: (CODE / name).read_text("utf-8") for name in (*SCRIPTS, "page.js")}
+    assert {path.name for path in CODE.rglob("*.js")} == {name.rsplit("/", 1)[-1] for name in modules}
+    names: list[str] = []
+    before: set[str] = set()
+    for name, text in modules.items():
+        used = re.findall(r'from "\./(?:player/)?(\w+)\.js"', text)
+        assert set(used) <= before, name
+        before.add(Path(name).stem)
+        names += re.findall(r"^(?:export )?(?:const|function) (\w+)", text, re.M)
+    assert len(names) == len({*names})
+    script = bundled(modules)
+    assert not re.search(r"^\s*(import|export)\b", script, re.M)
+    assert (
+        bundled({"a": 'import {\n  b,\n} from "./b.js";\nexport const c = 1;\n'}).split("\n")[2]
+        == "const c = 1;"
+    )
 
 
 def luminance(colour: str) -> float:
@@ -409,13 +429,15 @@ def contrast(one: str, other: str) -> float:
 def test_words_and_colours_are_those_of_figures_and_tables(swept: Run) -> None:
     """The skeleton, the style and the script have no word or colour of their own for what is shown."""
     text = page(swept, frames_of(swept))
+    skeleton = "".join(path.read_text("utf-8") for path in CODE.rglob("*.html"))
+    code = "".join(path.read_text("utf-8") for path in CODE.rglob("*.js"))
     for word in ("known boundary", "unknown boundary", "diversion", "M-line", "order of visits", "start S"):
         assert word in list(vocabulary.Word) and word in text
-        assert word not in re.sub(r"\$\w+", "", (CODE / "page.html").read_text("utf-8"))
+        assert word not in re.sub(r"\$\w+", "", skeleton)
     style = (CODE / "page.css").read_text("utf-8")
     hover = {"#eef3fb", "#3a4048", "#e8eaec", "#e3edfb", "#1b57b0"}  # of buttons and lists
     assert set(re.findall(r"#[0-9a-f]{6}", style)) == hover
-    assert not re.findall(r"#[0-9a-f]{6}", (CODE / "page.js").read_text("utf-8"))
+    assert not re.findall(r"#[0-9a-f]{6}", code)
     data = encoded(swept)
     assert data["away"] == vocabulary.AWAY and data["colours"] == scale()
 

@@ -16,6 +16,7 @@ import base64
 import hashlib
 import json
 import math
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from importlib.resources import files
@@ -35,7 +36,7 @@ from exactacq.output import vocabulary
 from exactacq.output.animation.frames import Frame, stops
 from exactacq.output.figures.sweep import SweptTerrain, window
 from exactacq.output.regions import Region
-from exactacq.output.vocabulary import SCALE, SCALE_END, Labels, Word
+from exactacq.output.vocabulary import SCALE, SCALE_END, SCALE_END_DARK, Labels, Word
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Terrain
 from exactacq.strategies.run import Run, SightseerRun
@@ -55,6 +56,12 @@ CLOSED_FORM = 40
 """Closed forms of at most this many characters are shown, the decimal value of others."""
 COLOURS = 64
 """Steps of the colour scale along the path."""
+FRAGMENTS = ("stage", "controls", "events", "legend")
+"""Pieces of HTML that a page which plays runs is made of."""
+SCRIPTS = tuple(f"player/{name}.js" for name in ("dom", "journey", "chart", "labels", "words", "player"))
+"""The modules that play runs on a page, each after those that it imports."""
+STYLE = "player/player.css"
+"""How these pieces look."""
 
 
 def page(run: Run, frames: Iterable[Frame], *, labels: Labels | str = Labels.ALL) -> str:
@@ -65,28 +72,53 @@ def page(run: Run, frames: Iterable[Frame], *, labels: Labels | str = Labels.ALL
     the origin or less.
     """
     # In a block of JSON only "<" could end the block or open a comment; the rest is ASCII by `dumps`.
-    data = json.dumps(_data(run, frames, Labels(labels)), separators=(",", ":")).replace("<", "\\u003c")
-    skeleton, style, script = (
-        files("exactacq.output.animation").joinpath(f"page.{kind}").read_text("utf-8")
-        for kind in ("html", "css", "js")
+    data = json.dumps(told(run, frames, Labels(labels)), separators=(",", ":")).replace("<", "\\u003c")
+    style = Template(_text("page.css")).substitute(
+        colours=variables(vocabulary.colours()), player=_text(STYLE)
     )
-    style = Template(style).substitute(colours=_colours())
+    script = bundled({name: _text(name) for name in (*SCRIPTS, "page.js")})
     allowed = f"script-src {_hash(script)}; style-src {_hash(style)}"
     policy = f"default-src 'none'; {allowed}; base-uri 'none'; form-action 'none'"
+    return Template(_text("page.html")).substitute(
+        fragments(), policy=policy, style=style, script=script, data=data
+    )
+
+
+def fragments() -> dict[str, str]:
+    """The stage, the controls, the list of events and the legend, as HTML by what a skeleton calls them."""
     words = {word.name.lower(): str(word) for word in Word}
-    return Template(skeleton).substitute(words, policy=policy, style=style, script=script, data=data)
+    return {name: Template(_text(f"player/{name}.html")).substitute(words).rstrip() for name in FRAGMENTS}
 
 
-def _colours() -> str:
-    """The vocabulary's colours as variables of the style."""
-    named = vocabulary.colours().items()
-    lines = (f"  --{name.lower().replace('_', '-')}: {value};" for name, value in named)
+def variables(colours: Mapping[str, str]) -> str:
+    """Colours by their names in the vocabulary as variables of a style, and how opaque the view is."""
+    lines = (f"  --{name.lower().replace('_', '-')}: {value};" for name, value in colours.items())
     return "\n".join((*lines, f"  --shade: {vocabulary.SHADE};"))
 
 
-def scale() -> list[str]:
-    """The colours along the path."""
-    return [to_hex(colour) for colour in mpl.colormaps[SCALE](np.linspace(0.0, SCALE_END, COLOURS))]
+def bundled(modules: Mapping[str, str]) -> str:
+    """Modules of JavaScript as one script; each comes after those that it imports, which are among them.
+
+    A module is text without a default export or renamed names, and no two have a name in common at their
+    outermost level: then what is left of them without imports and exports means the same.
+    """
+    parts = (_EXPORT.sub("", _IMPORT.sub("", text)).strip() for text in modules.values())
+    return '"use strict";\n(() => {\n' + "\n\n".join(parts) + "\n})();"
+
+
+_IMPORT = re.compile(r"^import [^;]*;\n", re.MULTILINE)
+_EXPORT = re.compile(r"^export (?=const |function )", re.MULTILINE)
+
+
+def _text(name: str) -> str:
+    """A file of this folder."""
+    return files("exactacq.output.animation").joinpath(name).read_text("utf-8")
+
+
+def scale(*, dark: bool = False) -> list[str]:
+    """The colours along the path, on light or on dark ground."""
+    ends = (1 - SCALE_END_DARK, 1.0) if dark else (0.0, SCALE_END)
+    return [to_hex(colour) for colour in mpl.colormaps[SCALE](np.linspace(*ends, COLOURS))]
 
 
 def _hash(text: str) -> str:
@@ -94,8 +126,8 @@ def _hash(text: str) -> str:
     return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"
 
 
-def _data(run: Run, frames: Iterable[Frame], labels: Labels) -> dict[str, Any]:
-    """What the script shows, as JSON data; `page.js` reads it."""
+def told(run: Run, frames: Iterable[Frame], labels: Labels) -> dict[str, Any]:
+    """What the scripts show, as JSON data."""
     sweep, names = SweptTerrain.of(run), list(run.names())
     paper = Paper.of(run.scene, run.start, float(run.radius), sweep is not None)
     numbers = {id(event): number for number, event in enumerate(run.events, 1)}
@@ -130,6 +162,7 @@ def _data(run: Run, frames: Iterable[Frame], labels: Labels) -> dict[str, Any]:
         "happened": len(run.events),
         "left_out": [exact, count] if exact < count else None,
         "scale": paper.scale,
+        "corner": paper.corner,
         "box": paper.box,
         "terrain": None if terrain is None else paper.rectangle(terrain),
         "obstacles": [

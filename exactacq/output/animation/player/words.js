@@ -1,0 +1,83 @@
+/** Words: the list of events, and where the robot is. */
+
+import { $, add, counted, last, set } from "./dom.js";
+
+const TOLD = 3; // events at one place that are told in full
+
+/** The list of a run's events, whose buttons call `chosen`; and what tells where the robot is. */
+export function wording(data, number, chosen) {
+  const { frames, events, obstacles } = data;
+
+  /** The frames at which something happens, and the events of each. */
+  const happenings = new Map();
+  events.forEach((event, k) => happenings.set(event[4], [...(happenings.get(event[4]) ?? []), k]));
+  const eventful = [...happenings.keys()];
+
+  /** Kind, name and note of an event, and all in one line. */
+  const words = ([, kind, obstacle, note]) => [kind, obstacle === null ? "" : obstacles[obstacle].name, note];
+  function line(event) {
+    const [kind, name, note] = words(event);
+    return `${event[0]}. ${kind}${name && ` ${name}`}${note && `, ${note}`}`;
+  }
+
+  $("radius").textContent = data.radius;
+  $("exact").textContent = frames.length;
+  $("note").textContent = "";
+  if (data.left_out) {
+    const [shown, all] = data.left_out;
+    $("note").textContent = `Only ${shown} of its ${all} events and corners are shown, to keep this page small.`;
+  }
+
+  $("list").replaceChildren();
+  const buttons = events.map((event, k) => {
+    const button = add(add($("list"), "li"), "button", { type: "button", "data-event": k });
+    const [kind, name, note] = words(event);
+    add(button, "span", { class: "number" }, event[0]);
+    const what = add(button, "span", { class: "what" });
+    add(what, "span", { class: "kind" }, kind);
+    what.append(name && " ");
+    add(what, "span", { class: "name" }, name);
+    what.append(note && ", ");
+    add(what, "span", { class: "name" }, note);
+    add(button, "span", { class: "at" }, `at ${frames[event[4]].exact}`);
+    button.addEventListener("click", () => chosen(event[4]));
+    return button;
+  });
+
+  /** Says in numbers, words and the list of events where the robot is: after a length, past a frame. */
+  function tell(at, now) {
+    const here = happenings.get(now) ?? [];
+    const before = happenings.get(eventful[last(eventful, (frame) => frame, now)]) ?? [];
+    const exact = here.length > 0 && at === frames[now].at;
+    const length = exact ? frames[now].exact : `≈ ${number(at)}`;
+    $("length").textContent = length;
+    $("slider").value = at;
+    set($("slider"), { "aria-valuetext": `${length} of ${data.length}` });
+    $("previous").disabled = now === 0 && at === 0;
+    $("next").disabled = !(eventful.at(-1) > now);
+    const more = here.length > TOLD ? `; and ${here.length - TOLD} more` : "";
+    const status = exact
+      ? here.slice(0, TOLD).map((k) => line(events[k])).join("; ") + more
+      : `On the way after event ${before.length ? events[before.at(-1)][0] : 0} of ${data.happened}`;
+    if ($("status").textContent === status) return;
+    $("status").textContent = status;
+    highlight(before);
+  }
+
+  function highlight(current) {
+    buttons.forEach((button, k) => {
+      if (current.includes(k)) set(button, { "aria-current": "step" });
+      else button.removeAttribute("aria-current");
+      button.classList.toggle("later", k > current.at(-1));
+    });
+    if (!current.length) return;
+    const [list, top] = [$("list"), buttons[current[0]].parentElement.offsetTop];
+    const bottom = buttons[current.at(-1)].parentElement;
+    const end = bottom.offsetTop + bottom.offsetHeight;
+    if (end > list.scrollTop + list.clientHeight) list.scrollTop = end - list.clientHeight;
+    if (top < list.scrollTop) list.scrollTop = top;
+  }
+
+  const facts = `${data.length} long, ${counted(obstacles.length, "obstacle")}, ${counted(data.happened, "event")}`;
+  return { eventful, tell, facts };
+}

@@ -1,0 +1,134 @@
+/** The drawing board: shows the drawing, what is selected, and what is being drawn. */
+
+import { $, add, set } from "./player/dom.js";
+import { labelOf } from "./model.js";
+import { float } from "./rational.js";
+import { edgesOf, heartOf, lineOf, middleOf } from "./shapes.js";
+
+const LABELLED = 150; // shapes beyond which only the selected one has its label
+const HANDLED = 400; // vertices beyond which a shape's edges have no handles
+
+export function board({ state }, camera, grid) {
+  const spot = ([x, y]) => camera.toWindow([x, y]);
+  const place = ([x, y]) => spot([float(x), float(y)]);
+  const outlines = new Map();
+  let draft = null; // {points, next, kind} of a shape that is being drawn, in rationals
+  let cursor = null; // of the keyboard, in rationals
+
+  /** The outline of each shape: the elements stay as long as their shapes do. */
+  function drawShapes() {
+    const { drawing, selected, flaws } = state;
+    const faulty = new Set(flaws.flatMap(({ ids }) => ids));
+    const present = new Set();
+    for (const shape of drawing.shapes) {
+      present.add(shape.id);
+      const path = outlines.get(shape.id) ?? add($("shapes"), "path", { "data-shape": shape.id });
+      outlines.set(shape.id, path);
+      const line = lineOf(shape, spot, camera.view.scale);
+      const { width, height } = camera.view;
+      const beyond = shape.wall ? `M-9 -9H${width + 9}V${height + 9}H-9Z` : "";
+      const looks = ["shape", shape.wall && "wall", shape.id === selected && "selected", faulty.has(shape.id) && "faulty"];
+      set(path, { d: line + beyond, class: looks.filter(Boolean).join(" ") });
+    }
+    for (const [id, path] of outlines) {
+      if (present.has(id)) continue;
+      path.remove();
+      outlines.delete(id);
+    }
+  }
+
+  function drawLabels() {
+    $("labels").replaceChildren();
+    const { drawing, selected } = state;
+    for (const shape of drawing.shapes) {
+      if (drawing.shapes.length > LABELLED && shape.id !== selected) continue;
+      if (shape.wall) continue;
+      const [x, y] = spot(heartOf(shape));
+      add($("labels"), "text", { x, y: y + 4.5 }, labelOf(drawing, shape));
+    }
+  }
+
+  function drawGround() {
+    const { start, radius, terrain, strategy } = state.drawing;
+    const at = strategy === "sightseer" || !terrain ? start : [terrain.x, terrain.y];
+    for (const name of ["beginning", "reach"]) set($(name), { visibility: at ? "visible" : "hidden" });
+    if (at) {
+      const [x, y] = place(at);
+      set($("beginning"), { transform: `translate(${x} ${y})`, "data-start": strategy === "sightseer" });
+      set($("reach"), { cx: x, cy: y, r: radius ? Math.max(0, float(radius)) * camera.view.scale : 0 });
+    }
+    const [x, y] = terrain ? place([terrain.x, terrain.y]) : [0, 0];
+    const [width, height] = terrain ? [terrain.width, terrain.height].map((side) => Math.max(0, float(side)) * camera.view.scale) : [0, 0];
+    set($("ground"), { x, y: y - height, width, height, visibility: terrain ? "visible" : "hidden" });
+  }
+
+  /** Handles of the selected shape: its vertices, and the middles of its edges by which they bend. */
+  function drawHandles() {
+    $("handles").replaceChildren();
+    const shape = state.drawing.shapes.find(({ id }) => id === state.selected);
+    if (!shape || state.tool !== "select") return;
+    if (shape.center) {
+      const [x, y] = place(shape.center);
+      handle(x + Math.abs(float(shape.radius)) * camera.view.scale, y, { "data-radius": "" }, "radius");
+      return;
+    }
+    if (shape.vertices.length > HANDLED) return;
+    edgesOf(shape).forEach((edge, k) => handle(...spot(middleOf(edge)), { "data-edge": k }, "bend"));
+    shape.vertices.forEach(({ x, y }, k) => {
+      handle(...place([x, y]), { "data-vertex": k }, k === state.vertex ? "corner chosen" : "corner");
+    });
+  }
+
+  function handle(x, y, data, looks) {
+    const group = add($("handles"), "g", { class: `handle ${looks}`, transform: `translate(${x} ${y})`, ...data });
+    add(group, "circle", { r: 14, class: "reachable" });
+    if (looks === "bend" || looks === "radius") add(group, "circle", { r: 4.5 });
+    else add(group, "rect", { x: -4.5, y: -4.5, width: 9, height: 9, rx: 1.5 });
+  }
+
+  function drawDraft() {
+    const { points = [], next = null, kind = "" } = draft ?? {};
+    const places = [...points, ...(next ? [next] : [])].map(place);
+    const corners = places.map(([x, y]) => `${x} ${y}`);
+    let line = corners.length > 1 ? `M${corners.join("L")}` : "";
+    if (kind === "rectangle" && places.length === 2) {
+      const [[x, y], [u, v]] = places;
+      line = `M${x} ${y}H${u}V${v}H${x}Z`;
+    }
+    if (kind === "circle" && places.length === 2) {
+      const [[x, y], [u, v]] = places;
+      const r = Math.hypot(u - x, v - y);
+      line = `M${x + r} ${y}A${r} ${r} 0 0 0 ${x - r} ${y}A${r} ${r} 0 0 0 ${x + r} ${y}M${x} ${y}L${u} ${v}`;
+    }
+    set($("draft"), { d: line, class: kind });
+    $("dots").replaceChildren();
+    for (const [k, [cx, cy]] of places.slice(0, points.length).entries()) {
+      add($("dots"), "circle", { cx, cy, r: k === 0 && kind === "polygon" ? 6 : 4, class: k ? "" : "first" });
+    }
+    const target = next ?? cursor;
+    set($("cursor"), { visibility: target ? "visible" : "hidden" });
+    if (target) set($("cursor"), { transform: `translate(${place(target).join(" ")})` });
+  }
+
+  function draw() {
+    grid.draw($("thin"), $("thick"), $("axes"));
+    if (state.mode !== "draw") return;
+    drawGround();
+    drawShapes();
+    drawLabels();
+    drawHandles();
+    drawDraft();
+  }
+
+  return {
+    draw,
+    sketch(value) {
+      draft = value;
+      drawDraft();
+    },
+    point(value) {
+      cursor = value;
+      drawDraft();
+    },
+  };
+}

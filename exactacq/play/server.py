@@ -1,0 +1,81 @@
+"""The server of the page: on the loopback interface only, until control-C."""
+
+from __future__ import annotations
+
+import secrets
+import socket
+import webbrowser
+from collections.abc import Mapping
+from contextlib import suppress
+from threading import Thread
+from typing import Any
+
+from exactacq.errors import FormatError
+from exactacq.files.extras import extra
+from exactacq.play.api import Api, Limits
+from exactacq.play.guard import Guard
+
+LOOPBACK, LOOPBACK_6 = "127.0.0.1", "::1"
+"""The addresses of this machine that no other one reaches."""
+AT_ONCE = 64
+"""Requests that are answered at a time."""
+
+
+def serve(
+    first: Mapping[str, Any] | None = None,
+    *,
+    port: int = 0,
+    ipv6: bool = False,
+    browser: bool = True,
+    limits: Limits = Limits(),  # noqa: B008
+) -> None:
+    """Serve the page until control-C; its address is printed, and opened in the *browser*.
+
+    *first* is what it shows at first: see `exactacq.play.scenes.opened`. With *port* 0 one that is free is
+    taken. With *ipv6* the address is that of [::1]. Raises `FormatError` if a library is missing, or the port
+    taken.
+    """
+    uvicorn = extra("uvicorn", "play")
+    extra("starlette", "play")
+    listener = _listening(LOOPBACK_6 if ipv6 else LOOPBACK, port)
+    place = f"[{LOOPBACK_6}]" if ipv6 else LOOPBACK
+    number, token = listener.getsockname()[1], secrets.token_urlsafe(24)
+    address = f"http://{place}:{number}/{token}/"
+
+    def ready() -> None:
+        print(f"exactacq play is at {address}\nPress control-C to end it.", flush=True)
+        if browser:
+            Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+
+    hosts = (f"{place}:{number}", f"localhost:{number}")
+    guarded = Guard(Api(first, limits, ready).application(), hosts, token)
+    settings = uvicorn.Config(
+        guarded,
+        http="h11",
+        ws="none",
+        loop="asyncio",
+        lifespan="on",
+        log_level="critical",
+        access_log=False,
+        server_header=False,
+        limit_concurrency=AT_ONCE,
+        timeout_graceful_shutdown=0,
+    )
+    with listener, suppress(KeyboardInterrupt):
+        uvicorn.Server(settings).run(sockets=[listener])
+
+
+def _listening(host: str, port: int) -> socket.socket:
+    """A socket on the loopback interface."""
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    made = socket.socket(family, socket.SOCK_STREAM)
+    try:
+        made.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        made.bind((host, port))
+        made.listen(AT_ONCE)
+    except OSError as error:
+        made.close()
+        raise FormatError(
+            f"--port: {port} cannot be used ({error.strerror}); give another, or none"
+        ) from None
+    return made
