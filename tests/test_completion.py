@@ -37,6 +37,7 @@ def offered(folder: Path, line: str) -> list[str]:
     some(
         [
             ("exactacq co", ["compare", "convert"]),
+            ("exactacq play --no", ["--no-browser"]),
             ("exactacq --ver", ["--version"]),
             ("exactacq explore --ani", ["--animate"]),
             ("exactacq explore --strategy ", ["sightseer", "seed-spreader"]),
