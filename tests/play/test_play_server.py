@@ -109,7 +109,15 @@ def test_other_pages_and_names_are_refused(address: str) -> None:
 
 def test_no_path_leads_out_of_the_page(address: str) -> None:
     parts = urlsplit(address)
-    for path in ("../api.py", "..%2fapi.py", "%2e%2e/server.py", "assets/../../api.py", "/etc/passwd", "%00", "index.html"):
+    for path in (
+        "../api.py",
+        "..%2fapi.py",
+        "%2e%2e/server.py",
+        "assets/../../api.py",
+        "/etc/passwd",
+        "%00",
+        "index.html",
+    ):
         with socket.create_connection((str(parts.hostname), parts.port or 0), 10) as plain:
             plain.sendall(
                 f"GET {parts.path}{path} HTTP/1.1\r\nHost: {parts.netloc}\r\nConnection: close\r\n\r\n".encode()

@@ -1,0 +1,173 @@
+"""The page in a browser: drawn in by mouse and by keys, run, scrubbed, stopped, saved; by night, on a phone."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from chromium import Chromium, binary
+
+SHAPES = "document.querySelectorAll('#shapes path').length"
+READY = "document.body && document.body.dataset.ready === 'true'"
+WATCHES = "document.body.dataset.mode === 'watch' && !document.body.dataset.busy"
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Chromium]:
+    if binary() is None:
+        pytest.skip("no Chromium or Chrome is installed")
+    with Chromium() as running:
+        yield running
+
+
+@pytest.fixture
+def page(browser: Chromium, address: str) -> Iterator[Chromium]:
+    """The page anew; it must neither complain nor ask for anything of others."""
+    show(browser, address)
+    yield browser
+    assert browser.complaints == []
+    assert all(url.startswith((address, "blob:")) for url in browser.requests)
+
+
+def show(
+    browser: Chromium, address: str, width: int = 1280, height: int = 800, scheme: str = "light"
+) -> None:
+    browser.complaints.clear()
+    browser.requests.clear()
+    browser.resize(width, height)
+    media = [{"name": "prefers-color-scheme", "value": scheme}]
+    browser.send("Emulation.setEmulatedMedia", features=media)
+    browser.send("Page.navigate", url="about:blank")
+    browser.until("location.href === 'about:blank'")
+    browser.send("Page.navigate", url=address)
+    browser.until(READY)
+    browser.requests[:] = [url for url in browser.requests if url != "about:blank"]
+
+
+def point(browser: Chromium, kind: str, x: float, y: float) -> None:
+    button = "none" if kind == "mouseMoved" else "left"
+    browser.send("Input.dispatchMouseEvent", type=kind, x=x, y=y, button=button, clickCount=1)
+
+
+def click(browser: Chromium, x: float, y: float) -> None:
+    for kind in ("mouseMoved", "mousePressed", "mouseReleased"):
+        point(browser, kind, x, y)
+
+
+def key(browser: Chromium, *names: str) -> None:
+    for name in names:
+        browser.press(name, text=name if len(name) == 1 else "\r" if name == "Enter" else "")
+
+
+def square(browser: Chromium) -> None:
+    """A square by clicks, east of the start."""
+    browser.click("[data-tool=polygon]")
+    for x, y in ((600, 200), (720, 200), (720, 320), (600, 320), (600, 200)):
+        click(browser, x, y)
+    browser.until(f"{SHAPES} === 1 && document.getElementById('verdict').dataset.ok === 'true'")
+
+
+def test_a_square_is_drawn_run_scrubbed_and_saved(page: Chromium, tmp_path: Path) -> None:
+    page.send("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(tmp_path))
+    square(page)
+    page.click("#undo")
+    page.until(f"{SHAPES} === 0")
+    page.click("#redo")
+    page.until(f"{SHAPES} === 1")
+    page.click("#mode")
+    page.until(WATCHES, 60)
+    assert page.run("document.querySelectorAll('#list button').length") > 3
+    page.run(
+        "(() => { const s = document.getElementById('slider'); s.value = s.max / 2; "
+        "s.dispatchEvent(new Event('input', { bubbles: true })); })()"
+    )
+    assert page.run("document.getElementById('length').textContent").startswith("≈")
+    page.press("End")
+    whole = page.run("document.getElementById('whole').textContent")
+    assert page.run("document.getElementById('length').textContent").startswith(whole)
+    for kind, ending in (("scene", ".json"), ("figure", ".svg")):
+        page.run(f"document.querySelector('[data-save={kind}]').click()")
+        end = time.monotonic() + 30
+        while not [path for path in tmp_path.iterdir() if path.suffix == ending]:
+            page.run("0")
+            assert time.monotonic() < end
+            time.sleep(0.05)
+    (saved,) = tmp_path.glob("*.json")
+    (boundary,) = [shape["boundary"] for shape in json.loads(saved.read_text())["obstacles"]]
+    assert len(boundary) == 4 and all(isinstance(number, int) for row in boundary for number in row)
+    page.press("Escape")
+    page.until("document.body.dataset.mode === 'draw'")
+
+
+def test_what_is_broken_is_told_beside_the_shapes(page: Chromium) -> None:
+    square(page)
+    page.click("[data-tool=circle]")
+    click(page, 720, 260)
+    click(page, 760, 260)
+    page.until("document.querySelectorAll('#marks circle').length > 0", 30)
+    assert "disjoint" in page.run("document.querySelector('#callouts p').textContent")
+    page.click("#mode")
+    assert page.run("document.getElementById('trouble').hidden") is False
+    assert page.run("document.body.dataset.mode") == "draw"
+
+
+def test_a_run_is_stopped(page: Chromium) -> None:
+    page.click("[data-example=plate]")
+    page.until(f"{SHAPES} > 10", 30)
+    page.click("#mode")
+    page.until("document.body.dataset.busy === 'run'")
+    page.run("document.getElementById('stop').click()")
+    page.until("!document.body.dataset.busy")
+
+
+def test_the_keyboard_alone_draws_and_runs(page: Chromium) -> None:
+    page.run("document.getElementById('board').focus()")
+    key(
+        page,
+        "p",
+        *["ArrowRight"] * 3,
+        "Enter",
+        "ArrowRight",
+        "ArrowRight",
+        "Enter",
+        "ArrowUp",
+        "Enter",
+        "Enter",
+    )
+    page.until(f"{SHAPES} === 1 && document.getElementById('verdict').dataset.ok === 'true'", 30)
+    assert page.run("getComputedStyle(document.getElementById('board')).outlineStyle") == "solid"
+    page.send(
+        "Input.dispatchKeyEvent",
+        type="rawKeyDown",
+        key="Enter",
+        code="Enter",
+        modifiers=2,
+        windowsVirtualKeyCode=13,
+    )
+    page.until(WATCHES, 60)
+    assert page.run(
+        "[...document.querySelectorAll('button, input, select')].every((e) => (e.getAttribute('aria-label') "
+        "|| e.closest('label')?.textContent || e.textContent).trim())"
+    )
+
+
+def test_by_night_it_is_dark(browser: Chromium, address: str) -> None:
+    show(browser, address, scheme="dark")
+    light, dark = browser.run(
+        "[getComputedStyle(document.body).color, getComputedStyle(document.body).backgroundColor]"
+        ".map((c) => c.match(/\\d+/g).map(Number).reduce((a, b) => a + b))"
+    )
+    assert dark < 120 < 600 < light
+
+
+def test_a_phone_scrolls_up_and_down_only(browser: Chromium, address: str) -> None:
+    show(browser, address, 360, 740)
+    assert browser.run("document.documentElement.scrollWidth") <= 360
+    browser.run("document.querySelector('[data-example=circles]').click()")
+    browser.until(f"{SHAPES} === 2", 30)
+    browser.click("#mode")
+    browser.until(WATCHES, 60)
+    assert browser.run("document.documentElement.scrollWidth") <= 360
