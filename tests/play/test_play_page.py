@@ -1,4 +1,4 @@
-"""The page in a browser: drawn in by mouse and by keys, run, scrubbed, stopped, saved; by night, on a phone."""
+"""The page in a browser: drawn in by mouse and keys, run, scrubbed, stopped, saved; by night, on a phone."""
 
 from __future__ import annotations
 
@@ -160,7 +160,7 @@ def test_by_night_it_is_dark(browser: Chromium, address: str) -> None:
         "[getComputedStyle(document.body).color, getComputedStyle(document.body).backgroundColor]"
         ".map((c) => c.match(/\\d+/g).map(Number).reduce((a, b) => a + b))"
     )
-    assert dark < 120 < 600 < light
+    assert dark < 120 and light > 600
 
 
 def test_a_phone_scrolls_up_and_down_only(browser: Chromium, address: str) -> None:

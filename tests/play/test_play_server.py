@@ -91,7 +91,8 @@ def test_files_are_opened_by_their_content(address: str) -> None:
 def test_other_pages_and_names_are_refused(address: str) -> None:
     port = urlsplit(address).port
     foreign = [
-        ({"host": "evil.example"}, 421), ({"host": f"evil.example:{port}"}, 421), ({"host": "127.0.0.1:1"}, 421),
+        ({"host": "evil.example"}, 421), ({"host": f"evil.example:{port}"}, 421),
+        ({"host": "127.0.0.1:1"}, 421),
         ({"origin": "http://evil.example"}, 403), ({"origin": "null"}, 403),
         ({"origin": f"https://127.0.0.1:{port}"}, 403), ({"sec-fetch-site": "cross-site"}, 403),
     ]  # fmt: skip
@@ -119,9 +120,8 @@ def test_no_path_leads_out_of_the_page(address: str) -> None:
         "index.html",
     ):
         with socket.create_connection((str(parts.hostname), parts.port or 0), 10) as plain:
-            plain.sendall(
-                f"GET {parts.path}{path} HTTP/1.1\r\nHost: {parts.netloc}\r\nConnection: close\r\n\r\n".encode()
-            )
+            head = f"Host: {parts.netloc}\r\nConnection: close\r\n\r\n"
+            plain.sendall(f"GET {parts.path}{path} HTTP/1.1\r\n{head}".encode())
             answer = b"".join(iter(lambda: plain.recv(65536), b""))
         assert answer.split(b" ", 2)[1] == b"404", path
 
