@@ -1,8 +1,8 @@
 """exactacq: exact sensor-based terrain acquisition among segments and circular arcs.
 
-A robot with a limited radius of vision maps unknown obstacles by one of two strategies, `sightseer` and
-`seed_spreader`. Path, map and length are exact. Names are imported on first use: a program that needs
-`Length` only does not wait for the modules that draw or read files.
+A robot with a limited radius of vision maps unknown obstacles by a strategy: `sightseer`, `seed_spreader`, or
+one of your own (`strategy`, `explore`). Path, map and length are exact. Names are imported on first use: a
+program that needs `Length` only does not wait for the modules that draw or read files.
 """
 
 from importlib import import_module
@@ -14,7 +14,15 @@ if TYPE_CHECKING:
     from typing import Any
 
     from exactacq.auditing.audit import audit
-    from exactacq.errors import AuditError, ExactacqError, FormatError, InvalidScene, MoveError, Undecided
+    from exactacq.errors import (
+        AuditError,
+        ExactacqError,
+        FormatError,
+        InvalidScene,
+        MoveError,
+        StrategyError,
+        Undecided,
+    )
     from exactacq.files.checking.inspection import Inspection, inspect
     from exactacq.files.formats import formats
     from exactacq.files.load import load
@@ -33,8 +41,10 @@ if TYPE_CHECKING:
     from exactacq.sensing.map import Map
     from exactacq.sensing.path import Path
     from exactacq.sensing.view_events import sweep
+    from exactacq.strategies.explore import explore
+    from exactacq.strategies.registry import strategy
     from exactacq.strategies.robot import Robot
-    from exactacq.strategies.run import Run, SeedSpreaderRun, SightseerRun
+    from exactacq.strategies.run import OwnRun, Run, SeedSpreaderRun, SightseerRun
     from exactacq.strategies.seed_spreader.strategy import seed_spreader
     from exactacq.strategies.sightseer.strategy import sightseer
     from exactacq.visibility.isovist import Isovist, isovist
@@ -58,6 +68,7 @@ __all__ = [
     "Map",
     "MoveError",
     "Outline",
+    "OwnRun",
     "Path",
     "Point",
     "Polygon",
@@ -69,10 +80,12 @@ __all__ = [
     "Segment",
     "ShortestPath",
     "SightseerRun",
+    "StrategyError",
     "Terrain",
     "Undecided",
     "Via",
     "audit",
+    "explore",
     "figure",
     "formats",
     "inspect",
@@ -82,6 +95,7 @@ __all__ = [
     "seed_spreader",
     "shortest_path",
     "sightseer",
+    "strategy",
     "sweep",
     "tangent_graph",
     "terrain_around",
@@ -105,6 +119,7 @@ _HOMES = {
     "Map": "exactacq.sensing.map",
     "MoveError": "exactacq.errors",
     "Outline": "exactacq.scene.shapes",
+    "OwnRun": "exactacq.strategies.run",
     "Path": "exactacq.sensing.path",
     "Point": "exactacq.geometry.points",
     "Polygon": "exactacq.scene.shapes",
@@ -116,10 +131,12 @@ _HOMES = {
     "Segment": "exactacq.geometry.curves",
     "ShortestPath": "exactacq.visibility.shortest_path",
     "SightseerRun": "exactacq.strategies.run",
+    "StrategyError": "exactacq.errors",
     "Terrain": "exactacq.scene.shapes",
     "Undecided": "exactacq.errors",
     "Via": "exactacq.scene.bends",
     "audit": "exactacq.auditing.audit",
+    "explore": "exactacq.strategies.explore",
     "figure": "exactacq.output.figures",
     "formats": "exactacq.files.formats",
     "inspect": "exactacq.files.checking.inspection",
@@ -129,6 +146,7 @@ _HOMES = {
     "seed_spreader": "exactacq.strategies.seed_spreader.strategy",
     "shortest_path": "exactacq.visibility.shortest_path",
     "sightseer": "exactacq.strategies.sightseer.strategy",
+    "strategy": "exactacq.strategies.registry",
     "sweep": "exactacq.sensing.view_events",
     "tangent_graph": "exactacq.visibility.tangent_graph",
     "terrain_around": "exactacq.scene.bounding",

@@ -59,6 +59,16 @@ class MoveError(ExactacqError, ValueError):
     """
 
 
+class StrategyError(ExactacqError, ValueError):
+    """A strategy of the user's own is not there, cannot be loaded, or has failed; the message says where.
+
+    >>> import exactacq as xa
+    >>> xa.strategy("two words")
+    Traceback (most recent call last):
+    exactacq.errors.StrategyError: a strategy has a name of letters, digits, "-" and "_", not 'two words'
+    """
+
+
 class Undecided(ExactacqError, ArithmeticError):
     """An exact comparison is beyond the library's limits; the message names it. It is never guessed.
 

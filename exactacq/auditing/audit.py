@@ -21,6 +21,8 @@ from exactacq.auditing.comparisons import AuditedBody
 from exactacq.auditing.events import check_events, check_sights
 from exactacq.auditing.ground import Field, check_components
 from exactacq.auditing.knowledge import MOMENTS, Knowledge
+from exactacq.auditing.own_strategy import MOVES as OWN_MOVES
+from exactacq.auditing.own_strategy import check_own_moves, declared_values
 from exactacq.auditing.path import check_continuity, check_length, check_pieces
 from exactacq.auditing.seed_spreader import MOVES as SWEEP_MOVES
 from exactacq.auditing.seed_spreader import Replay
@@ -29,7 +31,7 @@ from exactacq.auditing.visibility import World
 from exactacq.errors import AuditError
 from exactacq.progress import Meter, Progress
 from exactacq.sensing.event import Ending, EventKind
-from exactacq.strategies.run import Run, SeedSpreaderRun, SightseerRun
+from exactacq.strategies.run import OwnRun, Run, SeedSpreaderRun, SightseerRun
 
 
 def audit(run: Run, *, samples: int = 64, seed: int = 0, progress: Progress | None = None) -> None:
@@ -39,17 +41,17 @@ def audit(run: Run, *, samples: int = 64, seed: int = 0, progress: Progress | No
     an obstacle go out of sight or diverts to it. What is known is checked beside all ends of known parts in
     the final map, and on samples: *samples* random boundary points, half as many ends in other maps, and as
     many places on the path. That nothing at stake goes out of reach is asked where pieces of a line begin and
-    at places inside `MOMENTS` of them. Equal seeds give equal samples. *progress* is told how many of how
-    many steps are done. Returns None if no flaw is found. ValueError for runs of another strategy,
-    `Undecided` where an exact comparison is beyond the limits. Cost: about ten milliseconds a sample at ten
-    obstacles in range, less than one for each piece and event, and that of `MOMENTS` maps; for the Seed
-    Spreader also of one map for each piece on its lines, and for each place where something goes out of sight
-    there.
+    at places inside `MOMENTS` of them. Equal seeds give equal samples. Of a strategy of the user's own all is
+    checked but what it does, and the values of its bounds. *progress* is told how many of how many steps are
+    done. Returns None if no flaw is found. ValueError for a run that was given up, `Undecided` where an exact
+    comparison is beyond the limits. Cost: about ten milliseconds a sample at ten obstacles in range, less
+    than one for each piece and event, and that of `MOMENTS` maps; for the Seed Spreader also of one map for
+    each piece on its lines, and for each place where something goes out of sight there.
 
     >>> import exactacq as xa
     >>> audit(xa.sightseer(xa.load("circles")), samples=8)
     """
-    if not isinstance(run, SightseerRun | SeedSpreaderRun):
+    if not isinstance(run, SightseerRun | SeedSpreaderRun | OwnRun):
         raise ValueError(f"no audit for a {type(run).__name__}")
     if run.ending is Ending.UNDECIDED:
         raise ValueError("no audit for a run that was given up: its strategy did not end")
@@ -64,13 +66,16 @@ def audit(run: Run, *, samples: int = 64, seed: int = 0, progress: Progress | No
     tracks = check_pieces(run, world, bodies, field, meter)
     meter.close()
     check_length(run)
-    check_events(run, rng, MOVES if field is None else SWEEP_MOVES)
+    check_events(run, rng, OWN_MOVES if isinstance(run, OwnRun) else MOVES if field is None else SWEEP_MOVES)
     if isinstance(run, SightseerRun):
         check_moves(run, tracks)
         check_links(run)
         values = sightseer_values(run, world)
+    elif isinstance(run, OwnRun):
+        check_own_moves(run, bodies, tracks)
+        values = declared_values(run)
     else:
-        assert field is not None
+        assert isinstance(run, SeedSpreaderRun) and field is not None
         Replay(run, field, bodies, tracks, rng).check(meter)
         values = spreader_values(run, field)
     check_sights(run)
@@ -99,7 +104,8 @@ def _bodies(run: Run, world: World) -> Iterator[AuditedBody]:
 def _check_accounts(run: Run) -> None:
     """Unseen and unvisited obstacles, and the events of sight, agree with the map.
 
-    A sweep that comes to its end has acquired what it has seen; what it has not is unvisited.
+    A sweep that comes to its end has acquired what it has seen; what it has not is unvisited, and so it is
+    for strategies of the user's own.
     """
     seen, acquired, visits = set(run.map.seen), set(run.map.acquired), set(run.visits)
     left = seen - (visits if isinstance(run, SightseerRun) else acquired)

@@ -33,7 +33,7 @@ def check_bounds(run: Run, values: Mapping[str, arb]) -> None:
     visits = len(run.encounters) if isinstance(run, SeedSpreaderRun) else 0
     for bound in run.bounds:
         value = values[bound.name]
-        of_visits = bound.name in VISITS
+        of_visits = isinstance(run, SeedSpreaderRun) and bound.name in VISITS
         length = arb(visits) if of_visits else way
         if not agrees(bound.value, value):
             raise AuditError(f"bound {bound.name} is {bound.value.decimal(20)}..., not {value.str(20)}")

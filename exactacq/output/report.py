@@ -22,7 +22,7 @@ from exactacq.output.vocabulary import Word, missed_word, ordinal
 from exactacq.scene.scene import Scene
 from exactacq.sensing.event import Ending
 from exactacq.strategies.bounds import census
-from exactacq.strategies.run import Bound, Run, SeedSpreaderRun, SightseerRun
+from exactacq.strategies.run import Bound, OwnRun, Run, SeedSpreaderRun, SightseerRun
 from exactacq.visibility.isovist import Isovist, ViewKind
 from exactacq.visibility.shortest_path import ShortestPath
 
@@ -56,6 +56,8 @@ def run_report(run: Run) -> RenderableType:
     ]
     if isinstance(run, SeedSpreaderRun):
         parts += _sweep(run, names)
+    if isinstance(run, OwnRun):
+        parts.append(f"ended because {run.events[-1].note}\n")
     if not run.map.seen and run.scene.obstacles:
         parts.append(f"nothing is in sight of S within R = {_rational(run.radius)}\n")
     if run.visits:
@@ -228,11 +230,11 @@ def _missed(run: Run, names: list[str]) -> Iterator[RenderableType]:
     if run.complete:
         return
     yield ""
-    left = missed_word(isinstance(run, SeedSpreaderRun))
+    left = missed_word(not isinstance(run, SightseerRun))
     for which, what in ((run.unseen, Word.UNSEEN), (run.unvisited, left)):
         if which:
             yield Text(_listed(what, (names[k] for k in which), ", "), style="bold red")
-    if isinstance(run, SeedSpreaderRun):
+    if not isinstance(run, SightseerRun):
         return
     yield (
         f"So this scene does not satisfy the paper's model (a) for R = {_rational(run.radius)}: "

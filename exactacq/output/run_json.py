@@ -2,7 +2,8 @@
 
 A run file is one JSON object with ``"format": "exactacq run"`` and ``"version"``, the number of the
 format's version (`VERSION`). Files of versions 2 and 3 are read too (`old_run_files`), others are refused. It
-has the scene, the path, visits, links, events and bounds, and one table of all algebraic numbers. The map is
+has the scene, the path, visits, links, events and bounds, and one table of all algebraic numbers. Of a
+strategy of the user's own it has the name and ``"own": true``. The map is
 not written: the sensing is repeated on first use.
 """
 
@@ -31,7 +32,8 @@ from exactacq.sensing.event import SENSED, Ending, Event, EventKind, Occasion, R
 from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Path, Piece
 from exactacq.strategies.bounds import with_bounds
-from exactacq.strategies.run import Bound, Diversion, Run, SeedSpreaderRun, SightseerRun, TreeLink
+from exactacq.strategies.registry import is_name
+from exactacq.strategies.run import Bound, Diversion, OwnRun, Run, SeedSpreaderRun, SightseerRun, TreeLink
 from exactacq.visibility.links import START
 
 FORMAT, VERSION = "exactacq run", 4
@@ -87,7 +89,8 @@ def is_run_file(path: str | os.PathLike[str]) -> bool:
 def load_run(source: str | os.PathLike[str] | dict[str, Any]) -> Run:
     """The run in a file that ``explore --trace`` wrote, or in the data of `Run.to_json`.
 
-    Lengths are summed and bounds evaluated anew. Raises `FormatError` for anything else, also for a run of
+    Lengths are summed and bounds evaluated anew: those of a strategy of the user's own if one of its name is
+    registered, else it has none. Raises `FormatError` for anything else, also for a run of
     an unknown version of the format, and `InvalidScene` if the scene breaks the rules. Whether a strategy
     would make this run is not checked: see `audit`. Linear in the path.
 
@@ -123,7 +126,8 @@ def _run(document: dict[str, Any]) -> Run:
     if radius <= 0:
         raise FormatError(f"the radius must be positive, not {shown(document['radius'])}")
     strategy = document["strategy"]
-    if strategy not in (SightseerRun.strategy, SeedSpreaderRun.strategy):
+    is_own = document.get("own") is True and is_name(strategy)
+    if not is_own and strategy not in (SightseerRun.strategy, SeedSpreaderRun.strategy):
         raise FormatError(f"a run of the unknown strategy {str(strategy)[:40]!r}")
     ground = ground_of(scene) if strategy == SeedSpreaderRun.strategy else None
     count = len(scene.obstacles if ground is None else ground.components)
@@ -143,6 +147,8 @@ def _run(document: dict[str, Any]) -> Run:
         "unvisited": _indices(document["unvisited"], count),
         "record": memory,
     }
+    if is_own:
+        return with_bounds(OwnRun(**common, name=strategy))
     if ground is None:
         links = tuple(_read_link(numbers, link, count) for link in document["links"])
         return with_bounds(SightseerRun(**common, links=links, stack_depth=int(document["stack_depth"])))
@@ -199,6 +205,8 @@ def _link(out: Encoder, link: TreeLink) -> dict[str, Any]:
 def _of_strategy(out: Encoder, run: Run) -> dict[str, Any]:
     if isinstance(run, SightseerRun):
         return {"stack_depth": run.stack_depth, "links": [_link(out, link) for link in run.links]}
+    if isinstance(run, OwnRun):
+        return {"own": True}
     assert isinstance(run, SeedSpreaderRun)
     return {
         "lookahead": run.lookahead,

@@ -70,7 +70,8 @@ def _run_sheet(run: Run, at: Event | Length | object) -> Sheet:
 
 
 def _links_of(run: Run) -> Iterable[TreeLink | Diversion]:
-    assert isinstance(run, SightseerRun | SeedSpreaderRun), "there is no other run"
+    if not isinstance(run, SightseerRun | SeedSpreaderRun):
+        return ()
     return run.links
 
 

@@ -104,6 +104,6 @@ def ordinal(order: int) -> str:
     return f"#{order}"
 
 
-def missed_word(is_swept: bool) -> Word:
-    """What ``Run.unvisited`` obstacles are called: the Seed Spreader need not visit what it acquires."""
-    return Word.INCOMPLETE if is_swept else Word.UNVISITED
+def missed_word(is_map_enough: bool) -> Word:
+    """What ``Run.unvisited`` obstacles are called: only the Sightseer must visit what it acquires."""
+    return Word.INCOMPLETE if is_map_enough else Word.UNVISITED

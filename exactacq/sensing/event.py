@@ -30,7 +30,7 @@ class EventKind(StrEnum):
     LEAVE = "leave"
     """The robot leaves the boundary of an obstacle."""
     BACKTRACK = "backtrack"
-    """The Sightseer is back at the obstacle, or the start, from which it came."""
+    """The robot is back at the obstacle, or the start, from which it came by a link."""
     DIVERT = "divert"
     """The Seed Spreader leaves the M-line for an obstacle that is about to be lost."""
     RETURN = "return"
@@ -55,9 +55,9 @@ class Occasion(StrEnum):
     """On which part of its way the robot hits, crosses or leaves an obstacle."""
 
     ADVANCE = "advance"
-    """The Sightseer goes from the obstacle it has circled to an unvisited one (step 3 of the paper)."""
+    """The robot goes along a link, the Sightseer to an unvisited obstacle (step 3 of the paper)."""
     BACKTRACK = "backtrack"
-    """The Sightseer goes back to where it came from (step 2)."""
+    """The robot goes back along a link to where it came from (step 2)."""
     M_LINE = "M-line"
     """The Seed Spreader follows the M-line."""
     WAY_OUT = "way out"
@@ -103,6 +103,10 @@ class Ending(StrEnum):
     """An obstacle that blocks the M-line leaves no way on to T."""
     WAY_CLOSED = "way closed"
     """An obstacle closes the straight way of a diversion."""
+    FINISHED = "finished"
+    """A strategy of the user's own has done what it wanted."""
+    MOST_MOVES = "most moves"
+    """A strategy of the user's own was to make more moves than it may."""
     UNDECIDED = "undecided"
     """A comparison is beyond the library's limits: the run was given up (see `exactacq.Undecided`)."""
 
@@ -132,6 +136,8 @@ _ENDED = {
     Ending.END_OF_M_LINE: "the end of the M-line is reached",
     Ending.TRAPPED: "the start or the end of the M-line is trapped in {obstacle}",
     Ending.WAY_CLOSED: "{obstacle} closes the straight way",
+    Ending.FINISHED: "the strategy is done",
+    Ending.MOST_MOVES: "no more moves are allowed",
     Ending.UNDECIDED: "given up: a comparison is undecided",
 }
 

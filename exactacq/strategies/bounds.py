@@ -9,6 +9,7 @@ from typing import TypeVar
 import numpy as np
 from flint import fmpq
 
+from exactacq.errors import StrategyError
 from exactacq.geometry.intersections import nearest_points
 from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.length import Length
@@ -17,21 +18,37 @@ from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.scene import Scene
 from exactacq.scene.terrain_components import Ground
 from exactacq.sensing.event import Ending, EventKind, Occasion
-from exactacq.strategies.run import Bound, SeedSpreaderRun, SightseerRun
+from exactacq.strategies.registry import OwnStrategy, registered
+from exactacq.strategies.run import Bound, OwnRun, SeedSpreaderRun, SightseerRun
 from exactacq.strategies.seed_spreader.blocked import Blocking
 from exactacq.strategies.seed_spreader.mline import MLine
 from exactacq.visibility.links import START, pair_bounds
 
 HALF = fmpq(1, 2)
-AnyRun = TypeVar("AnyRun", SightseerRun, SeedSpreaderRun)
+AnyRun = TypeVar("AnyRun", SightseerRun, SeedSpreaderRun, OwnRun)
 
 
 def with_bounds(run: AnyRun) -> AnyRun:
     """A run with the bounds of its strategy; they do not speak of one that was given up."""
     if run.ending is Ending.UNDECIDED:
         return run
-    bounds = sightseer_bounds(run) if isinstance(run, SightseerRun) else spreader_bounds(run)
+    if isinstance(run, OwnRun):
+        bounds = own_bounds(run, registered(run.name))
+    else:
+        bounds = sightseer_bounds(run) if isinstance(run, SightseerRun) else spreader_bounds(run)
     return replace(run, bounds=bounds)
+
+
+def own_bounds(run: OwnRun, own: OwnStrategy | None) -> tuple[Bound, ...]:
+    """The bounds that a strategy of the user's own tells, if it tells any; two cannot have one name."""
+    if own is None or own.bounds is None:
+        return ()
+    told = [(str(name), str(source), Length(value)) for name, source, value in own.bounds(run)]
+    if len({name for name, _, _ in told}) < len(told):
+        raise StrategyError(
+            f"two bounds of {run.name} have one name: {', '.join(name for name, _, _ in told)}"
+        )
+    return tuple(_bound(name, source, value, run.length, True) for name, source, value in told)
 
 
 def sightseer_bounds(run: SightseerRun) -> tuple[Bound, ...]:

@@ -14,7 +14,7 @@ from typing import Concatenate, ParamSpec, TypeVar
 
 from flint import fmpq
 
-from exactacq.errors import InvalidScene, MoveError, Undecided, shown
+from exactacq.errors import ExactacqError, InvalidScene, MoveError, Undecided, shown
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Location, Point
 from exactacq.numbers.length import Length
@@ -98,7 +98,8 @@ class Robot:
         self._sightings: list[Sighting] = []
         self._lap: Lap | None = None
         self._moves, self._most = 0, inf
-        self._stuck: Undecided | None = None
+        # Why it does not move any more, if it does not.
+        self._stuck: ExactacqError | None = None
         self._on_edge: Callable[[], None] = lambda: None
         self._on_sighting: Callable[[Sighting], None] = lambda sighting: None
         self._take_in()

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from html import escape
 from math import tan
-from typing import Any, ClassVar
+from typing import Any
 
 from flint import fmpq
 
@@ -60,11 +61,11 @@ class Bound:
 
 @dataclass(frozen=True, repr=False, kw_only=True)
 class Run:
-    """A finished exploration: a `SightseerRun` or a `SeedSpreaderRun`.
+    """A finished exploration: a `SightseerRun`, a `SeedSpreaderRun` or an `OwnRun`.
 
     ``path`` and ``events`` are in the order of the walk; ``visits`` are the numbers of obstacles in the order
     in which the robot walked around them, ``bounds`` the paper's bounds on the length. ``unseen`` obstacles
-    never came on the map. ``unvisited`` ones did without being reached, or, for the Seed Spreader, without
+    never came on the map. ``unvisited`` ones did without being reached, or, but for the Sightseer, without
     becoming wholly known. ``record`` is the sensing; a run that was read from a file has none and repeats the
     sensing on first use.
 
@@ -77,9 +78,6 @@ class Run:
     5 + 12*pi (0, 1) True 11
     """
 
-    strategy: ClassVar[str]
-    title: ClassVar[str]
-
     scene: Scene
     radius: fmpq
     start: Point
@@ -91,6 +89,16 @@ class Run:
     unvisited: tuple[int, ...]
     record: Memory | None = field(default=None, repr=False, compare=False)
 
+    @property
+    @abstractmethod
+    def strategy(self) -> str:
+        """The strategy's name."""
+
+    @property
+    @abstractmethod
+    def title(self) -> str:
+        """What the strategy is called in titles."""
+
     @cached_property
     def length(self) -> Length:
         """Exact length of the path."""
@@ -98,7 +106,7 @@ class Run:
 
     @property
     def complete(self) -> bool:
-        """Whether every obstacle was visited, or, for the Seed Spreader, is wholly known."""
+        """Whether every obstacle was visited, or, but for the Sightseer, is wholly known."""
         return not self.unseen and not self.unvisited
 
     @cached_property
@@ -365,8 +373,8 @@ class SightseerRun(Run):
     ([('S', 0, '3'), (0, 1, '2')], 'all visited')
     """
 
-    strategy: ClassVar[str] = "sightseer"
-    title: ClassVar[str] = "Sightseer Strategy"
+    strategy = "sightseer"
+    title = "Sightseer Strategy"
 
     links: tuple[TreeLink, ...]
     stack_depth: int
@@ -386,8 +394,8 @@ class SeedSpreaderRun(Run):
     [(2, 'out of sight')]
     """
 
-    strategy: ClassVar[str] = "seed-spreader"
-    title: ClassVar[str] = "Seed Spreader Strategy"
+    strategy = "seed-spreader"
+    title = "Seed Spreader Strategy"
 
     lookahead: bool
     target: str
@@ -406,3 +414,32 @@ class SeedSpreaderRun(Run):
         """What the terrain leaves of the scene's obstacles."""
         ground = None if self.record is None else self.record.ground
         return ground_of(self.scene) if ground is None else ground
+
+
+@dataclass(frozen=True, repr=False, kw_only=True)
+class OwnRun(Run):
+    """A finished exploration by a strategy of the user's own, of that ``name`` (see `exactacq.explore`).
+
+    It has no bounds unless the strategy was registered with some; ``unvisited`` obstacles are those that were
+    seen and are not wholly known.
+
+    >>> import exactacq as xa
+    >>> run = xa.explore(xa.load("circles"), lambda robot: robot.go_to((3, 0)))
+    >>> print(run.ending.value, run.length, run.map.incomplete)
+    finished 3 (0,)
+    """
+
+    name: str
+
+    @property
+    def strategy(self) -> str:
+        """The strategy's name."""
+        return self.name
+
+    @property
+    def title(self) -> str:
+        """What the strategy is called in titles."""
+        return f"Strategy {self.name}"
+
+    def __repr__(self) -> str:
+        return super().__repr__().replace("OwnRun", f"OwnRun {self.name}", 1)

@@ -39,7 +39,7 @@ from exactacq.output.regions import Region
 from exactacq.output.vocabulary import SCALE, SCALE_END, SCALE_END_DARK, Labels, Word
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Terrain
-from exactacq.strategies.run import Run, SightseerRun
+from exactacq.strategies.run import Run
 
 SIZE, DECIMALS, COARSE = 1000, 4, 2
 """Page units along the longer side of a scene, and decimals: seven digits of the scene's size; five are
@@ -200,7 +200,7 @@ def _regions(run: Run, sweep: SweptTerrain | None) -> list[Region]:
 def _obstacle(paper: Paper, run: Run, number: int, region: Region, acquired: int | None) -> dict[str, Any]:
     body, heart, depth = run.obstacles[number], *region.heart()
     (left, _), (right, top) = region.box
-    is_wall = isinstance(run, SightseerRun) and run.scene.obstacles[number].is_enclosure
+    is_wall = run.ground is None and run.scene.obstacles[number].is_enclosure
     # The enclosure blocks what lies beyond its outline, off the paper too: the window may be wider.
     beyond = f"M{-FAR} {-FAR}H{FAR}V{FAR}H{-FAR}Z" if is_wall else ""
     return {

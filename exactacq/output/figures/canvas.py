@@ -210,7 +210,7 @@ class Canvas:
         if self.run is not None and index in self.run.unseen:
             return Word.UNSEEN
         if self.run is not None and index in self.run.unvisited:
-            return missed_word(self.sweep is not None)
+            return missed_word(not isinstance(self.run, SightseerRun))
         return Word.OBSTACLE
 
     def _frame(self) -> Outline:

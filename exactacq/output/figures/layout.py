@@ -17,7 +17,7 @@ from exactacq.files.whole_files import readable
 from exactacq.output.figures.canvas import Canvas
 from exactacq.output.figures.lettering import Lettering
 from exactacq.output.vocabulary import INK, LINE, MISSED, SOFT, Labels, Word, missed_word
-from exactacq.strategies.run import SeedSpreaderRun
+from exactacq.strategies.run import SeedSpreaderRun, SightseerRun
 
 CLOSED_FORM = 40
 """Closed forms of at most this many characters are shown in the title, the decimal value of others."""
@@ -88,9 +88,9 @@ def title(drawing: Canvas) -> list[str]:
         so_far = " ".join(readable(drawing.moment.at, CLOSED_FORM, digits=8))
         seen = f"{len(drawing.moment.map.acquired)} of {_counted(drawing.count)} {Word.ACQUIRED}"
         return [first, f"after {so_far} of {length},  {seen}"]
-    swept = isinstance(run, SeedSpreaderRun)
-    done = (len(run.map.acquired), Word.ACQUIRED) if swept else (len(run.visits), Word.VISITED)
-    missed = [(len(run.unseen), Word.UNSEEN), (len(run.unvisited), missed_word(swept))]
+    mapped = not isinstance(run, SightseerRun)
+    done = (len(run.map.acquired), Word.ACQUIRED) if mapped else (len(run.visits), Word.VISITED)
+    missed = [(len(run.unseen), Word.UNSEEN), (len(run.unvisited), missed_word(mapped))]
     if isinstance(run, SeedSpreaderRun):
         missed.append((len(run.unreached), Word.UNREACHABLE))
     words = [f"{number} {what}" for number, what in missed if number]

@@ -1,0 +1,117 @@
+"""Exploring a scene by any strategy: one of the paper's by its name, or one of the user's own."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from exactacq.errors import FormatError, MoveError, StrategyError, Undecided, shown
+from exactacq.geometry.points import Point
+from exactacq.progress import Meter, Progress
+from exactacq.scene.scene import Scene
+from exactacq.sensing.event import Ending, EventKind
+from exactacq.strategies.bounds import own_bounds
+from exactacq.strategies.gc_pause import uncollected
+from exactacq.strategies.known_map import Sighting
+from exactacq.strategies.moves import EnoughMoves
+from exactacq.strategies.options import Strategy
+from exactacq.strategies.registry import OwnStrategy, Rules, names, of_function, registered
+from exactacq.strategies.robot import Robot
+from exactacq.strategies.run import OwnRun, Run
+from exactacq.strategies.seed_spreader.strategy import seed_spreader
+from exactacq.strategies.sightseer.strategy import sightseer
+
+MOST_MOVES = 10_000
+"""Moves that a strategy of one's own may make unless it is told otherwise."""
+
+
+def explore(
+    scene: Scene,
+    strategy: str | Rules = Strategy.SIGHTSEER,
+    radius: object = None,
+    *,
+    start: Point | Sequence[object] | None = None,
+    max_moves: int = MOST_MOVES,
+    progress: Progress | None = None,
+) -> Run:
+    """Explore a scene by a strategy: "sightseer", "seed-spreader", or one of one's own.
+
+    The latter is the name of one that `exactacq.strategy` has registered, or a function: it is called with a
+    `Robot` at the start, and the run, an `OwnRun`, ends when it returns. If it calls more than *max_moves* of
+    the robot's moves, the run ends where it is, with `Ending.MOST_MOVES`. *radius* and *start* default to the
+    scene's own. *progress* is told how many edges of obstacles that are wholly known there are, and how many
+    in all; of the paper's strategies it is told what they say, and *max_moves* is nothing to them.
+
+    Raises `StrategyError` for a name that is not known, what `Robot` and the paper's strategies raise,
+    `FormatError` if *max_moves* is no positive integer, `Undecided` with the run so far for a comparison
+    beyond the library's limits, and whatever the strategy raises.
+
+    >>> import exactacq as xa
+    >>> def touch(robot):
+    ...     robot.go_to(robot.map.nearest(0, robot.position))
+    >>> xa.explore(xa.load("circles"), touch)
+    <OwnRun touch on circles, R = 20, length 3, 0 of 2 obstacles visited>
+    """
+    if isinstance(max_moves, bool) or not isinstance(max_moves, int) or max_moves < 1:
+        raise FormatError(f"max_moves: a positive integer, not {shown(max_moves)}")
+    if strategy == Strategy.SIGHTSEER:
+        return sightseer(scene, radius, start=start, progress=progress)
+    if strategy == Strategy.SEED_SPREADER:
+        placed = scene if start is None else scene.replace(start=start)
+        return seed_spreader(placed, radius, progress=progress)
+    own = registered(strategy) if isinstance(strategy, str) else None
+    if own is None:
+        if not callable(strategy):
+            raise StrategyError(f"no strategy {shown(strategy)}; there are {', '.join(names())}")
+        own = of_function(strategy)
+    robot = Robot(scene, start, radius)
+    return _explored(own, robot, scene, max_moves, progress)
+
+
+@uncollected()
+def _explored(own: OwnStrategy, robot: Robot, scene: Scene, most: int, progress: Progress | None) -> OwnRun:
+    edges = [len(obstacle.edges) for obstacle in scene.obstacles]
+    meter = Meter(progress, sum(edges))
+
+    def heard(sighting: Sighting) -> None:
+        if sighting.kind is EventKind.ACQUIRE:
+            meter.add(edges[robot._numbers[sighting.obstacle]])
+
+    for sighting in robot.sightings:
+        heard(sighting)
+    robot._on_sighting, robot._most = heard, most
+    ending = Ending.FINISHED
+    try:
+        own.rules(robot)
+        if robot._stuck is not None:
+            # The strategy went on without moving: what it has learned is not all that its path shows.
+            raise robot._stuck
+    except EnoughMoves:
+        ending = Ending.MOST_MOVES
+    except Undecided as error:
+        robot._walker.give_up()
+        raise Undecided(error.comparison, _finished(own, robot, scene)) from error
+    finally:
+        robot._stuck = MoveError("the run of this robot is over")
+    at = robot._walker.at
+    robot._walker.mark(EventKind.STOP, at if isinstance(at, int) else None, ending=ending)
+    meter.close()
+    run = _finished(own, robot, scene)
+    return replace(run, bounds=own_bounds(run, own))
+
+
+def _finished(own: OwnStrategy, robot: Robot, scene: Scene) -> OwnRun:
+    path, events, record = robot._walker.trace()
+    return OwnRun(
+        scene=scene,
+        radius=robot.radius,
+        start=robot.start,
+        path=path,
+        visits=tuple(robot._walker.visited),
+        events=events,
+        bounds=(),
+        unseen=tuple(k for k in range(len(scene.obstacles)) if k not in record.seen),
+        unvisited=tuple(sorted(record.incomplete)),
+        record=record,
+        name=own.name,
+    )

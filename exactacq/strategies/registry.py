@@ -1,0 +1,94 @@
+"""Strategies of the user's own, by name."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Any, TypeAlias, TypeVar
+
+from exactacq.errors import StrategyError, shown
+from exactacq.numbers.length import Length
+from exactacq.strategies.options import Strategy
+from exactacq.strategies.robot import Robot
+
+Rules: TypeAlias = "Callable[[Robot], Any]"
+"""What a strategy is: it is called with a robot at the start, and is done when it returns."""
+Bounds: TypeAlias = "Callable[[Any], Iterable[tuple[str, str, Length | int]]]"
+"""From a finished run names, sources and values of bounds on its length."""
+Function = TypeVar("Function", bound=Rules)
+_NAME = re.compile(r"\w[\w-]*")
+
+
+@dataclass(frozen=True)
+class OwnStrategy:
+    """A strategy with its name, and what bounds the length of its runs, if anything does."""
+
+    name: str
+    rules: Rules
+    bounds: Bounds | None = None
+
+
+_known: dict[str, OwnStrategy] = {}
+
+
+def strategy(name: str, *, bounds: Bounds | None = None) -> Callable[[Function], Function]:
+    """Register a strategy of one's own under a name: a decorator of a function that takes a `Robot`.
+
+    The name has letters, digits, "-" and "_" only. *bounds*, if given, is called with each finished run and
+    gives names, sources and exact values of bounds on its length; they are found again, and not read, when a
+    run is read from a file. A function that is defined anew in the same module takes the place of the one
+    before. Raises `StrategyError` for another name, and for that of another strategy.
+
+    >>> import exactacq as xa
+    >>> @xa.strategy("nearest-first", bounds=lambda run: [("most", "a guess", run.radius * 2)])
+    ... def nearest_first(robot):
+    ...     while link := robot.nearest_unvisited(robot.at):
+    ...         robot.take(link)
+    ...         robot.circle()
+    >>> run = xa.explore(xa.load("circles"), "nearest-first")
+    >>> print(run.visits, run.length, [(bound.name, bound.holds) for bound in run.bounds])
+    (0, 1) 5 + 12*pi [('most', False)]
+    """
+    if name in tuple(Strategy):
+        raise StrategyError(f"{name} is a strategy of exactacq: choose another name")
+    if not is_name(name):
+        raise StrategyError(f'a strategy has a name of letters, digits, "-" and "_", not {shown(name)}')
+
+    def register(rules: Function) -> Function:
+        other = _known.get(name)
+        if other is not None and _home(other.rules) != _home(rules):
+            raise StrategyError(f"there is a strategy {name} already, in {_home(other.rules)[0]}")
+        _known[name] = OwnStrategy(name, rules, bounds)
+        return rules
+
+    return register
+
+
+def is_name(name: object) -> bool:
+    """Whether a strategy of the user's own may have a name: whether it is a word of such characters."""
+    return isinstance(name, str) and _NAME.fullmatch(name) is not None and name not in tuple(Strategy)
+
+
+def _home(rules: Rules) -> tuple[str, str]:
+    """Where a function was defined."""
+    return getattr(rules, "__module__", ""), getattr(rules, "__qualname__", repr(rules))
+
+
+def registered(name: str) -> OwnStrategy | None:
+    """The strategy of a name, if there is one."""
+    return _known.get(name)
+
+
+def of_function(rules: Rules) -> OwnStrategy:
+    """A function as a strategy: as it was registered, or else under its own name."""
+    found = next((own for own in _known.values() if own.rules is rules), None)
+    if found is not None:
+        return found
+    name = re.sub(r"[^\w-]", "", getattr(rules, "__name__", "")) or type(rules).__name__
+    return OwnStrategy(f"{name}-" if name in tuple(Strategy) else name, rules)
+
+
+def names() -> list[str]:
+    """The names of all strategies, those of exactacq first."""
+    return [*Strategy, *sorted(_known)]

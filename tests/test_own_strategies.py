@@ -1,0 +1,318 @@
+"""Strategies of one's own: registered, run, written and read, drawn, told, and audited."""
+
+from __future__ import annotations
+
+import json
+import pickle
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from random import Random
+
+import pytest
+from nightly import some
+
+import exactacq as xa
+from exactacq.geometry.points import Point
+from exactacq.output.animation.frames import frames_of
+from exactacq.output.animation.page import page
+from exactacq.output.figures import svg
+from exactacq.output.report import console, run_report
+from exactacq.sensing.event import Ending
+from exactacq.sensing.memory import Memory
+from exactacq.sensing.path import Piece
+from exactacq.strategies import registry
+from exactacq.strategies.run import Bound
+from exactacq.study.random_scenes import Subject, random_scene
+
+CIRCLES = xa.load("circles")
+
+
+@pytest.fixture(autouse=True)
+def own_registry(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(registry, "_known", {})
+
+
+def nearest_first(robot: xa.Robot) -> None:
+    """The Sightseer in small: along links, and back where none goes on."""
+    ways = []
+    while True:
+        link = robot.nearest_unvisited(robot.at)
+        if link is not None:
+            ways.append(robot.take(link))
+            robot.circle()
+        elif ways:
+            robot.go_back(ways.pop())
+        else:
+            return
+
+
+def wanderer(seed: int, robot: xa.Robot) -> None:
+    """Random moves: straight ones, walks that are interrupted, laps, and ways along links."""
+    rng, ways = Random(seed), []
+    for _ in range(7):
+        ends = [point for _, point in robot.frontier]
+        link = robot.nearest_unvisited(robot.at) if robot.at in robot.visited else None
+        if link is not None and rng.random() < 0.7:
+            ways.append(robot.take(link))
+        elif ways and robot.at == ways[-1].target and robot.at in robot.visited and rng.random() < 0.5:
+            robot.go_back(ways.pop())
+        elif robot.at is not None and robot.at not in robot.visited:
+            robot.walk(rng.choice(["left", "right"]), until=rng.choice([(), "acquire", "sight"]))
+        elif ends:
+            robot.go_to(rng.choice(ends), until=rng.choice([(), "regain"]))
+        else:
+            robot.go_to((rng.randint(-9, 9), rng.randint(-9, 9)))
+
+
+def wandered(seed: int) -> xa.OwnRun:
+    return xa.explore(random_scene(Subject.SIGHTSEER, seed), partial(wanderer, seed))
+
+
+def touch(robot: xa.Robot) -> None:
+    robot.go_to(robot.map.nearest(0, robot.position))
+
+
+class TestRuns:
+    def test_of_the_papers_strategies_by_name(self) -> None:
+        assert xa.explore(CIRCLES) == xa.sightseer(CIRCLES)
+        terrain = xa.load("figure2")
+        assert xa.explore(terrain, "seed-spreader") == xa.seed_spreader(terrain)
+        assert xa.explore(CIRCLES, "sightseer", 9, start=(0, 1)) == xa.sightseer(CIRCLES, 9, start=(0, 1))
+
+    @pytest.mark.parametrize("seed", some(range(30), 4))
+    def test_of_the_sightseers_rules_are_its_walk(self, seed: int) -> None:
+        scene = random_scene(Subject.SIGHTSEER, seed)
+        own, other = xa.explore(scene, nearest_first), xa.sightseer(scene)
+        assert own.visits == other.visits and own.unseen == other.unseen
+        if other.ending is not Ending.ALL_VISITED:
+            assert own.path == other.path
+        else:
+            assert own.path[: len(other.path)] == other.path[:]
+
+    def test_tell_what_was_missed(self) -> None:
+        run = xa.explore(CIRCLES, touch)
+        assert (run.strategy, run.title, run.name) == ("touch", "Strategy touch", "touch")
+        assert run.length == 3 and run.visits == () and run.bounds == ()
+        assert (run.unseen, run.unvisited, run.complete) == ((1,), (0,), False)
+        assert run.ending is Ending.FINISHED and run.events[-1].note == "the strategy is done"
+        assert [event.kind.value for event in run.events] == ["start", "sight", "hit", "stop"]
+
+    def test_begin_where_they_are_told(self) -> None:
+        run = xa.explore(CIRCLES, touch, "5/2", start=(1, 0))
+        assert run.start == Point(1, 0) and run.length == 2 and run.radius * 2 == 5
+
+    def test_without_a_move(self) -> None:
+        run = xa.explore(CIRCLES, lambda robot: None)
+        assert len(run.path) == 0 and run.name == "lambda" and run.ending is Ending.FINISHED
+        xa.audit(run, samples=4)
+        nothing = xa.explore(xa.Scene([], start=(0, 0), radius=1), lambda robot: robot.go_to((1, 1)))
+        assert nothing.complete
+        xa.audit(nothing, samples=4)
+
+    def test_have_no_more_moves_than_allowed(self) -> None:
+        def endless(robot: xa.Robot) -> None:
+            while True:
+                try:
+                    robot.go_to((0, 1))
+                    robot.go_to((0, 0))
+                except Exception:
+                    continue
+
+        run = xa.explore(CIRCLES, endless, max_moves=5)
+        assert run.ending is Ending.MOST_MOVES and len(run.path) == 5 and run.length == 5
+        xa.audit(run, samples=4)
+        for most in (0, -1, 2.5, True, "9"):
+            with pytest.raises(xa.FormatError, match="max_moves: a positive integer"):
+                xa.explore(CIRCLES, touch, max_moves=most)
+
+    def test_are_over_when_they_are(self) -> None:
+        kept = []
+        xa.explore(CIRCLES, kept.append)
+        with pytest.raises(xa.MoveError, match="the run of this robot is over"):
+            kept[0].go_to((1, 1))
+
+    def test_fail_as_the_strategy_does(self) -> None:
+        with pytest.raises(ZeroDivisionError):
+            xa.explore(CIRCLES, lambda robot: 1 // 0)
+
+    @pytest.mark.parametrize("goes_on", [False, True])
+    def test_that_are_undecided_tell_how_far(self, goes_on: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+        walk = Memory.walk
+
+        def fail(self: Memory, piece: Piece) -> object:
+            if piece.end.y == 3:
+                raise xa.Undecided("two numbers")
+            return walk(self, piece)
+
+        def go(robot: xa.Robot) -> None:
+            robot.go_to((0, 2))
+            try:
+                robot.go_to((0, 3))
+            except xa.Undecided:
+                if not goes_on:
+                    raise
+
+        monkeypatch.setattr(Memory, "walk", fail)
+        with pytest.raises(xa.Undecided, match="undecided after") as caught:
+            xa.explore(CIRCLES, go)
+        run = caught.value.run
+        assert (run.ending, run.name, run.length) == (Ending.UNDECIDED, "go", 2)
+        assert caught.value.place == Point(0, 2)
+        assert xa.load_run(run.to_json()) == run
+
+    def test_that_compare_what_is_undecided_are_given_up(self) -> None:
+        def go(robot: xa.Robot) -> None:
+            robot.go_to((0, 2))
+            circle = xa.Length.turns(1)
+            assert circle / xa.Length(3) == circle * 2 / xa.Length(6)
+
+        with pytest.raises(xa.Undecided, match="undecided after 2 of the path") as caught:
+            xa.explore(CIRCLES, go)
+        assert caught.value.run.ending is Ending.UNDECIDED
+
+    def test_report_progress(self) -> None:
+        told: list[tuple[int, int]] = []
+        room = xa.Scene(
+            [xa.Circle((0, 0), 1)], start=(3, 3), radius=20,
+            enclosure=[(-5, -5), (5, -5), (5, 5), (-5, 5)],
+        )  # fmt: skip
+        for scene in (CIRCLES, room):
+            xa.explore(scene, nearest_first, progress=lambda *step: told.append(step))
+            edges = sum(len(obstacle.edges) for obstacle in scene.obstacles)
+            assert told[-1] == (edges, edges)
+
+
+class TestNames:
+    def test_are_for_one_strategy(self) -> None:
+        xa.strategy("mine")(touch)
+        assert xa.strategy("mine")(touch) is touch
+        with pytest.raises(xa.StrategyError, match="there is a strategy mine already"):
+            xa.strategy("mine")(nearest_first)
+        with pytest.raises(
+            xa.StrategyError, match="no strategy 'other'; there are sightseer, seed-spreader, mine"
+        ):
+            xa.explore(CIRCLES, "other")
+        assert xa.explore(CIRCLES, "mine") == xa.explore(CIRCLES, touch)
+
+    @pytest.mark.parametrize("name", ["", "a b", "-a", "<b>", "a.py:b", None, 3])
+    def test_are_words(self, name: object) -> None:
+        with pytest.raises(xa.StrategyError, match="a strategy has a name of letters"):
+            xa.strategy(name)
+
+    def test_of_the_paper_are_taken(self) -> None:
+        with pytest.raises(xa.StrategyError, match="is a strategy of exactacq"):
+            xa.strategy("sightseer")
+
+        def sightseer(robot: xa.Robot) -> None:
+            robot.go_to((1, 0))
+
+        assert xa.explore(CIRCLES, sightseer).name == "sightseer-"
+
+    def test_of_what_is_no_strategy(self) -> None:
+        for thing in (None, 3, b"sightseer"):
+            with pytest.raises(xa.StrategyError, match="no strategy"):
+                xa.explore(CIRCLES, thing)
+
+
+class TestBounds:
+    def told(self, *values: object) -> Callable[[xa.Run], Iterator[tuple[str, str, object]]]:
+        return lambda run: ((f"b{k}", "a guess", value) for k, value in enumerate(values))
+
+    def test_are_as_registered(self) -> None:
+        xa.strategy("mine", bounds=self.told(3, "5/2", xa.Length.turns(1)))(touch)
+        run = xa.explore(CIRCLES, "mine")
+        assert [(b.name, b.holds, b.applies) for b in run.bounds] == [
+            ("b0", True, True),
+            ("b1", False, True),
+            ("b2", True, True),
+        ]
+        xa.audit(run, samples=4)
+        assert xa.load_run(run.to_json()) == run
+        first = run.bounds[0]
+        for wrong in (replace(first, holds=False), replace(first, ratio=0.5)):
+            with pytest.raises(xa.AuditError, match="bound b0"):
+                xa.audit(replace(run, bounds=(wrong, *run.bounds[1:])), samples=4)
+
+    def test_are_not_those_of_another_strategy_of_its_name(self) -> None:
+        xa.strategy("touch", bounds=self.told(3))(nearest_first)
+        assert xa.explore(CIRCLES, touch).bounds == ()
+
+    def test_with_one_name_are_refused(self) -> None:
+        xa.strategy("mine", bounds=lambda run: [("b", "", 1), ("b", "", 2)])(touch)
+        with pytest.raises(xa.StrategyError, match="two bounds of mine have one name"):
+            xa.explore(CIRCLES, "mine")
+
+    def test_named_as_the_papers_are_lengths(self) -> None:
+        xa.strategy("mine", bounds=lambda run: [("(4)", "", 3)])(touch)
+        xa.audit(xa.explore(CIRCLES, "mine"), samples=4)
+
+
+class TestWhatIsMadeOfRuns:
+    @pytest.mark.parametrize("seed", some(range(12), 3))
+    def test_files_are_read_as_written(self, seed: int) -> None:
+        run = wandered(seed)
+        document = json.loads(json.dumps(run.to_json()))
+        again = xa.load_run(document)
+        assert (
+            type(again) is xa.OwnRun and again == run and again.map.known_length() == run.map.known_length()
+        )
+        assert again.to_json() == document
+        assert pickle.loads(pickle.dumps(run)) == run
+
+    @pytest.mark.parametrize("name", ["sightseer", "a b", "<script>", None])
+    def test_files_with_other_names_are_refused(self, name: object) -> None:
+        document = xa.explore(CIRCLES, touch).to_json()
+        with pytest.raises(xa.FormatError):
+            xa.load_run({**document, "strategy": name})
+        with pytest.raises(xa.FormatError, match="unknown strategy"):
+            xa.load_run({**document, "own": False})
+
+    def test_reports_and_figures(self, tmp_path: Path) -> None:
+        run = wandered(1)
+        out = console()
+        with out.capture() as said:
+            out.print(run_report(run))
+        text = said.get()
+        assert "Strategy wanderer" in text or "Strategy partial" in text
+        assert "ended because the strategy is done" in text and "model (a)" not in text
+        assert "<svg" in svg(run) and run.title in svg(run)
+        assert run.title in page(run, frames_of(run, limit=4, fine=0))
+        for name in ("run.svg", "run.csv", "run.dxf", "run.geojson"):
+            xa.write(run, tmp_path / name)
+        assert run._repr_html_().startswith("<div><p>OwnRun")
+
+
+class TestAudits:
+    @pytest.mark.parametrize("seed", some(range(40), 6))
+    def test_find_no_flaw(self, seed: int) -> None:
+        xa.audit(wandered(seed), samples=6)
+
+    def test_find_each_flaw(self) -> None:
+        run = xa.explore(CIRCLES, nearest_first)
+        xa.audit(run, samples=4)
+        moves = {event.kind: k for k, event in enumerate(run.events)}
+
+        def with_event(which: str, **changes: object) -> xa.OwnRun:
+            events, k = list(run.events), moves[xa.EventKind(which)]
+            events[k] = replace(events[k], **changes)
+            return replace(run, events=tuple(events))
+
+        flawed = {
+            "visited, but never walked": replace(xa.explore(CIRCLES, touch), visits=(0,)),
+            "names one twice": replace(run, visits=(0, 1, 1)),
+            "which no such strategy does": with_event("stop", ending=Ending.ALL_VISITED),
+            "on the boundary of obstacle 0": with_event("hit", obstacle=0),
+            "happens at None": with_event("stop", obstacle=0),
+            "between .* is not at None": replace(
+                run, events=tuple(e for e in run.events if e.kind is not xa.EventKind.HIT)
+            ),
+            "happens at 0": with_event("leave", obstacle=None, kind=xa.EventKind.BACKTRACK),
+            "by the map": replace(run, unvisited=(0,)),
+            "the bounds are": replace(run, bounds=(Bound("a", "", xa.Length(1), False, 1.0),) * 2),
+            "is not on the path": with_event("hit", point=Point(0, 1)),
+        }
+        for words, wrong in flawed.items():
+            with pytest.raises(xa.AuditError, match=words):
+                xa.audit(wrong, samples=4)
