@@ -26,7 +26,7 @@ from exactacq.files import gallery
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import fmpq
-from exactacq.output.figures.draw import figure, pair, save, save_pair, svg
+from exactacq.output.figures.draw import figure, save, save_side_by_side, side_by_side, svg
 from exactacq.output.figures.sweep import SweptTerrain, component_region
 from exactacq.output.regions import Region, part
 from exactacq.output.vocabulary import AWAY
@@ -403,7 +403,7 @@ def test_two_runs_side_by_side(tmp_path: Path) -> None:
     shapes = [Circle((3, 9), 1), Circle((8, 3), 1), square(4, 4)]
     scene = Scene(shapes, (0, 0), terrain=Terrain(12, 11), radius=7, name="three")
     seen, swept = sightseer(scene), seed_spreader(scene)
-    drawn = pair(seen, swept)
+    drawn = side_by_side([seen, swept])
     drawn.canvas.draw()
     titles = [t.get_text() for t in drawn.texts]
     assert {"Sightseer Strategy: three", "Seed Spreader Strategy: three"} <= set(titles)
@@ -420,12 +420,12 @@ def test_two_runs_side_by_side(tmp_path: Path) -> None:
     for suffix, magic in some(((".svg", b"<?xml"), (".pdf", b"%PDF"), (".png", b"\x89PNG")), 1):
         paths = [tmp_path / f"{name}{suffix}" for name in "ab"]
         for path in paths:
-            save_pair(seen, swept, path)
+            save_side_by_side([seen, swept], path)
         first, second = (path.read_bytes() for path in paths)
         assert first.startswith(magic)
         assert first == second
     with pytest.raises(FormatError, match="must end in"):
-        save_pair(seen, swept, tmp_path / "pair.gif")
+        save_side_by_side([seen, swept], tmp_path / "pair.gif")
 
 
 def test_far_and_tiny_scenes_are_refused_in_words() -> None:

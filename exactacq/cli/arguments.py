@@ -42,6 +42,10 @@ LabelChoice = Annotated[
     Labels,
     typer.Option("--labels", help="Labels in pictures: obstacles' names, numbers of visits, all, or none."),
 ]
+MaxMoves = Annotated[
+    int,
+    typer.Option("--max-moves", metavar="N", min=1, help="Your own strategy: most moves, then the run ends."),
+]
 FigureFile = Annotated[str | None, typer.Option(metavar="F", help="Write a figure: .svg, .pdf or .png.")]
 
 

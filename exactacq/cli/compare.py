@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import sys
-from typing import Any
+from typing import Annotated, Any
+
+import typer
 
 from exactacq.cli.arguments import (
     AsJson,
     FigureFile,
     LabelChoice,
+    MaxMoves,
     Radius,
     SceneName,
     Start,
@@ -17,11 +20,13 @@ from exactacq.cli.arguments import (
     same_file,
     scene_of,
 )
+from exactacq.cli.completion import strategies
 from exactacq.cli.options import reads_files
+from exactacq.cli.own_strategies import WORDS, chosen
 from exactacq.cli.runs import explored, watched
 from exactacq.errors import FormatError, InvalidScene
 from exactacq.output.vocabulary import Labels
-from exactacq.strategies.options import Strategy
+from exactacq.strategies.options import MOST_MOVES, Strategy
 
 
 @reads_files
@@ -30,15 +35,22 @@ def compare(
     radius: Radius = None,
     start: Start = None,
     terrain: TerrainSize = None,
+    strategy: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar=WORDS, help="One to compare; may be repeated. Default: both.", autocompletion=strategies
+        ),
+    ] = None,
+    max_moves: MaxMoves = MOST_MOVES,
     figure: FigureFile = None,
     labels: LabelChoice = Labels.ALL,
     as_json: AsJson = False,
     **options: Any,
 ) -> None:
-    """Explore a scene by both strategies, and set what they do side by side.
+    """Explore a scene by both strategies, or those that are named, and set what they do side by side.
 
-    The Seed Spreader starts in the SW corner of the terrain, the Sightseer there if no other start is given.
-    If only one of them takes the scene, it is told why the other one does not.
+    The Seed Spreader starts in the SW corner of the terrain, the others there if no other start is given. If
+    one of them does not take the scene, it is told why.
     """
     from exactacq.files.whole_files import FIGURES, check_output
     from exactacq.output.report import comparison, console, run_report
@@ -48,33 +60,34 @@ def compare(
     range_ = range_of(radius)
     if figure is not None and same_file(check_output(figure, FIGURES), scene):
         raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
+    wanted = [chosen(text) for text in strategy or Strategy]
     world = scene_of(scene, start, options, terrain)
     if range_ is None and world.radius is None:
         raise FormatError(f"{scene}: the scene has no radius of vision: give one with --radius R")
     corner = at_corner(world)
-    starts = {Strategy.SIGHTSEER: corner if world.start is None else world, Strategy.SEED_SPREADER: corner}
     runs, refusals = [], []
-    for strategy, begun in starts.items():
+    for rules in wanted:
+        at_its_corner = world.start is None or rules.sweeps
         try:
-            runs.append(explored(begun, range_, strategy))
+            runs.append(explored(corner if at_its_corner else world, range_, rules, max_moves=max_moves))
         except InvalidScene as error:
             first, *others = error.violations
             more = f" (and {len(others)} more)" if others else ""
-            refusals.append(f"no {strategy.value}: {first}{more}")
+            refusals.append(f"no {rules.name}: {first}{more}")
     if not runs:
         raise InvalidScene(refusals)
     if as_json:
         sys.stdout.write(text_of(comparison_data(runs, refusals)))
     else:
-        console().print(comparison(*runs) if len(runs) == 2 else run_report(runs[0]))
+        console().print(comparison(runs) if len(runs) > 1 else run_report(runs[0]))
         for refusal in refusals:
             console().print(f"\n{refusal}", soft_wrap=True)
     if figure is not None:
-        from exactacq.output.figures import save, save_pair
+        from exactacq.output.figures import save, save_side_by_side
 
         with watched("drawing") as progress:
-            if len(runs) == 2:
-                save_pair(runs[0], runs[1], figure, labels=labels, progress=progress)
+            if len(runs) > 1:
+                save_side_by_side(runs, figure, labels=labels, progress=progress)
             else:
                 save(runs[0], figure, labels=labels, progress=progress)
         if not as_json:

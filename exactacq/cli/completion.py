@@ -1,4 +1,4 @@
-"""What a shell offers for the arguments of commands: names of scenes, and words to choose from.
+"""What a shell offers for the arguments of commands: scenes, strategies, and words to choose from.
 
 Where nothing is offered, the shell completes names of files as it is used to.
 """
@@ -24,6 +24,14 @@ def gallery_scenes(incomplete: str) -> list[str]:
     from exactacq.files.gallery import names
 
     return _beginning(names(), incomplete)
+
+
+def strategies(incomplete: str) -> list[str]:
+    """The paper's strategies that begin so, and then the Python files in this folder that do."""
+    from exactacq.strategies.options import Strategy
+
+    files = sorted(path.name for path in Path().glob("*.py") if path.is_file())
+    return [*_beginning(Strategy, incomplete), *_beginning(files, incomplete)]
 
 
 def among(words: Iterable[str]) -> Callable[[str], list[str]]:

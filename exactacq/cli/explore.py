@@ -12,6 +12,7 @@ from exactacq.cli.arguments import (
     DRAWINGS,
     FigureFile,
     LabelChoice,
+    MaxMoves,
     Radius,
     SceneName,
     Start,
@@ -22,11 +23,13 @@ from exactacq.cli.arguments import (
     same_file,
     scene_of,
 )
+from exactacq.cli.completion import strategies
 from exactacq.cli.options import reads_files
+from exactacq.cli.own_strategies import WORDS, chosen
 from exactacq.cli.runs import explored, watched
 from exactacq.errors import AuditError, ExactacqError, FormatError, Undecided
 from exactacq.output.vocabulary import Labels
-from exactacq.strategies.options import Strategy, TargetChoice
+from exactacq.strategies.options import MOST_MOVES, Strategy, TargetChoice
 
 if TYPE_CHECKING:
     from flint import fmpq
@@ -37,7 +40,9 @@ if TYPE_CHECKING:
 @reads_files
 def explore(
     scene: SceneName,
-    strategy: Annotated[Strategy, typer.Option(help="How to explore.")] = Strategy.SIGHTSEER,
+    strategy: Annotated[
+        str, typer.Option(metavar=WORDS, help="How to explore.", autocompletion=strategies)
+    ] = Strategy.SIGHTSEER,
     radius: Radius = None,
     start: Start = None,
     terrain: TerrainSize = None,
@@ -47,6 +52,7 @@ def explore(
     target: Annotated[
         TargetChoice, typer.Option(help="Seed Spreader: what a diversion aims at.")
     ] = TargetChoice.KNOWN,
+    max_moves: MaxMoves = MOST_MOVES,
     figure: FigureFile = None,
     labels: LabelChoice = Labels.ALL,
     at: Annotated[
@@ -73,6 +79,9 @@ def explore(
 ) -> None:
     """Explore a scene; print a summary, or write the figure and the exact trace.
 
+    A strategy of your own is FILE.py:NAME: a function of a robot in a file, which is run. NAME is that of the
+    function, or the one under which it is registered.
+
     Where a comparison stays undecided, all that is done for the run up to there, and the exit status is 3.
     """
     from exactacq.files.whole_files import FIGURES, FILMS, PAGES, TRACES, check_output, write_whole
@@ -91,13 +100,14 @@ def explore(
         check_film(animate)
     if any(same_file(path, scene) for path in outputs):
         raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
+    rules = chosen(strategy)
     world = scene_of(scene, start, options, terrain)
     if range_ is None and world.radius is None:
         raise FormatError(f"{scene}: the scene has no radius of vision: give one with --radius R")
     trouble: ExactacqError | None = None
     try:
-        sweeps = strategy is Strategy.SEED_SPREADER and start is None
-        run = explored(at_corner(world) if sweeps else world, range_, strategy, lookahead, target)
+        begun = at_corner(world) if rules.sweeps and start is None else world
+        run = explored(begun, range_, rules, lookahead, target, max_moves)
     except Undecided as error:
         if error.run is None:
             raise

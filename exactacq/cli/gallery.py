@@ -10,6 +10,7 @@ import typer
 
 from exactacq.cli.arguments import AsJson, FigureFile, LabelChoice
 from exactacq.cli.completion import gallery_scenes
+from exactacq.cli.own_strategies import NamedStrategy
 from exactacq.cli.runs import explored, watched
 from exactacq.errors import FormatError
 from exactacq.output.vocabulary import Labels
@@ -70,7 +71,10 @@ def _draw_gallery(folder: Path, labels: Labels) -> None:
         path = folder / f"{name}.svg"
         world = scenes.scene(name)
         strategy = Strategy.SEED_SPREADER if scenes.is_swept(name) else Strategy.SIGHTSEER
-        run, target = explored(world, None, strategy), check_output(path, FIGURES)
+        run, target = (
+            explored(world, None, NamedStrategy(strategy, strategy.value)),
+            check_output(path, FIGURES),
+        )
         with watched("drawing") as progress:
             save(run, target, labels=labels, progress=progress)
         print(f"figure written to {path}")

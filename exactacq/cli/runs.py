@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from exactacq.strategies.options import Strategy, TargetChoice
+from exactacq.cli.own_strategies import NamedStrategy, blaming
+from exactacq.strategies.options import MOST_MOVES, Strategy, TargetChoice
 
 if TYPE_CHECKING:
     from flint import fmpq
@@ -20,18 +21,26 @@ if TYPE_CHECKING:
 def explored(
     scene: Scene,
     radius: fmpq | None,
-    strategy: Strategy,
+    strategy: NamedStrategy,
     lookahead: bool = True,
     target: TargetChoice = TargetChoice.KNOWN,
+    max_moves: int = MOST_MOVES,
 ) -> Run:
-    """The run; with a progress bar if it is long and a terminal watches."""
+    """The run; with a progress bar if it is long and a terminal watches.
+
+    What a strategy of the user's own does wrong is told with its file and line.
+    """
+    from exactacq.strategies.explore import explore
     from exactacq.strategies.seed_spreader.strategy import seed_spreader
     from exactacq.strategies.sightseer.strategy import sightseer
 
     def run(progress: Progress | None) -> Run:
-        if strategy is Strategy.SIGHTSEER:
+        if strategy.strategy is Strategy.SIGHTSEER:
             return sightseer(scene, radius, progress=progress)
-        return seed_spreader(scene, radius, lookahead=lookahead, target=target.value, progress=progress)
+        if strategy.strategy is Strategy.SEED_SPREADER:
+            return seed_spreader(scene, radius, lookahead=lookahead, target=target.value, progress=progress)
+        with blaming(strategy.file):
+            return explore(scene, strategy.strategy, radius, max_moves=max_moves, progress=progress)
 
     with watched("exploring") as progress:
         return run(progress)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 from flint import fmpq
 from rich.console import Console, Group, RenderableType
@@ -73,11 +73,15 @@ def run_report(run: Run) -> RenderableType:
     return Group(*parts, *_missed(run, names), *_notes(run.scene))
 
 
-def comparison(first: Run, second: Run) -> RenderableType:
-    """Two runs on one scene side by side: how long, whom they visited and know, and how near the bounds."""
-    runs = (first, second)
+def comparison(runs: Sequence[Run]) -> RenderableType:
+    """Runs on one scene side by side: how long, whom they visited and know, and how near the bounds.
+
+    Below, the lengths of all but the first one over that of the first one.
+    """
+    first, *others = runs
     table = _table("", *(run.title for run in runs))
-    ratio = float(second.length) / float(first.length) if first.length.sign() else float("nan")
+    whole = float(first.length) if first.length.sign() else float("nan")
+    ratios = [f"{_short(run)} / {_short(first)}  {float(run.length) / whole:.6f}" for run in others]
     counts = [(len(run.visits), len(run.map.acquired), len(run.obstacles)) for run in runs]
     rows: dict[str, list[str]] = {
         Word.LENGTH: ["\n".join(readable(run.length, CLOSED_FORM // 2, 12)) for run in runs],
@@ -96,8 +100,14 @@ def comparison(first: Run, second: Run) -> RenderableType:
             "bounds" if number == 0 else "",
             *("" if b is None else f"{b.name}: {_verdict(b, f'{b.ratio:.4f}')}" for b in bounds),
         )
-    title = Text(f"Both strategies on {first.scene.name or 'a scene'}", style="bold")
-    return Group(title, "", table, "", f"Seed Spreader / Sightseer  {ratio:.6f}")
+    how_many = "Both" if len(runs) == 2 else str(len(runs))
+    title = Text(f"{how_many} strategies on {first.scene.name or 'a scene'}", style="bold")
+    return Group(title, "", table, "", *ratios)
+
+
+def _short(run: Run) -> str:
+    """What a run's strategy is called where there is little room."""
+    return run.name if isinstance(run, OwnRun) else run.title.removesuffix(" Strategy")
 
 
 def scene_report(scene: Scene) -> RenderableType:

@@ -14,15 +14,12 @@ from exactacq.strategies.bounds import own_bounds
 from exactacq.strategies.gc_pause import uncollected
 from exactacq.strategies.known_map import Sighting
 from exactacq.strategies.moves import EnoughMoves
-from exactacq.strategies.options import Strategy
+from exactacq.strategies.options import MOST_MOVES, Strategy
 from exactacq.strategies.registry import OwnStrategy, Rules, names, of_function, registered
 from exactacq.strategies.robot import Robot
 from exactacq.strategies.run import OwnRun, Run
 from exactacq.strategies.seed_spreader.strategy import seed_spreader
 from exactacq.strategies.sightseer.strategy import sightseer
-
-MOST_MOVES = 10_000
-"""Moves that a strategy of one's own may make unless it is told otherwise."""
 
 
 def explore(

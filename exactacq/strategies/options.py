@@ -7,6 +7,9 @@ from typing import NoReturn
 
 from exactacq.errors import FormatError, shown
 
+MOST_MOVES = 10_000
+"""Moves that a strategy of the user's own may make unless it is told otherwise."""
+
 
 class Strategy(StrEnum):
     """The paper's strategies."""

@@ -80,6 +80,11 @@ def registered(name: str) -> OwnStrategy | None:
     return _known.get(name)
 
 
+def registered_in(module: str) -> list[str]:
+    """The names of the strategies that a module defines, in the order in which it registered them."""
+    return [name for name, own in _known.items() if _home(own.rules)[0] == module]
+
+
 def of_function(rules: Rules) -> OwnStrategy:
     """A function as a strategy: as it was registered, or else under its own name."""
     found = next((own for own in _known.values() if own.rules is rules), None)

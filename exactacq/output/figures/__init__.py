@@ -1,5 +1,5 @@
 """Figures of scenes and runs."""
 
-from exactacq.output.figures.draw import figure, save, save_pair, svg
+from exactacq.output.figures.draw import figure, save, save_side_by_side, svg
 
-__all__ = ["figure", "save", "save_pair", "svg"]
+__all__ = ["figure", "save", "save_side_by_side", "svg"]

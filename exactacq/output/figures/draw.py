@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
@@ -67,12 +67,12 @@ def figure(
     return drawn
 
 
-def pair(
-    first: Run, second: Run, *, labels: Labels | str = Labels.ALL, progress: Progress | None = None
+def side_by_side(
+    runs: Sequence[Run], *, labels: Labels | str = Labels.ALL, progress: Progress | None = None
 ) -> Figure:
-    """The figures of two runs side by side."""
-    choice, meter = Labels(labels), Meter(progress, steps(first) + steps(second))
-    return on_page([Canvas(run, None, meter) for run in (first, second)], choice)
+    """The figures of runs side by side."""
+    choice, meter = Labels(labels), Meter(progress, sum(map(steps, runs)))
+    return on_page([Canvas(run, None, meter) for run in runs], choice)
 
 
 def svg(subject: Run | Scene | ShortestPath) -> str:
@@ -97,17 +97,16 @@ def save(
     write_whole(target, rendered(draw, target.suffix.lower()))
 
 
-def save_pair(
-    first: Run,
-    second: Run,
+def save_side_by_side(
+    runs: Sequence[Run],
     path: str | os.PathLike[str],
     *,
     labels: Labels | str = Labels.ALL,
     progress: Progress | None = None,
 ) -> None:
-    """Write the figures of two runs side by side to one file, with the suffixes and errors of `save`."""
+    """Write the figures of runs side by side to one file, with the suffixes and errors of `save`."""
     target = check_output(path, FIGURES)
-    draw = partial(pair, first, second, labels=Labels(labels), progress=progress)
+    draw = partial(side_by_side, runs, labels=Labels(labels), progress=progress)
     write_whole(target, rendered(draw, target.suffix.lower()))
 
 
