@@ -93,21 +93,20 @@ def explore(
         raise FormatError("--at: names a moment of a figure; give the figure with --figure F")
     length = None if at is None else number_of("--at", at)
     wanted = ((figure, FIGURES), (trace, TRACES), (animate, (*PAGES, *FILMS)), (drawing, DRAWINGS))
-    outputs = [check_output(f, s) for f, s in wanted if f is not None]
     if animate is not None and animate.lower().endswith(FILMS):
         from exactacq.output.animation.film import check_film
 
         check_film(animate)
-    if any(same_file(path, scene) for path in outputs):
+    if any(same_file(check_output(f, s), scene) for f, s in wanted if f is not None):
         raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
     rules = chosen(strategy)
     world = scene_of(scene, start, options, terrain)
     if range_ is None and world.radius is None:
         raise FormatError(f"{scene}: the scene has no radius of vision: give one with --radius R")
     trouble: ExactacqError | None = None
+    at_start = at_corner(world) if rules.sweeps and start is None else world
     try:
-        begun = at_corner(world) if rules.sweeps and start is None else world
-        run = explored(begun, range_, rules, lookahead, target, max_moves)
+        run = explored(at_start, range_, rules, lookahead, target, max_moves)
     except Undecided as error:
         if error.run is None:
             raise
