@@ -102,7 +102,8 @@ CLAIMS = (
             argument="T1",
         ),
         r"What is visible only past something can be farther than any two obstacles are apart. $\lvert S "
-        r"S_1 \rvert$ is the way from a free start to the first obstacle, $v_{\max}$ the longest tree edge.",
+        r"S_1 \rvert$ is the way from a free start to the first obstacle, $v_{\max}$ the longest tree edge. "
+        r"As both are at most $R$, (2) is true as printed for $n \ge 2$.",
     ),
     Claim(
         "L3",
