@@ -11,24 +11,6 @@ def rectangle(left: object, bottom: object, right: object, top: object) -> Polyg
     return Polygon([(left, bottom), (right, bottom), (right, top), (left, top)])
 
 
-def relay(count: int, foot: int = 30) -> Scene:
-    """A crumb with a pocket, and north of it *count* crumbs 19 apart, each between two screens.
-
-    A screened crumb is seen from the crumb before it only: from both lines its screens hide it, and they
-    themselves become known from there. R = B = 20; all crumbs and screens are less than 1/5 around. The first
-    crumb is at height *foot*: if that is low, the eastern line ends before the crumb is out of reach.
-    """
-    u, column = Q(1, 100), 14
-    pocket = [(0, 0), (3, 0), (3, 3), (0, 3), (0, 2), ("1/2", 2), ("1/2", "5/2"), (2, "5/2"), (2, 1), (0, 1)]
-    shapes = [Polygon([(column + Q(x) * u, foot + Q(y) * u) for x, y in pocket])]
-    for k in range(1, count + 1):
-        y = foot + 19 * k
-        shapes.append(rectangle(column - Q(9, 2) * u, y - Q(43, 10) * u, column - 4 * u, y + Q(43, 10) * u))
-        shapes.append(rectangle(column + u, y - Q(18, 5) * u, column + Q(3, 2) * u, y + Q(18, 5) * u))
-        shapes.append(rectangle(column - u / 20, y - u / 20, column + u / 20, y + u / 20))
-    return Scene(shapes, terrain=Terrain(20, foot + 19 * count + 30), radius=20, name=f"relay-{count}")
-
-
 def overlapping_links() -> Scene:
     """Two links of the Sightseer's tree lie on one line, one inside the other, and both are walked back.
 

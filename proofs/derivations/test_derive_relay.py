@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 from formulas import PRINTED, height, n, ns, p_max, pairs, perimeters, r, radius, strip, width
-from scenes import relay
 from sympy import Expr, Poly, Rational, Symbol, expand, limit, oo, real_roots
 
 from exactacq import Length, Run, seed_spreader
 from exactacq.geometry.points import distance
+from exactacq.study.claims.tight_families import relay
 
 k = Symbol("k", integer=True, positive=True)
 LEAST = 4

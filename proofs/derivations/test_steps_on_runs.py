@@ -7,12 +7,13 @@ from itertools import pairwise
 
 import pytest
 from flint import fmpq
-from scenes import overlapping_links, relay, trapped_end
+from scenes import overlapping_links, trapped_end
 
 from exactacq import Circle, Length, Run, Scene, Terrain, seed_spreader, sightseer
 from exactacq.files import gallery
 from exactacq.geometry.points import Point, distance
 from exactacq.sensing.event import Ending, Event, Occasion, Reason
+from exactacq.study.claims.tight_families import relay
 
 SWEPT = ["case1", "case2", "case3", "e3", "figure3", "figure4", "m14", "m15", "m18", "m20-6", "m25"]
 HALF = fmpq(1, 2)
