@@ -21,6 +21,7 @@ import exactacq
 from exactacq import Undecided
 from exactacq.files import gallery
 from exactacq.study.claims.model import Case, Claim, Finding, Outcome, Statement, Status, Subject, verdict
+from exactacq.study.claims.tightness import Portion, Reach, Yardstick
 
 DOCS = Path(__file__).parent.parent / "docs"
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in DOCS.glob("*.md")}
@@ -46,7 +47,7 @@ def monkeypatch_module() -> Iterator[pytest.MonkeyPatch]:
     with pytest.MonkeyPatch.context() as patch:
         patch.syspath_prepend(DOCS / "_ext")
         yield patch
-    for name in ("claims_page", "generated", "cut_out"):
+    for name in ("claims_page", "generated", "cut_out", "tightness_page"):
         sys.modules.pop(name, None)
 
 
@@ -159,6 +160,32 @@ def test_a_campaign_is_told_with_what_is_open(extension: ModuleType) -> None:
     assert lines[:3] == ["| passed | undecided |", "|---|---|", "| 5 | 1 |"]
     assert "The 1 statements that are called true held 3 times on single scenes, failed 1 times" in lines[4]
     assert lines[-3] == "| `sightseer:39` | undecided | a tie |" and lines[-1].startswith("5 more")
+
+
+# -- how tight the bounds are ------------------------------------------------------------------------
+
+
+def test_the_table_of_tightness_tells_exact_ratios_and_what_is_open(
+    extension: ModuleType, tmp_path: Path
+) -> None:
+    page = importlib.import_module("tightness_page")
+    tour = Yardstick("X|", "$a$", Subject.SIGHTSEER, half_of_the_length, Reach.ATTAINED, "one", lone, "why")
+    sweep = Yardstick("Y", "b", Subject.SEED_SPREADER, lambda _: None, Reach.OPEN)
+    page.write(tmp_path, [tour, sweep], [("squares", Subject.SIGHTSEER, squares(""))])
+    rows = (tmp_path / "tightness.md").read_text(encoding="utf-8").splitlines()
+    proved = f"[is 1]({page.ARGUMENT})"
+    half = "1/2 = 0.500000"
+    assert rows[2] == f"| X\\| | $a$ | {half} on `squares` | one | {proved} | `squares`: {half} |"
+    assert rows[3] == "| Y | b | no scene speaks of it |  | open |  |"
+    assert rows[-1] == "- *X\\|* ($a$): why"
+
+
+def half_of_the_length(case: Case) -> Portion:
+    return Portion(case.sightseer.length, case.sightseer.length * 2)
+
+
+def lone() -> tuple[exactacq.Scene, ...]:
+    return (gallery.scene("squares"),)
 
 
 # -- the page of claims ----------------------------------------------------------------------------

@@ -1,7 +1,7 @@
 """What the documentation shows and does not store: pictures and verdicts, computed when it is built.
 
 ``docs/_generated`` receives the SVG files of `PICTURES`, the text of the page of claims with its pictures and
-arguments, the table of bounds, those of stored results, and the help of all commands with what their
+arguments, the tables of bounds, those of stored results, and the help of all commands with what their
 examples print. ``-D claims_scenes=N`` tries the claims on N random scenes of each kind.
 """
 
@@ -15,6 +15,7 @@ from typing import Any
 import claims_page
 import command_page
 import tightest
+import tightness_page
 import trust_page
 
 import exactacq as xa
@@ -23,16 +24,21 @@ from exactacq.output.figures import draw as figures
 from exactacq.output.figures.vertex_scan_figure import limit_figure
 from exactacq.study import claims
 from exactacq.study.claims.model import Case, Subject
+from exactacq.study.claims.tightness import YARDSTICKS
 
 FOLDER = "_generated"
 SCENES = 12
 """Random scenes of each kind: enough to show what a verdict rests on, and a matter of seconds."""
 
 
+def _subject(name: str) -> Subject:
+    """The strategy that a gallery scene is there for."""
+    return Subject.SEED_SPREADER if gallery.is_swept(name) else Subject.SIGHTSEER
+
+
 def _run(name: str) -> xa.Run:
-    """The run on a gallery scene, by the strategy that the scene is there for."""
-    subject = Subject.SEED_SPREADER if gallery.is_swept(name) else Subject.SIGHTSEER
-    return claims_page.run_on(claims_page.example(name), subject)
+    """The run on a gallery scene by that strategy."""
+    return claims_page.run_on(claims_page.example(name), _subject(name))
 
 
 def _cases() -> Iterator[tuple[str, Case, xa.Run]]:
@@ -62,7 +68,7 @@ PICTURES: dict[str, Callable[[Path], None]] = {
     "polygon_limit.svg": lambda path: limit_figure().savefig(path),
 }
 """The pictures that pages name, each with what draws it."""
-TEXTS = ("verdicts.md", "tightest.md", "trust.md", "commands.md")
+TEXTS = ("verdicts.md", "tightest.md", "tightness.md", "trust.md", "commands.md")
 """The texts that pages include."""
 
 
@@ -76,6 +82,8 @@ def generate(app: Any) -> None:
     arguments = Path(app.srcdir).parent / "proofs" / "arguments"
     claims_page.write(folder, claims.CLAIMS, int(app.config.claims_scenes), arguments)
     tightest.write(folder, _cases())
+    scenes = ((name, _subject(name), claims_page.example(name)) for name in gallery.names())
+    tightness_page.write(folder, YARDSTICKS, scenes)
     trust_page.write(folder, Path(app.srcdir) / "results")
     command_page.write(folder)
 
