@@ -11,6 +11,7 @@ from pathlib import Path
 from random import Random
 
 import pytest
+import test_robot
 from nightly import some
 
 import exactacq as xa
@@ -316,3 +317,45 @@ class TestAudits:
         for words, wrong in flawed.items():
             with pytest.raises(xa.AuditError, match=words):
                 xa.audit(wrong, samples=4)
+
+
+class TestPeeking:
+    """A strategy that looks behind all public names finds nothing that it has not seen."""
+
+    @pytest.mark.parametrize("seed", some(range(10), 2))
+    def test_from_within_a_run(self, seed: int) -> None:
+        scene = random_scene(Subject.SIGHTSEER, seed)
+        peeping, found = test_robot.TestPeeking(), []
+
+        def peep(robot: xa.Robot) -> None:
+            told: list[object] = [robot, robot.go_to((3, 1))]
+            link = robot.nearest_unvisited(None) if robot.position == robot.start else None
+            told += [] if link is None else [link, robot.take(link)]
+            for wrong in (lambda: robot.links(99), lambda: robot.map.known(99), lambda: robot.walk("up")):
+                try:
+                    wrong()
+                except ValueError as error:
+                    told += [error, *error.args, *vars(error).values()]
+            found.extend(thing for root in told for thing in peeping.reachable(root))
+
+        xa.explore(scene, peep)
+        assert len(found) > 10
+        assert not [thing for thing in found if isinstance(thing, peeping.FORBIDDEN)]
+
+    def test_an_undecided_move_tells_the_strategy_no_run(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        caught: list[xa.Undecided] = []
+
+        def fail(self: Memory, piece: Piece) -> None:
+            raise xa.Undecided("two numbers")
+
+        def go(robot: xa.Robot) -> None:
+            try:
+                robot.go_to((0, 1))
+            except xa.Undecided as error:
+                caught.append(error)
+                assert error.run is None and error.place is None
+
+        monkeypatch.setattr(Memory, "walk", fail)
+        with pytest.raises(xa.Undecided):
+            xa.explore(CIRCLES, go)
+        assert len(caught) == 1
