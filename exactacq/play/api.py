@@ -116,8 +116,7 @@ class Api:
         try:
             yield
         finally:
-            self.reader.kill()
-            self.explorer.kill()
+            await asyncio.gather(self.reader.close(), self.explorer.close())
 
     async def give_asset(self, request: Any) -> Any:
         """A file of the page: one of those that are known, by its whole name."""

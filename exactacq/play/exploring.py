@@ -86,9 +86,9 @@ def _report(run: Run, trouble: str) -> dict[str, Any]:
         {
             **row,
             "value": f"{row['value']:.8g}",
-            "ratio": f"{row['ratio']:.3f}" if isfinite(float(row["ratio"] or 0)) else "",
+            "ratio": f"{bound.ratio:.3f}" if isfinite(bound.ratio) else "",
         }
-        for row in run.bound_table
+        for row, bound in zip(run.bound_table, run.bounds, strict=True)
     ]
     names = list(run.names())
     missed = {

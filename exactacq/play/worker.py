@@ -100,6 +100,13 @@ class Worker:
             self._stopped = True
             self.kill()
 
+    async def close(self) -> None:
+        """End the process at once, and wait until it has ended."""
+        process = self._process
+        self.kill()
+        if process is not None:
+            await process.wait()
+
     def kill(self) -> None:
         """End the process at once."""
         process, self._process, self._at_work = self._process, None, False

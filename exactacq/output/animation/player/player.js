@@ -132,6 +132,7 @@ export function player(data, { colours = data.colours, away = data.away, moved =
 
   function arrange() {
     const stage = $("stage").getBoundingClientRect();
+    if (!stage.width || !stage.height) return; // It is not shown, as when the page is left.
     const px = Math.max(shown[2] / stage.width, shown[3] / stage.height) || 1;
     labels.arrange(px, Math.max(stage.width * px - width, 0) / 2);
     labels.name(at);
