@@ -7,9 +7,11 @@ path, which nobody guesses. Bodies have a known kind, so that no form of another
 
 from __future__ import annotations
 
+import asyncio
 import hmac
 import json
 from collections.abc import Awaitable, Callable, Iterable, MutableMapping
+from contextlib import suppress
 from typing import Any
 
 Message = MutableMapping[str, Any]
@@ -19,6 +21,9 @@ Application = Callable[[Message, Receive, Send], Awaitable[None]]
 
 DRAWING_BYTES, FILE_BYTES = 24 << 20, 64 << 20
 """Largest bodies: of a drawing, some 200,000 edges, and of a file that is opened."""
+DRAINED, PATIENCE = 2 * FILE_BYTES, 3.0
+"""So much of a body that is refused is read all the same, in so many seconds: if the connection ended while
+the body comes, the answer would be lost with it."""
 JSON, FILE = "application/json", "application/octet-stream"
 """Kinds of bodies."""
 OPENING = "/api/open"
@@ -69,6 +74,7 @@ class Guard:
         try:
             body = await self._body(scope, receive)
         except Refused as refusal:
+            await _drain(receive)
             await _refuse(refusal, answer)
             return
         path = scope["path"].removeprefix(f"/{self.token}")
@@ -129,10 +135,21 @@ async def _read(receive: Receive, most: int) -> bytes:
     return b"".join(parts)
 
 
+async def _drain(receive: Receive) -> None:
+    """Read the rest of a body, but not for ever."""
+    left, more = DRAINED, True
+    with suppress(TimeoutError):
+        async with asyncio.timeout(PATIENCE):
+            while more and left > 0:
+                message = await receive()
+                left -= len(message.get("body", b""))
+                more = message.get("more_body", False)
+
+
 async def _refuse(refusal: Refused, send: Send) -> None:
     body = json.dumps({"error": refusal.why}).encode()
     headers = [(b"content-type", JSON.encode()), (b"content-length", str(len(body)).encode())]
-    # What is left of a body that is too large is not read.
+    # What is left of a body after that is not read.
     headers += [(b"connection", b"close")]
     await send({"type": "http.response.start", "status": refusal.status, "headers": headers})
     await send({"type": "http.response.body", "body": body})
