@@ -72,7 +72,7 @@ class ShortestPath:
 def shortest_path(scene: Scene, start: object, end: object) -> ShortestPath | None:
     """A shortest path between two points of free space; None if there is no path at all.
 
-    Each point is a `Point` or a pair of numbers, with algebraic coordinates. Free space is closed: the path may
+    Each point is a `Point` or a pair of numbers, with algebraic coordinates. Free space is closed: a path may
     touch boundaries and run along them, and nothing but the inside of an obstacle, and what is beyond the
     enclosure, stops it. If the scene has a terrain, its border is a wall too. Boundaries have no point in
     common, so a path ends only where a terrain's border cuts free space into parts; an obstacle that touches
