@@ -65,7 +65,11 @@ class Chart:
     def known(self, _: int) -> tuple[KnownPart, ...]:
         return tuple(KnownPart(k, self._point(k, a), self._point(k, b)) for k, a, b in self.rows)
 
-    def knows(self, _: int, point: Point) -> bool:
+    def spots(self, _: int, point: Point) -> tuple[Point]:
+        return (point,)
+
+    def knows_some(self, spots: tuple[Point]) -> bool:
+        (point,) = spots
         return any(
             point == part.start or (part.start != part.end and Segment(part.start, part.end).passes(point))
             for part in self.known(0)
@@ -546,10 +550,15 @@ class MovedEnd:
     def known_length(self, i: int) -> Length:
         return Length.sum(part.length for part in self.known(i))
 
-    def knows(self, i: int, point: Point) -> bool:
+    def spots(self, i: int, point: Point) -> Any:
+        self.asked = i, point
+        return self.chart.spots(i, point)
+
+    def knows_some(self, spots: Any) -> bool:
+        i, point = self.asked
         if i == self.obstacle and point != self.moved and self.sliver.passes(point):
             return self.grows
-        return bool(self.chart.knows(i, point))
+        return bool(self.chart.knows_some(spots))
 
     @property
     def frontier(self) -> list[tuple[int, Point]]:

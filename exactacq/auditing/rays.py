@@ -10,6 +10,8 @@ from functools import cmp_to_key
 from itertools import combinations, pairwise
 from math import atan2, cos, hypot, pi, sin
 
+from flint import fmpq
+
 from exactacq.errors import Undecided
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.points import Point
@@ -33,10 +35,9 @@ class Direction:
         self.aim = aim
 
 
-def rounded(value: Real) -> float:
+def rounded(value: Real | fmpq) -> float:
     """The nearest float."""
-    exact = value.rational
-    return float(value) if exact is None else nearest_float(exact)
+    return nearest_float(value) if isinstance(value, fmpq) else float(value)
 
 
 def unit_vector(x: float, y: float) -> tuple[float, float] | None:

@@ -30,6 +30,7 @@ from exactacq.auditing.rays import (
     with_cells,
 )
 from exactacq.geometry.box_index import BoxIndex, bounds
+from exactacq.geometry.coordinates import raw
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import contacts, line_contacts
 from exactacq.geometry.points import Location, Point
@@ -49,6 +50,28 @@ TINY = 1e-290
 """Added to margins: covers what underflow loses."""
 
 
+class Forms(NamedTuple):
+    """What floats need of curves, wherever they are seen from; one row of each array for a curve.
+
+    ``ends`` are numbers of points and ``circle`` those of circles of a `World`, -1 for segments. Arcs have a
+    ``shape`` of radius, sense and whether it is full, and a ``chord`` from start to end.
+    """
+
+    boxes: Floats
+    ends: Ints
+    circle: Ints
+    shape: Floats
+    chord: Floats
+
+    def rows(self, numbers: Ints) -> Forms:
+        """Those of some of the curves."""
+        return Forms._make(column[numbers] for column in self)
+
+    def and_rows(self, other: Forms) -> Forms:
+        """Those of these curves, followed by those of others."""
+        return Forms._make(np.concatenate(pair) for pair in zip(self, other, strict=True))
+
+
 class World:
     """The edges of a scene with their boxes, and the exact test whether a way is blocked."""
 
@@ -57,16 +80,30 @@ class World:
         self.edges: list[Curve] = [edge for obstacle in scene.obstacles for edge in obstacle.edges]
         self.owner = [obstacle.index for obstacle in scene.obstacles for _ in obstacle.edges]
         self.first = [0, *accumulate(len(obstacle.edges) for obstacle in scene.obstacles)]
-        self.boxes = bounds(self.edges)
-        self.index = BoxIndex(self.boxes)
         self.points: list[Point] = []
+        self.circles: list[Arc] = []
         self._numbers: dict[object, int] = {}
-        self.ends = self.number_ends(self.edges)
+        self.forms = self.forms_of(self.edges)
+        self.boxes = self.forms.boxes
+        self.index = BoxIndex(self.boxes)
 
-    def number_ends(self, curves: Iterable[Curve]) -> Ints:
-        """Numbers in ``points`` of the starts and ends of curves: one number for one place, if that shows."""
-        pairs = [(self._number(curve.start), self._number(curve.end)) for curve in curves]
-        return np.array(pairs, dtype=np.int64).reshape(-1, 2)
+    def forms_of(self, curves: Sequence[Curve]) -> Forms:
+        """What floats need of curves. Ends at one place have one number in ``points``, if that shows, and
+        arcs of one circle have one in ``circles``.
+        """
+        ends = [(self._number(curve.start), self._number(curve.end)) for curve in curves]
+        circle, shape, chord = [-1] * len(curves), np.zeros((len(curves), 3)), np.zeros((len(curves), 2))
+        for k, curve in enumerate(curves):
+            if isinstance(curve, Arc):
+                key = curve.center.key, curve.radius_sq
+                circle[k] = self._numbers.setdefault(key, len(self.circles))
+                if circle[k] == len(self.circles):
+                    self.circles.append(curve)
+                shape[k] = rounded(curve.radius), 1 if curve.ccw else -1, curve.full
+                along = curve.end - curve.start
+                chord[k] = rounded(along.x), rounded(along.y)
+        pairs = np.array(ends, dtype=np.int64).reshape(-1, 2)
+        return Forms(bounds(curves), pairs, np.array(circle, dtype=np.int64), shape, chord)
 
     def _number(self, point: Point) -> int:
         number = self._numbers.setdefault(point.key, len(self.points))
@@ -164,10 +201,9 @@ class Viewpoints:
         self.numbers = sorted(distinct.values())
         self.curves = [curves[k] for k in self.numbers]
         self.on = [names[k] for k in self.numbers]
-        self.boxes = bounds(self.curves)
-        self.ends = world.number_ends(self.curves)
+        self.forms = world.forms_of(self.curves)
         self.at: dict[int, set[int]] = {}
-        for pair, e in zip(self.ends.tolist(), self.on, strict=True):
+        for pair, e in zip(self.forms.ends.tolist(), self.on, strict=True):
             if e is not None:
                 for number in pair:
                     self.at.setdefault(number, set()).add(e)
@@ -177,7 +213,7 @@ class Viewpoints:
 
         Milliseconds where few pairs of ray and curve need exact numbers.
         """
-        near = _within(self.boxes, point, self.radius)
+        near = _within(self.forms.boxes, point, self.radius)
         if not len(near):
             return None
         view = _View(self, point, near)
@@ -246,12 +282,13 @@ class _View:
         world, radius = self.lookout.world, self.lookout.radius
         self.reach = nearest_float(radius)
         self.curves = [self.lookout.curves[k] for k in self.near]
-        self.edge_numbers = [int(e) for e in _within(world.boxes, self.q, radius)]
+        near = _within(world.boxes, self.q, radius)
+        self.edge_numbers: list[int] = near.tolist()
         self.edges = [world.edges[e] for e in self.edge_numbers]
         self.own = world.passing(self.q, self.edge_numbers)
-        ends = np.concatenate((world.ends[self.edge_numbers], self.lookout.ends[self.near]))
-        self.targets = np.unique(ends)
-        self.offsets = {int(k): self._offset(world.points[k]) for k in self.targets}
+        self.forms = world.forms.rows(near).and_rows(self.lookout.forms.rows(self.near))
+        self.offsets = {k: self._offset(world.points[k]) for k in np.unique(self.forms.ends).tolist()}
+        self.circles = [k for k in np.unique(self.forms.circle).tolist() if k >= 0]
         self.rays = with_cells(self._critical())
 
     # -- rays --------------------------------------------------------------------------------------
@@ -263,9 +300,9 @@ class _View:
             rays += self._ray_to(self.lookout.world.points[number], offset, number)
         for point in self._range_crossings():
             rays += self._ray_to(point, self._offset(point))
-        arcs = (curve for curve in (*self.edges, *self.curves) if isinstance(curve, Arc))
-        for arc in {(arc.center.key, arc.radius_sq): arc for arc in arcs}.values():
-            rays += [ray_along(vector) for vector in tangent_directions(self.q, arc)]
+        for k in self.circles:
+            circle = self.lookout.world.circles[k]
+            rays += [ray_along(vector) for vector in tangent_directions(self.q, circle)]
         return rays
 
     def _ray_to(self, point: Point, offset: tuple[float, float], aim: int | None = None) -> list[Direction]:
@@ -277,7 +314,7 @@ class _View:
         q, radius = self.q, self.lookout.radius
         east = Point(q.x + radius, q.y)
         circle = Arc(east, east, q, radius * radius, ccw=True, full=True)
-        boxes, xy = self.lookout.boxes[self.near], np.array(q.xy)
+        boxes, xy = self.forms.boxes[len(self.edges) :], np.array(q.xy)
         extent = np.hypot(*np.maximum(np.abs(boxes[:, :2] - xy), np.abs(boxes[:, 2:] - xy)).T)
         size = np.abs(boxes).max(axis=1) + np.abs(xy).max()
         for k in np.flatnonzero(extent + size * EPS >= self.reach * (1 - EPS)):
@@ -285,16 +322,15 @@ class _View:
 
     def _offset(self, point: Point) -> tuple[float, float]:
         """point - q, exactly, then rounded once."""
-        return rounded(point.x - self.q.x), rounded(point.y - self.q.y)
+        (x, y), (a, b) = raw(point), raw(self.q)
+        return rounded(x - a), rounded(y - b)
 
     # -- verdicts ----------------------------------------------------------------------------------
 
     def verdicts(self) -> tuple[Bools, Bools]:
         """Which curves certainly see q, and which pairs (ray, curve) floats leave open."""
         units = np.array([ray.unit for ray in self.rays])
-        world, own = self.lookout.world, [self.edge_numbers.index(e) for e in self.own]
-        edges = self._hits(units, self.edges, world.ends[self.edge_numbers], own)
-        curves = self._hits(units, self.curves, self.lookout.ends[self.near], ())
+        edges, curves = self._hits(units)
         possible, certain = self._blocks(units, edges)
         nearest = np.argmin(possible, axis=1)[:, None]
         rest = possible.copy()
@@ -354,27 +390,28 @@ class _View:
 
     # -- contacts in floats ------------------------------------------------------------------------
 
-    def _hits(self, units: Floats, curves: Sequence[Curve], ends: Ints, own: Sequence[int]) -> Hits:
-        """Contacts of all rays with curves; those of *own* curves at q itself are left out."""
-        straight = np.array([k for k, c in enumerate(curves) if isinstance(c, Segment)], dtype=np.int64)
-        round_ = np.array([k for k, c in enumerate(curves) if isinstance(c, Arc)], dtype=np.int64)
-        spots = np.array([[self.offsets[int(k)] for k in pair] for pair in ends]).reshape(-1, 2, 2)
+    def _hits(self, units: Floats) -> tuple[Hits, Hits]:
+        """Contacts of all rays with edges, but for those of q's own edges at q itself, and with curves."""
+        forms, count = self.forms, len(self.edges)
+        own = np.zeros(len(forms.circle), dtype=bool)
+        own[[self.edge_numbers.index(e) for e in self.own]] = True
+        straight, bent = np.flatnonzero(forms.circle < 0), np.flatnonzero(forms.circle >= 0)
+        spots = np.array([[self.offsets[k] for k in pair] for pair in forms.ends.tolist()])
         parts = [_segment_hits(units, spots[straight, 0], spots[straight, 1])]
-        parts[0].low[:, np.isin(straight, own)] = np.inf
-        parts[0].sure[:, np.isin(straight, own)] = False
-        arcs = [c for c in curves if isinstance(c, Arc)]
-        centers = np.array([self._offset(arc.center) for arc in arcs]).reshape(-1, 2)
-        shape = np.array([(rounded(a.radius), 1 if a.ccw else -1, a.full) for a in arcs]).reshape(-1, 3)
-        chords = spots[round_, 0], np.array([_vector(arc) for arc in arcs]).reshape(-1, 2)
-        for far in (False, True):
-            parts.append(_arc_hits(units, centers, shape, chords, np.isin(round_, own), far))
-        columns = np.concatenate((straight, round_, round_))
-        return Hits(
-            low=np.hstack([part.low for part in parts]),
-            high=np.hstack([part.high for part in parts]),
-            sure=np.hstack([part.sure for part in parts]),
-            curve=columns,
-            far=np.arange(len(columns)) >= len(curves),
+        parts[0].low[:, own[straight]] = np.inf
+        parts[0].sure[:, own[straight]] = False
+        if len(bent):
+            centers = {k: self._offset(self.lookout.world.circles[k].center) for k in self.circles}
+            of_arcs = np.array([centers[k] for k in forms.circle[bent].tolist()])
+            chords = spots[bent, 0], forms.chord[bent]
+            parts += _arc_hits(units, of_arcs, forms.shape[bent], chords, own[bent])
+        low, high, sure = (np.hstack(columns) for columns in zip(*parts, strict=True))
+        curve = np.concatenate((straight, *[bent] * (len(parts) - 1)))
+        far = np.arange(len(curve)) >= len(forms.circle)
+        edges = curve < count
+        return (
+            Hits(low[:, edges], high[:, edges], sure[:, edges], curve[edges], far[edges]),
+            Hits(low[:, ~edges], high[:, ~edges], sure[:, ~edges], curve[~edges] - count, far[~edges]),
         )
 
     # -- exact -------------------------------------------------------------------------------------
@@ -384,7 +421,7 @@ class _View:
         direction, curve, aim = self.rays[ray].exact(), self.curves[k], self.rays[ray].aim
         found = line_contacts(self.q, direction, curve)
         ending = set() if aim is None else self.lookout.at.get(aim, set())
-        if aim in self.lookout.ends[self.near[k]]:
+        if aim in self.forms.ends[len(self.edges) + k]:
             found = [Real(1) if t is _single(found, Real(1)) else t for t in found]
         ahead = [t for t in found if t >= 0]
         if not ahead:
@@ -400,10 +437,6 @@ class _View:
             ending = set()
         world = self.lookout.world
         return world.blocker(self.q, direction, nearest, sorted(numbers), self.own, ending) is None
-
-
-def _vector(arc: Arc) -> tuple[float, float]:
-    return rounded(arc.end.x - arc.start.x), rounded(arc.end.y - arc.start.y)
 
 
 def _tangent(edge: Curve, q: Point) -> Point:
@@ -450,9 +483,9 @@ def _segment_hits(units: Floats, starts: Floats, ends: Floats) -> HitDistances:
 
 
 def _arc_hits(
-    units: Floats, centers: Floats, shape: Floats, chords: tuple[Floats, Floats], own: Bools, far: bool
-) -> HitDistances:
-    """Where rays meet arcs for the near or the far root t = u.c -+ sqrt(r^2 - (u x c)^2).
+    units: Floats, centers: Floats, shape: Floats, chords: tuple[Floats, Floats], own: Bools
+) -> list[HitDistances]:
+    """Where rays meet arcs, for the near and for the far roots t = u.c -+ sqrt(r^2 - (u x c)^2).
 
     A contact is on the arc if it lies on the arc's side of the chord. On an own circle the roots are 0,
     which is left out, and 2 u.c.
@@ -467,19 +500,25 @@ def _arc_hits(
     root = np.sqrt(np.maximum(square, 0.0))
     with np.errstate(all="ignore"):
         slack = np.where(real, error / root, np.sqrt(np.maximum(square, 0.0) + error)) + 4 * EPS * size
-    t = np.where(real, b + (root if far else -root), b)
     if own.any():
-        t = np.where(own, 2 * b, t)
         slack = np.where(own, 8 * EPS * size, slack)
-    width = np.hypot(*along.T)
-    side = sense * (_cross(along, units[:, None]) * t - _cross(along, starts))
-    margin = width * (slack + 4 * EPS * (np.abs(t) + np.hypot(*starts.T))) + TINY
-    low, high = t - slack, t + slack
-    gone = (square < -error) | (high < 0) | (~full & (side > margin))
-    if own.any():
-        gone = np.where(own, (high < 0) | (~full & (side > margin)) | (not far), gone)
-    sure = (real | own) & (full | (side < -margin)) & (low > 0) & ~gone
-    return HitDistances(np.where(gone, np.inf, low), np.where(gone, np.inf, high), sure)
+    width, across = np.hypot(*along.T), _cross(along, starts)
+    turn, base = _cross(along, units[:, None]), 4 * EPS * np.hypot(*starts.T)
+    found = []
+    for far in (False, True):
+        t = np.where(real, b + (root if far else -root), b)
+        if own.any():
+            t = np.where(own, 2 * b, t)
+        side = sense * (turn * t - across)
+        margin = width * (slack + 4 * EPS * np.abs(t) + base) + TINY
+        low, high = t - slack, t + slack
+        beside = ~full & (side > margin)
+        gone = (square < -error) | (high < 0) | beside
+        if own.any():
+            gone = np.where(own, (high < 0) | beside | (not far), gone)
+        sure = (real | own) & (full | (side < -margin)) & (low > 0) & ~gone
+        found.append(HitDistances(np.where(gone, np.inf, low), np.where(gone, np.inf, high), sure))
+    return found
 
 
 # -- targets ---------------------------------------------------------------------------------------
