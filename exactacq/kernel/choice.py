@@ -60,12 +60,13 @@ def mattering(
     along: set[int],
     known: Known,
     ahead: bool,
+    sights: bool,
 ) -> tuple[list[int], list[Group]]:
     """Which of some families matter on a leg, by their numbers, and from where obstacles surely are seen.
 
-    *owners* are the obstacles that edges count for, and whether all of the edge does. The leg lies on the
-    boundaries of the obstacles *along*, which are in sight anyway. The robot walks it *ahead*, from its low
-    end, or back.
+    If nobody asks for *sights*, only those matter that may show anything new. *owners* are the obstacles that
+    edges count for, and whether all of the edge does. The leg lies on the boundaries of the obstacles
+    *along*, which are in sight anyway. The robot walks it *ahead*, from its low end, or back.
     """
     chosen = [False] * len(extents)
     sources: dict[int, list[Source]] = {}
@@ -86,7 +87,7 @@ def mattering(
                 news[one.edge] = []
             news[one.edge].append(n)
         # What is seen from an end of the leg alone is part of the view from there.
-        if not (outer[0] < inf and outer[1] > -inf):
+        if not (sights and outer[0] < inf and outer[1] > -inf):
             continue
         surely = span.inner(one.surely)
         for k, whole in concerned:

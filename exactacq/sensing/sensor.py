@@ -140,7 +140,8 @@ class Sensor:
         """
         if self._last is None or self._last.shares.leg is not leg:
             known = KnownSpans(covers, self.rails)
-            shares = Shares(self.complex, self.targets, leg, self._near(leg), self._view, known)
+            near = self._near(leg)
+            shares = Shares(self.complex, self.targets, leg, near, self._view, known, sights=False)
             self._last = LegNews(shares, covers)
         return self._last.upto(u, place, acquired)
 
