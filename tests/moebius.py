@@ -242,7 +242,8 @@ def _shared(a: Trace, b: Trace) -> list[Meeting]:
     cuts = _distinct(
         [
             *(mp.mpf(i) for i in range(len(a.images) + 1)),
-            *(i + t for z, _ in b.ends for i, t in _on(a, z) if in_unit(t)),
+            # Kept within its image: a start of both may be found 10^-1000 before it, which is no place of a.
+            *(i + min(max(t, 0), 1) for z, _ in b.ends for i, t in _on(a, z) if in_unit(t)),
         ]
     )
     covered = [b.holds(_along(a, (low + high) / 2)) for low, high in pairwise(cuts)]

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 from drawn_curves import library_curve, pairs
-from hypothesis import event, given
-from moebius import Complex, Drawn, Trace, is_zero, meetings
+from hypothesis import event, example, given
+from moebius import Bow, Complex, Drawn, Spot, Trace, is_zero, meetings
 from nearest_oracle import (
     Pair,
     Stand,
@@ -109,7 +111,24 @@ def _check_pairs(a: Trace, b: Trace, listed: list[Pair]) -> None:
             assert not any(same(each, other) for other in listed), "a saddle is listed"
 
 
+def about_the_origin(square: Fraction, start: tuple[int, int], end: tuple[int, int]) -> Bow:
+    """A clockwise arc from one direction to another."""
+    ends = (
+        Spot(Fraction(0), Fraction(0), square / (x * x + y * y), Fraction(x), Fraction(y))
+        for x, y in (start, end)
+    )
+    return Bow(Spot(Fraction(0), Fraction(0)), square, *ends, ccw=False)
+
+
+ONE_START = (
+    about_the_origin(Fraction(1, 2), (-7, 1), (-3, -2)),
+    about_the_origin(Fraction(9, 2), (-7, 1), (-1, -1)),
+)
+"""Arcs that begin in one direction: stretched to one radius, their starts differ by 10^-1002 in digits."""
+
+
 @examples(120)
 @given(pairs())
+@example(ONE_START)
 def test_nearest_points_are_the_oracles(pair: tuple[Drawn, Drawn]) -> None:
     check_nearest(pair)
