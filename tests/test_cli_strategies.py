@@ -147,6 +147,22 @@ class TestCompare:
         assert re.search(r"^touch / Sightseer +0\.\d", out, re.M)
         assert re.search(r"^Seed Spreader / Sightseer +\d", out, re.M)
 
+    def test_what_any_path_needs_and_what_was_missed(self, capsys: pytest.CaptureFixture[str]) -> None:
+        name = written(MINE)
+        arguments = ("compare", "squares", "--strategy", "sightseer", "--strategy", f"{name}:touch")
+        out = answered(capsys, *arguments, "--animate", "both.html")
+        assert re.search(r"^unknown boundary +0 +14 of 16 \(87\.50%\)", out, re.M)
+        assert re.search(r"^circling bound +21 +21 *\n +1\.1429 +0\.0952 \(does not apply\)", out, re.M)
+        assert re.search(r"^seeing bound +0 +0", out, re.M) and "page written to both.html" in out
+        assert Path("both.html").read_text(encoding="utf-8").startswith("<!doctype html>")
+        first, second = json.loads(answered(capsys, *arguments, "--json"))["runs"]
+        assert second["unknown"]["closed"] == "14" and second["boundary"]["closed"] == "16"
+        circling, seeing = (first["lower_bounds"][kind] for kind in ("circling", "seeing"))
+        assert circling["applies"] and circling["value"]["closed"] == "21"
+        assert seeing == {"value": {"closed": "0", "decimal": "0"}, "ratio": None, "applies": True}
+        assert cli.main([*arguments, "--animate", "both.gif"]) == 2
+        assert "must end in .html" in capsys.readouterr().err
+
     def test_the_two_of_the_paper_unless_told(self, capsys: pytest.CaptureFixture[str]) -> None:
         named = answered(capsys, "compare", "case3", "--strategy", "sightseer", "--strategy", "seed-spreader")
         assert answered(capsys, "compare", "case3") == named

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -28,6 +28,9 @@ from exactacq.errors import FormatError, InvalidScene
 from exactacq.output.vocabulary import Labels
 from exactacq.strategies.options import MOST_MOVES, Strategy
 
+if TYPE_CHECKING:
+    from exactacq.strategies.run import Run
+
 
 @reads_files
 def compare(
@@ -44,28 +47,35 @@ def compare(
     max_moves: MaxMoves = MOST_MOVES,
     figure: FigureFile = None,
     labels: LabelChoice = Labels.ALL,
+    animate: Annotated[
+        str | None,
+        typer.Option(metavar="F", help="Write a page that plays the runs side by side: .html."),
+    ] = None,
     as_json: AsJson = False,
     **options: Any,
 ) -> None:
     """Explore a scene by both strategies, or those that are named, and set what they do side by side.
 
+    The table has what they know and missed, and how long they are beside the lower bounds of any path.
     The Seed Spreader starts in the SW corner of the terrain, the others there if no other start is given. If
     one of them does not take the scene, it is told why.
     """
-    from exactacq.files.whole_files import FIGURES, check_output
+    from exactacq.files.whole_files import FIGURES, PAGES, check_output
     from exactacq.output.report import comparison, console, run_report
     from exactacq.output.report_data import comparison_data, text_of
     from exactacq.scene.bounding import at_corner
 
     range_ = range_of(radius)
-    if figure is not None and same_file(check_output(figure, FIGURES), scene):
-        raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
+    for path, kinds in ((figure, FIGURES), (animate, PAGES)):
+        if path is not None and same_file(check_output(path, kinds), scene):
+            raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
     wanted = [chosen(text) for text in strategy or Strategy]
     world = scene_of(scene, start, options, terrain)
     if range_ is None and world.radius is None:
         raise FormatError(f"{scene}: the scene has no radius of vision: give one with --radius R")
     corner = at_corner(world)
-    runs, refusals = [], []
+    runs: list[Run] = []
+    refusals: list[str] = []
     for rules in wanted:
         at_its_corner = world.start is None or rules.sweeps
         try:
@@ -83,12 +93,32 @@ def compare(
         for refusal in refusals:
             console().print(f"\n{refusal}", soft_wrap=True)
     if figure is not None:
-        from exactacq.output.figures import save, save_side_by_side
+        _draw(runs, figure, labels)
+    if animate is not None:
+        _animate(runs, animate, labels)
+    if not as_json:
+        for what, path in (("figure", figure), ("page", animate)):
+            if path is not None:
+                print(f"{what} written to {path}")
 
-        with watched("drawing") as progress:
-            if len(runs) > 1:
-                save_side_by_side(runs, figure, labels=labels, progress=progress)
-            else:
-                save(runs[0], figure, labels=labels, progress=progress)
-        if not as_json:
-            print(f"figure written to {figure}")
+
+def _draw(runs: list[Run], path: str, labels: Labels) -> None:
+    """Write the figure."""
+    from exactacq.output.figures import save, save_side_by_side
+
+    with watched("drawing") as progress:
+        if len(runs) > 1:
+            save_side_by_side(runs, path, labels=labels, progress=progress)
+        else:
+            save(runs[0], path, labels=labels, progress=progress)
+
+
+def _animate(runs: list[Run], path: str, labels: Labels) -> None:
+    """Write the page."""
+    from exactacq.files.whole_files import write_whole
+    from exactacq.output.animation.frames import frames_of
+    from exactacq.output.animation.several import page_of_runs
+
+    with watched("drawing") as progress:
+        text = page_of_runs(runs, (frames_of(run, progress=progress) for run in runs), labels=labels)
+    write_whole(path, text.encode())

@@ -42,6 +42,10 @@ EXAMPLES = {
     "compare": (
         Example("compare figure3 --figure both.svg", "Both strategies on one terrain, side by side."),
         Example(
+            "compare figure3 --animate both.html",
+            "A page that plays both runs on one clock: after the same length of each path.",
+        ),
+        Example(
             "compare circles --terrain bbox:2",
             "A scene without a terrain gets one: the rectangle about what there is, 2 units wider.",
         ),

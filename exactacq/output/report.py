@@ -23,6 +23,7 @@ from exactacq.scene.scene import Scene
 from exactacq.sensing.event import Ending
 from exactacq.strategies.bounds import census
 from exactacq.strategies.run import Bound, OwnRun, Run, SeedSpreaderRun, SightseerRun
+from exactacq.strategies.standing import LowerBound, standing
 from exactacq.visibility.isovist import Isovist, ViewKind
 from exactacq.visibility.shortest_path import ShortestPath
 
@@ -74,8 +75,9 @@ def run_report(run: Run) -> RenderableType:
 
 
 def comparison(runs: Sequence[Run]) -> RenderableType:
-    """Runs on one scene side by side: how long, whom they visited and know, and how near the bounds.
+    """Runs on one scene side by side: how long, what they know and missed, and how near the bounds.
 
+    There are the lower bounds of any path (`exactacq.strategies.offline`), and upper ones of the strategies.
     Below, the lengths of all but the first one over that of the first one.
     """
     first, *others = runs
@@ -83,14 +85,18 @@ def comparison(runs: Sequence[Run]) -> RenderableType:
     whole = float(first.length) if first.length.sign() else float("nan")
     ratios = [f"{_short(run)} / {_short(first)}  {float(run.length) / whole:.6f}" for run in others]
     counts = [(len(run.visits), len(run.map.acquired), len(run.obstacles)) for run in runs]
+    beside = [standing(run) for run in runs]
     rows: dict[str, list[str]] = {
         Word.LENGTH: ["\n".join(readable(run.length, CLOSED_FORM // 2, 12)) for run in runs],
         Word.VISITED: [f"{visits} of {count}" for visits, _, count in counts],
         Word.ACQUIRED: [f"{known} of {count}" for _, known, count in counts],
         Word.UNSEEN: [str(len(run.unseen)) for run in runs],
+        Word.UNKNOWN: [_share(one.unknown, one.boundary) for one in beside],
         f"{Word.DIVERSION}s": [
             str(len(run.diversions)) if isinstance(run, SeedSpreaderRun) else "-" for run in runs
         ],
+        Word.SEEING: [_least(one.seeing) for one in beside],
+        Word.CIRCLING: [_least(one.circling) for one in beside],
     }
     for name, cells in rows.items():
         table.add_row(name, *cells)
@@ -103,6 +109,21 @@ def comparison(runs: Sequence[Run]) -> RenderableType:
     how_many = "Both" if len(runs) == 2 else str(len(runs))
     title = Text(f"{how_many} strategies on {first.scene.name or 'a scene'}", style="bold")
     return Group(title, "", table, "", *ratios)
+
+
+def _share(part: Length, whole: Length) -> str:
+    """A part of a length, and how much of the whole it is."""
+    if part.sign() == 0:
+        return "0"
+    return f"{float(part):.6g} of {float(whole):.6g} ({float(part) / float(whole):.2%})"
+
+
+def _least(bound: LowerBound) -> str:
+    """A lower bound, and below the run's length over it."""
+    value = readable(bound.value, CLOSED_FORM // 2, 12)[-1]
+    if bound.value.sign() == 0:
+        return value
+    return f"{value}\n{bound.ratio:.4f}" + ("" if bound.applies else f" ({Word.UNAPPLIED})")
 
 
 def _short(run: Run) -> str:

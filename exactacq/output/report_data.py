@@ -18,6 +18,7 @@ from exactacq.output.run_json import bound_to_json, length_to_json
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Terrain
 from exactacq.strategies.run import Run, SeedSpreaderRun
+from exactacq.strategies.standing import LowerBound, standing
 
 
 def text_of(data: object) -> str:
@@ -48,6 +49,7 @@ def scene_data(scene: Scene) -> dict[str, Any]:
 def comparison_data(runs: Sequence[Run], refusals: Sequence[str] = ()) -> dict[str, Any]:
     """Runs on one scene, and why strategies refused it.
 
+    ``lower_bounds`` are those of any path, ``unknown`` is the length of boundary that a run has not seen.
     ``ratio`` is the second one's length over the first one's, None if that is 0 or if there is only one.
     """
     lengths = [float(run.length) for run in runs]
@@ -75,7 +77,13 @@ def _place(point: Point) -> list[str]:
     return [str(number) if number.rational is None else plain(number.rational) for number in numbers]
 
 
+def _least(bound: LowerBound) -> dict[str, Any]:
+    ratio = bound.ratio if bound.value.sign() else None
+    return {"value": length_to_json(bound.value), "ratio": ratio, "applies": bound.applies}
+
+
 def _run(run: Run) -> dict[str, Any]:
+    beside = standing(run)
     return {
         "strategy": run.strategy,
         "start": _place(run.start),
@@ -86,6 +94,9 @@ def _run(run: Run) -> dict[str, Any]:
         "acquired": list(run.map.acquired),
         "unseen": list(run.unseen),
         "unvisited": list(run.unvisited),
+        "unknown": length_to_json(beside.unknown),
+        "boundary": length_to_json(beside.boundary),
+        "lower_bounds": {"seeing": _least(beside.seeing), "circling": _least(beside.circling)},
         "diversions": len(run.diversions) if isinstance(run, SeedSpreaderRun) else None,
         "bounds": [bound_to_json(bound) for bound in run.bounds],
     }

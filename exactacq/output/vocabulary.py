@@ -66,6 +66,8 @@ class Word(StrEnum):
     DIVERSION = "diversion"
     D = "D"
     Q = "Q"
+    SEEING = "seeing bound"
+    CIRCLING = "circling bound"
     UNAPPLIED = "does not apply"
     """Of a bound that does not speak of a run."""
 

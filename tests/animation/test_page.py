@@ -35,6 +35,7 @@ from exactacq.strategies.seed_spreader.strategy import seed_spreader
 from exactacq.strategies.sightseer.strategy import sightseer
 
 CODE = Path(__file__).parents[2] / "exactacq" / "output" / "animation"
+PAGES = ("one_run.js", "several.js")
 TOLERANCE = 2e-4
 """Page units: twice the last digit of the page's numbers."""
 
@@ -389,15 +390,17 @@ def test_what_a_user_writes_is_in_the_block_of_data_only(room: Run) -> None:
     assert "hacked" not in before + after
     assert "<" not in block
     assert [o["name"] for o in json.loads(block)["obstacles"]][:2] == list(HOSTILE)
-    script = "".join((CODE / name).read_text("utf-8") for name in (*SCRIPTS, "page.js"))
+    script = "".join((CODE / name).read_text("utf-8") for name in (*SCRIPTS, *PAGES))
     for danger in ("innerHTML", "outerHTML", "insertAdjacentHTML", "document.write", "eval(", "Function("):
         assert danger not in script
 
 
-def test_modules_make_one_script() -> None:
+@pytest.mark.parametrize("own", PAGES)
+def test_modules_make_one_script(own: str) -> None:
     """What they import comes before them, and no two have a name in common at their outermost level."""
-    modules = {name: (CODE / name).read_text("utf-8") for name in (*SCRIPTS, "page.js")}
-    assert {path.name for path in CODE.rglob("*.js")} == {name.rsplit("/", 1)[-1] for name in modules}
+    modules = {name: (CODE / name).read_text("utf-8") for name in (*SCRIPTS, own)}
+    every = {name.rsplit("/", 1)[-1] for name in (*SCRIPTS, *PAGES)}
+    assert {path.name for path in CODE.rglob("*.js")} == every
     names: list[str] = []
     before: set[str] = set()
     for name, text in modules.items():

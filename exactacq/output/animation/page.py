@@ -56,36 +56,44 @@ CLOSED_FORM = 40
 """Closed forms of at most this many characters are shown, the decimal value of others."""
 COLOURS = 64
 """Steps of the colour scale along the path."""
-FRAGMENTS = ("stage", "controls", "events", "legend")
+FRAGMENTS = ("stage", "controls", "numbers", "events", "legend")
 """Pieces of HTML that a page which plays runs is made of."""
-SCRIPTS = tuple(f"player/{name}.js" for name in ("dom", "journey", "chart", "labels", "words", "player"))
+SCRIPTS = tuple(
+    f"player/{name}.js"
+    for name in ("dom", "clock", "chart", "journey", "labels", "stage", "legend", "words", "player")
+)
 """The modules that play runs on a page, each after those that it imports."""
 STYLE = "player/player.css"
 """How these pieces look."""
 
 
 def page(run: Run, frames: Iterable[Frame], *, labels: Labels | str = Labels.ALL) -> str:
-    """The page as HTML text; equal runs and frames give the same text. *labels* are as in figures.
+    """The page of one run as HTML text; equal runs and frames give the same text. *labels* are as in figures.
 
     *frames* (see `frames_of`) run along the path from its start to its end; they are consumed one by one.
     Raises `ValueError` if there are none, `FormatError` for a scene that is 10^-9 times its distance from
     the origin or less.
     """
+    return whole_page("one_run", told(run, frames, Labels(labels)))
+
+
+def whole_page(name: str, data: object) -> str:
+    """The page of that skeleton, style and script, with its data and all that plays runs."""
     # In a block of JSON only "<" could end the block or open a comment; the rest is ASCII by `dumps`.
-    data = json.dumps(told(run, frames, Labels(labels)), separators=(",", ":")).replace("<", "\\u003c")
-    style = Template(_text("page.css")).substitute(
-        colours=variables(vocabulary.colours()), player=_text(STYLE)
-    )
-    script = bundled({name: _text(name) for name in (*SCRIPTS, "page.js")})
+    block = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
+    base = Template(_text("page.css")).substitute(colours=variables(vocabulary.colours()))
+    style = "\n".join((base, _text(STYLE), _text(f"{name}.css")))
+    script = bundled({file: _text(file) for file in (*SCRIPTS, f"{name}.js")})
     allowed = f"script-src {_hash(script)}; style-src {_hash(style)}"
     policy = f"default-src 'none'; {allowed}; base-uri 'none'; form-action 'none'"
+    body = Template(_text(f"{name}.html")).substitute(fragments()).rstrip()
     return Template(_text("page.html")).substitute(
-        fragments(), policy=policy, style=style, script=script, data=data
+        policy=policy, style=style, script=script, data=block, body=body
     )
 
 
 def fragments() -> dict[str, str]:
-    """The stage, the controls, the list of events and the legend, as HTML by what a skeleton calls them."""
+    """The parts of a page that plays runs, as HTML by what a skeleton calls them."""
     words = {word.name.lower(): str(word) for word in Word}
     return {name: Template(_text(f"player/{name}.html")).substitute(words).rstrip() for name in FRAGMENTS}
 
@@ -126,10 +134,10 @@ def _hash(text: str) -> str:
     return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"
 
 
-def told(run: Run, frames: Iterable[Frame], labels: Labels) -> dict[str, Any]:
-    """What the scripts show, as JSON data."""
+def told(run: Run, frames: Iterable[Frame], labels: Labels, paper: Paper | None = None) -> dict[str, Any]:
+    """What the scripts show, as JSON data; on a *paper* of the run's own if none is given."""
     sweep, names = SweptTerrain.of(run), list(run.names())
-    paper = Paper.of(run.scene, run.start, float(run.radius), sweep is not None)
+    paper = paper or Paper.of(run.scene, run.start, float(run.radius), sweep is not None)
     numbers = {id(event): number for number, event in enumerate(run.events, 1)}
     known, shown, events = Changes(paper), [], []
     coarse = replace(paper, decimals=COARSE)
@@ -247,10 +255,12 @@ class Paper:
     decimals: int = DECIMALS
 
     @classmethod
-    def of(cls, scene: Scene, start: Point, radius: float, swept: bool = False) -> Paper:
-        """Paper that shows the obstacles, the terrain and the start; little beyond it if *swept*."""
+    def of(
+        cls, scene: Scene, start: Point, radius: float, swept: bool = False, others: Iterable[Point] = ()
+    ) -> Paper:
+        """Paper that shows the obstacles, the terrain, the start and others; little beyond it if *swept*."""
         corners = [corner for obstacle in scene.obstacles for corner in Region.of(obstacle).box]
-        corners.append(np.array(start.xy))
+        corners += [np.array(place.xy) for place in (start, *others)]
         low, high = window(scene, corners, radius, swept)
         size = float(np.max(high - low))
         lack = np.maximum(size * SLIMMEST - (high - low), 0) / 2 + size * MARGIN

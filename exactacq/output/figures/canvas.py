@@ -111,8 +111,8 @@ class Canvas:
         self.pieces = walked
         self.start = None if start is None else start.xy
         self.radius = None if radius is None else float(radius)
+        self.room = room
         self.low, self.high = self._view()
-        self.scale = min(room[0] / self.width, room[1] / self.height)
         self.legend: dict[str, Any] = {}
         self.spots: list[tuple[Spot, float]] = []
         self.colours: PathCollection | None = None
@@ -145,6 +145,11 @@ class Canvas:
         least = (size + 2 * margin) * NARROWEST / WIDEST
         lack = np.maximum(least - (high - low), 0) / 2
         return low - lack, high + lack
+
+    @property
+    def scale(self) -> float:
+        """Inches to a unit of the scene."""
+        return min(self.room[0] / self.width, self.room[1] / self.height)
 
     @property
     def width(self) -> float:
@@ -386,3 +391,11 @@ class Canvas:
             return
         self.axes.add_patch(Disc(self.start, self.radius, fill=False, alpha=0.75, zorder=0.8, **RANGE))
         self.axes.add_patch(Disc(self.start, self.radius, color=VIEW, alpha=0.045, linewidth=0, zorder=0.5))
+
+
+def show_alike(drawings: Sequence[Canvas]) -> None:
+    """Let drawings that are not drawn yet show one rectangle, so that they can be compared."""
+    low = np.min([drawing.low for drawing in drawings], axis=0)
+    high = np.max([drawing.high for drawing in drawings], axis=0)
+    for drawing in drawings:
+        drawing.low, drawing.high = low, high

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from exactacq.files.whole_files import FIGURES, check_output, write_whole
 from exactacq.numbers.length import Length
-from exactacq.output.figures.canvas import Canvas, steps
+from exactacq.output.figures.canvas import Canvas, show_alike, steps
 from exactacq.output.figures.layout import in_axes, inches, on_page
 from exactacq.output.figures.way_figure import way_figure
 from exactacq.output.vocabulary import Labels
@@ -70,9 +70,11 @@ def figure(
 def side_by_side(
     runs: Sequence[Run], *, labels: Labels | str = Labels.ALL, progress: Progress | None = None
 ) -> Figure:
-    """The figures of runs side by side."""
+    """The figures of runs on one scene side by side, to one scale; more than three in rows."""
     choice, meter = Labels(labels), Meter(progress, sum(map(steps, runs)))
-    return on_page([Canvas(run, None, meter) for run in runs], choice)
+    drawings = [Canvas(run, None, meter) for run in runs]
+    show_alike(drawings)
+    return on_page(drawings, choice)
 
 
 def svg(subject: Run | Scene | ShortestPath) -> str:

@@ -28,7 +28,7 @@ LEGEND: dict[str, Any] = {
 
 
 def on_page(drawings: Sequence[Canvas], labels: Labels) -> Figure:
-    """Drawings side by side on a page of their size, their axes on one level."""
+    """Drawings side by side on a page of their size, those of a row on one level."""
     page = Figure()
     FigureCanvasAgg(page)
     settings = []
@@ -36,13 +36,13 @@ def on_page(drawings: Sequence[Canvas], labels: Labels) -> Figure:
         drawing.draw(page.add_axes((0, 0, 1, 1)))
         Lettering(drawing, labels).draw()
         settings.append(_Setting(drawing))
-    below, above = max(setting.below for setting in settings), max(setting.above for setting in settings)
-    high = below + max(setting.high for setting in settings) + above
-    page.set_size_inches(sum(setting.full for setting in settings), high)
-    left = 0.0
-    for setting in settings:
-        setting.lay_out(page, left, below - setting.below)
-        left += setting.full
+    most = _in_a_row(len(settings))
+    rows = [_Shelf(settings[k : k + most]) for k in range(0, len(settings), most)]
+    page.set_size_inches(max(row.wide for row in rows), sum(row.high for row in rows))
+    bottom = sum(row.high for row in rows)
+    for row in rows:
+        bottom -= row.high
+        row.lay_out(page, bottom)
     drawings[-1].meter.close()
     return page
 
@@ -174,3 +174,25 @@ class _Setting:
         bar.outline.set_visible(False)
         if bar.solids is not None:  # Curves and text apart, the bar should be sharp at any zoom, too.
             bar.solids.set_rasterized(False)
+
+
+def _in_a_row(count: int) -> int:
+    """How many of some drawings stand side by side: all of three, else as many as there are rows."""
+    return count if count <= 3 else math.ceil(math.sqrt(count))
+
+
+class _Shelf:
+    """Finished drawings side by side, their axes on one level; lengths in inches."""
+
+    def __init__(self, settings: Sequence[_Setting]) -> None:
+        self.settings = settings
+        self.below = max(setting.below for setting in settings)
+        self.wide = sum(setting.full for setting in settings)
+        self.high = self.below + max(setting.high + setting.above for setting in settings)
+
+    def lay_out(self, page: Figure, y: float) -> None:
+        """Place the drawings with what stands around them, the lower edge at y."""
+        x = 0.0
+        for setting in self.settings:
+            setting.lay_out(page, x, y + self.below - setting.below)
+            x += setting.full

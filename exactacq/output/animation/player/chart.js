@@ -1,9 +1,9 @@
 /** The map: what was known and seen at a frame. */
 
-import { $, add, set } from "./dom.js";
+import { add, set } from "./dom.js";
 
-/** Draws the obstacles of a run; returns what shows a frame. */
-export function chart(data, number) {
+/** Draws the obstacles of a run, on the stage that `$` finds; returns what shows a frame. */
+export function chart($, data, number) {
   const { frames, obstacles } = data;
   for (const group of ["obstacles", "known"]) $(group).replaceChildren();
   const outlines = obstacles.map(({ name, outline }) => {
@@ -14,7 +14,7 @@ export function chart(data, number) {
   const strokes = obstacles.map(() => add($("known"), "path"));
   const stretches = obstacles.map((_, k) => data.known.filter(([obstacle]) => obstacle === k));
   const perimeter = obstacles.reduce((sum, obstacle) => sum + obstacle.perimeter, 0);
-  drawGround(data);
+  drawGround($, data);
 
   return (frame) => {
     let length = 0;
@@ -38,11 +38,10 @@ export function chart(data, number) {
 }
 
 /** What stays the same: the start, the terrain, and of a sweep its line. */
-function drawGround(data) {
+function drawGround($, data) {
   const [x, y, width, height] = data.terrain ?? [0, 0, 0, 0];
   set($("terrain"), { x, y, width, height, visibility: data.terrain ? "visible" : "hidden" });
   set($("mline"), { d: data.mline });
   set($("beyond"), { d: data.beyond });
-  for (const entry of document.querySelectorAll(".swept")) entry.hidden = !data.mline;
   for (const part of $("start").children) set(part, { x: data.start[0], y: data.start[1] });
 }

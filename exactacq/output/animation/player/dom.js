@@ -1,4 +1,8 @@
-/** Elements and numbers: what all parts of a page need. */
+/**
+ * Elements and numbers: what all parts of a page need.
+ *
+ * What shows one run is given its own `$`, as a page may show several: each stands in a tree of its own then.
+ */
 
 export const $ = (id) => document.getElementById(id);
 export const clamp = (value, low, high) => Math.min(Math.max(value, low), high);

@@ -1,6 +1,6 @@
 /** The path: where the robot is after a length, and the part that lies behind it, in chunks of one colour. */
 
-import { $, add, clamp, last, set } from "./dom.js";
+import { add, clamp, last, set } from "./dom.js";
 
 const WIDEST = (2 * Math.PI) / 3; // angle of an arc: the centre of a wider one would shift by rounding
 
@@ -25,22 +25,26 @@ function drawn(piece, from, to) {
 const lineOf = (parts) =>
   parts.length ? `M${along(parts[0].piece, parts[0].u).join(" ")}` + parts.map(({ piece, u, v }) => drawn(piece, u, v)).join("") : "";
 
-/** The path of a run; `colours` are those of the scale of lengths, `away` is that of diversions. */
-export function journey(data, colours, away) {
+/**
+ * The path of a run; `colours` are those of the scale of lengths, which ends at `whole` or with the path, `away` is
+ * that of diversions.
+ */
+export function journey($, data, { colours, away, whole }) {
   /** Pieces with their own start: arcs turn from `angle` by `turn` about a centre `radius` away. */
   const pieces = data.path.map(([end, x, y, radius = 0, angle = 0, turn = 0], k) => {
     const [from, x0, y0] = k ? data.path[k - 1] : [0, ...data.start];
     return { from, end, x0, y0, x, y, radius, angle, turn };
   });
   const total = pieces.length ? pieces.at(-1).end : 0;
+  const scale = whole ?? total;
 
   const isAway = pieces.map((_, k) => data.diversions.some(([from, to]) => from <= k && k < to));
   const chunks = [];
   pieces.forEach((piece, k) => {
     const size = piece.end - piece.from || 1;
     for (let from = piece.from; ; ) {
-      const step = clamp(Math.floor((from / (total || 1)) * colours.length + 1e-9), 0, colours.length - 1);
-      const to = step + 1 < colours.length ? Math.min(((step + 1) * total) / colours.length, piece.end) : piece.end;
+      const step = clamp(Math.floor((from / (scale || 1)) * colours.length + 1e-9), 0, colours.length - 1);
+      const to = step + 1 < colours.length ? Math.min(((step + 1) * scale) / colours.length, piece.end) : piece.end;
       const part = { piece, k, u: (from - piece.from) / size, v: to >= piece.end ? 1 : (to - piece.from) / size };
       const before = chunks.at(-1);
       if (before && before.away === isAway[k] && (isAway[k] || before.step === step)) before.parts.push(part);
@@ -56,10 +60,6 @@ export function journey(data, colours, away) {
     add($("walked"), "path", { d: lineOf(chunk.parts), visibility: "hidden", ...look(chunk) }),
   );
   const tail = add($("walked"), "path");
-  $("scale").replaceChildren();
-  colours.filter((_, k) => k % 8 === 4).forEach((stroke, k) => {
-    add($("scale"), "path", { class: "walked", d: `M${3 + 2.75 * k} 7h2.75`, stroke });
-  });
 
   /** Draws the path up to a length; returns the robot's place. */
   function walk(length) {

@@ -1,12 +1,12 @@
 /** Labels in the drawing: names of obstacles, and the order of the visits that have begun. */
 
-import { $, add, clamp, set } from "./dom.js";
+import { add, clamp, set } from "./dom.js";
 
 const LABEL = 13; // pixels of a name's height, as in the style
 const CROWDED = 150; // among more obstacles, names that do not fit inside are left to tooltips
 
 /** The labels of a run of some length; `name` says what is visited by a length, `arrange` finds them places. */
-export function labelling(data, total) {
+export function labelling($, data, total) {
   const { obstacles } = data;
   const [width] = data.box;
   const [named, numbered] = [["all", "names"], ["all", "numbers"]].map((some) => some.includes(data.labels));
@@ -15,7 +15,6 @@ export function labelling(data, total) {
   const labels = obstacles.map(({ name, heart, above }, k) => {
     return { name: named ? name : "", visit: numbered ? visits.get(k) : undefined, heart, above, text: add($("names"), "text") };
   });
-  $("order").hidden = !numbered || !visits.size;
   $("start").lastElementChild.textContent = data.labels === "none" ? "" : "S";
   const sizes = obstacles.map((obstacle) => obstacle.perimeter / Math.PI).sort((a, b) => a - b);
   const medium = sizes.length ? sizes[sizes.length >> 1] : width;

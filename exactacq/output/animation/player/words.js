@@ -4,6 +4,15 @@ import { $, add, counted, last, set } from "./dom.js";
 
 const TOLD = 3; // events at one place that are told in full
 
+/** Kind, name and note of an event. */
+const words = ([, kind, obstacle, note], obstacles) => [kind, obstacle === null ? "" : obstacles[obstacle].name, note];
+
+/** An event in one line. */
+export function line(event, obstacles) {
+  const [kind, name, note] = words(event, obstacles);
+  return `${event[0]}. ${kind}${name && ` ${name}`}${note && `, ${note}`}`;
+}
+
 /** The list of a run's events, whose buttons call `chosen`; and what tells where the robot is. */
 export function wording(data, number, chosen) {
   const { frames, events, obstacles } = data;
@@ -13,25 +22,10 @@ export function wording(data, number, chosen) {
   events.forEach((event, k) => happenings.set(event[4], [...(happenings.get(event[4]) ?? []), k]));
   const eventful = [...happenings.keys()];
 
-  /** Kind, name and note of an event, and all in one line. */
-  const words = ([, kind, obstacle, note]) => [kind, obstacle === null ? "" : obstacles[obstacle].name, note];
-  function line(event) {
-    const [kind, name, note] = words(event);
-    return `${event[0]}. ${kind}${name && ` ${name}`}${note && `, ${note}`}`;
-  }
-
-  $("radius").textContent = data.radius;
-  $("exact").textContent = frames.length;
-  $("note").textContent = "";
-  if (data.left_out) {
-    const [shown, all] = data.left_out;
-    $("note").textContent = `Only ${shown} of its ${all} events and corners are shown, to keep this page small.`;
-  }
-
   $("list").replaceChildren();
   const buttons = events.map((event, k) => {
     const button = add(add($("list"), "li"), "button", { type: "button", "data-event": k });
-    const [kind, name, note] = words(event);
+    const [kind, name, note] = words(event, obstacles);
     add(button, "span", { class: "number" }, event[0]);
     const what = add(button, "span", { class: "what" });
     add(what, "span", { class: "kind" }, kind);
@@ -57,7 +51,7 @@ export function wording(data, number, chosen) {
     $("next").disabled = !(eventful.at(-1) > now);
     const more = here.length > TOLD ? `; and ${here.length - TOLD} more` : "";
     const status = exact
-      ? here.slice(0, TOLD).map((k) => line(events[k])).join("; ") + more
+      ? here.slice(0, TOLD).map((k) => line(events[k], obstacles)).join("; ") + more
       : `On the way after event ${before.length ? events[before.at(-1)][0] : 0} of ${data.happened}`;
     if ($("status").textContent === status) return;
     $("status").textContent = status;
