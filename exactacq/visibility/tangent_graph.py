@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from functools import cmp_to_key
 from itertools import count, pairwise
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import networkx as nx
 
@@ -60,7 +60,9 @@ class _GraphOfTangents:
         self.places: dict[int, Point] = {}
         """The nodes of places."""
         self.node_of: dict[int, int] = {}
-        """Nodes by what they are at: numbers of pegs, and identities of contacts' points."""
+        """Nodes by the numbers of pegs."""
+        self._contacts: dict[_End, int] = {}
+        """Nodes by the ends of tangents that lie on arcs."""
         self._joints: dict[int, int] = {}
         self._straight: set[tuple[int, int]] = set()
         own = self.pegs.own
@@ -77,16 +79,16 @@ class _GraphOfTangents:
                 node = self._place_at(peg.center)
                 self.node_of[peg.number] = self._node(peg.center, "corner") if node is None else node
         found = [(i, j, tangent) for i, j in self._pairs() if (tangent := tangents.between(i, j))]
-        contacts: dict[int, list[Point]] = {}
-        for i, j, tangent in found:
-            contacts.setdefault(i, []).append(tangent.start)
-            contacts.setdefault(j, []).append(tangent.end)
+        contacts: dict[int, list[tuple[_End, Point]]] = {}
+        for n, (i, j, tangent) in enumerate(found):
+            contacts.setdefault(i, []).append(((n, 0), tangent.start))
+            contacts.setdefault(j, []).append(((n, 1), tangent.end))
         for peg in self.pegs.pegs:
             if peg.arc is not None:
                 sides = (self.pegs.entry(peg, side) for side in (1, -1))
-                self._add_arc(peg, peg.arc, [point for entry in sides for point in contacts.get(entry, ())])
-        for i, j, tangent in found:
-            self._add_tangent(i, j, tangent)
+                self._add_arc(peg, peg.arc, [end for entry in sides for end in contacts.get(entry, ())])
+        for n, (i, j, tangent) in enumerate(found):
+            self._add_tangent(n, i, j, tangent)
 
     def _pairs(self) -> Iterator[tuple[int, int]]:
         """Each tangent that floats allow, in one of its two directions."""
@@ -106,24 +108,25 @@ class _GraphOfTangents:
 
     # -- arcs ----------------------------------------------------------------------------------------
 
-    def _add_arc(self, peg: Peg, arc: Arc, contacts: list[Point]) -> None:
+    def _add_arc(self, peg: Peg, arc: Arc, contacts: list[tuple[_End, Point]]) -> None:
         """The nodes on an arc, and the parts of it between them."""
         rail, (e,) = Rail(arc), peg.edges
-        spots: list[_Spot] = [(rail.parameter(point), point, None) for point in contacts]
+        spots: list[_ArcSpot] = [_ArcSpot(rail.parameter(point), point, end=end) for end, point in contacts]
         if peg.before is not None:
-            spots.append((Real(0), arc.start, self._at_end(peg.before, peg.number, arc.start)))
+            spots.append(_ArcSpot(Real(0), arc.start, self._at_end(peg.before, peg.number, arc.start)))
         if peg.after is not None:
-            spots.append((rail.top, arc.end, self._at_end(peg.after, peg.after, arc.end)))
+            spots.append(_ArcSpot(rail.top, arc.end, self._at_end(peg.after, peg.after, arc.end)))
         for place in self.pegs.pegs[self.pegs.own :]:
             if e in place.edges and arc.contains(place.center):
-                spots.append((rail.parameter(place.center), place.center, self.node_of[place.number]))
+                u = rail.parameter(place.center)
+                spots.append(_ArcSpot(u, place.center, self.node_of[place.number]))
         spots.sort(key=cmp_to_key(_by_parameter))
         row: list[tuple[int, Point]] = []
         for same in _groups(spots):
-            nodes = [node for _, _, node in same if node is not None]
-            node = nodes[0] if nodes else self._node(same[0][1], "contact")
-            self.node_of.update({id(point): node for _, point, _ in same})
-            row.append((node, same[0][1]))
+            nodes = [spot.node for spot in same if spot.node is not None]
+            node = nodes[0] if nodes else self._node(same[0].point, "contact")
+            self._contacts.update((spot.end, node) for spot in same if spot.end is not None)
+            row.append((node, same[0].point))
         if arc.full and len(row) > 1:
             row.append(row[0])
         for (node, start), (following, end) in pairwise(row):
@@ -141,10 +144,10 @@ class _GraphOfTangents:
 
     # -- tangents ------------------------------------------------------------------------------------
 
-    def _add_tangent(self, i: int, j: int, tangent: FreeTangent) -> None:
+    def _add_tangent(self, n: int, i: int, j: int, tangent: FreeTangent) -> None:
         (one, _), (other, _) = self.pegs.entries[i], self.pegs.entries[j]
-        a = self.node_of[one.number if one.arc is None else id(tangent.start)]
-        b = self.node_of[other.number if other.arc is None else id(tangent.end)]
+        a = self.node_of[one.number] if one.arc is None else self._contacts[n, 0]
+        b = self.node_of[other.number] if other.arc is None else self._contacts[n, 1]
         key = min(a, b), max(a, b)
         curve = tangent.curve
         if (
@@ -184,17 +187,26 @@ class _GraphOfTangents:
         self.graph.add_edge(a, b, length=length, curve=curve, kind=kind, obstacle=obstacle)
 
 
-_Spot: TypeAlias = "tuple[Real, Point, int | None]"
-"""A point of an arc: its parameter, and its node if it has one."""
+_End: TypeAlias = tuple[int, int]
+"""The number of a tangent, and 0 for its start or 1 for its end."""
 
 
-def _by_parameter(one: _Spot, other: _Spot) -> int:
-    return one[0].compare(other[0])
+class _ArcSpot(NamedTuple):
+    """A point of an arc and its parameter, with its node if it has one, or the tangent's end that it is."""
+
+    parameter: Real
+    point: Point
+    node: int | None = None
+    end: _End | None = None
 
 
-def _groups(spots: list[_Spot]) -> Iterator[list[_Spot]]:
+def _by_parameter(one: _ArcSpot, other: _ArcSpot) -> int:
+    return one.parameter.compare(other.parameter)
+
+
+def _groups(spots: list[_ArcSpot]) -> Iterator[list[_ArcSpot]]:
     """Spots, in order, by their places."""
-    group: list[_Spot] = []
+    group: list[_ArcSpot] = []
     for spot in spots:
         if group and _by_parameter(group[0], spot):
             yield group
