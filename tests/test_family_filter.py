@@ -8,13 +8,15 @@ from random import Random
 
 import numpy as np
 import pytest
+from flint import fmpq
 from nightly import NIGHTLY
-from strategies import arc_terrain, degenerate_terrain, random_terrain
+from strategies import arc_terrain, build, circle_grid, degenerate_terrain, random_terrain, square_grid
 
 import exactacq as xa
 from exactacq import kernel
 from exactacq.files.octagons import random_octagons
 from exactacq.geometry.curve_parameter import Rail
+from exactacq.geometry.curves import Curve, Segment
 from exactacq.kernel.extents import Extent, Span
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
@@ -22,7 +24,7 @@ from exactacq.sensing import family_filter
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.free_way import WayViews
 from exactacq.sensing.legs import Leg, legs_of
-from exactacq.sensing.line_family import family_of
+from exactacq.sensing.line_family import SingleLine, family_of
 from exactacq.sensing.view_families import ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.visibility.sensor_range import Range
@@ -190,6 +192,64 @@ def test_leaving_out_changes_nothing(name: str, monkeypatch: pytest.MonkeyPatch)
     usual = record(explore(scene))
     monkeypatch.setattr(kernel, "EXACT_ONLY", True)
     assert record(explore(scene)) == usual
+
+
+def test_leaving_out_changes_nothing_on_a_board(monkeypatch: pytest.MonkeyPatch) -> None:
+    """There most single lines are extreme views of families, or found from both their ends."""
+    holes = [xa.Circle((2 * k % 6, 2 * (k // 3)), "3/5") for k in range(6)]
+    scene = xa.Scene(holes, start=(-1, -1), radius=5)
+    usual = record(xa.sightseer(scene))
+    monkeypatch.setattr(kernel, "EXACT_ONLY", True)
+    assert record(xa.sightseer(scene)) == usual
+
+
+def keyed_views(complex_: VisibilityComplex, edge: int) -> Iterator[tuple[list[int], int, str, str]]:
+    """The keys of extreme views from an edge, the edges that are seen, and the points from and to which."""
+    for one in complex_.extents(edge):
+        is_single = isinstance(one.origin, SingleLine)
+        for family, side in complex_.views(one):
+            first, last = sorted((family.first, family.last), key=lambda end: end.places[side])
+            for end, keys in ((first, one.first_keys), (last, one.last_keys)):
+                # Families end at the start of a full circle too.
+                views = family.free_views
+                if keys and (is_single or (views is not None and end.t in (views.low, views.high))):
+                    here, there = map(digits_of, end.points)
+                    yield (keys, one.edge, there, here) if side else (keys, one.edge, here, there)
+
+
+def digits_of(point: xa.Point) -> str:
+    return f"{digits(point.x)} {digits(point.y)}"
+
+
+def ends_of(curve: Curve) -> set[str]:
+    """Both ends of a straight edge, between which a line may run along it; nothing for an arc."""
+    return {digits_of(curve.start), digits_of(curve.end)} if isinstance(curve, Segment) else set()
+
+
+GRIDS = {"discs": circle_grid(3, 3), "squares": square_grid(4, 3)}
+
+
+@pytest.mark.parametrize("name", [*GRIDS, *range(12)])
+def test_views_with_equal_keys_are_equal(name: str | int) -> None:
+    """Also from circles, which a line meets twice; scenes with many lines that pass several features."""
+    if isinstance(name, str):
+        shapes = GRIDS[name]
+    else:
+        shapes = (arc_terrain if name % 3 else degenerate_terrain)(Random(name)).shapes
+    table = EdgeTable(build(shapes).obstacles)
+    complex_ = VisibilityComplex(table, Range(fmpq(17, 2)))
+    shared = 0
+    for e in range(len(table.curves)):
+        at: dict[tuple[int, int], tuple[str, str]] = {}
+        for keys, shown, here, there in keyed_views(complex_, e):
+            # Families that are seen from a straight leg have the keys of all their lines, single lines fewer.
+            if not table.images.kind[shown] or table.full[shown]:
+                for key in keys:
+                    shared += (key, shown) in at
+                    place, seen = at.setdefault((key, shown), (here, there))
+                    assert place == here or {place, here} == ends_of(table.curves[e])
+                    assert seen == there or {seen, there} == ends_of(table.curves[shown])
+    assert shared > 500 or name not in GRIDS
 
 
 def test_most_families_are_left_out(monkeypatch: pytest.MonkeyPatch) -> None:

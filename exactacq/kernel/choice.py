@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from math import inf
 from typing import final
 
-from exactacq.kernel.extents import NOTHING, Extent, Span
+from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent, Span
 
 Group = tuple[int, Span, Span]
 """An obstacle, and of intervals that are connected, from which it is surely seen, the one that begins first
@@ -71,8 +71,11 @@ def mattering(
     chosen = [False] * len(extents)
     sources: dict[int, list[Source]] = {}
     news: dict[int, list[int]] = {}
+    told = _extreme_views(extents)
     for n in range(len(extents)):
         one = extents[n]
+        if one.surely[0] > one.surely[1] and one.first_keys and _is_told(one, told):
+            continue
         concerned = [owner for owner in owners.get(one.edge, NOBODY) if owner[0] in obstacles]
         if not concerned:
             continue
@@ -111,6 +114,40 @@ def mattering(
             if not any(sight.contains(source) for sight in found):
                 chosen[source.number] = True
     return [n for n in range(len(extents)) if chosen[n]], groups
+
+
+def _extreme_views(extents: list[Extent]) -> set[tuple[int, int]]:
+    """The first and the last views of families, by their keys and the edges that are seen.
+
+    Only those of single lines are asked for; where there are none, none is told.
+    """
+    lone = {key for one in extents if one.surely[0] > one.surely[1] for key in one.first_keys}
+    found: set[tuple[int, int]] = set()
+    if lone:
+        for one in extents:
+            if one.surely[0] <= one.surely[1]:
+                for key in one.first_keys:
+                    if key in lone:
+                        found.add((key, one.edge))
+                for key in one.last_keys:
+                    if key in lone:
+                        found.add((key, one.edge))
+    return found
+
+
+def _is_told(one: Extent, told: set[tuple[int, int]]) -> bool:
+    """Whether the view along a single line is one that is told, as the extreme one of a family or another's.
+
+    If not, it is from now on. At corners, and at the start of a full circle, a place may have two names.
+    """
+    if one.source[0] == -inf or one.source[1] == inf or one.shown == EVERYTHING:
+        return False
+    for key in one.first_keys:
+        if (key, one.edge) in told:
+            return True
+    for key in one.first_keys:
+        told.add((key, one.edge))
+    return False
 
 
 def _is_known(one: Extent, known: Known) -> bool:

@@ -81,12 +81,44 @@ def extents_from(
                     continue
                 near, far = family.places(here), family.places(there)
                 slack = bent(family, here, near, curves) + bent(family, there, far, curves)
-                # A line may meet an arc twice: there its key does not name one place.
-                keys = ([], []) if curves[edge].sense else (family.first_keys, family.last_keys)
+                first, last = family.first_keys, family.last_keys
+                if curves[edge].sense:
+                    first = _keys_on_arc(first, near[0], curves[edge], shown, curves)
+                    last = _keys_on_arc(last, near[1], curves[edge], shown, curves)
+                keys = first, last
                 one = extent(shown, near, far, slack, keys, reach, family, here, there)
                 if one is not None:
                     found.append(one)
     return found
+
+
+def _keys_on_arc(
+    keys: list[int], place: EdgePlace, leg: CurveImage, shown: int, curves: list[CurveImage]
+) -> list[int]:
+    """Keys of a place of an arc, from which an edge is seen along the line with some keys."""
+    # At the start of a full circle parameters jump: there is no one place to name.
+    if place[0] == -inf or place[1] == inf:
+        return []
+    return view_keys(keys, leg, shown, curves)
+
+
+def view_keys(keys: list[int], leg: CurveImage, shown: int, curves: list[CurveImage]) -> list[int]:
+    """Keys of the view of an edge from a leg along a line, by keys of the line; none from or of open arcs.
+
+    Views with equal keys begin in one place, and end in one, unless they run along a straight edge. A line
+    meets a straight curve once, but a circle perhaps in two places. What is seen of a round obstacle is the
+    nearer of them. From those of a round obstacle it leaves in opposite directions, away from each other: it
+    shows an edge from both only if that lies on both sides, which no straight edge and no circle does. The
+    inside of a circle, and an arc from its ends, may be seen in two places from one, or from two.
+    """
+    if _may_be_met_twice(leg) or _may_be_met_twice(curves[shown]):
+        return []
+    return [key * len(curves) + shown for key in keys] if leg.sense else keys
+
+
+def _may_be_met_twice(curve: CurveImage) -> bool:
+    """Whether a curve is neither straight nor a round obstacle."""
+    return curve.sense < 0 or (curve.sense > 0 and not curve.full)
 
 
 def extent(

@@ -101,10 +101,14 @@ class FamilySweeper:
                 )
                 for k, s in enumerate(feature.sectors)
             ]
+            followed: set[int] = set()
             for s, _ in sweeps:
                 for t, passed in s.pinches:
-                    if may_be_pinched(self.table, feature, s.sector, t, passed):
-                        single_lines += self._pinched(FeatureLine(feature, s.sector, t, passed))
+                    keys = self._numbers.keys(self._namer.number(feature), [*passed])
+                    # Neighbouring sectors share a line.
+                    if followed.isdisjoint(keys) and may_be_pinched(self.table, feature, s.sector, t, passed):
+                        single_lines += self._pinched(FeatureLine(feature, s.sector, t, passed), keys)
+                        followed.update(keys)
             single_lines += self._end_on(feature, sweeps[0], sweeps[-1])
             if not feature.round:
                 for sector in self._corner_normals(feature):
@@ -203,7 +207,7 @@ class FamilySweeper:
         ends = leaving(curves[e], at_end=True), leaving(curves[after], at_end=False)
         return incoming, after if _continues(*ends) else e
 
-    def _pinched(self, at: FeatureLine) -> Iterator[SingleLine]:
+    def _pinched(self, at: FeatureLine, keys: list[int]) -> Iterator[SingleLine]:
         """What the touched points and edges of a line that grazes several features show of each other.
 
         Of the features between two places that which is nearest to what is seen tells of it.
@@ -218,14 +222,14 @@ class FamilySweeper:
                 if here.edge == first.edge or here.place == near.place:
                     continue
                 if not _is_told_by_others(here.place, near.place, featured):
-                    yield SingleLine(here.pin, here.edge, (near.pin, far.pin), near.edge)
+                    yield SingleLine(here.pin, here.edge, (near.pin, far.pin), near.edge, keys=keys)
         for role in (Role.BEHIND, Role.AHEAD):
             if line.end(role) is None:
                 place = self.follower.at_range(at, role)
                 for first, last in shown:
                     near, far = (first, last) if role is Role.BEHIND else (last, first)
                     if place != near.pin[0]:
-                        yield SingleLine((place, None), None, (near.pin, far.pin), near.edge)
+                        yield SingleLine((place, None), None, (near.pin, far.pin), near.edge, keys=keys)
 
     def _is_featured(self, met: Met) -> bool:
         """Whether a line meets an edge in a corner of segments, or inside an arc, that tells of it too."""

@@ -76,7 +76,7 @@ class WayViews:
         lines = [line for edge in self._near for line in edge.single_lines if line.shown in self.wanted]
         found, images = [], self.way.complex.images
         for k, source in crossing_lines([line.image(images) for line in lines], self.way.image):
-            one = lines[k].extent(images)
+            one = lines[k].extent(images, self.way.image.line)
             one.source = source
             found.append(one)
         return found

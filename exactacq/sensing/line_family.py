@@ -7,14 +7,15 @@ behind to the contact, from the contact to the edge ahead, and from the one edge
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
 from exactacq.kernel.cells import LineCells
-from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent, Span
+from exactacq.kernel.curve_images import CurveImage
+from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent, Span, view_keys
 from exactacq.kernel.family_images import NONE, FamilyImage
 from exactacq.kernel.line_keys import LineNumbers
 from exactacq.kernel.pencil_images import pencil_images
@@ -159,9 +160,10 @@ class SingleLine:
 
     The place lies on edge ``edge``, with parameter ``u`` if known, or in free space within reach (None);
     what lies between sees the run too. It may be given as what makes it; then ``spot`` bounds its parameter.
+    *keys* are numbers of the line (see `line_keys`).
     """
 
-    __slots__ = ("_hulls", "_image", "_reached", "_views", "edge", "run", "shown", "spot")
+    __slots__ = ("_hulls", "_image", "_keys", "_reached", "_views", "edge", "run", "shown", "spot")
 
     def __init__(
         self,
@@ -170,9 +172,10 @@ class SingleLine:
         run: tuple[Pin, Pin],
         shown: int,
         spot: Span | None = None,
+        keys: Sequence[int] = (),
     ) -> None:
         self._reached = reached
-        self.edge, self.run, self.shown, self.spot = edge, run, shown, spot
+        self.edge, self.run, self.shown, self.spot, self._keys = edge, run, shown, spot, [*keys]
         self._views: list[ViewFamily] | None = None
         self._image: SingleImage | None = None
         self._hulls: tuple[Span, Span] | None = None
@@ -207,8 +210,11 @@ class SingleLine:
             self._image = SingleImage(_spot(self.place), _spot(first), run)
         return self._image
 
-    def extent(self, images: LineImages, here: int = 0) -> Extent:
-        """What is shown at most, and from where: of the run from the place, or if *here* of the place."""
+    def extent(self, images: LineImages, leg: CurveImage, here: int = 0) -> Extent:
+        """What is shown at most, and from where: of the run from the place, or if *here* of the place.
+
+        That is seen from a *leg* on that curve. A view of more than a point has no keys.
+        """
         if self._hulls is None:
             place = self.spot
             if place is None:
@@ -217,7 +223,9 @@ class SingleLine:
         (shown, source), edge = self._hulls, self.shown
         if here and self.edge is not None:
             edge, shown, source = self.edge, source, shown
-        return Extent(edge, shown, source, NOTHING, [], [], self, here, 1 - here, True)
+        first, last = self.points
+        keys = view_keys(self._keys, leg, edge, images.table.curve_images) if first is last else []
+        return Extent(edge, shown, source, NOTHING, keys, keys, self, here, 1 - here, True)
 
     def views(self, here: int, there: int, clipper: FamilyClipper) -> tuple[list[ViewFamily], int]:
         """The views from the place, which lies on an edge, within range; and on which side of them is *here*.

@@ -74,12 +74,12 @@ class Neighbourhood:
 
     def extents(self, edge: int) -> list[Extent]:
         """What families show of others from an edge, and single lines that meet it."""
-        near = self.near(self.table.boxes[edge])
+        near, curves, reach = self.near(self.table.boxes[edge]), self.table.curve_images, self.images.reach
         single_lines: list[Extent] = []
+        leg = curves[edge]
         for single in (single for one in near if edge in one.lines_at for single in one.lines_at[edge]):
             if single.edge == edge:
-                single_lines.append(single.extent(self.images))
+                single_lines.append(single.extent(self.images, leg))
             if single.shown == edge:
-                single_lines.append(single.extent(self.images, here=1))
-        curves, reach = self.table.curve_images, self.images.reach
+                single_lines.append(single.extent(self.images, leg, here=1))
         return extents_from(edge, [one.at for one in near], curves, reach) + single_lines
