@@ -12,10 +12,11 @@ from itertools import pairwise
 from flint import fmpq
 
 from exactacq.geometry.coordinates import dot, raw
+from exactacq.geometry.curves import Arc
 from exactacq.geometry.intersections import line_contacts
-from exactacq.geometry.points import Point
 from exactacq.kernel.extents import Extent
 from exactacq.kernel.family_images import FamilyImage
+from exactacq.kernel.images import SPOKES
 from exactacq.kernel.ways import Crossing, crossings, extents_from_way
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
@@ -25,7 +26,7 @@ from exactacq.sensing.straight_way import StraightWay
 from exactacq.sensing.view_families import FreeViews, ViewFamily
 from exactacq.sensing.way_cuts import Cut, WayCuts
 from exactacq.visibility.chords import meet
-from exactacq.visibility.line_families import Sector, Sliding, Spokes
+from exactacq.visibility.line_families import Sector, Sliding
 
 
 class WayCrossings:
@@ -34,10 +35,28 @@ class WayCrossings:
     def __init__(self, way: StraightWay, families: list[FamilyImage], wanted: frozenset[int]) -> None:
         self.way, self.wanted = way, wanted
         self._families, self._cuts = families, WayCuts(way)
+        self._is_through: dict[int, bool] = {}
 
     @cached_property
     def _found(self) -> list[Crossing]:
-        return crossings(self._families, set(self.wanted), self.way.image)
+        found = crossings(self._families, set(self.wanted), self.way.image)
+        return [(k, certain) for k, certain in found if certain or not self._are_round(self._families[k])]
+
+    def _are_round(self, family: FamilyImage) -> bool:
+        """Whether lines are normals of a round boundary, outward, and the way's line passes its centre.
+
+        No other line of them crosses it, and what is seen along itself is told by its own line.
+        """
+        kind, *_, sense = family.frame
+        if kind != SPOKES or sense < 0:
+            return False
+        circle = self.way.table.line_numbers.circles[family.edges[1]]
+        if circle not in self._is_through:
+            arc = self.way.clipper.curve(circle)
+            assert isinstance(arc, Arc), "only arcs have circles"
+            offset = arc.center - self.way.piece.start
+            self._is_through[circle] = self.way.piece.direction.cross(offset).sign() == 0
+        return self._is_through[circle]
 
     def __iter__(self) -> Iterator[tuple[FamilyImage, bool]]:
         """The line families, and whether all their lines cross the way."""
@@ -60,8 +79,8 @@ class WayCrossings:
         if not line_family.sector.round and line_family.anchor in self.way.touches:
             # Every line through a corner that the way touches crosses it there and shows nothing else.
             return
-        if not certain and self._is_normal(line_family.sector):
-            # No other line crosses it, and what is seen along itself is told by its own line.
+        if not certain and self._is_parallel(line_family.sector):
+            # What is seen along the way's line is told by itself.
             return
         cuts: list[Cut] = [
             (line_family.low, None, line_family.names[0]),
@@ -86,14 +105,9 @@ class WayCrossings:
                 )
                 yield from self.way.clipper.families(free_views)
 
-    def _is_normal(self, sector: Sector) -> bool:
-        """Whether the way's line is one of the normals, or would be if the edge were longer."""
-        start, along = self.way.piece.start, self.way.piece.direction
-        if isinstance(sector, Sliding):
-            return bool(dot(sector.base, raw(along)) == 0)
-        return (
-            isinstance(sector, Spokes) and sector.outward and along.cross(Point(*sector.center) - start) == 0
-        )
+    def _is_parallel(self, sector: Sector) -> bool:
+        """Whether lines are normals of a straight edge, all parallel to the way."""
+        return isinstance(sector, Sliding) and bool(dot(sector.base, raw(self.way.piece.direction)) == 0)
 
     def _role(self, line_family: LineFamily, t: fmpq, wanted: frozenset[int]) -> Role | None:
         """On which side of the contact the line crosses the way within its free part, if it does."""
