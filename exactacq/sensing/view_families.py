@@ -11,8 +11,7 @@ to the range, and the results are `ViewFamily` objects.
 
 from __future__ import annotations
 
-from collections import ChainMap
-from collections.abc import Collection, Iterator, MutableMapping, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cmp_to_key, partial
 from itertools import pairwise
@@ -21,18 +20,20 @@ from typing import TypeAlias, overload
 
 from flint import arb, fmpq
 
-from exactacq.geometry.curve_images import held_point
+from exactacq.geometry.curve_images import curve_image, held_point
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.intersections import contacts, line_contacts
 from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.late import Balls, Pin, balls, late_point
 from exactacq.geometry.points import Point
+from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import in_range, sagitta
 from exactacq.kernel.family_images import EdgePlace, EdgePlaces
 from exactacq.kernel.line_keys import LineNumbers
+from exactacq.kernel.lines import line_at, meets, parameter_round
 from exactacq.numbers.between import rational_between
-from exactacq.numbers.float_bounds import margin
+from exactacq.numbers.float_bounds import float_ball, margin
 from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.sensing.line_points import LinePoints, Role, Side, along_normal
@@ -157,7 +158,9 @@ class FamilyClipper:
         self.rails, self.range, self.roundoff, self.numbers = rails, range_, roundoff, numbers
         self._points = LinePoints(rails)
         self._pins = NamedPins()
-        self._balls: MutableMapping[int, CurveBalls] = {}
+        self._base: FamilyClipper | None = None
+        self._balls: dict[int, CurveBalls] = {}
+        self._images: dict[int, CurveImage] = {}
         self._touched: Collection[int] = ()
 
     def with_way(self, way: Rail, touches: Collection[int] = ()) -> FamilyClipper:
@@ -170,7 +173,7 @@ class FamilyClipper:
             self.numbers,
         )
         clipper._pins = NamedPins(self._pins)
-        clipper._balls = ChainMap({}, self._balls)
+        clipper._base = self
         clipper._touched = touches
         return clipper
 
@@ -189,7 +192,7 @@ class FamilyClipper:
     def _unrolled(self, family: ViewFamily, k: int) -> Iterator[ViewFamily]:
         """On a full circle: cut where a side passes the circle's start, whose parameter is 0 or 4."""
         first, last, free_views = family.first, family.last, family.free_views
-        if free_views is None or first is last:
+        if free_views is None or first is last or self._is_on_one_side(family, free_views, k):
             yield family
             return
         a, b = first.places[k], last.places[k]
@@ -206,6 +209,36 @@ class FamilyClipper:
         before, after = (Real(4), Real(0)) if a > b else (Real(0), Real(4))
         yield ViewFamily(family.edges, first, _placed(seam, k, before), free_views)
         yield ViewFamily(family.edges, _placed(seam, k, after), last, free_views)
+
+    def _is_on_one_side(self, family: ViewFamily, free_views: FreeViews, k: int) -> bool:
+        """Whether a side on a full circle surely does not pass its start, as a line between tells in floats.
+
+        Differences of floats are off by far less than half of themselves.
+        """
+        sector, side = free_views.sector, free_views.sides[k]
+        if not (isinstance(sector.center[0], fmpq) and isinstance(sector.base[0], fmpq)):
+            return False
+        ends = family.first, family.last
+        (low, p), (high, q) = (float_ball(end.t) for end in ends)
+        t = (low + high) / 2.0
+        if not (t - low > 2.0 * p and high - t > 2.0 * q):
+            return False
+        line_, image = line_at(sector.image, t, 0.0), self._image(side.edge)
+        if side.role is Role.CONTACT:
+            x, y, _, _, e, _ = line_
+            u, r = parameter_round(image, x, y, e)
+        else:
+            _, _, u, r, *_ = meets(line_, image, side.role)
+        (a, p), (b, q) = sorted(float_ball(end.places[k]) for end in ends)
+        return u - a > 2.0 * (p + r) and b - u > 2.0 * (q + r)
+
+    def _image(self, e: int) -> CurveImage:
+        """The curve of a number in floats."""
+        if self._base is not None and 0 <= e < len(self._base.rails):
+            return self._base._image(e)
+        if e not in self._images:
+            self._images[e] = curve_image(self.curve(e))
+        return self._images[e]
 
     def _within(self, free_views: FreeViews) -> Iterator[ViewFamily]:
         low, high = self.end(free_views, free_views.low), self.end(free_views, free_views.high)
@@ -298,6 +331,8 @@ class FamilyClipper:
 
     def balls(self, e: int) -> CurveBalls:
         """The curve of a number in balls."""
+        if self._base is not None and 0 <= e < len(self._base.rails):
+            return self._base.balls(e)
         if e not in self._balls:
             self._balls[e] = CurveBalls(self.curve(e))
         return self._balls[e]
