@@ -43,21 +43,34 @@ class SweepEnd:
     """An event that is no vertex: its point, and the direction to it.
 
     It lies on arc ``edge``, to whose circle the direction is tangent; ``side`` is 1 if the circle is to the
-    left, else -1. ``around`` are balls around the direction that `vector` gives exactly.
+    left, else -1. ``around`` are balls around the direction that `vector` gives exactly: they and the point
+    are found when one of them is first asked for.
     """
 
-    __slots__ = ("around", "edge", "point", "side", "vector")
+    __slots__ = ("_find", "_found", "edge", "side", "vector")
 
     def __init__(
-        self,
-        point: Point,
-        vector: Callable[[], Vector],
-        around: Balls,
-        edge: int,
-        side: int,
+        self, find: Callable[[], tuple[Point, Balls]], vector: Callable[[], Vector], edge: int, side: int
     ) -> None:
-        self.point, self.vector, self.around = point, vector, around
+        self._find, self.vector = find, vector
+        self._found: tuple[Point, Balls] | None = None
         self.edge, self.side = edge, side
+
+    @property
+    def point(self) -> Point:
+        """Where the event lies."""
+        return self._made[0]
+
+    @property
+    def around(self) -> Balls:
+        """Balls around the direction."""
+        return self._made[1]
+
+    @property
+    def _made(self) -> tuple[Point, Balls]:
+        if self._found is None:
+            self._found = self._find()
+        return self._found
 
 
 class _Touch:
@@ -67,32 +80,36 @@ class _Touch:
     times as long as the way.
     """
 
-    __slots__ = ("_vector", "arc", "origin", "side", "w")
+    __slots__ = ("_vector", "arc", "around", "origin", "side")
 
-    def __init__(self, origin: Vector, arc: Arc, w: Vector, side: int) -> None:
-        self.origin, self.arc, self.w, self.side = origin, arc, w, side
+    def __init__(self, origin: Vector, around: Balls, arc: Arc, side: int) -> None:
+        self.origin, self.around, self.arc, self.side = origin, around, arc, side
         self._vector: Vector | None = None
+
+    @property
+    def _w(self) -> Vector:
+        return minus(raw(self.arc.center), self.origin)
 
     def vector(self) -> Vector:
         """The exact direction."""
         if self._vector is None:
-            w, radius_sq = self.w, self.arc.radius_sq
+            w, radius_sq = self._w, self.arc.radius_sq
             excess = dot(w, w) - radius_sq
             self._vector = _tangent(w, excess, square_root(excess * radius_sq) * self.side)
         return self._vector
 
-    def point(self) -> Point:
-        """The exact point."""
-        return advance(self.origin, self.vector(), 1 / dot(self.w, self.w))
-
-    def around(self, origin: Balls) -> tuple[Balls, Balls]:
-        """Balls around the direction and the point."""
-        (x, y), center, radius_sq = origin, balls(self.arc.center), arb(self.arc.radius_sq)
+    def found(self) -> tuple[Point, Balls]:
+        """The point, made when it is looked into, and balls around the direction."""
+        (x, y), center, radius_sq = self.around, balls(self.arc.center), arb(self.arc.radius_sq)
         w = center[0] - x, center[1] - y
         square = dot(w, w)
         excess = square - radius_sq
         u, v = _tangent(w, excess, (excess * radius_sq).sqrt() * self.side)
-        return (u, v), (x + u / square, y + v / square)
+        return late_point((x + u / square, y + v / square), self._point), (u, v)
+
+    def _point(self) -> Point:
+        w = self._w
+        return advance(self.origin, self.vector(), 1 / dot(w, w))
 
 
 def _tangent(w: Any, excess: Any, g: Any) -> Any:
@@ -218,33 +235,42 @@ class FrontFaces:
         """The faces (edge, low, high) of an arc that does not pass through the point, in its direction."""
         table, arc = self.table, self.table.curves[e]
         assert isinstance(arc, Arc)
-        w = minus(raw(arc.center), self.origin)
-        if (self.floats.reaches(e) or self._reaches(arc, w)) < 0:
+        if (self.floats.reaches(e) or self._reaches(arc)) < 0:
             return []
         end = int(table.next[e])
         # If an own edge is another arc of the same circle, the point is on it.
         outside = -1 if any(table.circles.get(own) == table.circles[e] for own in self.own) else 0
-        if (outside or self.floats.beside(e) or sign(dot(w, w) - arc.radius_sq)) <= 0:
+        if (outside or self.floats.beside(e) or self._is_outside(arc)) <= 0:
             whole = NOWHERE if arc.full else e
             return [] if arc.ccw else [(e, NOWHERE if arc.full else end, whole)]
+        if arc.full:
+            enter, leave = self._tangent(e, 1), self._tangent(e, -1)
+            return [(e, leave, enter)]
+        w = minus(raw(arc.center), self.origin)
         away = (-w[0], -w[1])
         front, back = (away, w) if arc.ccw else (w, away)
-        first, last = (not arc.full and self._facing(arc, w, p) for p in (arc.start, arc.end))
+        first, last = (self._facing(arc, w, p) for p in (arc.start, arc.end))
         if first and last:
             if not self._spans(arc, back):
                 return [(e, end, e)]
         elif not (first or last) and not self._spans(arc, front):
             return []
         # From the left tangent point to the right one: clockwise as seen from the point.
-        enter, leave = self._tangent(e, w, 1), self._tangent(e, w, -1)
+        enter, leave = self._tangent(e, 1), self._tangent(e, -1)
         if first and last:
             return [(e, leave, e), (e, end, enter)]
         return [(e, end if last else leave, e if first else enter)]
 
-    def _reaches(self, arc: Arc, w: Vector) -> int:
+    def _reaches(self, arc: Arc) -> int:
         """1, 0 or -1 as an arc's circle comes nearer than the range, as near, or not."""
+        w = minus(raw(arc.center), self.origin)
         gap = square_root(dot(w, w)) - arc.radius
         return -abs(gap).compare(self.range.radius)
+
+    def _is_outside(self, arc: Arc) -> int:
+        """1, 0 or -1 as the point is outside an arc's circle, on it, or inside."""
+        w = minus(raw(arc.center), self.origin)
+        return sign(dot(w, w) - arc.radius_sq)
 
     def _facing(self, arc: Arc, w: Vector, end: Point) -> bool:
         """Whether the boundary near an end of the arc, on the arc, turns its free side to the point."""
@@ -267,14 +293,12 @@ class FrontFaces:
         clear = clearly_between(*ends, (ball_of(direction[0]), ball_of(direction[1])))
         return spans(arc, direction) if clear is None else clear
 
-    def _tangent(self, e: int, w: Vector, side: int) -> int:
+    def _tangent(self, e: int, side: int) -> int:
         """The event of the left (1) or right (-1) tangent from the point to the circle of an arc."""
         arc = self.table.curves[e]
         assert isinstance(arc, Arc)
-        touch = _Touch(self.origin, arc, w, side)
-        vector, point = touch.around(self.around)
-        mark = SweepEnd(late_point(point, touch.point), touch.vector, vector, e, -side)
-        return self._mark(mark, self.floats.tangent(e, side))
+        touch = _Touch(self.origin, self.around, arc, side)
+        return self._mark(SweepEnd(touch.found, touch.vector, e, -side), self.floats.tangent(e, side))
 
     # -- the point's own edges ---------------------------------------------------------------------
 
@@ -308,7 +332,8 @@ class FrontFaces:
         vector = x * sense, y * sense
         around = ball_of(vector[0]), ball_of(vector[1])
         side = sense if curve.ccw else -sense
-        return self._mark(SweepEnd(self.point, lambda: vector, around, e, side), _held(vector))
+        here = self.point, around
+        return self._mark(SweepEnd(lambda: here, lambda: vector, e, side), _held(vector))
 
 
 def _held(vector: Vector) -> tuple[float, float, float]:
