@@ -34,6 +34,7 @@ from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.rationals import nearest_float
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import Floats, with_rests
+from exactacq.visibility.quadratic_roots import QuadraticRoot, root_of
 
 Vector: TypeAlias = "tuple[Any, Any]"
 ZERO, ONE = fmpq(0), fmpq(1)
@@ -100,6 +101,13 @@ class Sector(ABC):
         matters; ``sign`` tells the solutions apart.
         """
 
+    def root(self, center: Vector, radius_sq: fmpq, side: int, sign: int) -> QuadraticRoot | fmpq | None:
+        """The parameter of an event that there is, if a rational quadratic is seen to have it as a root."""
+        return None
+
+    def _is_rational(self) -> bool:
+        return all(isinstance(v, fmpq) for v in (*self.center, *self.base))
+
     def _frame(self, center: Vector) -> tuple[Vector, Any, Any]:
         """Offset of a point from the centre, and its components along and across the base vector."""
         offset = center[0] - self.center[0], center[1] - self.center[1]
@@ -150,6 +158,14 @@ class Turning(Sector):
         reach, radius = Real(square).sqrt(), Real(radius_sq).sqrt() * sign
         below = reach * along - radius * across
         return (reach * across + radius * along) / below if below.sign() else None
+
+    def root(self, center: Vector, radius_sq: fmpq, side: int, sign: int) -> QuadraticRoot | fmpq | None:
+        """With d = e + t e': (d x w)^2 = r^2 |d|^2, if w leads to the centre; d x w is across - t along."""
+        if side == 0 or not self._is_rational():
+            return None
+        _, along, across = self._frame(center)
+        square = radius_sq * dot(self.base, self.base)
+        return root_of(along * along - square, along * across, across * across - square, sign)
 
 
 class Rolling(Sector):
@@ -205,6 +221,18 @@ class Rolling(Sector):
         value: Real = (across + root) / below
         return value
 
+    def root(self, center: Vector, radius_sq: fmpq, side: int, sign: int) -> QuadraticRoot | fmpq | None:
+        """That of the quadratic in `exact`, if k is rational."""
+        if not self._is_rational():
+            return None
+        rho_sq = dot(self.base, self.base)
+        product = Real(rho_sq * radius_sq).sqrt().rational if side else fmpq(0)
+        if product is None:
+            return None
+        _, along, across = self._frame(center)
+        k = rho_sq + side * product
+        return root_of(k + along, across, k - along, sign)
+
 
 @dataclass(frozen=True, eq=False)
 class Sliding(Sector):
@@ -235,6 +263,14 @@ class Sliding(Sector):
         shift = Real(radius_sq * square).sqrt() * sign if side else 0
         value: Real = (along + shift) / Real(square)
         return value
+
+    def root(self, center: Vector, radius_sq: fmpq, side: int, sign: int) -> QuadraticRoot | fmpq | None:
+        """(|e|^2 t - along)^2 = r^2 |e|^2."""
+        if side == 0 or not self._is_rational():
+            return None
+        square = dot(self.base, self.base)
+        _, along, _ = self._frame(center)
+        return root_of(square * square, square * along, along * along - radius_sq * square, sign)
 
 
 @dataclass(frozen=True, eq=False)

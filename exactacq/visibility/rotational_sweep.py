@@ -19,7 +19,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, cmp_to_key, partial
 from math import isnan
-from operator import itemgetter
 from typing import TypeAlias
 
 from flint import arb, fmpq
@@ -40,6 +39,7 @@ from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.features import directions_at, enters
 from exactacq.visibility.line_families import Rolling, Sector, Sliding, Vector, held
+from exactacq.visibility.quadratic_roots import QuadraticRoot
 
 Passed: TypeAlias = "tuple[tuple[int, int, int], ...]"
 """The events at one line, each with number (a vertex, or an arc), side and sign: see `Sector.exact`."""
@@ -224,29 +224,39 @@ class _Decisions:
 
     def _resolved(self, cluster: list[BoundLine], has_low: bool, has_high: bool) -> Iterator[BoundLine]:
         """The distinct lines of a cluster, from the low bound on or up to the high one, in exact order."""
-        low, high = self.sector.low, self.sector.high
-        values: list[tuple[fmpq | Real, BoundLine]] = []
-        for event in cluster:
-            value = self._rational(event)
-            values.append((value_of(self.table, self.sector, event) if value is None else value, event))
-        if any(isinstance(value, Real) for value, _ in values):
+        low, high = _Value(self.sector.low), _Value(self.sector.high)
+        values = [(self._valued(event), event) for event in cluster]
+        if any(isinstance(value.number, Real) for value, _ in values):
             values.sort(key=cmp_to_key(_by_value))
         else:
-            values.sort(key=itemgetter(0))
-        current: fmpq | Real | None = None
+            values.sort(key=_rational_value)
+        current: _Value | None = None
         passed: list[tuple[int, int, int]] = []
-        for value, event in values:
-            if has_low and value < low:
+        for at, event in values:
+            if has_low and at.compare(low) < 0:
                 continue
-            if has_high and value > high:
+            if has_high and at.compare(high) > 0:
                 break
-            if current is not None and value != current:
-                yield _known(current, passed)
+            if current is not None and at.compare(current):
+                yield _known(current.number, passed)
                 current, passed = None, []
-            current = value if current is None else current
+            current = at if current is None else current
             passed += event.passed
         if current is not None:
-            yield _known(current, passed)
+            yield _known(current.number, passed)
+
+    def _valued(self, event: BoundLine) -> _Value:
+        value = self._rational(event)
+        if value is not None:
+            return _Value(value)
+        root = None
+        if event.number != NOTHING and not event.others:
+            circle = target(self.table, event.number, event.side)
+            root = self.sector.root(*circle, event.side, event.sign)
+        if isinstance(root, fmpq):
+            event.value = root
+            return _Value(root)
+        return _Value(value_of(self.table, self.sector, event), root)
 
     def _rational(self, event: BoundLine) -> fmpq | None:
         """The exact parameter of a line, if it is seen to be rational."""
@@ -366,5 +376,34 @@ def _known(value: fmpq | Real, passed: Sequence[tuple[int, int, int]] = ()) -> B
     return known_line(*held(value), list(passed), value)
 
 
-def _by_value(a: tuple[fmpq | Real, BoundLine], b: tuple[fmpq | Real, BoundLine]) -> int:
-    return Real(a[0]).compare(b[0])
+class _Value:
+    """The parameter of a line, perhaps also as the root of a quadratic: then equal ones cost no radical."""
+
+    __slots__ = ("number", "root")
+
+    def __init__(self, number: fmpq | Real, root: QuadraticRoot | None = None) -> None:
+        if isinstance(number, Real) and not number.is_late and number.rational is not None:
+            number = number.rational
+        self.number, self.root = number, root
+
+    def compare(self, other: _Value) -> int:
+        """-1, 0 or 1 as it is less than another one, equal to it or greater."""
+        return 0 if self._equals(other) else Real(self.number).compare(other.number)
+
+    def _equals(self, other: _Value) -> bool:
+        """Whether they are seen to be equal."""
+        if self.root is None:
+            return (
+                other.root is not None and isinstance(self.number, fmpq) and other.root.is_value(self.number)
+            )
+        if other.root is None:
+            return isinstance(other.number, fmpq) and self.root.is_value(other.number)
+        return self.root.equals(other.root)
+
+
+def _by_value(a: tuple[_Value, BoundLine], b: tuple[_Value, BoundLine]) -> int:
+    return a[0].compare(b[0])
+
+
+def _rational_value(a: tuple[_Value, BoundLine]) -> fmpq | Real:
+    return a[0].number
