@@ -275,16 +275,17 @@ class TestPeeking:
     def test_a_leak_would_be_found(self, monkeypatch: pytest.MonkeyPatch) -> None:
         robot = xa.Robot(SQUARES)
         monkeypatch.setattr(
-            type(robot.map), "bodies", property(lambda self: self._map.obstacles), raising=False
+            type(robot.map), "bodies", property(lambda self: self._of(0)[0].obstacles), raising=False
         )
         assert any(isinstance(thing, self.FORBIDDEN) for thing in self.reachable(robot))
 
     def test_every_public_name_was_thought_of(self) -> None:
         names = {name for name in dir(xa.Robot) if not name.startswith("_")}
-        moves = {"go_to", "walk", "walk_to", "circle", "take", "go_back"}
+        moves = {"go_to", "walk", "walk_to", "circle", "follow", "take_up", "take", "go_back"}
         asks = {
             "radius", "start", "position", "at", "path", "length", "seen", "visited", "map", "frontier",
             "sightings", "look", "links", "nearest_unvisited", "knows_unvisited", "way_to",
+            "terrain", "in_sight", "incomplete", "nearest", "news", "lay", "way_back", "exits",
         }  # fmt: skip
         assert names == moves | asks
         assert set(vars(xa.Robot(SQUARES))).isdisjoint(names)

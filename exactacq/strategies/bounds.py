@@ -111,7 +111,7 @@ def census(ground: Ground, radius: fmpq) -> Census:
     for crossing in mline.crossings(Blocking(ground, EdgeTable(ground.obstacles))):
         # Line j bounds strips j and j + 1, the joint after it only the latter; the first line bounds strip 1.
         strip = max(1, (crossing.piece + 1) // 2)
-        if crossing.component.shore:
+        if crossing.component.edges:
             first[crossing.component.index] = min(strip, first.get(crossing.component.index, strip))
     inside = Counter(mline.strip(c) for c in ground.components if c.index not in first)
     crossing_ones = Counter(first.values())

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Collection, Sequence, Set
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -10,9 +10,13 @@ from typing import NamedTuple
 from exactacq.geometry.curves import Curve
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
+from exactacq.numbers.real import Real
 from exactacq.sensing.event import EventKind, Reason
 from exactacq.sensing.map import Map
-from exactacq.strategies.seed_spreader.range_thresholds import nearest_of, nearest_point
+from exactacq.strategies.numbering import Numbering
+from exactacq.strategies.routes import Route
+from exactacq.strategies.seed_spreader.hulls import hull, overlap
+from exactacq.strategies.seed_spreader.range_thresholds import leftmost, nearest_of, nearest_point
 
 
 @dataclass(frozen=True)
@@ -69,8 +73,11 @@ class KnownMap:
     (21/5, 2*sqrt(21)/5) (21/5, -2*sqrt(21)/5)
     """
 
-    def __init__(self, _map: Map, _numbers: Sequence[int]) -> None:
-        self._map, self._numbers = _map, tuple(_numbers)
+    def __init__(self, _numbers: Numbering, _chart: Callable[[Set[int]], Map]) -> None:
+        # The latter gives a map that is right for some obstacles, by the scene's numbers.
+        self._numbers, self._chart, self._count = _numbers, _chart, len(_numbers.order)
+        self._charts: dict[int, Map] = {}
+        self._parts: dict[int, tuple[KnownPart, ...]] = {}
 
     def __repr__(self) -> str:
         return f"<KnownMap: {len(self.seen)} obstacles seen, {len(self.acquired)} acquired>"
@@ -78,12 +85,12 @@ class KnownMap:
     @property
     def seen(self) -> tuple[int, ...]:
         """Obstacles with a known point."""
-        return tuple(range(len(self._numbers)))
+        return tuple(range(self._count))
 
     @cached_property
     def incomplete(self) -> tuple[int, ...]:
         """Obstacles of whose boundary some but not all is known."""
-        return tuple(i for i, k in enumerate(self._numbers) if self._map.is_incomplete(k))
+        return tuple(i for i in self.seen if self.is_incomplete(i))
 
     @cached_property
     def acquired(self) -> tuple[int, ...]:
@@ -94,8 +101,20 @@ class KnownMap:
     @cached_property
     def frontier(self) -> tuple[tuple[int, Point], ...]:
         """Where known boundary ends and nothing beyond is known: (obstacle, point), obstacle by obstacle."""
-        own = {k: i for i, k in enumerate(self._numbers)}
-        return tuple(sorted(((own[k], p) for k, p in self._map.frontier), key=lambda end: end[0]))
+        numbers = self._numbers.order[: self._count]
+        own = {k: i for i, k in enumerate(numbers)}
+        ends = self._chart(set(numbers)).frontier
+        return tuple(sorted(((own[k], p) for k, p in ends), key=lambda end: end[0]))
+
+    def is_incomplete(self, i: int) -> bool:
+        """Whether not all of an obstacle is known. ValueError for one that was not seen.
+
+        >>> import exactacq as xa
+        >>> xa.Robot(xa.load("circles")).map.is_incomplete(0)
+        True
+        """
+        chart, k = self._of(i)
+        return chart.is_incomplete(k)
 
     def known(self, i: int) -> tuple[KnownPart, ...]:
         """The known parts of an obstacle; none is beyond a vertex. ValueError for one that was not seen.
@@ -104,8 +123,26 @@ class KnownMap:
         >>> [str(part.length) for part in xa.Robot(xa.load("circles")).map.known(0)]
         ['2*acos(-17/25)']
         """
-        parts = self._map.known(self._number(i))
-        return tuple(KnownPart(i, part.start, part.end, part.curve) for part in parts)
+        if i not in self._parts:
+            chart, k = self._of(i)
+            self._parts[i] = _parts(chart, k, i)
+        return self._parts[i]
+
+    def known_in(self, box: Sequence[float], *, but: Collection[int] = ()) -> tuple[KnownPart, ...]:
+        """The known parts whose boxes meet a box (west, south, east, north), but for those of some obstacles.
+
+        Of an arc the box around its circle counts. The order of obstacles is fixed for the scene. Linear in
+        the known parts of the obstacles about there.
+
+        >>> import exactacq as xa
+        >>> known = xa.Robot(xa.load("squares")).map
+        >>> len(known.known_in((0, 0, 9, 9))), len(known.known_in((0, 0, 1, 1)))
+        (1, 0)
+        """
+        own, count = self._numbers.own, self._count
+        some = [k for k in self._numbers.meeting(box) if own.get(k, count) < count and own[k] not in but]
+        chart = self._chart(set(some))
+        return tuple(part for k in some for part in _parts(chart, k, own[k]) if overlap(_hull(part), box))
 
     def known_length(self, i: int | None = None) -> Length:
         """Exact length of what is known of an obstacle, or of all. ValueError for one that was not seen.
@@ -114,8 +151,8 @@ class KnownMap:
         >>> print(xa.Robot(xa.load("circles")).map.known_length())
         2*acos(-17/25)
         """
-        numbers: Iterable[int] = self._numbers if i is None else (self._number(i),)
-        return Length.sum(self._map.known_length(k) for k in numbers)
+        some = [self._of(j) for j in (self.seen if i is None else (i,))]
+        return Length.sum(chart.known_length(k) for chart, k in some)
 
     def knows(self, point: Point | Sequence[object]) -> bool:
         """Whether a point lies on known boundary: False for any other, on a boundary or not.
@@ -126,7 +163,7 @@ class KnownMap:
         (True, False, False)
         """
         place = Point.of(point)
-        return any(self._map.knows_some(self._map.spots(k, place)) for k in self._numbers)
+        return any(chart.knows_some(chart.spots(k, place)) for chart, k in map(self._of, self.seen))
 
     def nearest(self, i: int, place: Point | Sequence[object]) -> Point:
         """The known point of an obstacle nearest to a place; of several the lexicographically least.
@@ -141,7 +178,57 @@ class KnownMap:
         curves = [(part.start, part.curve) for part in self.known(i)]
         return nearest_of([start if c is None else nearest_point(c, spot) for start, c in curves], spot)
 
+    def lies_west(self, i: int, x: object) -> bool:
+        """Whether a known point of an obstacle lies west of the vertical line at an abscissa.
+
+        ValueError for an obstacle that was not seen.
+
+        >>> import exactacq as xa
+        >>> known = xa.Robot(xa.load("circles")).map
+        >>> known.lies_west(0, 3), known.lies_west(0, 4)
+        (False, True)
+        """
+        # Asked first, as this spares the map.
+        if not self._numbers.may_lie_west(self._number(i), Real(x)):
+            return False
+        ends = (part.start.x if part.curve is None else leftmost(part.curve) for part in self.known(i))
+        return any(end.compare(x) < 0 for end in ends)
+
+    def blocks(self, i: int, route: Route) -> bool:
+        """Whether a known point of an obstacle is one where the rest of a route leads into it or out of it.
+
+        The robot is taken to see at a point of a boundary whether a line that it knows crosses it there.
+        ValueError for an obstacle that was not seen.
+
+        >>> import exactacq as xa
+        >>> robot = xa.Robot(xa.load("squares"))
+        >>> [robot.map.blocks(0, robot.lay([(0, 0), end])) for end in ((9, 0), (0, 9))]
+        [True, False]
+        """
+        k = self._number(i)
+        ahead = route._ahead(k)
+        if not ahead:
+            return False
+        chart, _ = self._of(i)
+        return any(chart.knows_some(route._ashore(n, chart)) for n in ahead)
+
+    def _of(self, i: int) -> tuple[Map, int]:
+        """A map that is right for an obstacle, and its number there."""
+        k = self._number(i)
+        if k not in self._charts:
+            self._charts[k] = self._chart({k})
+        return self._charts[k], k
+
     def _number(self, i: int) -> int:
-        if i not in range(len(self._numbers)):
+        if i not in range(self._count):
             raise ValueError(f"no obstacle {i!r} was seen yet")
-        return self._numbers[i]
+        return self._numbers.order[i]
+
+
+def _parts(chart: Map, k: int, i: int) -> tuple[KnownPart, ...]:
+    """The known parts of an obstacle with one number on a map, which gets another."""
+    return tuple(KnownPart(i, part.start, part.end, part.curve) for part in chart.known(k))
+
+
+def _hull(part: KnownPart) -> tuple[float, ...]:
+    return (*part.start.xy, *part.start.xy) if part.curve is None else hull(part.curve)

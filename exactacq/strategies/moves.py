@@ -1,15 +1,16 @@
-"""How the moves of a robot end, and the ways that it knows."""
+"""How the moves of a robot end, the ways that it knows, and what it is shown on its way."""
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import NamedTuple, TypeAlias
 
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.sensing.event import SENSED, EventKind
-from exactacq.strategies.known_map import Sighting
+from exactacq.strategies.known_map import KnownMap, Sighting
 from exactacq.strategies.walker import Walker
 from exactacq.visibility.links import Link
 
@@ -25,6 +26,8 @@ class HaltKind(StrEnum):
     """What the robot was to look out for happened here."""
     ROUND = "round"
     """The robot has walked all around, and is back where this lap began."""
+    STOPPED = "stopped"
+    """What watched the way has stopped the robot here."""
 
 
 @dataclass(frozen=True)
@@ -41,6 +44,31 @@ class Halt:
     place: Point
     obstacle: int | None
     sighting: Sighting | None = None
+
+
+class Passage(NamedTuple):
+    """What a robot that follows a route knows at a place that it passes.
+
+    ``sighting`` is what it sees there, None where it sets out, and ``map`` its map, this sighting included.
+    The map can be asked until the robot goes on.
+
+    >>> import exactacq as xa
+    >>> robot = xa.Robot(xa.load("squares"), radius=5)
+    >>> def tell(passage):
+    ...     print(passage.place, passage.sighting and str(passage.sighting.kind), passage.map.known_length())
+    >>> halt = robot.follow(robot.lay([(0, 0), (0, 8)]), watch=tell)
+    (0, 0) None 2
+    (0, 1 + sqrt(21)) lose 4
+    """
+
+    place: Point
+    sighting: Sighting | None
+    map: KnownMap
+
+
+Watch: TypeAlias = Callable[[Passage], Point | None]
+"""Is shown the places of a way as the robot passes them, and answers where it is to halt, unless it is asked
+again before; None lets it go on."""
 
 
 @dataclass(frozen=True, eq=False)

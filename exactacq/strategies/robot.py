@@ -1,35 +1,28 @@
 """The robot: all that a strategy may do and ask, and so its only access to the scene.
 
-It moves, senses all the way, and tells what it has learned; names that begin with an underscore are not for
-strategies. Obstacles have the robot's own numbers: 0 is the one that it saw first, so that numbers say
-nothing of obstacles that it has not seen. Equal scenes give equal numbers.
+It moves, senses all the way, and tells what it has learned (`exactacq.strategies.observer`); names that begin
+with an underscore are not for strategies.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
 from functools import cmp_to_key, wraps
-from math import inf
 from typing import Concatenate, ParamSpec, TypeVar
 
-from flint import fmpq
-
-from exactacq.errors import ExactacqError, InvalidScene, MoveError, Undecided, shown
+from exactacq.errors import MoveError, Undecided, shown
 from exactacq.geometry.curves import Curve, Segment
-from exactacq.geometry.points import Location, Point
+from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
-from exactacq.scene.scene import Scene, radius_of, start_of
-from exactacq.scene.validation import place_text
 from exactacq.sensing.event import EventKind, Occasion
-from exactacq.sensing.memory import Memory
-from exactacq.sensing.path import Path, Piece
-from exactacq.strategies.first_hit import first_hit, obstacle_at
-from exactacq.strategies.known_links import KnownLinks
-from exactacq.strategies.known_map import KnownMap, KnownPart, Sighting
+from exactacq.sensing.path import Piece
+from exactacq.strategies.known_map import Sighting
 from exactacq.strategies.lap import Lap
-from exactacq.strategies.moves import EnoughMoves, Halt, HaltKind, KnownLink, Way, kinds_of
-from exactacq.strategies.walker import Walker
-from exactacq.visibility.links import START, Link, Links, Node, lexicographic
+from exactacq.strategies.lookout import Lookout
+from exactacq.strategies.moves import EnoughMoves, Halt, HaltKind, KnownLink, Watch, Way, kinds_of
+from exactacq.strategies.observer import Observer, not_there
+from exactacq.strategies.routes import Exit, Route
+from exactacq.visibility.links import START, Link, Node, lexicographic
 
 Told = TypeVar("Told")
 Given = ParamSpec("Given")
@@ -54,19 +47,26 @@ def _move(
     return counted
 
 
-class Robot:
+class Robot(Observer):
     """A point robot in free space, or on a boundary, with a vision sensor of limited *radius*.
 
     *start* and *radius* default to the scene's own; both are rational. The robot sees all the way as it
     moves: grazing does not block its sight. What it may do are the methods that move it, `go_to`, `walk`,
-    `walk_to`, `circle`, `take` and `go_back`; all else are questions, which cost no way. It never tells
-    anything of the scene but what it has seen, and of a boundary all around which it has walked the links
-    that begin there. A terrain's border is no wall, and is not seen.
+    `walk_to`, `circle`, `follow`, `take_up`, `take` and `go_back`; all else are questions, which cost no way.
+    It never tells anything of the scene but what it has seen, of a boundary all around which it has walked
+    the links that begin there, and at a known point of a boundary whether a route crosses it. A terrain's
+    border is no wall, and is not seen.
+
+    One that is *confined* keeps within the scene's `terrain` and knows its border; it starts in the SW
+    corner. Obstacles are what the border leaves of them as far as the robot can come to them from there.
+    Where the border cuts a boundary, this has two ends.
 
     Raises `InvalidScene` if start or radius is missing or illegal, or if an obstacle meets the terrain's
-    border, `FormatError` if they are no number and no point. Moves and questions raise `MoveError` where
-    they make no sense there, and `Undecided` if an exact comparison is beyond the library's limits: then the
-    robot stays where it is for good. Moves cost what `sightseer` pays for them; `map` is made at once.
+    border, or, if it is confined, without a terrain, with an enclosure, if the SW corner is not free, and if
+    an obstacle lies outside; `FormatError` if start and radius are no point and no number. Moves and
+    questions raise `MoveError` where they make no sense there, and `Undecided` if an exact comparison is
+    beyond the library's limits: then the robot stays where it is for good. Moves cost what `sightseer` pays
+    for them; `map` is made at once.
 
     >>> import exactacq as xa
     >>> robot = xa.Robot(xa.load("circles"))
@@ -76,165 +76,6 @@ class Robot:
     >>> print(robot.position, robot.length, robot.map.acquired, [link.target for link in robot.links(0)])
     (3, 0) 3 + 4*pi (0,) [1]
     """
-
-    def __init__(
-        self, scene: Scene, start: Point | Sequence[object] | None = None, radius: object = None
-    ) -> None:
-        place = start_of(scene, start)
-        if border := scene.meets_border():
-            rule = "meets the terrain's border: only the Seed Spreader takes such obstacles"
-            raise InvalidScene([f"obstacle {scene.obstacles[k].label} {rule}" for k in border])
-        reach = radius_of(scene, radius, place)
-        for obstacle in scene.obstacles:
-            if obstacle.locate(place) is Location.INSIDE:
-                raise InvalidScene([f"the start {place_text(place)} lies inside obstacle {obstacle.label}"])
-        links = Links(scene, reach)
-        self._radius, self._table = reach, links.table
-        self._links = KnownLinks(links, place)
-        self._walker = Walker(place, Memory(scene, reach, links.table))
-        # The scene's numbers of the obstacles in the order in which they were seen, and the other way.
-        self._numbers: list[int] = []
-        self._own: dict[int, int] = {}
-        self._sightings: list[Sighting] = []
-        self._lap: Lap | None = None
-        self._moves, self._most = 0, inf
-        # Why it does not move any more, if it does not.
-        self._stuck: ExactacqError | None = None
-        self._on_edge: Callable[[], None] = lambda: None
-        self._on_sighting: Callable[[Sighting], None] = lambda sighting: None
-        self._take_in()
-
-    def __repr__(self) -> str:
-        at = "in free space" if self.at is None else f"at obstacle {self.at}"
-        return f"<Robot {at}, after {float(self.length):.6g}: {len(self._numbers)} obstacles seen>"
-
-    # -- questions ---------------------------------------------------------------------------------
-
-    @property
-    def radius(self) -> fmpq:
-        """Up to how far the robot sees, the radius itself included."""
-        return self._radius
-
-    @property
-    def start(self) -> Point:
-        """Where the path begins."""
-        return self._walker.start
-
-    @property
-    def position(self) -> Point:
-        """Where the robot is."""
-        return self._walker.position
-
-    @property
-    def at(self) -> int | None:
-        """The obstacle on whose boundary the robot stands; None in free space, and before its first move."""
-        return self._own_number(self._walker.at)
-
-    @property
-    def path(self) -> Path:
-        """The path so far; its pieces have the robot's numbers of obstacles."""
-        pieces = self._walker.pieces
-        own = (None if piece.obstacle is None else self._own[piece.obstacle] for piece in pieces)
-        return Path(Piece(p.kind, number, p.curve) for p, number in zip(pieces, own, strict=True))
-
-    @property
-    def length(self) -> Length:
-        """Exact length of the path so far. Linear in its pieces."""
-        return Length.sum(piece.length for piece in self._walker.pieces)
-
-    @property
-    def seen(self) -> tuple[int, ...]:
-        """The obstacles of which something is known."""
-        return tuple(range(len(self._numbers)))
-
-    @property
-    def visited(self) -> tuple[int, ...]:
-        """The obstacles around which the robot has walked, in this order."""
-        return tuple(self._own[k] for k in self._walker.visited)
-
-    @property
-    def knows_unvisited(self) -> bool:
-        """Whether an obstacle was seen around which the robot has not walked."""
-        # What was visited was seen: the robot stood on it.
-        return len(self._numbers) > len(self._walker.visited)
-
-    @property
-    def map(self) -> KnownMap:
-        """What is known now; what is learned later does not change it."""
-        return KnownMap(self._walker.memory.now, self._numbers)
-
-    @property
-    def frontier(self) -> tuple[tuple[int, Point], ...]:
-        """The ends of known boundary beyond which nothing is known: (obstacle, point)."""
-        return self.map.frontier
-
-    @property
-    def sightings(self) -> tuple[Sighting, ...]:
-        """What came into sight, went out of it, or became wholly known so far, in this order."""
-        return tuple(self._sightings)
-
-    def look(self) -> tuple[KnownPart, ...]:
-        """The parts of boundaries that are in sight from here, obstacle by obstacle.
-
-        The cost of one view.
-
-        >>> import exactacq as xa
-        >>> for part in xa.Robot(xa.load("squares")).look():
-        ...     print(part.obstacle, part.start, part.end)
-        0 (2, 1) (2, -1)
-        """
-        memory, place = self._walker.memory, self.position
-        x, y = place.xy
-        near = memory.near((x, y, x, y))
-        return tuple(
-            KnownPart(i, curve.start, curve.end, None if _is_point(curve) else curve)
-            for i, k in enumerate(self._numbers)
-            if k in near
-            for curve in memory.visible(place, k)
-        )
-
-    def links(self, source: int | None) -> tuple[KnownLink, ...]:
-        """The links from the boundary of a visited obstacle, or with None from the start, at most R long.
-
-        Their order is fixed for the scene. `MoveError` for an obstacle that was not walked around. Cost: that
-        of the links, once.
-
-        >>> import exactacq as xa
-        >>> [str(link.length) for link in xa.Robot(xa.load("circles")).links(None)]
-        ['3']
-        """
-        return tuple(self._known_link(link) for link in self._links.of(self._node(source)))
-
-    def nearest_unvisited(self, source: int | None) -> KnownLink | None:
-        """The shortest of the links from a boundary, or the start, to an obstacle that was not visited.
-
-        Of equally long ones the first one of `links`. None if there is none; `MoveError` as `links`. Cost:
-        that of the links that may be the shortest.
-
-        >>> import exactacq as xa
-        >>> xa.Robot(xa.load("circles")).nearest_unvisited(None).target
-        0
-        """
-        link = self._links.nearest(self._node(source), self._walker.visited)
-        return None if link is None else self._known_link(link)
-
-    def way_to(self, point: Point | Sequence[object]) -> tuple[Length, str]:
-        """Length and hand of the shorter walk along the present boundary, which is acquired, to a point.
-
-        The hand, "left" or "right", is the one on the side of the obstacle; "left" wins a tie. `MoveError` at
-        no boundary, at one of which parts are unknown, and for a point that is not on it.
-
-        >>> import exactacq as xa
-        >>> robot = xa.Robot(xa.load("circles"))
-        >>> _ = robot.take(robot.nearest_unvisited(None)), robot.circle()
-        >>> print(*robot.way_to((7, 0)))
-        2*pi left
-        """
-        try:
-            length, forward = self._walker_on_known_boundary().way_to(Point.of(point))
-        except ValueError as error:
-            raise _not_there(error) from None
-        return length, "left" if forward else "right"
 
     # -- moves -------------------------------------------------------------------------------------
 
@@ -246,7 +87,7 @@ class Robot:
 
         With *until*, kinds of sightings, the robot halts at the first of these on its way; those that happen
         just where it sets out do not count. Touching boundaries does not stop it. ValueError for kinds that
-        no sensor reports.
+        no sensor reports, `MoveError` for a point beyond a border that confines the robot.
 
         >>> import exactacq as xa
         >>> robot = xa.Robot(xa.load("circles"), radius=5)
@@ -256,13 +97,14 @@ class Robot:
         """
         kinds, target, walker = kinds_of(until), Point.of(point), self._walker
         here = walker.position
-        hit = first_hit(self._table, Segment(here, target)) if target != here else None
-        end = target if hit is None else hit.place
+        self._check_border(target)
+        hit = self._hit_on(Segment(here, target)) if target != here else None
+        end = target if hit is None else hit[1]
         kind, sighting = (HaltKind.ARRIVED if hit is None else HaltKind.HIT), None
-        if hit is not None and end == here and walker.at == hit.obstacle:
+        if hit is not None and end == here and walker.at == hit[0]:
             return Halt(kind, here, self.at)
-        if walker.at != START and end != here:
-            walker.mark(EventKind.LEAVE, int(walker.at))
+        if end != here:
+            self._set_off()
         if not kinds:
             walker.go_straight(START, end)
         elif end != here:
@@ -272,13 +114,10 @@ class Robot:
                     kind = HaltKind.EVENT
                     break
         self._lap = None
-        halted_at_hit = hit is not None and kind is HaltKind.HIT
-        at = hit.obstacle if hit is not None and halted_at_hit else obstacle_at(self._table, walker.position)
-        walker.at = START if at is None else at
-        if at is not None:
-            walker.mark(EventKind.HIT, at)
-        self._take_in()
-        return Halt(kind, walker.position, self.at, sighting)
+        is_hit = hit is not None and kind is HaltKind.HIT
+        return self._landed(
+            kind, hit[0] if hit is not None and is_hit else self._node_at(walker.position), sighting
+        )
 
     @_move
     def walk(
@@ -292,7 +131,8 @@ class Robot:
 
         A lap that was interrupted goes on if the hand is the same: the robot is round where it began. *to* is
         a point of the boundary; if it is none, the robot finds that out by coming round. For *until* see
-        `go_to`. `MoveError` at no boundary, ValueError for another hand or other kinds.
+        `go_to`. `MoveError` at no boundary and at one that a border cuts, ValueError for another hand or
+        other kinds.
 
         >>> import exactacq as xa
         >>> robot = xa.Robot(xa.load("squares"))
@@ -307,6 +147,10 @@ class Robot:
         kinds, target = kinds_of(until), None if to is None else Point.of(to)
         walker, obstacle = self._walker, self._at_boundary()
         here = walker.position
+        if not walker.boundary().closed:
+            raise MoveError(
+                "the border cuts this boundary, and no lap leads around it: use circle or walk_to"
+            )
         if target is not None and target == here:
             return Halt(HaltKind.ARRIVED, target, self.at)
         lap = self._lap
@@ -340,11 +184,14 @@ class Robot:
         try:
             self._walker_on_known_boundary().walk_to(Point.of(point))
         except ValueError as error:
-            raise _not_there(error) from None
+            raise not_there(error) from None
 
     @_move
     def circle(self) -> None:
         """Walk all around the present boundary, with the left hand at it. `MoveError` at no boundary.
+
+        One that a border cuts is walked to the end on the left hand's way, then to the other one, where the
+        robot stays; from an end it is walked to the other.
 
         >>> import exactacq as xa
         >>> robot = xa.Robot(xa.load("circles"))
@@ -355,6 +202,64 @@ class Robot:
         self._at_boundary()
         self._lap = None
         self._walker.circumnavigate(self._on_edge)
+
+    @_move
+    def follow(self, route: Route, *, watch: Watch | None = None) -> Halt:
+        """Follow a route to the end of its piece, or to the first place where it leads into an obstacle.
+
+        The robot must be where it left the route. What *watch* is, a function, is asked where the robot sets
+        out, and at each sighting on its way: see `Passage`. It answers with a point ahead on the way where
+        the robot is to halt, unless it is asked again before, or with None. It cannot move the robot, which
+        answers other questions as where it set out. At the end of a piece see `Route.turn`.
+
+        >>> import exactacq as xa
+        >>> robot = xa.Robot(xa.load("squares"), radius=5)
+        >>> route = robot.lay([(0, 0), (0, 8)])
+        >>> halt = robot.follow(route, watch=lambda passage: xa.Point(0, 7) if passage.sighting else None)
+        >>> print(halt.kind, halt.place, robot.follow(route).kind)
+        stopped (0, 7) arrived
+        """
+        self._check_route(route)
+        walker, here = self._walker, self.position
+        crossing, over = route._coming(), route.piece >= len(route.pieces)
+        target = here if over else route.pieces[route.piece].end if crossing is None else crossing.stop.point
+        kind = HaltKind.ARRIVED if crossing is None else HaltKind.HIT
+        if target != here and not self._go_along(Segment(here, target), watch):
+            kind = HaltKind.STOPPED
+        route._place, self._lap = walker.position, None
+        if kind is HaltKind.HIT and crossing is not None:
+            node: Node = crossing.component.index
+        elif walker.position is here:
+            node = walker.at
+        else:
+            ends = kind is HaltKind.ARRIVED and route._ends_at is not None and target is route.end
+            node = route._ends_at if ends and route._ends_at is not None else self._node_at(walker.position)
+        return self._landed(kind, node, moved=walker.position is not here)
+
+    @_move
+    def take_up(self, route: Route, place: Exit) -> None:
+        """Walk along the present boundary to a place where a route comes out of it, and go on from there.
+
+        It is the shorter way: see `way_to`. `MoveError` if the place is not one of this obstacle, or behind
+        the robot's place on the route.
+
+        >>> import exactacq as xa
+        >>> robot = xa.Robot(xa.load("squares"))
+        >>> route = robot.lay([(0, 0), (20, 0)])
+        >>> while (halt := robot.follow(route)).kind == "hit":
+        ...     robot.circle()
+        ...     robot.take_up(route, next(robot.exits(route, halt.obstacle)))
+        >>> robot.position, robot.visited
+        (Point(20, 0), (0, 1))
+        """
+        crossing = place._crossing
+        if route._of is not self._walker or place._of is not route:
+            raise MoveError("the place is not one of this route, or of this robot")
+        if crossing.component.index != self._walker.at or crossing.number < route._next:
+            raise MoveError("the place is not ahead at the obstacle where the robot is")
+        self._lap = None
+        self._walker_on_known_boundary().walk_to(place.point)
+        route._take_up(crossing)
 
     @_move
     def take(self, link: KnownLink) -> Way:
@@ -414,61 +319,57 @@ class Robot:
     # -- how it is done ----------------------------------------------------------------------------
 
     def _begin(self) -> None:
+        if self._is_underway:
+            raise MoveError("the robot is underway: what watches its way cannot move it")
         if self._stuck is not None:
             raise self._stuck
         self._moves += 1
         if self._moves > self._most:
             raise EnoughMoves
 
-    def _take_in(self) -> None:
-        """Number what came into sight since the last time, and tell of it."""
-        for report in self._walker.memory.reports[len(self._sightings) :]:
-            if report.obstacle not in self._own:
-                self._own[report.obstacle] = len(self._numbers)
-                self._numbers.append(report.obstacle)
-            seen = Sighting(report.kind, self._own[report.obstacle], report.place, report.reason)
-            self._sightings.append(seen)
-            self._on_sighting(seen)
+    def _set_off(self) -> None:
+        """Write that the robot leaves the boundary where it is, if it is at one."""
+        if self._writes and self._walker.at != START:
+            self._walker.mark(EventKind.LEAVE, int(self._walker.at))
 
-    def _own_number(self, node: Node) -> int | None:
-        return self._own[node] if isinstance(node, int) else None
+    def _landed(
+        self, kind: HaltKind, node: Node, sighting: Sighting | None = None, moved: bool = True
+    ) -> Halt:
+        """How a straight move has ended, and at which obstacle."""
+        walker = self._walker
+        is_new, walker.at = moved or walker.at != node, node
+        if self._writes and is_new and node != START:
+            walker.mark(EventKind.HIT, int(node))
+        self._take_in()
+        return Halt(kind, walker.position, self.at, sighting)
 
-    def _scene_node(self, number: int | None) -> Node:
-        return START if number is None else self._numbers[number]
-
-    def _node(self, source: int | None) -> Node:
-        """The node of the start or of a visited obstacle."""
-        if source is None:
-            return START
-        if source in range(len(self._numbers)) and self._numbers[source] in self._walker.visited:
-            return self._numbers[source]
-        raise MoveError(f"the links from obstacle {source!r} are known once it was walked around")
-
-    def _known_link(self, link: Link) -> KnownLink:
-        source, target = self._own_number(link.source), self._own[link.target]
-        return KnownLink(source, target, Length(link.length), self._walker, link)
-
-    def _check(self, owner: Walker, number: int | None, what: str) -> None:
-        if owner is not self._walker:
-            raise MoveError(f"the {what} at an obstacle of another robot")
-        if number != self.at:
-            here = "in free space" if self.at is None else f"at obstacle {self.at}"
-            there = "the start" if number is None else f"obstacle {number}"
-            raise MoveError(f"the {what} at {there}, and the robot is {here}")
-
-    def _at_boundary(self) -> int:
-        """The scene's number of the obstacle where the robot is."""
-        if self._walker.at == START:
-            raise MoveError("the robot is at no boundary: go to one first")
-        return int(self._walker.at)
-
-    def _walker_on_known_boundary(self) -> Walker:
-        if self._at_boundary() not in self._walker.memory.acquired:
-            raise MoveError(
-                f"parts of obstacle {self.at} are unknown, and so is the shorter way around it: "
-                "use walk, which tells when it is there"
-            )
-        return self._walker
+    def _go_along(self, way: Segment, watch: Watch | None) -> bool:
+        """Go a free way with distinct ends; False if *watch* stops the robot before."""
+        walker, numbers = self._walker, self._numbering
+        count, self._is_underway = len(numbers.order), watch is not None
+        try:
+            lookout = None if watch is None else Lookout(way, watch, walker.memory, numbers)
+            for part in walker.memory.parts(way):
+                piece = Piece("straight", None, part)
+                stop = None if lookout is None else lookout.stop_on(piece)
+                if stop is not None:
+                    if not part.passes(stop):
+                        raise MoveError(f"{stop} is not on the way")
+                    piece = Piece("straight", None, Segment(walker.position, stop))
+                if stop is None or stop != walker.position:
+                    if walker.position is way.start:
+                        self._set_off()
+                    walker.move(piece)
+                    walker.position = piece.end
+                if stop is not None:
+                    return False
+            return True
+        except BaseException:
+            # What was passed on a way that was not walked was not seen.
+            numbers.cut(count)
+            raise
+        finally:
+            self._is_underway = False
 
     def _nearest_segment(self, link: Link) -> tuple[Point, Point]:
         """The segment that `take` goes along."""
@@ -516,12 +417,3 @@ class Robot:
 
 def _upto(curve: Curve, place: Point) -> Curve:
     return curve.part(curve.start, place)
-
-
-def _is_point(curve: Curve) -> bool:
-    """Whether a part in sight is a single point."""
-    return isinstance(curve, Segment) and curve.start is curve.end
-
-
-def _not_there(error: ValueError) -> MoveError:
-    return MoveError(f"no way along this boundary: {error}")

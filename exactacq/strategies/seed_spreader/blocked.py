@@ -1,4 +1,4 @@
-"""Where obstacles block a straight way through a terrain.
+"""Where obstacles block straight ways and polylines, in the plane or within the border of a terrain.
 
 A point of a way is blocked if its whole neighbourhood within the terrain belongs to an obstacle. So a way
 that touches a boundary or runs along it is free, except along the border of the terrain, where one side
@@ -7,8 +7,9 @@ counts.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 from exactacq.geometry.box_index import box
 from exactacq.geometry.curve_parameter import Rail
@@ -20,6 +21,9 @@ from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.scene import Obstacle
 from exactacq.scene.terrain_components import Component, Ground, sides
+
+Blocker: TypeAlias = "Obstacle | Component"
+"""What blocks a way: an obstacle, or a component that a border leaves of one."""
 
 
 class WayPoint(NamedTuple):
@@ -36,17 +40,30 @@ class Gap(NamedTuple):
     """
 
     obstacle: Obstacle
-    component: Component | None
+    component: Blocker | None
     begin: WayPoint
     end: WayPoint
 
 
-class Blocking:
-    """The blocked stretches of ways through a ground."""
+class Crossing(NamedTuple):
+    """A crossing point, by its number on a polyline: an end of a blocked stretch.
 
-    def __init__(self, ground: Ground, table: EdgeTable) -> None:
+    ``stop`` is where on straight piece number ``piece`` it lies; ``ends`` is True where the stretch ends.
+    """
+
+    number: int
+    component: Blocker
+    piece: int
+    stop: WayPoint
+    ends: bool
+
+
+class Blocking:
+    """The blocked stretches of ways through a ground, or, with None, through the plane."""
+
+    def __init__(self, ground: Ground | None, table: EdgeTable) -> None:
         self.ground, self.table = ground, table
-        self._sides = sides(ground.terrain)
+        self._sides = [] if ground is None else sides(ground.terrain)
 
     def gaps(self, way: Segment) -> list[Gap]:
         """The blocked stretches of a way with distinct ends, in its order."""
@@ -55,6 +72,30 @@ class Blocking:
         owners = sorted({self.table.owners[e] for e in near.tolist()})
         found = [gap for k in owners for gap in self._of(way, self.table.obstacles[k])]
         return sorted(found, key=lambda gap: gap.begin.u)
+
+    def crossings(self, pieces: Sequence[Segment]) -> list[Crossing]:
+        """All crossing points of a polyline, in its order; it begins at a free point.
+
+        A stretch goes on over a corner of the polyline that is itself blocked. One that reaches its end has
+        no end.
+        """
+        found: list[Crossing] = []
+        for k, piece in enumerate(pieces):
+            for gap in self.gaps(piece):
+                component = gap.component
+                if gap.begin.u.rational == 0 and not self.is_free(gap.obstacle, gap.begin.point):
+                    component = found.pop().component
+                else:
+                    # `_owner` finds none only if both ends are blocked, and this beginning is free.
+                    assert component is not None, "a stretch begins at its component"
+                    found.append(Crossing(len(found), component, k, gap.begin, False))
+                found.append(Crossing(len(found), component, k, gap.end, True))
+        if found:
+            last = found[-1]
+            at_end = last.piece == len(pieces) - 1 and last.stop.u.rational == 1
+            if at_end and not self.is_free(_whole(last.component), last.stop.point):
+                found.pop()
+        return found
 
     def _of(self, way: Segment, obstacle: Obstacle) -> list[Gap]:
         rail = Rail(way)
@@ -87,11 +128,17 @@ class Blocking:
 
     def is_free(self, obstacle: Obstacle, point: Point) -> bool:
         """Whether a point of an obstacle's boundary is one of a component's, so has free points beside it."""
-        return any(c.is_bounded_by(point) for c in self.ground.of(obstacle.index))
+        return self.ground is None or any(c.is_bounded_by(point) for c in self.ground.of(obstacle.index))
 
-    def _owner(self, obstacle: Obstacle, begin: WayPoint, end: WayPoint) -> Component | None:
+    def _owner(self, obstacle: Obstacle, begin: WayPoint, end: WayPoint) -> Blocker | None:
+        if self.ground is None:
+            return obstacle
         for stop in (begin, end):
             for component in self.ground.of(obstacle.index):
                 if component.is_bounded_by(stop.point):
                     return component
         return None
+
+
+def _whole(blocker: Blocker) -> Obstacle:
+    return blocker.obstacle if isinstance(blocker, Component) else blocker

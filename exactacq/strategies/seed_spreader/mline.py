@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from functools import cached_property
 from itertools import pairwise
-from typing import NamedTuple
 
 from flint import fmpq
 
@@ -21,24 +20,11 @@ from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
 from exactacq.scene.shapes import Terrain
 from exactacq.scene.terrain_components import Component
-from exactacq.strategies.seed_spreader.blocked import Blocking, WayPoint
+from exactacq.strategies.seed_spreader.blocked import Blocking, Crossing
 from exactacq.strategies.seed_spreader.range_thresholds import leftmost
 
 MOST_STRIPS = 100_000
 """More would take days; a radius that small is most likely a slip."""
-
-
-class Crossing(NamedTuple):
-    """A crossing point, by its number on the M-line: an end of a blocked stretch.
-
-    ``stop`` is where on straight piece number ``piece`` it lies; ``ends`` is True where the stretch ends.
-    """
-
-    number: int
-    component: Component
-    piece: int
-    stop: WayPoint
-    ends: bool
 
 
 class MLine:
@@ -55,10 +41,10 @@ class MLine:
         self.strips = int((b / radius).ceil())
         west, south, _, north = terrain.limits
         self.lines = [west + min(j * self.width, b) for j in range(self.strips + 1)]
-        corners = [
+        self.corners = [
             Point(x, north if (j + k) % 2 else south) for j, x in enumerate(self.lines) for k in (0, 1)
         ]
-        self.pieces = [Segment(p, q) for p, q in pairwise(corners)]
+        self.pieces = [Segment(p, q) for p, q in pairwise(self.corners)]
 
     @property
     def length(self) -> fmpq:
@@ -87,24 +73,5 @@ class MLine:
         return starts
 
     def crossings(self, blocking: Blocking) -> list[Crossing]:
-        """All crossing points of all components, in the order of the M-line.
-
-        A stretch goes on over a corner of the M-line that is itself blocked. One that reaches T has no end.
-        """
-        found: list[Crossing] = []
-        for k, piece in enumerate(self.pieces):
-            for gap in blocking.gaps(piece):
-                component = gap.component
-                if gap.begin.u.rational == 0 and not blocking.is_free(gap.obstacle, gap.begin.point):
-                    component = found.pop().component
-                else:
-                    # `_owner` finds none only if both ends are blocked, and this beginning is free.
-                    assert component is not None, "a stretch begins at its component"
-                    found.append(Crossing(len(found), component, k, gap.begin, False))
-                found.append(Crossing(len(found), component, k, gap.end, True))
-        if found:
-            last = found[-1]
-            at_end = last.piece == len(self.pieces) - 1 and last.stop.u.rational == 1
-            if at_end and not blocking.is_free(last.component.obstacle, last.stop.point):
-                found.pop()
-        return found
+        """All crossing points of all components, in the order of the M-line."""
+        return blocking.crossings(self.pieces)

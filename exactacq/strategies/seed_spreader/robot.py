@@ -18,13 +18,13 @@ from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real, rational
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.scene import Scene
-from exactacq.scene.terrain_components import Component, Ground
+from exactacq.scene.terrain_components import Ground
 from exactacq.sensing.map import Map, Spots
 from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Piece
 from exactacq.sensing.sensor import Ahead
-from exactacq.strategies.seed_spreader.blocked import Blocking, Gap
-from exactacq.strategies.seed_spreader.mline import Crossing, MLine
+from exactacq.strategies.seed_spreader.blocked import Blocker, Blocking, Crossing, Gap
+from exactacq.strategies.seed_spreader.mline import MLine
 from exactacq.strategies.walker import Walker
 
 
@@ -208,5 +208,5 @@ class SeedSpreaderRobot(Walker):
         return True
 
 
-def _is_ashore(component: Component, point: Point) -> bool:
-    return any(part.curve.passes(point) for part in component.shore)
+def _is_ashore(component: Blocker, point: Point) -> bool:
+    return any(edge.passes(point) for edge in component.edges)

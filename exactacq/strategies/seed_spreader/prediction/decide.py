@@ -30,6 +30,7 @@ from exactacq.geometry.points import Point, distance_sq
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real, rational
 from exactacq.strategies.seed_spreader.horizon import Horizon
+from exactacq.strategies.seed_spreader.hulls import hull, overlap
 from exactacq.strategies.seed_spreader.prediction.pieces import (
     ANGLE,
     KnownFeature,
@@ -44,8 +45,6 @@ from exactacq.strategies.seed_spreader.prediction.sight import (
     Sights,
     VerticalWay,
     growth,
-    hull,
-    overlap,
     unique,
 )
 from exactacq.strategies.seed_spreader.range_thresholds import nearest_point, thresholds

@@ -14,6 +14,7 @@ from exactacq.geometry.intersections import ContactKind, contacts
 from exactacq.geometry.points import Point
 from exactacq.numbers.precision import workprec
 from exactacq.numbers.real import Real
+from exactacq.strategies.seed_spreader.hulls import overlap
 from exactacq.strategies.seed_spreader.prediction.pieces import Pieces
 
 
@@ -49,20 +50,6 @@ class VerticalWay:
         pad = 1e-9 * (r + abs(x) + abs(low) + abs(high))
         bottom, top = min(low, max(b, low - r)), max(high, min(d, high + r))
         return left - pad, bottom - pad, right + pad, top + pad
-
-
-def hull(curve: Curve) -> tuple[float, ...]:
-    """A box around a curve, of an arc around its circle."""
-    if isinstance(curve, Segment):
-        (a, b), (c, d) = curve.start.xy, curve.end.xy
-        return min(a, c), min(b, d), max(a, c), max(b, d)
-    (x, y), r = curve.center.xy, float(curve.radius) * (1 + 1e-12)
-    return x - r, y - r, x + r, y + r
-
-
-def overlap(a: Sequence[float], b: Sequence[float]) -> bool:
-    """Whether two boxes meet."""
-    return a[0] <= b[2] and b[0] <= a[2] and a[1] <= b[3] and b[1] <= a[3]
 
 
 def unique(curves: Sequence[Curve]) -> Iterator[Curve]:

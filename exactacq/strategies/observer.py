@@ -1,0 +1,463 @@
+"""What a robot tells: its place, its path, its map, what is in sight, and the links that it knows.
+
+Obstacles have the robot's own numbers: 0 is the one that it saw first, so that numbers say nothing of
+obstacles that it has not seen. Equal scenes give equal numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import cmp_to_key
+from itertools import pairwise
+from math import inf
+
+from flint import fmpq
+
+from exactacq.errors import ExactacqError, InvalidScene, MoveError
+from exactacq.geometry.curves import Curve, Segment
+from exactacq.geometry.points import Location, Point, distance_sq
+from exactacq.numbers.length import Length
+from exactacq.scene.edge_table import EdgeTable, Floats
+from exactacq.scene.scene import Scene, radius_of, start_of
+from exactacq.scene.shapes import Terrain
+from exactacq.scene.terrain_components import Ground, ground_of
+from exactacq.scene.validation import place_text
+from exactacq.sensing.event import EventKind
+from exactacq.sensing.memory import Memory
+from exactacq.sensing.path import Path, Piece
+from exactacq.strategies.first_hit import first_hit, obstacle_at
+from exactacq.strategies.known_links import KnownLinks
+from exactacq.strategies.known_map import KnownMap, KnownPart, Sighting
+from exactacq.strategies.lap import Lap
+from exactacq.strategies.moves import KnownLink
+from exactacq.strategies.numbering import Numbering
+from exactacq.strategies.routes import Exit, Route
+from exactacq.strategies.seed_spreader.blocked import Blocking
+from exactacq.strategies.seed_spreader.range_thresholds import nearest_of, nearest_point
+from exactacq.strategies.walker import Walker
+from exactacq.visibility.links import START, Link, Links, Node
+
+
+class Observer:
+    """The part of a robot that answers questions: see `exactacq.Robot`."""
+
+    def __init__(
+        self,
+        scene: Scene,
+        start: Point | Sequence[object] | None = None,
+        radius: object = None,
+        *,
+        confined: bool = False,
+    ) -> None:
+        ground = ground_of(scene) if confined else None
+        corner = None if ground is None else ground.terrain.south_west
+        place = start_of(scene, start) if corner is None else corner
+        border = [] if confined else scene.meets_border()
+        if border:
+            rule = "meets the terrain's border: only the Seed Spreader takes such obstacles"
+            raise InvalidScene([f"obstacle {scene.obstacles[k].label} {rule}" for k in border])
+        reach = radius_of(scene, radius, place)
+        if corner is not None and (start is not None or scene.start is not None):
+            given = start_of(scene, start)
+            if given != corner:
+                rule = f"is not the terrain's SW corner {place_text(corner)}"
+                raise InvalidScene([f"the start {place_text(given)} {rule}"])
+        for obstacle in scene.obstacles:
+            if ground is None and obstacle.locate(place) is Location.INSIDE:
+                raise InvalidScene([f"the start {place_text(place)} lies inside obstacle {obstacle.label}"])
+        links = None if confined else Links(scene, reach)
+        table = EdgeTable(scene.obstacles) if links is None else links.table
+        self._radius, self._table, self._ground = reach, table, ground
+        self._blocking = Blocking(ground, table)
+        self._links = None if links is None else KnownLinks(links, place)
+        self._walker = Walker(place, Memory(scene, reach, table, ground))
+        self._numbering = Numbering(lambda: table.hulls if ground is None else _hulls(table, ground))
+        # The scene's numbers of the obstacles in the order in which they were seen, and the other way.
+        self._numbers, self._own = self._numbering.order, self._numbering.own
+        self._sightings: list[Sighting] = []
+        self._in_sight: set[int] = set()
+        self._incomplete: set[int] = set()
+        # The last point of a boundary that the robot told, and whose it is.
+        self._told: tuple[Point, int] | None = None
+        self._lap: Lap | None = None
+        self._moves, self._most = 0, inf
+        # Why it does not move any more, if it does not.
+        self._stuck: ExactacqError | None = None
+        self._is_underway = False
+        # Whether its moves write into the trace where it hits and leaves obstacles.
+        self._writes = True
+        self._on_edge: Callable[[], None] = lambda: None
+        self._on_sighting: Callable[[Sighting], None] = lambda sighting: None
+        self._take_in()
+
+    def __repr__(self) -> str:
+        at = "in free space" if self.at is None else f"at obstacle {self.at}"
+        return f"<Robot {at}, after {float(self.length):.6g}: {len(self._numbers)} obstacles seen>"
+
+    # -- questions ---------------------------------------------------------------------------------
+
+    @property
+    def radius(self) -> fmpq:
+        """Up to how far the robot sees, the radius itself included."""
+        return self._radius
+
+    @property
+    def terrain(self) -> Terrain | None:
+        """The terrain whose border a robot that is confined to it keeps within and knows; else None."""
+        return None if self._ground is None else self._ground.terrain
+
+    @property
+    def start(self) -> Point:
+        """Where the path begins."""
+        return self._walker.start
+
+    @property
+    def position(self) -> Point:
+        """Where the robot is."""
+        return self._walker.position
+
+    @property
+    def at(self) -> int | None:
+        """The obstacle on whose boundary the robot stands; None in free space, and before its first move."""
+        return self._own_number(self._walker.at)
+
+    @property
+    def path(self) -> Path:
+        """The path so far; its pieces have the robot's numbers of obstacles."""
+        pieces = self._walker.pieces
+        own = (None if piece.obstacle is None else self._own[piece.obstacle] for piece in pieces)
+        return Path(Piece(p.kind, number, p.curve) for p, number in zip(pieces, own, strict=True))
+
+    @property
+    def length(self) -> Length:
+        """Exact length of the path so far. Linear in its pieces."""
+        return Length.sum(piece.length for piece in self._walker.pieces)
+
+    @property
+    def seen(self) -> tuple[int, ...]:
+        """The obstacles of which something is known."""
+        return tuple(range(len(self._numbers)))
+
+    @property
+    def visited(self) -> tuple[int, ...]:
+        """The obstacles around which the robot has walked, in this order."""
+        return tuple(self._own[k] for k in self._walker.visited)
+
+    @property
+    def knows_unvisited(self) -> bool:
+        """Whether an obstacle was seen around which the robot has not walked."""
+        # What was visited was seen: the robot stood on it.
+        return len(self._numbers) > len(self._walker.visited)
+
+    @property
+    def in_sight(self) -> frozenset[int]:
+        """The obstacles of which something is in sight from here, but for those that are wholly known."""
+        return frozenset(self._in_sight)
+
+    @property
+    def incomplete(self) -> frozenset[int]:
+        """The obstacles of which some, but not all, is known."""
+        return frozenset(self._incomplete)
+
+    @property
+    def map(self) -> KnownMap:
+        """What is known now; what is learned later does not change it."""
+        now = self._walker.memory.now
+        return KnownMap(self._numbering, lambda _: now)
+
+    @property
+    def frontier(self) -> tuple[tuple[int, Point], ...]:
+        """The ends of known boundary beyond which nothing is known: (obstacle, point)."""
+        return self.map.frontier
+
+    @property
+    def sightings(self) -> tuple[Sighting, ...]:
+        """What came into sight, went out of it, or became wholly known so far, in this order."""
+        return tuple(self._sightings)
+
+    def look(self, i: int | None = None) -> tuple[KnownPart, ...]:
+        """The parts of boundaries that are in sight from here, obstacle by obstacle; or those of one.
+
+        ValueError for an obstacle that was not seen. The cost of one view.
+
+        >>> import exactacq as xa
+        >>> for part in xa.Robot(xa.load("squares")).look():
+        ...     print(part.obstacle, part.start, part.end)
+        0 (2, 1) (2, -1)
+        """
+        memory, place = self._walker.memory, self.position
+        x, y = place.xy
+        near = memory.near((x, y, x, y))
+        return tuple(
+            KnownPart(j, curve.start, curve.end, None if _is_point(curve) else curve)
+            for j, k in ((j, self._seen(j)) for j in (self.seen if i is None else (i,)))
+            if k in near
+            for curve in memory.visible(place, k)
+        )
+
+    def nearest(self, obstacles: Iterable[int], *, visible: bool = False) -> tuple[int, Point]:
+        """Which of some obstacles has the known point that is nearest to the robot, and this point.
+
+        With *visible* the points that are in sight count alone, of obstacles that have some. Of equally near
+        obstacles the order is fixed for the scene, of equally near points the lexicographically least is
+        taken. ValueError for no obstacles, and for one that was not seen. Linear in their known parts.
+
+        >>> import exactacq as xa
+        >>> print(*xa.Robot(xa.load("circles")).nearest([0]))
+        0 (3, 0)
+        """
+        here, chart = self.position, self.map
+        found = [(self._nearest(i, chart, visible), self._seen(i)) for i in obstacles]
+        if not found:
+            raise ValueError("of no obstacles none is the nearest")
+
+        def order(a: tuple[Point, int], b: tuple[Point, int]) -> int:
+            return distance_sq(a[0], here).compare(distance_sq(b[0], here)) or a[1] - b[1]
+
+        self._told = min(found, key=cmp_to_key(order))
+        point, k = self._told
+        return self._own[k], point
+
+    def news(self, route: Route | None = None) -> frozenset[int]:
+        """The obstacles of which more became known since this was asked last, so that nobody has to look.
+
+        With a *route* also those with a known crossing point of it that is behind the robot since this was
+        asked of it last.
+
+        >>> import exactacq as xa
+        >>> robot = xa.Robot(xa.load("squares"))
+        >>> robot.news(), robot.news()
+        (frozenset({0}), frozenset())
+        """
+        memory = self._walker.memory
+        news, now = memory.news(), memory.now
+        if route is not None:
+            passed = ((k, n) for k, n in route._passed() if k in self._own)
+            news |= {k for k, n in passed if k in memory.acquired or now.knows_some(route._ashore(n, now))}
+        return frozenset(self._own[k] for k in news)
+
+    # -- routes ------------------------------------------------------------------------------------
+
+    def lay(self, points: Iterable[Point | Sequence[object]]) -> Route:
+        """A route for the robot to follow, from where it is along straight pieces from point to point.
+
+        `MoveError` if it does not begin where the robot is, or leads out of the terrain to which the robot is
+        confined. Cost: that of looking for what is in the way, which the robot does not tell.
+
+        >>> import exactacq as xa
+        >>> xa.Robot(xa.load("squares")).lay([(0, 0), (0, 4), (9, 4)])
+        <Route of 2 pieces, at 0>
+        """
+        here, *rest = [Point.of(point) for point in points] or [Point(0, 0)]
+        if here is not self.position and here != self.position:
+            raise MoveError("a route begins where the robot is")
+        for point in rest:
+            self._check_border(point)
+        pieces = [Segment(p, q) for p, q in pairwise([self.position, *rest]) if p != q]
+        return Route(pieces, self._walker, self.position, self._blocking.crossings(pieces))
+
+    def way_back(self, route: Route) -> Route:
+        """The way back along a route, from the robot's place on it to where it was laid.
+
+        `MoveError` if the robot is not at its place on the route.
+
+        >>> import exactacq as xa
+        >>> robot = xa.Robot(xa.load("squares"))
+        >>> out = robot.lay([(0, 0), (0, 4)])
+        >>> halt, back = robot.follow(out), robot.way_back(out)
+        >>> robot.follow(back).place
+        Point(0, 0)
+        """
+        self._check_route(route)
+        return route._back(self.position)
+
+    def exits(self, route: Route, i: int) -> Iterator[Exit]:
+        """The places ahead where a route comes out of an obstacle that is acquired, in order.
+
+        Places that the robot cannot reach along the boundary are left out. `MoveError` for another robot's
+        route and if parts of the obstacle are unknown, ValueError if it was not seen. Each place is found
+        when it is asked for.
+
+        >>> import exactacq as xa
+        >>> robot = xa.Robot(xa.load("squares"))
+        >>> route = robot.lay([(0, 0), (20, 0)])
+        >>> halt, _ = robot.follow(route), robot.circle()
+        >>> print(*(place.point for place in robot.exits(route, 0)))
+        (4, 0)
+        """
+        k, memory = self._seen(i), self._walker.memory
+        if route._of is not self._walker:
+            raise MoveError("the route is that of another robot")
+        if k not in memory.acquired:
+            raise MoveError(f"parts of obstacle {i} are unknown, and so is where a route comes out of it")
+        return iter(route._exits(k, memory.now))
+
+    # -- links and ways ----------------------------------------------------------------------------
+
+    def links(self, source: int | None) -> tuple[KnownLink, ...]:
+        """The links from the boundary of a visited obstacle, or with None from the start, at most R long.
+
+        Their order is fixed for the scene. `MoveError` for an obstacle that was not walked around, and of a
+        robot that is confined to a terrain. Cost: that of the links, once.
+
+        >>> import exactacq as xa
+        >>> [str(link.length) for link in xa.Robot(xa.load("circles")).links(None)]
+        ['3']
+        """
+        return tuple(self._known_link(link) for link in self._known_links().of(self._node(source)))
+
+    def nearest_unvisited(self, source: int | None) -> KnownLink | None:
+        """The shortest of the links from a boundary, or the start, to an obstacle that was not visited.
+
+        Of equally long ones the first one of `links`. None if there is none; `MoveError` as `links`. Cost:
+        that of the links that may be the shortest.
+
+        >>> import exactacq as xa
+        >>> xa.Robot(xa.load("circles")).nearest_unvisited(None).target
+        0
+        """
+        link = self._known_links().nearest(self._node(source), self._walker.visited)
+        return None if link is None else self._known_link(link)
+
+    def way_to(self, point: Point | Sequence[object]) -> tuple[Length, str]:
+        """Length and hand of the shorter walk along the present boundary, which is acquired, to a point.
+
+        The hand, "left" or "right", is the one on the side of the obstacle; "left" wins a tie. `MoveError` at
+        no boundary, at one of which parts are unknown, and for a point that is not on it.
+
+        >>> import exactacq as xa
+        >>> robot = xa.Robot(xa.load("circles"))
+        >>> _ = robot.take(robot.nearest_unvisited(None)), robot.circle()
+        >>> print(*robot.way_to((7, 0)))
+        2*pi left
+        """
+        try:
+            length, forward = self._walker_on_known_boundary().way_to(Point.of(point))
+        except ValueError as error:
+            raise not_there(error) from None
+        return length, "left" if forward else "right"
+
+    # -- how it is done ----------------------------------------------------------------------------
+
+    def _take_in(self) -> None:
+        """Number what came into sight since the last time, and tell of it."""
+        for report in self._walker.memory.reports[len(self._sightings) :]:
+            number = self._numbering.add(report.obstacle)
+            seen = Sighting(report.kind, number, report.place, report.reason)
+            if seen.kind in (EventKind.SIGHT, EventKind.REGAIN):
+                self._in_sight.add(number)
+                self._incomplete.add(number)
+            else:
+                self._in_sight.discard(number)
+                if seen.kind is EventKind.ACQUIRE:
+                    self._incomplete.discard(number)
+            self._sightings.append(seen)
+            self._on_sighting(seen)
+
+    def _own_number(self, node: Node) -> int | None:
+        return self._own[node] if isinstance(node, int) else None
+
+    def _scene_node(self, number: int | None) -> Node:
+        return START if number is None else self._numbers[number]
+
+    def _seen(self, number: int) -> int:
+        """The scene's number of an obstacle that was seen."""
+        if number not in range(len(self._numbers)):
+            raise ValueError(f"no obstacle {number!r} was seen yet")
+        return self._numbers[number]
+
+    def _known_links(self) -> KnownLinks:
+        if self._links is None:
+            raise MoveError("a robot that is confined to a terrain knows no links: use routes")
+        return self._links
+
+    def _nearest(self, i: int, chart: KnownMap, visible: bool) -> Point:
+        """The point of an obstacle that is nearest to the robot, of those in sight if there are any."""
+        parts = self.look(i) if visible else ()
+        curves = [(part.start, part.curve) for part in parts or chart.known(i)]
+        here = self.position
+        return nearest_of([start if c is None else nearest_point(c, here) for start, c in curves], here)
+
+    def _node_at(self, place: Point) -> Node:
+        """The obstacle on whose boundary a place lies, if there is one."""
+        if self._told is not None and self._told[0] is place:
+            return self._told[1]
+        k = obstacle_at(self._table, place)
+        if k is None or self._ground is None:
+            return START if k is None else k
+        shores = (c for c in self._ground.of(k) if c.edges)
+        return next((c.index for c in shores if c.edges_at(place)), START)
+
+    def _hit_on(self, way: Segment) -> tuple[int, Point] | None:
+        """The obstacle that a way with distinct ends leads into first, and where."""
+        if self._ground is None:
+            hit = first_hit(self._table, way)
+            return None if hit is None else (hit.obstacle, hit.place)
+        for gap in self._blocking.gaps(way)[:1]:
+            assert gap.component is not None, (
+                "a way from a free point is blocked where it leads into something"
+            )
+            return gap.component.index, gap.begin.point
+        return None
+
+    def _check_border(self, point: Point) -> None:
+        if self._ground is None:
+            return
+        west, south, east, north = self._ground.terrain.limits
+        (x, y), above, below = (point.x, point.y), (west, south), (east, north)
+        if any(v.compare(a) < 0 or v.compare(b) > 0 for v, a, b in zip((x, y), above, below, strict=True)):
+            raise MoveError(f"{point} lies beyond the border of the terrain")
+
+    def _check_route(self, route: Route) -> None:
+        if route._of is not self._walker:
+            raise MoveError("the route is that of another robot")
+        if route._place is not self.position and route._place != self.position:
+            raise MoveError("the robot is not on the route, where it left it")
+
+    def _node(self, source: int | None) -> Node:
+        """The node of the start or of a visited obstacle."""
+        if source is None:
+            return START
+        if source in range(len(self._numbers)) and self._numbers[source] in self._walker.visited:
+            return self._numbers[source]
+        raise MoveError(f"the links from obstacle {source!r} are known once it was walked around")
+
+    def _known_link(self, link: Link) -> KnownLink:
+        source, target = self._own_number(link.source), self._own[link.target]
+        return KnownLink(source, target, Length(link.length), self._walker, link)
+
+    def _check(self, owner: Walker, number: int | None, what: str) -> None:
+        if owner is not self._walker:
+            raise MoveError(f"the {what} at an obstacle of another robot")
+        if number != self.at:
+            here = "in free space" if self.at is None else f"at obstacle {self.at}"
+            there = "the start" if number is None else f"obstacle {number}"
+            raise MoveError(f"the {what} at {there}, and the robot is {here}")
+
+    def _at_boundary(self) -> int:
+        """The scene's number of the obstacle where the robot is."""
+        if self._walker.at == START:
+            raise MoveError("the robot is at no boundary: go to one first")
+        return int(self._walker.at)
+
+    def _walker_on_known_boundary(self) -> Walker:
+        if self._at_boundary() not in self._walker.memory.acquired:
+            raise MoveError(
+                f"parts of obstacle {self.at} are unknown, and so is the shorter way around it: "
+                "use walk, which tells when it is there"
+            )
+        return self._walker
+
+
+def _hulls(table: EdgeTable, ground: Ground) -> Floats:
+    """Boxes around the whole obstacles of components, which their boundaries do not leave."""
+    return table.hulls[[component.obstacle.index for component in ground.components]]
+
+
+def _is_point(curve: Curve) -> bool:
+    """Whether a part in sight is a single point."""
+    return isinstance(curve, Segment) and curve.start is curve.end
+
+
+def not_there(error: ValueError) -> MoveError:
+    return MoveError(f"no way along this boundary: {error}")
