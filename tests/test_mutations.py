@@ -18,7 +18,6 @@ from exactacq.scene.boundary_walk import Boundary
 from exactacq.sensing.leg_views import Shares
 from exactacq.strategies import bounds
 from exactacq.strategies.robot import Robot
-from exactacq.strategies.seed_spreader.robot import SeedSpreaderRobot
 from exactacq.study.claims import CLAIMS, Case, Outcome, Statement
 
 Patch = pytest.MonkeyPatch
@@ -103,12 +102,12 @@ def longer_way(patch: Patch) -> None:
 def late_leave(patch: Patch) -> None:
     """The Seed Spreader leaves an obstacle at its last crossing point."""
 
-    def last(self: SeedSpreaderRobot, hit: Any) -> Any:
-        rest = self._crossings[self._next :]
-        ends = [c for c in rest if c.component.index == hit.obstacle and c.ends]
-        return ends[-1] if ends else None
+    original = Robot.exits
 
-    patch.setattr(SeedSpreaderRobot, "leave_point", last)
+    def last(self: Robot, route: Any, i: int) -> Any:
+        return iter(list(original(self, route, i))[-1:])
+
+    patch.setattr(Robot, "exits", last)
 
 
 MUTATIONS: tuple[tuple[Callable[[Patch], None], str, tuple[str, ...]], ...] = (

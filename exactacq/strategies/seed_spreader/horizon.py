@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from functools import cached_property
 from math import inf, isfinite
 
-from flint import fmpq
+from flint import arb, fmpq
 
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.kernel import bounded
@@ -35,6 +35,18 @@ class Horizon:
     def exact(self) -> Real | None:
         """The ordinate; None if nothing is in reach."""
         return last_in_reach(self.x, self.upward, self.curves, self.radius)
+
+    @property
+    def late(self) -> Real:
+        """The ordinate, which must exist, as a number that is made when the bounds do not tell enough."""
+        low, high = self.bounds
+        if "exact" not in vars(self) and isfinite(low) and isfinite(high):
+            return Real.late(arb(self.sense * low).union(arb(self.sense * high)), self._made)
+        return self._made()
+
+    def _made(self) -> Real:
+        assert self.exact is not None, "something is in reach"
+        return self.exact
 
     def order(self, y: Real) -> int:
         """1, 0 or -1 as it comes after, at or before an ordinate; -1 if nothing is in reach."""
@@ -85,6 +97,11 @@ def reach_begins(sense: int, curves: Sequence[Curve], radius: fmpq) -> float:
         for y, (most, error) in places:
             lows.append(_span(bounded.total(*_held(y, sense), -most, error))[0])
     return min(lows, default=-inf)
+
+
+def at_most(y: Real, sense: int) -> float:
+    """A float that an ordinate times the sense of the walk does not exceed."""
+    return _span(_held(y, sense))[1]
 
 
 def _level(across: Held, v: Held, radius: Held) -> Span:
