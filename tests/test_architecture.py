@@ -99,6 +99,42 @@ def test_the_audit_shares_nothing_with_what_it_checks() -> None:
     }
 
 
+RULES = ("sightseer/rules", "seed_spreader/rules", "seed_spreader/losses", "seed_spreader/prediction/")
+"""Files of the strategies that know the robot and nothing else."""
+TOLD = ("robot", "routes", "moves", "known_map", "options", "seed_spreader/")
+"""What of their own room they may know: what robots are and tell, and themselves."""
+
+
+def peeks(text: str) -> list[str]:
+    """Private names that a file reads and does not define."""
+    nodes = list(ast.walk(ast.parse(text)))
+    private = [node for node in nodes if isinstance(node, ast.Attribute) and re.match("_(?!_)", node.attr)]
+    own = {node.name for node in nodes if isinstance(node, ast.FunctionDef)}
+    own |= {node.attr for node in private if isinstance(node.ctx, ast.Store)}
+    return [node.attr for node in private if node.attr not in own]
+
+
+def test_rules_of_strategies_know_the_robot_and_nothing_else() -> None:
+    rules = {
+        name: path
+        for name, path in files().items()
+        if name.startswith(tuple(f"strategies/{r}" for r in RULES))
+    }
+    assert len(rules) == 7
+    allowed = (
+        "errors",
+        "numbers/",
+        "geometry/",
+        "kernel/",
+        "sensing/event",
+        *(f"strategies/{t}" for t in TOLD),
+    )
+    imported = used()
+    assert {other for name in rules for other in imported[name] if not other.startswith(allowed)} == set()
+    assert {name: found for name, path in rules.items() if (found := peeks(path.read_text("utf-8")))} == {}
+    assert peeks("self._line = robot._walker.at, self._line, robot.__class__") == ["_walker"]
+
+
 def test_no_class_name_is_used_twice() -> None:
     """Nor with an underscore: a name has one meaning in the whole package."""
     homes: dict[str, list[str]] = {}

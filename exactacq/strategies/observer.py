@@ -219,10 +219,10 @@ class Observer:
         return self._own[k], point
 
     def news(self, route: Route | None = None) -> frozenset[int]:
-        """The obstacles of which more became known since this was asked last, so that nobody has to look.
+        """The obstacles of which more became known since this was asked last.
 
-        With a *route* also those with a known crossing point of it that is behind the robot since this was
-        asked of it last.
+        With a *route* also those of which a known crossing point on it came to lie behind the robot since
+        this was asked of it last. So a strategy need not look through all that it knows.
 
         >>> import exactacq as xa
         >>> robot = xa.Robot(xa.load("squares"))

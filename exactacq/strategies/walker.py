@@ -1,8 +1,7 @@
 """The walker: it goes along boundaries and straight ways, senses all the way, and records path and events.
 
 It counts obstacles as the scene does, and believes what it is told of ways that are free. What a strategy may
-do and ask is in the robots: `exactacq.strategies.robot`, the public one, and
-`exactacq.strategies.seed_spreader.robot`.
+do and ask is the robot's (`exactacq.strategies.robot`).
 """
 
 from __future__ import annotations
