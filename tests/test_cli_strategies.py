@@ -87,7 +87,10 @@ class TestExplore:
 class TestWhatIsWrong:
     def test_no_such_name_or_file(self, capsys: pytest.CaptureFixture[str]) -> None:
         line = refused(capsys, "explore", "circles", "--strategy", "random")
-        assert "no strategy 'random'; there are sightseer, seed-spreader, and FILE.py:NAME" in line
+        assert (
+            "no strategy 'random'; there are sightseer, seed-spreader, nearest-frontier, and FILE.py:NAME"
+            in line
+        )
         for name in ("nowhere.py:go", "nowhere.py"):
             line = refused(capsys, "explore", "circles", "--strategy", name)
             assert "--strategy: nowhere.py: No such file" in line
@@ -182,5 +185,5 @@ class TestCompare:
 
 def test_shells_are_offered_words_and_files() -> None:
     written("", "seen.py"), written("", "notes.txt")
-    assert strategies("") == ["sightseer", "seed-spreader", "seen.py"]
+    assert strategies("") == ["sightseer", "seed-spreader", "nearest-frontier", "seen.py"]
     assert strategies("see") == ["seed-spreader", "seen.py"]

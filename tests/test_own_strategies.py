@@ -192,7 +192,8 @@ class TestNames:
         with pytest.raises(xa.StrategyError, match="there is a strategy mine already"):
             xa.strategy("mine")(nearest_first)
         with pytest.raises(
-            xa.StrategyError, match="no strategy 'other'; there are sightseer, seed-spreader, mine"
+            xa.StrategyError,
+            match="no strategy 'other'; there are sightseer, seed-spreader, nearest-frontier, mine",
         ):
             xa.explore(CIRCLES, "other")
         assert xa.explore(CIRCLES, "mine") == xa.explore(CIRCLES, touch)

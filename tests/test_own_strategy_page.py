@@ -21,7 +21,7 @@ from exactacq.study.random_scenes import Subject, random_scene
 
 DOCS = Path(__file__).parent.parent / "docs"
 PAGE = (DOCS / "own_strategy.md").read_text(encoding="utf-8")
-EXAMPLE = DOCS / "examples" / "nearest_frontier.py"
+EXAMPLE = DOCS / "examples" / "straight_frontier.py"
 SLOW = ("plate",)
 """Scenes on which the example takes several seconds."""
 
@@ -32,8 +32,8 @@ def own_registry(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture
-def nearest_frontier() -> Iterator[Callable[[xa.Robot], None]]:
-    yield runpy.run_path(str(EXAMPLE))["nearest_frontier"]
+def straight_frontier() -> Iterator[Callable[[xa.Robot], None]]:
+    yield runpy.run_path(str(EXAMPLE))["straight_frontier"]
 
 
 def test_command_lines_print_what_the_page_says(
@@ -63,16 +63,16 @@ def test_the_example_is_short_and_uses_the_public_interface_only() -> None:
     "name", some([n for n in gallery.names() if n not in SLOW and not gallery.is_swept(n)], 4)
 )
 def test_the_example_acquires_what_it_sees_in_the_gallery(
-    name: str, nearest_frontier: Callable[[xa.Robot], None]
+    name: str, straight_frontier: Callable[[xa.Robot], None]
 ) -> None:
     scene = gallery.scene(name)
-    run = xa.explore(scene, nearest_frontier, max_moves=500)
+    run = xa.explore(scene, straight_frontier, max_moves=500)
     assert run.ending.value == "finished" and run.unvisited == ()
     xa.audit(run, samples=6)
 
 
 @pytest.mark.parametrize("seed", some(range(40), 5))
-def test_the_example_acquires_what_it_sees(seed: int, nearest_frontier: Callable[[xa.Robot], None]) -> None:
-    run = xa.explore(random_scene(Subject.SIGHTSEER, seed), nearest_frontier, max_moves=500)
+def test_the_example_acquires_what_it_sees(seed: int, straight_frontier: Callable[[xa.Robot], None]) -> None:
+    run = xa.explore(random_scene(Subject.SIGHTSEER, seed), straight_frontier, max_moves=500)
     assert run.ending.value == "finished" and run.unvisited == ()
     xa.audit(run, samples=6)

@@ -27,11 +27,11 @@ def gallery_scenes(incomplete: str) -> list[str]:
 
 
 def strategies(incomplete: str) -> list[str]:
-    """The paper's strategies that begin so, and then the Python files in this folder that do."""
-    from exactacq.strategies.options import Strategy
+    """The library's strategies that begin so, and then the Python files in this folder that do."""
+    from exactacq.strategies.options import Baseline, Strategy
 
     files = sorted(path.name for path in Path().glob("*.py") if path.is_file())
-    return [*_beginning(Strategy, incomplete), *_beginning(files, incomplete)]
+    return [*_beginning((*Strategy, *Baseline), incomplete), *_beginning(files, incomplete)]
 
 
 def among(words: Iterable[str]) -> Callable[[str], list[str]]:

@@ -46,6 +46,10 @@ EXAMPLES = {
             "A page that plays both runs on one clock: after the same length of each path.",
         ),
         Example(
+            "compare figure2 --strategy sightseer --strategy nearest-frontier",
+            "The Sightseer beside a baseline: to the nearest end of what is known.",
+        ),
+        Example(
             "compare circles --terrain bbox:2",
             "A scene without a terrain gets one: the rectangle about what there is, 2 units wider.",
         ),

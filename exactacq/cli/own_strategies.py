@@ -1,4 +1,4 @@
-"""Strategies that a command line names: the paper's, and those of the user's own by name or in files."""
+"""Strategies that a command line names: those of the library, and those of the user's own in files."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from types import ModuleType
 from typing import TYPE_CHECKING, NamedTuple
 
 from exactacq.errors import StrategyError, Undecided, shown
-from exactacq.strategies.options import Strategy
+from exactacq.strategies.options import Baseline, Strategy
 
 if TYPE_CHECKING:
     from exactacq.strategies.registry import Rules
 
-WORDS = "|".join((*Strategy, "FILE.py:NAME"))
+WORDS = "|".join((*Strategy, *Baseline, "FILE.py:NAME"))
 """How the help tells what can be chosen."""
 
 
@@ -40,6 +40,8 @@ def chosen(text: str) -> NamedStrategy:
     """
     if text in tuple(Strategy):
         return NamedStrategy(Strategy(text), text)
+    if text in tuple(Baseline):
+        return NamedStrategy(text, text)
     from exactacq.strategies.registry import names, registered
 
     own = registered(text)

@@ -11,17 +11,23 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol, TypeAlias
 
+from flint import fmpq
+
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.geo import Geo, collection, feature
 from exactacq.geometry.interval_union import EMPTY, Cover, Interval
 from exactacq.geometry.points import Point
+from exactacq.numbers.between import rational_between
 from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
 from exactacq.sensing.targets import Target, Targets
 
 Spots: TypeAlias = "tuple[tuple[int, Real], ...]"
 """The places of a point on a boundary: numbers of edges in the scene, and parameters there."""
+
+CLOSE = 64
+"""This share of a known part is what lies beside its end."""
 
 
 @dataclass(frozen=True)
@@ -200,6 +206,34 @@ class Map:
         """
         return self._is_seen(i) and not self._is_acquired(i)
 
+    def beside(self, i: int, end: Point) -> Point:
+        """A known point of obstacle i with short coordinates, beside an end of known boundary.
+
+        Of the known part it is in the last `CLOSE`th, as parameters along the edge go. The end itself if that
+        is a vertex or a single known point.
+
+        >>> import exactacq as xa
+        >>> known = xa.sightseer(xa.load("circles")).map_at(2)
+        >>> for _, end in known.frontier:
+        ...     print(end, known.beside(0, end))
+        (21/5, 2*sqrt(21)/5) (4570733/1100105, 1994094/1100105)
+        (21/5, -2*sqrt(21)/5) (6204175/1485497, -2707456/1485497)
+        """
+        for target in self._targets.of[i]:
+            for part in self._parts(target):
+                little = (part.high - part.low) / CLOSE
+                if little.sign() == 0:
+                    continue
+                if part.end is end or part.end == end:
+                    low, high, last = part.high - little, part.high, target.span.high
+                elif part.start is end or part.start == end:
+                    low, high, last = part.low, part.low + little, target.span.low
+                else:
+                    continue
+                is_vertex = last in (low, high)
+                return end if is_vertex else self._rails[target.edge].point(_short_between(low, high))
+        return end
+
     def _frontier(self, i: int) -> Iterator[Point]:
         targets = self._targets.of[i]
         for k, target in enumerate(targets):
@@ -275,3 +309,10 @@ class Map:
                     yield Known(k, part.start, part.start, None)
             else:
                 yield Known(k, part.start, part.end, curve.part(part.start, part.end))
+
+
+def _short_between(low: Real, high: Real) -> fmpq:
+    """A rational strictly between two numbers that is about as short as their distance allows."""
+    first = rational_between(low, high)
+    last = rational_between(Real(first), high)
+    return rational_between(Real(first), Real(last))

@@ -212,6 +212,20 @@ class KnownMap:
         chart, _ = self._of(i)
         return any(chart.knows_some(route._ashore(n, chart)) for n in ahead)
 
+    def beside(self, i: int, end: Point | Sequence[object]) -> Point:
+        """A known point of an obstacle with short coordinates, beside an end of its known boundary.
+
+        They are no farther apart than a 64th of the known part, if that is straight. The end itself if it is
+        a vertex, a single known point, or no end. ValueError for an obstacle that was not seen.
+
+        >>> import exactacq as xa
+        >>> known = xa.Robot(xa.load("circles")).map
+        >>> print(known.frontier[0][1], known.beside(0, known.frontier[0][1]))
+        (21/5, 2*sqrt(21)/5) (4570733/1100105, 1994094/1100105)
+        """
+        chart, k = self._of(i)
+        return chart.beside(k, Point.of(end))
+
     def _of(self, i: int) -> tuple[Map, int]:
         """A map that is right for an obstacle, and its number there."""
         k = self._number(i)

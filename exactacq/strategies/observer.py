@@ -7,6 +7,7 @@ obstacles that it has not seen. Equal scenes give equal numbers.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from functools import cmp_to_key
 from itertools import pairwise
 from math import inf
@@ -36,6 +37,7 @@ from exactacq.strategies.seed_spreader.blocked import Blocking
 from exactacq.strategies.seed_spreader.range_thresholds import nearest_of, nearest_point
 from exactacq.strategies.walker import Walker
 from exactacq.visibility.links import START, Link, Links, Node
+from exactacq.visibility.shortest_path import ShortestPath, shortest_path
 
 
 class Observer:
@@ -67,7 +69,7 @@ class Observer:
                 raise InvalidScene([f"the start {place_text(place)} lies inside obstacle {obstacle.label}"])
         links = None if confined else Links(scene, reach)
         table = EdgeTable(scene.obstacles) if links is None else links.table
-        self._radius, self._table, self._ground = reach, table, ground
+        self._radius, self._table, self._ground, self._scene = reach, table, ground, scene
         self._blocking = Blocking(ground, table)
         self._links = None if links is None else KnownLinks(links, place)
         self._walker = Walker(place, Memory(scene, reach, table, ground))
@@ -80,6 +82,8 @@ class Observer:
         # The last point of a boundary that the robot told, and whose it is.
         self._told: tuple[Point, int] | None = None
         self._lap: Lap | None = None
+        # What is wholly known as a scene, by the numbers of these obstacles.
+        self._acquired: tuple[tuple[int, ...], Scene] | None = None
         self._moves, self._most = 0, inf
         # Why it does not move any more, if it does not.
         self._stuck: ExactacqError | None = None
@@ -337,6 +341,31 @@ class Observer:
             raise not_there(error) from None
         return length, "left" if forward else "right"
 
+    def path_to(self, point: Point | Sequence[object]) -> ShortestPath:
+        """A shortest path from here to a point around the obstacles that are wholly known.
+
+        Of others, nothing is taken to be in the way: neither what is not known, nor known parts of their
+        boundaries. `MoveError` for a point inside an obstacle that is wholly known, and for a robot that is
+        confined to a terrain; what `shortest_path` raises and costs besides, and when one more obstacle is
+        acquired what it costs to make its scene.
+
+        >>> import exactacq as xa
+        >>> robot = xa.Robot(xa.load("circles"))
+        >>> print(robot.path_to((8, 0)).length)
+        8
+        >>> _ = robot.take(robot.nearest_unvisited(None)), robot.circle()
+        >>> print(robot.path_to((8, 0)).length.decimal(6), robot.path_to((7, 0)).length)
+        6.83712 2*pi
+        """
+        if self._ground is not None:
+            raise MoveError("a robot that is confined to a terrain knows no shortest paths: use routes")
+        try:
+            found = shortest_path(self._known_scene(), self.position, point)
+        except InvalidScene as error:
+            raise MoveError(f"no path: {error.violations[0]}") from None
+        assert found is not None, "without a terrain there is a way"
+        return found
+
     # -- how it is done ----------------------------------------------------------------------------
 
     def _take_in(self) -> None:
@@ -353,6 +382,16 @@ class Observer:
                     self._incomplete.discard(number)
             self._sightings.append(seen)
             self._on_sighting(seen)
+
+    def _known_scene(self) -> Scene:
+        """The obstacles that are wholly known, without their names."""
+        known = tuple(sorted(self._walker.memory.acquired))
+        if self._acquired is None or self._acquired[0] != known:
+            scene, count = self._scene, len(self._scene.shapes)
+            shapes = [replace(scene.shapes[k], name=None) for k in known if k < count]
+            room = scene.enclosure if any(k >= count for k in known) else None
+            self._acquired = known, Scene(shapes, enclosure=room)
+        return self._acquired[1]
 
     def _own_number(self, node: Node) -> int | None:
         return self._own[node] if isinstance(node, int) else None

@@ -18,6 +18,12 @@ class Strategy(StrEnum):
     SEED_SPREADER = "seed-spreader"
 
 
+class Baseline(StrEnum):
+    """Strategies that come with the library to be compared with, and are run as those of the user's own."""
+
+    NEAREST_FRONTIER = "nearest-frontier"
+
+
 class TargetChoice(StrEnum):
     """Among which points of an obstacle that is about to be lost the nearest one is aimed at."""
 

@@ -9,7 +9,8 @@ from typing import Any, TypeAlias, TypeVar
 
 from exactacq.errors import StrategyError, shown
 from exactacq.numbers.length import Length
-from exactacq.strategies.options import Strategy
+from exactacq.strategies.nearest_frontier import nearest_frontier
+from exactacq.strategies.options import Baseline, Strategy
 from exactacq.strategies.robot import Robot
 
 Rules: TypeAlias = "Callable[[Robot], Any]"
@@ -29,6 +30,7 @@ class OwnStrategy:
     bounds: Bounds | None = None
 
 
+_BASELINES = {Baseline.NEAREST_FRONTIER.value: OwnStrategy(Baseline.NEAREST_FRONTIER, nearest_frontier)}
 _known: dict[str, OwnStrategy] = {}
 
 
@@ -50,7 +52,7 @@ def strategy(name: str, *, bounds: Bounds | None = None) -> Callable[[Function],
     >>> print(run.visits, run.length, [(bound.name, bound.holds) for bound in run.bounds])
     (0, 1) 5 + 12*pi [('most', False)]
     """
-    if name in tuple(Strategy):
+    if name in tuple(Strategy) or name in _BASELINES:
         raise StrategyError(f"{name} is a strategy of exactacq: choose another name")
     if not is_name(name):
         raise StrategyError(f'a strategy has a name of letters, digits, "-" and "_", not {shown(name)}')
@@ -77,7 +79,7 @@ def _home(rules: Rules) -> tuple[str, str]:
 
 def registered(name: str) -> OwnStrategy | None:
     """The strategy of a name, if there is one."""
-    return _known.get(name)
+    return _BASELINES.get(name) or _known.get(name)
 
 
 def registered_in(module: str) -> list[str]:
@@ -87,7 +89,7 @@ def registered_in(module: str) -> list[str]:
 
 def of_function(rules: Rules) -> OwnStrategy:
     """A function as a strategy: as it was registered, or else under its own name."""
-    found = next((own for own in _known.values() if own.rules is rules), None)
+    found = next((own for own in (*_BASELINES.values(), *_known.values()) if own.rules is rules), None)
     if found is not None:
         return found
     name = re.sub(r"[^\w-]", "", getattr(rules, "__name__", "")) or type(rules).__name__
@@ -96,4 +98,4 @@ def of_function(rules: Rules) -> OwnStrategy:
 
 def names() -> list[str]:
     """The names of all strategies, those of exactacq first."""
-    return [*Strategy, *sorted(_known)]
+    return [*Strategy, *Baseline, *sorted(_known)]

@@ -1,10 +1,10 @@
-"""Nearest frontier: to the nearest end of known boundary, and along that boundary until it is known."""
+"""Straight frontier: to the nearest end of known boundary as the crow flies, and along that boundary."""
 
 import exactacq as xa
 
 
-@xa.strategy("nearest-frontier")
-def nearest_frontier(robot):
+@xa.strategy("straight-frontier")
+def straight_frontier(robot):
     """Acquire all obstacles that come into sight, the nearest unknown boundary first."""
     while robot.frontier:
         obstacle, end = min(robot.frontier, key=lambda place: away(robot, place[1]))

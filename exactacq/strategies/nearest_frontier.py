@@ -1,0 +1,131 @@
+"""Nearest frontier: to the nearest end of known boundary, and on along it until that obstacle is acquired.
+
+B. Yamauchi, "A frontier-based approach for autonomous exploration", CIRA 1997: the robot goes to the nearest
+place where what it knows ends, by the shortest path through what it knows. There that is a grid whose cells
+are known to be open; here boundaries are known, and frontiers are the ends of their known parts. So the paths
+here are shortest around the obstacles that are wholly known. Others do not count: where one is in the way
+(`Robot.go_to` halts there), it has a frontier itself, and that is taken to be the nearest.
+
+The robot needs no terrain, and ends when no frontier is left. It acquires an obstacle in each round.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from exactacq.geometry.curves import Arc
+from exactacq.geometry.points import Point, distance
+from exactacq.numbers.length import Length
+from exactacq.numbers.real import Real
+from exactacq.sensing.event import EventKind
+from exactacq.strategies.known_map import KnownPart
+from exactacq.strategies.moves import HaltKind
+from exactacq.visibility.shortest_path import ShortestPath
+
+if TYPE_CHECKING:
+    from exactacq.strategies.robot import Robot
+
+PARTS = 8
+"""Places on an edge where the robot may stop once an obstacle is acquired."""
+
+
+def nearest_frontier(robot: Robot) -> None:
+    """Acquire all obstacles that come into sight, each from its frontier that is nearest at the time.
+
+    Of frontiers equally near the first one of `Robot.frontier` is taken. Numbers that are found from numbers
+    that are found from numbers grow longer. So the robot aims at a place beside a frontier that has short
+    ones (`KnownMap.beside`), and walks to the frontier from there; and before it leaves a boundary that is
+    wholly known, it goes on to the nearest of `PARTS` places on the edge where it is.
+
+    >>> import exactacq as xa
+    >>> run = xa.explore(xa.load("squares"), "nearest-frontier")
+    >>> print(run.length, run.map.acquired)
+    sqrt(5) + 9 (0, 1)
+    """
+    while robot.frontier:
+        obstacle, way = _nearest(robot)
+        _follow(robot, way, obstacle)
+        _acquire(robot)
+        _rest(robot)
+
+
+def _nearest(robot: Robot) -> tuple[int, ShortestPath]:
+    """The obstacle of the nearest frontier, and the way there: asked for while it may be the shortest."""
+    known = robot.map
+    places = [(obstacle, known.beside(obstacle, end)) for obstacle, end in known.frontier]
+    ends = [(_away(robot.position, end), obstacle, end) for obstacle, end in places]
+    best: tuple[int, ShortestPath] | None = None
+    for _, obstacle, end in sorted(ends, key=lambda found: found[0]):
+        if best is not None and best[1].length <= Length(distance(robot.position, end)):
+            break
+        way = robot.path_to(end)
+        if best is None or way.length < best[1].length:
+            best = obstacle, way
+    assert best is not None, "there is a frontier"
+    return best
+
+
+def _away(here: Point, place: Point) -> Real:
+    """The square of a distance: simpler than the distance."""
+    return (place - here).norm_sq()
+
+
+def _follow(robot: Robot, way: ShortestPath, obstacle: int) -> None:
+    """Go along a path while nothing is in the way and the obstacle is not wholly known."""
+    for piece in way.path:
+        if isinstance(piece, Arc):
+            robot.walk_to(piece.end)
+        elif robot.go_to(piece.end).kind is HaltKind.HIT:
+            return
+        if obstacle not in robot.map.incomplete:
+            return
+
+
+def _acquire(robot: Robot) -> None:
+    """Walk along the boundary where the robot is, if that is not known yet, until it is."""
+    at = robot.at
+    if at is None or at not in robot.map.incomplete:
+        return
+    left, right = _known_beside(robot.map.known(at), robot.position)
+    hand = "left" if left <= right else "right"
+    while at in robot.map.incomplete:
+        robot.walk(hand, until=EventKind.ACQUIRE)
+
+
+def _known_beside(parts: Sequence[KnownPart], here: Point) -> tuple[Length, Length]:
+    """How far known boundary goes on from a place to either end, with the left and the right hand."""
+    for k, part in enumerate(parts):
+        curve = part.curve
+        if curve is None or not curve.passes(here):
+            continue
+        ahead = Length(0) if here == part.end else curve.part(here, part.end).length
+        behind = Length(0) if here == part.start else curve.part(part.start, here).length
+        others = [*parts[k + 1 :], *parts[:k]]
+        return ahead + _joined(part, others, 1), behind + _joined(part, others[::-1], -1)
+    return Length(0), Length(0)
+
+
+def _joined(part: KnownPart, others: Sequence[KnownPart], sense: int) -> Length:
+    """The length of those of the following parts, in the order of a walk, that go on where one ends."""
+    lengths = []
+    for other in others:
+        end, start = (part.end, other.start) if sense > 0 else (part.start, other.end)
+        if end != start:
+            break
+        lengths.append(other.length)
+        part = other
+    return Length.sum(lengths)
+
+
+def _rest(robot: Robot) -> None:
+    """Go on to a near place with short numbers on the same edge, if the robot knows all of the boundary."""
+    here, at = robot.position, robot.at
+    if here.rational is not None or at not in robot.map.acquired:
+        return
+    assert at is not None, "what is acquired is an obstacle"
+    for part in robot.map.known(at):
+        if part.curve is not None and part.curve.passes(here):
+            places = [part.curve.point(Real(k) / PARTS) for k in range(PARTS + 1)]
+            robot.walk_to(min(places, key=lambda place: _away(here, place)))
+            return
