@@ -310,6 +310,14 @@ class TestConfined:
         robot.take_up(route, place)
         assert robot.follow(route).kind == "arrived" and robot.position == Point(9, 9)
 
+    def test_news_of_an_edge_that_the_border_cuts_in_two(self) -> None:
+        """Of an arch that stands out of the terrain two parts are left; the second one is out of range."""
+        arch = xa.Outline([(18, 5, 1), (6, 5, 0), (7, 5, -1), (17, 5, 0)])
+        robot = xa.Robot(Scene([arch], terrain=xa.Terrain(24, 9), radius=7), confined=True)
+        robot.go_to((0, 5))
+        assert len(robot._ground.components) == 2
+        assert robot.seen == (0,) and robot.news() == {0} and robot.in_sight == {0}
+
     def test_knows_no_links(self) -> None:
         robot = xa.Robot(SHORE, confined=True)
         for ask in (robot.links, robot.nearest_unvisited):

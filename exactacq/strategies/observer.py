@@ -223,7 +223,7 @@ class Observer:
         return self._own[k], point
 
     def news(self, route: Route | None = None) -> frozenset[int]:
-        """The obstacles of which more became known since this was asked last.
+        """The obstacles of which more became known since this was asked last, and perhaps others.
 
         With a *route* also those of which a known crossing point on it came to lie behind the robot since
         this was asked of it last. So a strategy need not look through all that it knows.
@@ -238,7 +238,8 @@ class Observer:
         if route is not None:
             passed = ((k, n) for k, n in route._passed() if k in self._own)
             news |= {k for k, n in passed if k in memory.acquired or now.knows_some(route._ashore(n, now))}
-        return frozenset(self._own[k] for k in news)
+        # A border may cut one edge between two components, of which one was not seen.
+        return frozenset(self._own[k] for k in news if k in self._own)
 
     # -- routes ------------------------------------------------------------------------------------
 
