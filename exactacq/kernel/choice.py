@@ -83,14 +83,14 @@ def mattering(
             chosen[n] = True
             continue
         outer = span.outer(one.source)
-        if outer[0] > outer[1]:
+        # What is seen from an end of the leg alone is part of the view from there.
+        if outer[0] > outer[1] or not (outer[0] < inf and outer[1] > -inf):
             continue
         if not _is_known(one, known):
             if one.edge not in news:
                 news[one.edge] = []
             news[one.edge].append(n)
-        # What is seen from an end of the leg alone is part of the view from there.
-        if not (sights and outer[0] < inf and outer[1] > -inf):
+        if not sights:
             continue
         surely = span.inner(one.surely)
         for k, whole in concerned:
