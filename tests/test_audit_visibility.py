@@ -141,6 +141,22 @@ class TestLookout:
         assert lookout.first(Point(0, 0)) == 2
         assert lookout.first(Point(30, 0)) is None
 
+    @EXAMPLES
+    @given(st.randoms(use_true_random=False))
+    def test_any_of_some(self, rng: Random) -> None:
+        """Several curves asked together are answered as each of them alone, also one that comes twice."""
+        run = run_of(terrain_of(rng))
+        if run is None or not run.path:
+            return
+        world = World(run.scene)
+        curves = [rng.choice(world.edges) for _ in range(6)] + [piece.curve for piece in run.path[:4]]
+        lookout = Viewpoints(world, run.radius, curves)
+        some = [rng.sample(range(len(curves)), rng.randint(0, 3)) for _ in range(4)]
+        q = rng.choice(world.edges).start
+        alone = [Viewpoints(world, run.radius, [curve]).first(q) is not None for curve in curves]
+        assert lookout.any_sees(q, some) == [any(alone[k] for k in numbers) for numbers in some]
+        assert lookout.any_sees(q, []) == []
+
     def test_targets(self) -> None:
         """Rational points at shares of edges and beside points of them."""
         circle = World(build([Disc(0, 0, 1)])).edges[0]

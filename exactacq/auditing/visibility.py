@@ -196,9 +196,10 @@ class Viewpoints:
         self.world, self.radius = world, radius
         names = [None] * len(curves) if on is None else on
         distinct: dict[object, int] = {}
-        for k, curve in enumerate(curves):
-            distinct.setdefault(_identity(curve), k)
+        firsts = [distinct.setdefault(_identity(curve), k) for k, curve in enumerate(curves)]
         self.numbers = sorted(distinct.values())
+        places = {number: place for place, number in enumerate(self.numbers)}
+        self._places = np.array([places[k] for k in firsts], dtype=np.int64)
         self.curves = [curves[k] for k in self.numbers]
         self.on = [names[k] for k in self.numbers]
         self.forms = world.forms_of(self.curves)
@@ -225,6 +226,25 @@ class Viewpoints:
             if any(view.sees_along(int(ray), k) for ray in np.flatnonzero(unsure[:, k])):
                 return numbers[k]
         return numbers[limit] if limit < len(near) else None
+
+    def any_sees(self, point: Point, some: Sequence[Sequence[int]]) -> list[bool]:
+        """For some lists of numbers of curves, whether any of them sees such a point: all by one view."""
+        places = [np.unique(self._places[list(numbers)]) for numbers in some]
+        wanted = np.concatenate([self._places[:0], *places])
+        near = np.intersect1d(_within(self.boxes, point, self.radius), wanted)
+        if not len(near):
+            return [False] * len(some)
+        view = _View(self, point, near)
+        seen, unsure = view.verdicts()
+        return [self._any_sees(view, np.flatnonzero(np.isin(near, one)), seen, unsure) for one in places]
+
+    @staticmethod
+    def _any_sees(view: _View, some: Ints, seen: Bools, unsure: Bools) -> bool:
+        if seen[some].any():
+            return True
+        return any(
+            view.sees_along(int(ray), int(k)) for k in some for ray in np.flatnonzero(unsure[:, int(k)])
+        )
 
 
 def visible(world: World, radius: fmpq, a: Point, b: Point) -> bool:
@@ -449,16 +469,31 @@ def _cross(a: Floats, b: Floats) -> Floats:
 
 
 def _segment_hits(units: Floats, starts: Floats, ends: Floats) -> HitDistances:
-    """Where rays meet segments from s to e: t = s x e / (u x e - u x s), if u x s and u x e differ in sign.
+    """Where rays meet segments; most pairs are clear, as a segment lies on one side of the ray's line."""
+    s, e = _cross(units[:, None], starts), _cross(units[:, None], ends)
+    ds, de = EPS * np.hypot(*starts.T) + TINY, EPS * np.hypot(*ends.T) + TINY
+    missed = ((s > ds) & (e > de)) | ((s < -ds) & (e < -de))
+    pairs = np.nonzero(~missed)
+    rays, columns = pairs
+    some = _possible_hits(units[rays], starts[columns], ends[columns], s[pairs], e[pairs])
+    found = HitDistances(
+        np.full(missed.shape, np.inf), np.full(missed.shape, np.inf), np.zeros(missed.shape, dtype=bool)
+    )
+    for whole, part in zip(found, some, strict=True):
+        whole[pairs] = part
+    return found
 
-    If one of the two signs is uncertain, the contact is near that end; if both are, anywhere between.
+
+def _possible_hits(units: Floats, starts: Floats, ends: Floats, s: Floats, e: Floats) -> HitDistances:
+    """Where a ray meets a segment from s to e: t = s x e / (u x e - u x s); for pairs of a ray and a segment.
+
+    If one of the two signs of *s*, u x s, and *e*, u x e, is uncertain, the contact is near that end; if both
+    are, anywhere between.
     """
     a, b = np.hypot(*starts.T), np.hypot(*ends.T)
-    s, e = _cross(units[:, None], starts), _cross(units[:, None], ends)
     ds, de = EPS * a + TINY, EPS * b + TINY
     unsure_s, unsure_e = np.abs(s) <= ds, np.abs(e) <= de
-    crossed = ~unsure_s & ~unsure_e & ((s > 0) != (e > 0))
-    missed = ~unsure_s & ~unsure_e & ((s > 0) == (e > 0))
+    crossed = ~unsure_s & ~unsure_e
     with np.errstate(all="ignore"):
         t = _cross(starts, ends) / (e - s)
         slack = (EPS * a * b + np.abs(t) * (ds + de)) / (np.abs(e - s) - ds - de) + TINY
@@ -467,16 +502,15 @@ def _segment_hits(units: Floats, starts: Floats, ends: Floats) -> HitDistances:
     # Where neither end is certain the segment points at q, or away from it.
     both = unsure_s & unsure_e
     at_s, at_e = unsure_s & ~both, unsure_e & ~both
-    ahead_s, ahead_e = (units @ starts.T) > 0, (units @ ends.T) > 0
+    ahead_s, ahead_e = (units * starts).sum(axis=1) > 0, (units * ends).sum(axis=1) > 0
     facing = np.where(ahead_s & ahead_e, np.minimum(a, b) * (1 - EPS), 0.0)
     with np.errstate(invalid="ignore"):
         low = np.where(crossed, t - slack, np.where(at_s, a - near_s, np.where(at_e, b - near_e, facing)))
         high = np.where(crossed, t + slack, np.inf)
-    behind = np.where(crossed, high < 0, np.where(at_s, ~ahead_s & (near_s < a / 2), False))
-    behind |= (at_e & ~ahead_e & (near_e < b / 2)) | (both & ~ahead_s & ~ahead_e & (a > 0) & (b > 0))
+    gone = np.where(crossed, high < 0, np.where(at_s, ~ahead_s & (near_s < a / 2), False))
+    gone |= (at_e & ~ahead_e & (near_e < b / 2)) | (both & ~ahead_s & ~ahead_e & (a > 0) & (b > 0))
     low = np.where(np.isnan(low), -np.inf, low)
     high = np.where(np.isnan(high), np.inf, high)
-    gone = missed | behind
     return HitDistances(
         np.where(gone, np.inf, low), np.where(gone, np.inf, high), crossed & ~gone & (low > 0)
     )
