@@ -147,7 +147,8 @@ def beside_a_segment(draw: Draw) -> tuple[Drawn, Drawn]:
     b = a + along
     normal = along * LEFT
     at = a + along * draw(shares) + normal * draw(hairs)
-    relation = draw(st.sampled_from(["on one line", "parallel", "from it", "tangent", "through", "about"]))
+    relations = ["on one line", "parallel", "from it", "tangent", "begins along", "through", "about"]
+    relation = draw(st.sampled_from(relations))
     if relation == "on one line":
         other: Drawn = straight(at, a + along * (draw(shares) + draw(hairs)))
     elif relation == "parallel":
@@ -159,6 +160,13 @@ def beside_a_segment(draw: Draw) -> tuple[Drawn, Drawn]:
         radius = normal * draw(stretches)
         ring = Ring(at - radius, radius)
         other = draw(bows_on(ring))
+    elif relation == "begins along":
+        # An arc whose first direction is that of the segment, beside it or on it.
+        begin, radius = at + normal * draw(shares), normal * draw(stretches)
+        ring = Ring(begin + radius, radius)
+        end = draw(spots_of(ring))
+        assume(not same_spot(begin.spot, end))
+        other = ring.bow(begin.spot, end, draw(st.booleans()))
     elif relation == "through":
         # Of any centre on the bisector: the far ones make an arc that is nearly straight.
         height = draw(st.sampled_from([0, 1, -2, 10**9, -(10**20)]))
@@ -180,7 +188,8 @@ def beside_an_arc(draw: Draw) -> tuple[Drawn, Drawn]:
     first = draw(bows_on(ring))
     at = draw(points_of(ring))
     out = at - ring.centre
-    relation = draw(st.sampled_from(["one circle", "concentric", "tangent", "cutting", "line", "normal"]))
+    relations = ["one circle", "concentric", "tangent", "cutting", "line", "normal", "begins along"]
+    relation = draw(st.sampled_from(relations))
     if relation == "one circle":
         other: Drawn = draw(bows_on(ring))
     elif relation == "concentric":
@@ -199,11 +208,27 @@ def beside_an_arc(draw: Draw) -> tuple[Drawn, Drawn]:
         along = out * LEFT if again == at else again - at
         begin = at + out * draw(hairs)
         other = straight(begin + along * draw(shares), begin + along * draw(shares))
-    else:
+    elif relation == "normal":
         other = straight(
             ring.centre + out * draw(shares) + out * LEFT * draw(hairs), ring.centre + out * draw(shares)
         )
+    else:
+        # A segment whose direction is that of the circle where its first end stands before it.
+        begin = ring.centre + out * draw(shares.filter(bool))
+        other = straight(begin, begin + out * LEFT * draw(shares.filter(bool)))
     return (first, other) if draw(st.booleans()) else (other, first)
+
+
+@st.composite
+def irrational_pairs(draw: Draw) -> tuple[Drawn, Drawn]:
+    """Two segments whose ends are one point plus multiples of one root: their directions may be rational."""
+    a, q = Vector(draw(cells), draw(cells)), Fraction(draw(st.sampled_from([2, 3, 5])))
+    u, along = draw(vectors), draw(vectors)
+    shift = along * LEFT * draw(shares)
+    places = [u, u + along] + [u + along * draw(shares) + shift + draw(vectors) * draw(hairs) for _ in "ab"]
+    assume(places[2] != places[3])
+    p, r, s, t = (Spot(*a, q, *place) for place in places)
+    return Straight(p, r), Straight(s, t)
 
 
 @st.composite
@@ -248,7 +273,7 @@ def moves(draw: Draw) -> Move:
 @st.composite
 def pairs(draw: Draw) -> tuple[Drawn, Drawn]:
     """Two curves, related in some way, anywhere."""
-    a, b = draw(st.one_of(beside_a_segment(), beside_an_arc(), free_pairs()))
+    a, b = draw(st.one_of(beside_a_segment(), beside_an_arc(), free_pairs(), irrational_pairs()))
     move = draw(moves())
     return move.of(a), move.of(b)
 

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import mpmath
 import pytest
-from drawn_curves import Draw, library_curve, rational, rings, same_spot, spots_of
+from drawn_curves import LEFT, Draw, Ring, Vector, library_curve, rational, rings, spots_of, vectors
 from flint import fmpq
 from hypothesis import assume, event, given
 from hypothesis import strategies as st
@@ -27,6 +27,8 @@ from exactacq.numbers.real import Real
 mp = mpmath.mp.clone()
 mp.dps = 1000
 SHOWN = mp.mpf(10) ** -280
+NEAR = st.sampled_from([0, 0, Fraction(1, 10**20), Fraction(-1, 10**20)])
+"""Closer directions of irrational angles may leave their sums undecided."""
 hairs = st.sampled_from(HAIRS)
 
 
@@ -124,6 +126,12 @@ class Relation(NamedTuple):
         whole = Length.turns(c, -self.turns())
         return [*(z.arc(c * m) for z, m in self.factors), self.product().arc(-c), whole]
 
+    def nudged(self, size: Fraction) -> tuple[Length, int]:
+        """The first part, its direction turned by the angle of (1, *size*), and the sign of the change."""
+        (z, m), c = self.factors[0], COEFFICIENTS[self.coefficient]()
+        turned = z.times(gauss(z.x.n, (1, 0), (size, 0)))
+        return turned.arc(c * m), (c * m).sign()
+
 
 @st.composite
 def relations(draw: Draw, surds: bool) -> Relation:
@@ -132,6 +140,8 @@ def relations(draw: Draw, surds: bool) -> Relation:
     factors = []
     for _ in range(draw(st.integers(1, 3))):
         x, y = ((draw(part), draw(part) if surds else 0) for _ in range(2))
+        if surds:
+            y = (y[0] + draw(NEAR), y[1])  # Close to a simple fraction of pi, perhaps.
         assume(any((*x, *y)))
         z = gauss(n, x, y)
         assume(abs(z.x.digits) + abs(z.y.digits) > SHOWN)
@@ -163,25 +173,27 @@ class Tie(NamedTuple):
 @st.composite
 def ties(draw: Draw, surds: bool) -> Tie:
     some = draw(st.lists(relations(surds), min_size=1, max_size=2))
-    kind = draw(st.sampled_from(["number", "turn", "angle"]))
+    kind = draw(st.sampled_from(["number", "turn", "angle", "direction"]))
     return Tie(tuple(some), draw(st.integers(0, 9)), draw(hairs), kind)
 
 
 def check_tie(tie: Tie) -> None:
-    """Both sums are one length, unless a hair is added to one of them: a number, a turn, or an angle."""
+    """Both sums are one length, unless a hair is added: a number, a turn, an angle, or to a direction."""
     parts = [part for relation in tie.relations for part in relation.parts()]
-    cut = tie.cut % len(parts)
-    left, right = Length.sum(parts[cut:]), -Length.sum(parts[:cut])
-    order = (tie.hair > 0) - (tie.hair < 0)
+    order, size = (tie.hair > 0) - (tie.hair < 0), abs(tie.hair)
     event("tie" if not order else f"near tie, {tie.kind}")
-    size = abs(tie.hair)
     hair = {
         "number": lambda: Length(size),
         "turn": lambda: Length.turns(Real(2).sqrt(), size),
         "angle": lambda: gauss(1, (1, 0), (size, 0)).arc(Real(3)),
+        "direction": Length,
     }[tie.kind]()
-    laws(left + hair * order if order else left, right, order)
-    laws(left * fmpq(-2, 3), right * fmpq(-2, 3) + hair * order if order else right * fmpq(-2, 3), -order)
+    if tie.kind == "direction" and order:
+        parts[0], order = tie.relations[0].nudged(size)
+    cut = tie.cut % len(parts)
+    left, right = Length.sum(parts[cut:]) + hair * order, -Length.sum(parts[:cut])
+    laws(left, right, order)
+    laws(left * fmpq(-2, 3), right * fmpq(-2, 3), -order)
 
 
 @examples(60)
@@ -278,20 +290,30 @@ def test_sums_are_those_of_the_digits(case: tuple[list[tuple[Gauss, Fraction, st
 
 
 @st.composite
+def crossings_of(draw: Draw, ring: Ring) -> Spot:
+    """Where a rational line crosses a circle: in an irrational direction from the centre, in general."""
+    along, share = draw(vectors), draw(st.sampled_from([Fraction(n, 3) for n in (-1, 1, 2)]))
+    foot = ring.centre + along * LEFT * share
+    return Spot(*foot, ring.square / along.square - share * share, *along)
+
+
+def around(ring: Ring, spot: Spot) -> Any:
+    """A point of a circle as seen from its centre."""
+    at = mp.mpc(number(spot.x - ring.centre.x), number(spot.y - ring.centre.y))
+    return at + mp.sqrt(number(spot.q)) * mp.mpc(number(spot.u), number(spot.v))
+
+
+@st.composite
 def cuts(draw: Draw) -> tuple[tuple[Bow, ...], Bow]:
     """A circle that is cut at some places, as arcs from one to the next; and the full circle."""
     ring = draw(rings())
     spots: list[Spot] = []
     for _ in range(draw(st.integers(2, 5))):
-        spot = draw(spots_of(ring))
-        assume(not any(same_spot(spot, other) for other in spots))
+        spot = draw(st.one_of(spots_of(ring), crossings_of(ring)))
+        assume(spot.q >= 0)
+        assume(all(abs(around(ring, spot) - around(ring, other)) > SHOWN for other in spots))
         spots.append(spot)
-
-    def angle(spot: Spot) -> Any:
-        v = (spot.u, spot.v) if spot.q else (spot.x - ring.centre.x, spot.y - ring.centre.y)
-        return mp.atan2(number(v[1]), number(v[0]))
-
-    spots.sort(key=angle)
+    spots.sort(key=lambda spot: mp.arg(around(ring, spot)))
     ccw = draw(st.booleans())
     order = spots if ccw else spots[::-1]
     bows = [ring.bow(p, q, ccw) for p, q in zip(order, order[1:] + order[:1], strict=True)]
@@ -325,8 +347,8 @@ def digits(length: Length) -> Any:
 
 def seen(bow: Bow, spot: Spot | None) -> Any:
     assert spot is not None
-    at = mp.mpc(number(spot.x - bow.centre.x), number(spot.y - bow.centre.y))
-    return at + mp.sqrt(number(spot.q)) * mp.mpc(number(spot.u), number(spot.v))
+    centre = Vector(bow.centre.x, bow.centre.y)
+    return around(Ring(centre, centre), spot)
 
 
 @examples(30)

@@ -129,7 +129,7 @@ def asked(draw: Draw, places: st.SearchStrategy[Loop]) -> tuple[Loop, Spot]:
     loop = draw(places)
     k = draw(st.integers(0, len(loop.corners) - 1))
     x, y, _ = loop.corners[k]
-    relation = draw(st.sampled_from(["edge", "vertex", "line", "level", "free", "irrational"]))
+    relation = draw(st.sampled_from(["edge", "vertex", "line", "chord", "level", "free", "irrational"]))
     hair = Vector(*draw(st.sampled_from(UNITS))) * draw(st.sampled_from(HAIRS))
     if relation == "edge":
         at = on_edge(loop, k, draw(st.sampled_from([Fraction(n, 7) for n in (1, 3, 4, 6)])))
@@ -138,6 +138,10 @@ def asked(draw: Draw, places: st.SearchStrategy[Loop]) -> tuple[Loop, Spot]:
     elif relation == "line":
         # Beyond the ends of an edge: on its line, or on the rest of its circle.
         at = on_edge(loop, k, draw(st.sampled_from([Fraction(-1, 3), Fraction(9, 7)])))
+    elif relation == "chord":
+        u, v, _ = loop.corners[(k + 1) % len(loop.corners)]
+        share = draw(st.sampled_from([Fraction(n, 5) for n in (-1, 1, 2, 4, 6)]))
+        at = Vector(x, y) + Vector(u - x, v - y) * share
     elif relation == "level":
         at = Vector(draw(cells) * Fraction(3, 2), y)
     else:
