@@ -8,9 +8,9 @@ attack the same command must finish the campaign with the verdicts of an undistu
 
 from __future__ import annotations
 
-import ctypes
 import os
 import resource
+import shlex
 import shutil
 import signal
 import sqlite3
@@ -24,6 +24,8 @@ from contextlib import closing
 from pathlib import Path
 from random import Random
 
+from hostile_mounts import cannot_mount, ending, in_own_mounts, without_override
+
 SECONDS = 120
 """Most time for a command that has little to do, on a busy machine."""
 ALONE = 10
@@ -32,8 +34,6 @@ SCENES = 30
 """Scenes of the campaigns whose processes are killed: another seed follows when all are judged."""
 FEW = 6
 """Scenes of the campaign whose file is damaged."""
-DROP, OVERRIDE = 24, 1
-"""What the system calls giving up a right for good, and root's right to write what may not be written."""
 
 
 def command(path: Path, scenes: int, seed: int, workers: int = 2) -> list[str]:
@@ -225,6 +225,35 @@ def room(stage: Stage) -> None:
             stage.flaw("room: what was judged is lost")
 
 
+def mounts(stage: Stage) -> None:
+    """File systems of some sizes that are full sooner or later; with room the same command goes on."""
+    if reason := cannot_mount():
+        stage.counts[f"left out: {reason}"] += 1
+        return
+    mount = stage.folder / "mount"
+    mount.mkdir()
+    path = mount / "a.sqlite"
+    line = shlex.join(command(path, FEW, 0))
+    for size in range(4, 164, 8):
+        full, room = stage.folder / f"full-{size}", stage.folder / f"room-{size}"
+        for folder in (full, room):
+            folder.mkdir()
+        script = [
+            f"mount -t tmpfs -o size={size}k none {mount}",
+            ending(line, full / "told"),
+            f"cp {mount}/* {full} || true",
+            f"mount -o remount,size=10m {mount}",
+            ending(line, room / "told"),
+            f"cp {mount}/* {room}",
+        ]
+        before, after = in_own_mounts("\n".join(script)).stdout.split()
+        stage.ended("mounts", int(before), (full / "told").read_text(), 0, 1, 2)
+        stage.ended("mounts, then room", int(after), (room / "told").read_text(), 0, 1)
+        stage.same("mounts", room / path.name, FEW, 0)
+        if not judged(full / path.name) <= judged(room / path.name):
+            stage.flaw("mounts: what was judged is lost")
+
+
 def rights(stage: Stage) -> None:
     """A folder and a file that may not be written; root gives up its rights."""
     for what, folder_mode, file_mode in (
@@ -241,7 +270,7 @@ def rights(stage: Stage) -> None:
         for target in (path, folder / "new.sqlite") if what == "folder" else (path,):
             done = subprocess.run(
                 command(target, FEW, 0), capture_output=True, text=True, timeout=SECONDS, check=False,
-                preexec_fn=lambda: ctypes.CDLL(None).prctl(DROP, OVERRIDE, 0, 0, 0),
+                preexec_fn=without_override,
             )  # fmt: skip
             stage.ended(f"rights of the {what}", done.returncode, done.stderr, 2)
         folder.chmod(0o755)
@@ -376,7 +405,8 @@ def refused(stage: Stage, what: str, path: Path, may_go_on: bool = False) -> Non
 
 
 ATTACKS: dict[str, Callable[[Stage], None]] = {
-    attack.__name__: attack for attack in (coordinators, workers, pairs, room, rights, foreign, damage)
+    attack.__name__: attack
+    for attack in (coordinators, workers, pairs, room, mounts, rights, foreign, damage)
 }
 
 

@@ -6,6 +6,8 @@
 from __future__ import annotations
 
 import os
+import re
+import shlex
 import shutil
 import sqlite3
 import subprocess
@@ -18,6 +20,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from hostile_mounts import cannot_mount, ending, in_own_mounts, without_override
 from test_campaign import QUICK, SOUND, opened, verdicts
 
 from exactacq.cli.entry import main
@@ -82,6 +85,104 @@ class TestNoRoom:
         out, told = capfd.readouterr()
         assert (out, told.count("\n")) == ("", 1)
         assert "not the file of a campaign" in told
+
+
+PLAIN = replace(QUICK, claims="")
+"""What `COMMAND` asks for."""
+COMMAND = [
+    *(sys.executable, "-m", "exactacq", "verify", "--scenes", "4", "--strategy", "sightseer"),
+    *("--no-audit", "--no-claims", "--workers", "1", "--out"),
+]
+
+
+@pytest.fixture(scope="module")
+def plain() -> list[Record]:
+    """All scenes of PLAIN, judged."""
+    return [judge(task, [], audited=False) for task in PLAIN.tasks()]
+
+
+class TestFileSystems:
+    """The command on a file system that is full or read-only, and in a folder that may not be written."""
+
+    @pytest.fixture
+    def half(self, tmp_path: Path, plain: list[Record]) -> Path:
+        """The file of a campaign of which two scenes are judged."""
+        path = tmp_path / "half.sqlite"
+        with opened(PLAIN, path) as store:
+            store.add(plain[:2], 1)
+        return path
+
+    def only_line(self, told: Path) -> str:
+        """What was told beside how far the campaign is."""
+        (line,) = [line for line in told.read_text().splitlines() if not line.startswith("verify:")]
+        return line
+
+    @pytest.mark.skipif(bool(cannot_mount()), reason=f"nothing can be mounted: {cannot_mount()}")
+    def test_a_full_one_keeps_what_is_judged(self, half: Path, plain: list[Record]) -> None:
+        """Room for the file, its index of 32 KB and what the opening writes; then for all."""
+        mount, kept = half.parent / "mount", half.parent / "kept"
+        mount.mkdir()
+        kept.mkdir()
+        path, room = mount / half.name, half.stat().st_size + 32 * 1024 + 8 * 1024
+        command = shlex.join([*COMMAND, str(path)])
+        script = [
+            f"mount -t tmpfs -o size={room} none {mount}",
+            f"cp {half} {mount}",
+            ending(command, half.parent / "full"),
+            f"cp {mount}/* {kept}",
+            f"mount -o remount,size=10m {mount}",
+            ending(command, half.parent / "room"),
+            f"cp {path} {half}",
+        ]
+        done = in_own_mounts("\n".join(script))
+        assert (done.stdout, done.stderr, done.returncode) == ("2\n0\n", "", 0)
+        full = f"exactacq: {path}: what is judged so far is kept, but no more can be written: "
+        assert self.only_line(half.parent / "full") == f"{full}database or disk is full"
+        with opened(PLAIN, kept / half.name) as store:
+            assert store.done() == {record.task for record in plain[:2]}
+        with opened(PLAIN, half) as store, opened(PLAIN) as expected:
+            expected.add(plain, 1)
+            assert verdicts(store) == verdicts(expected)
+
+    @pytest.mark.skipif(bool(cannot_mount()), reason=f"nothing can be mounted: {cannot_mount()}")
+    def test_one_that_is_read_only_is_told_before_work(self, half: Path) -> None:
+        mount, told = half.parent / "mount", half.parent / "told"
+        mount.mkdir()
+        script = [
+            f"mount -t tmpfs none {mount}",
+            f"cp {half} {mount}",
+            f"mount -o remount,ro {mount}",
+            ending(shlex.join([*COMMAND, f"{mount / half.name}"]), told),
+            f"cmp {half} {mount / half.name}",
+        ]
+        done = in_own_mounts("\n".join(script))
+        assert (done.stdout, done.stderr, done.returncode) == ("2\n", "", 0)
+        assert told.read_text() == (
+            f"exactacq: {mount / half.name}: the directory {mount} cannot be written to\n"
+        )
+
+    @pytest.mark.skipif(not hasattr(os, "geteuid"), reason="no rights of files as Unix has them")
+    @pytest.mark.parametrize(
+        ("folder_mode", "file_mode", "words"),
+        [
+            (0o555, 0o644, "the directory .* cannot be written to"),
+            (0o755, 0o444, "cannot be used .* readonly"),
+        ],
+        ids=["folder", "file"],
+    )
+    def test_what_may_not_be_written_is_told_before_work(
+        self, half: Path, folder_mode: int, file_mode: int, words: str
+    ) -> None:
+        before = half.read_bytes()
+        half.chmod(file_mode)
+        half.parent.chmod(folder_mode)
+        done = subprocess.run(
+            [*COMMAND, str(half)], capture_output=True, text=True, check=False, preexec_fn=without_override
+        )
+        half.parent.chmod(0o755)
+        assert (done.returncode, done.stdout) == (2, "")
+        assert re.fullmatch(f"exactacq: {half}: .*{words}.*\n", done.stderr)
+        assert half.read_bytes() == before
 
 
 class TestDamage:
@@ -161,12 +262,6 @@ class TestDamage:
         for name, words in (("pipe", "not a regular"), ("null", "not a regular"), ("loop", "cannot be used")):
             with pytest.raises(CampaignError, match=words):
                 opened(QUICK, tmp_path / f"{name}.sqlite")
-
-    def test_a_file_that_cannot_be_written_is_refused_before_work(self, whole: Path) -> None:
-        whole.chmod(0o444)
-        if os.access(whole, os.W_OK):
-            pytest.skip("this user may write all files")
-        self.refused(whole, "cannot be used")
 
     def refused(self, path: Path, words: str) -> None:
         """In one line; the file stays as it is."""
