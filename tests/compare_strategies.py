@@ -1,10 +1,10 @@
 """Strategies compared on the gallery and on random scenes: makes the results in ``docs/results/comparison``.
 
-``python tests/compare_strategies.py gallery`` and ``... random [--scenes N] [--first SEED]`` write their tables
-there, for the version that is checked out. A scene without a terrain gets the rectangle about all that is in
-it, one unit wider, for the Seed Spreader. As with `exactacq compare`, that one starts in the SW corner, the
-others at the scene's start, or else there too. A run that takes more than ``--seconds S`` of processor time is
-given up. Takes some seven minutes of it for 1,000 scenes.
+``python tests/compare_strategies.py gallery`` and ``... random [--scenes N] [--first SEED]`` write their
+tables there, for the version that is checked out. A scene without a terrain gets the rectangle about all that
+is in it, one unit wider, for the Seed Spreader. As with `exactacq compare`, that one starts in the SW corner,
+the others at the scene's start, or else there too. A run that takes more than ``--seconds S`` of processor
+time is given up. Takes some seven minutes of it for 1,000 scenes.
 """
 
 from __future__ import annotations
@@ -118,6 +118,8 @@ def told(one: Outcome) -> str:
 
 def random_results(scenes: int, first: int, seconds: float) -> Iterator[tuple[str, dict[str, Any]]]:
     """What each strategy does on random scenes, and how long it is beside the Sightseer."""
+    command = f"python tests/compare_strategies.py random --scenes {scenes} --first {first}"
+    common = {"commands": [command], "version": version()}
     found: dict[str, list[Outcome]] = {s: [] for s in STRATEGIES}
     for seed in range(first, first + scenes):
         scene = with_terrain(random_scene(Subject.SIGHTSEER, seed))
@@ -125,13 +127,11 @@ def random_results(scenes: int, first: int, seconds: float) -> Iterator[tuple[st
             found[strategy].append(outcome(scene, strategy, seconds))
         if (seed - first) % 25 == 24:
             print(seed - first + 1, "scenes", flush=True)
-    command = f"python tests/compare_strategies.py random --scenes {scenes} --first {first}"
-    common = {"commands": [command], "version": version()}
     yield "2-random", {
         "title": "Random scenes",
-        "asks": f"{scenes:,} small [degenerate scenes](campaigns.md#the-scenes) of the Sightseer's kind. What "
-        "each strategy came to know, and how many times the lower bounds its path is long, where these speak "
-        "of it and are not 0.",
+        "asks": f"{scenes:,} small [degenerate scenes](campaigns.md#the-scenes) of the Sightseer's "
+        "kind. What each strategy came to know, and how many times the lower bounds its path is long, "
+        "where these speak of it and are not 0.",
         **common,
         "columns": [
             "strategy", "runs", "knows all", "obstacles never seen", "boundary not seen",
@@ -187,7 +187,7 @@ def beside(strategy: str, found: Sequence[Outcome], first: Sequence[Outcome]) ->
     """A row of how long a strategy's paths are beside another one's."""
     pairs = [(a, b) for a, b in zip(found, first, strict=True) if a.is_whole and b.is_whole and b.length]
     ratios = sorted(a.length / b.length for a, b in pairs)
-    marks = [ratios[0], *quantiles(ratios, n=4), ratios[-1]]
+    marks = [ratios[0], *quantiles(ratios, n=4, method="inclusive"), ratios[-1]]
     return [strategy, f"{len(ratios)}", f"{sum(r < 1 for r in ratios)}", *(f"{mark:.3f}" for mark in marks)]
 
 
