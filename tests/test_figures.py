@@ -399,6 +399,22 @@ def test_a_moment_of_a_sweep(diverted: Run) -> None:
     assert diversion.first == leaves.after
 
 
+def test_many_runs_stand_in_rows_and_are_drawn_to_one_scale() -> None:
+    """Though they begin in different places; nothing covers anything."""
+    scene = Scene([Circle((3, 9), 1), square(4, 4)], (0, 0), radius=12, name="two")
+    runs = [sightseer(scene, start=start) for start in ((0, 0), (-9, 0), (4, 20), (9, 9))]
+    drawn = side_by_side(runs)
+    drawn.canvas.draw()
+    maps = [ax for ax in drawn.axes if len(ax.patches) > 1]
+    assert len(maps) == 4
+    assert len({(*ax.get_xlim(), *ax.get_ylim()) for ax in maps}) == 1
+    assert maps[0].bbox.y0 == pytest.approx(maps[1].bbox.y0) and maps[2].bbox.y1 < maps[0].bbox.y0
+    boxes = [ax.get_tightbbox() for ax in drawn.axes] + [x.get_window_extent() for x in drawn.legends]
+    boxes += [t.get_window_extent() for t in drawn.texts]
+    for k, box in enumerate(boxes):
+        assert not any(box.overlaps(other) for other in boxes[:k])
+
+
 def test_two_runs_side_by_side(tmp_path: Path) -> None:
     shapes = [Circle((3, 9), 1), Circle((8, 3), 1), square(4, 4)]
     scene = Scene(shapes, (0, 0), terrain=Terrain(12, 11), radius=7, name="three")
