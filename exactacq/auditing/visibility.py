@@ -231,7 +231,7 @@ class Viewpoints:
         """For some lists of numbers of curves, whether any of them sees such a point: all by one view."""
         places = [np.unique(self._places[list(numbers)]) for numbers in some]
         wanted = np.concatenate([self._places[:0], *places])
-        near = np.intersect1d(_within(self.boxes, point, self.radius), wanted)
+        near = np.intersect1d(_within(self.forms.boxes, point, self.radius), wanted)
         if not len(near):
             return [False] * len(some)
         view = _View(self, point, near)
