@@ -29,7 +29,8 @@ Crossing = tuple[int, bool]
 class WayImage:
     """A way: a stretch of a segment's line, from parameter ``low`` to ``high``, each with bounds.
 
-    Its ends are held with one bound; the vertices there are given by their numbers.
+    Its ends are held with one bound; the vertices there are given by their numbers. More may be told of lines
+    that pass an end: their keys, and by key and edge which of them touch the edge's circle there.
     """
 
     def __init__(
@@ -43,6 +44,24 @@ class WayImage:
     ) -> None:
         self.line, self.low, self.high = line, low, high
         self.ends, self.starts, self.stops = ends, starts, stops
+        self.lines_at_start: set[int] = set()
+        self.lines_at_stop: set[int] = set()
+        self.touching: set[tuple[int, int]] = set()
+
+    def end_of(self, corners: list[int], keys: list[int]) -> float:
+        """Minus infinity or infinity as a line, which passes vertices and has keys, passes the start or the
+        stop; else 0."""
+        for vertex in corners:
+            if vertex in self.starts:
+                return -inf
+            if vertex in self.stops:
+                return inf
+        for key in keys:
+            if key in self.lines_at_start:
+                return -inf
+            if key in self.lines_at_stop:
+                return inf
+        return 0.0
 
 
 def crossings(families: list[FamilyImage], wanted: set[int], way: WayImage) -> list[Crossing]:
@@ -153,9 +172,9 @@ def _crossed(family: FamilyImage, way: WayImage, curves: list[CurveImage]) -> Cr
         return _unknown()
     if (is_parallel or family.frame[0] == SPOKES) and _may_touch(family, way):
         return _unknown()
-    role, last_role = _role(a, family, first.corners, way), _role(b, family, last.corners, way)
+    role, last_role = _role(a, family, first, way), _role(b, family, last, way)
     role, last_role = role if role else last_role, last_role if last_role else role
-    spots = _spot(a, first.corners, way), _spot(b, last.corners, way)
+    spots = _spot(first, way), _spot(last, way)
     keys = first.keys, last.keys
     low, high = way.low[0], way.high[1]
     turn = wx * one[3] - wy * one[2]
@@ -244,16 +263,18 @@ def _may_touch(family: FamilyImage, way: WayImage) -> bool:
     return sense < 0 or not abs(height) - height_bound > reach + reach_bound
 
 
-def _role(met: Meeting, family: FamilyImage, passed: list[int], way: WayImage) -> int:
+def _role(met: Meeting, family: FamilyImage, at: Outermost, way: WayImage) -> int:
     """The side of the contact on which a line crosses the way's line; 0 if it is open or does so there.
 
-    That is known of the normals of a segment from an end of the way alone.
+    That is known of the normals of a segment from an end of the way, and of lines that touch a circle there.
     """
     if met[0] > met[1]:
         return AHEAD
     if -met[0] > met[1]:
         return BEHIND
-    if family.frame[0] == SLIDING and any(v in way.starts or v in way.stops for v in passed):
+    if family.frame[0] == SLIDING and any(v in way.starts or v in way.stops for v in at.corners):
+        return 0
+    if any((key, family.edges[1]) in way.touching for key in at.keys):
         return 0
     return OPEN
 
@@ -323,12 +344,8 @@ def _within(spot: EdgePlace, way: WayImage) -> EdgePlace:
     return spot
 
 
-def _spot(met: Meeting, passed: list[int], way: WayImage) -> EdgePlace:
+def _spot(at: Outermost, way: WayImage) -> EdgePlace:
     """Where a line crosses the way's line: at an infinite parameter if it passes an end of the way."""
-    _, _, u, error, x, y, e = met
-    for vertex in passed:
-        if vertex in way.starts:
-            return -inf, -inf, x, y, e
-        if vertex in way.stops:
-            return inf, inf, x, y, e
-    return u - error, u + error, x, y, e
+    _, _, u, error, x, y, e = at.met
+    end = way.end_of(at.corners, at.keys)
+    return (end, end, x, y, e) if end else (u - error, u + error, x, y, e)

@@ -62,22 +62,27 @@ class WayViews:
 
     def families(self, choose: Choose | None = None) -> Iterator[ViewFamily]:
         """All families at wanted edges whose first side lies on the way, or those that are chosen."""
+        crossing = [] if choose is None else self.crossing.extents()
         found = [*self.single_lines(), *self.normals.extents()]
         if choose is None:
             for image, certain in self.crossing:
                 yield from self.crossing.views(family_of(image), certain, self.wanted)
         else:
-            found = list(choose([*self.crossing.extents(), *found]))
+            found = list(choose([*crossing, *found]))
         yield from self._views(found)
         yield from self.own_line.families()
 
     def single_lines(self) -> list[Extent]:
-        """What the single lines that may cross the way show, in floats; they are the origins."""
+        """What the single lines that may cross the way show, in floats; they are the origins.
+
+        Which of them pass the way's ends is known where families were asked for before.
+        """
         lines = [line for edge in self._near for line in edge.single_lines if line.shown in self.wanted]
         found, images = [], self.way.complex.images
         for k, source in crossing_lines([line.image(images) for line in lines], self.way.image):
             one = lines[k].extent(images, self.way.image.line)
-            one.source = source
+            end = self.way.image.end_of([], lines[k].keys)
+            one.source = (end, end) if end else source
             found.append(one)
         return found
 

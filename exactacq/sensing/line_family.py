@@ -11,6 +11,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
+from flint import fmpq
+
 from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
 from exactacq.kernel.cells import LineCells
@@ -155,6 +157,20 @@ def family_of(image: FamilyImage) -> LineFamily:
     return image.origin.family(image)
 
 
+def rational_line(image: FamilyImage, is_last: bool) -> tuple[Point, Point] | None:
+    """Contact and direction of the first or the last line of a family, if these are seen to be rational."""
+    assert isinstance(image.origin, PencilFamilies), "families come from pencils"
+    lines = image.origin.lines
+    row = lines.rows[image.number]
+    value = (row.last if is_last else row.first).value
+    if isinstance(value, Real):
+        value = None if value.is_late else value.rational
+    if not isinstance(value, fmpq):
+        return None
+    contact, direction = lines.sector.touch(Real(value))
+    return None if contact.rational is None or direction.rational is None else (contact, direction)
+
+
 class SingleLine:
     """A single line: from ``place`` it shows edge ``shown`` from one point of a run to the other.
 
@@ -163,7 +179,7 @@ class SingleLine:
     *keys* are numbers of the line (see `line_keys`).
     """
 
-    __slots__ = ("_hulls", "_image", "_keys", "_reached", "_views", "edge", "run", "shown", "spot")
+    __slots__ = ("_hulls", "_image", "_reached", "_views", "edge", "keys", "run", "shown", "spot")
 
     def __init__(
         self,
@@ -175,7 +191,7 @@ class SingleLine:
         keys: Sequence[int] = (),
     ) -> None:
         self._reached = reached
-        self.edge, self.run, self.shown, self.spot, self._keys = edge, run, shown, spot, [*keys]
+        self.edge, self.run, self.shown, self.spot, self.keys = edge, run, shown, spot, [*keys]
         self._views: list[ViewFamily] | None = None
         self._image: SingleImage | None = None
         self._hulls: tuple[Span, Span] | None = None
@@ -224,7 +240,7 @@ class SingleLine:
         if here and self.edge is not None:
             edge, shown, source = self.edge, source, shown
         first, last = self.points
-        keys = view_keys(self._keys, leg, edge, images.table.curve_images) if first is last else []
+        keys = view_keys(self.keys, leg, edge, images.table.curve_images) if first is last else []
         return Extent(edge, shown, source, NOTHING, keys, keys, self, here, 1 - here, True)
 
     def views(self, here: int, there: int, clipper: FamilyClipper) -> tuple[list[ViewFamily], int]:

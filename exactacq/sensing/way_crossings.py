@@ -40,7 +40,9 @@ class WayCrossings:
     @cached_property
     def _found(self) -> list[Crossing]:
         found = crossings(self._families, set(self.wanted), self.way.image)
-        return [(k, certain) for k, certain in found if certain or not self._are_round(self._families[k])]
+        left = [(k, certain) for k, certain in found if certain or not self._are_round(self._families[k])]
+        self.way.tell_lines_at_ends(self._families[k] for k, certain in left if not certain)
+        return left
 
     def _are_round(self, family: FamilyImage) -> bool:
         """Whether lines are normals of a round boundary, outward, and the way's line passes its centre.
