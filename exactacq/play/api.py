@@ -8,6 +8,7 @@ from collections.abc import AsyncIterator, Callable, Mapping
 from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 from pathlib import PurePath
+from tempfile import TemporaryDirectory
 from time import monotonic
 from typing import Any
 
@@ -111,12 +112,14 @@ class Api:
 
     @asynccontextmanager
     async def _life(self, _: Any) -> AsyncIterator[None]:
-        await asyncio.gather(self.reader.start(), self.explorer.start())
-        self.ready()
-        try:
-            yield
-        finally:
-            await asyncio.gather(self.reader.close(), self.explorer.close())
+        with TemporaryDirectory(prefix="exactacq-play-") as folder:
+            self.reader.folder = self.explorer.folder = folder
+            await asyncio.gather(self.reader.start(), self.explorer.start())
+            self.ready()
+            try:
+                yield
+            finally:
+                await asyncio.gather(self.reader.close(), self.explorer.close())
 
     async def give_asset(self, request: Any) -> Any:
         """A file of the page: one of those that are known, by its whole name."""

@@ -24,6 +24,8 @@ DRAWING_BYTES, FILE_BYTES = 24 << 20, 64 << 20
 DRAINED, PATIENCE = 2 * FILE_BYTES, 3.0
 """So much of a body that is refused is read all the same, in so many seconds: if the connection ended while
 the body comes, the answer would be lost with it."""
+BODY_SECONDS = 30.0
+"""In which a body must be there: it comes from this machine."""
 JSON, FILE = "application/json", "application/octet-stream"
 """Kinds of bodies."""
 OPENING = "/api/open"
@@ -117,7 +119,11 @@ class Guard:
         sizes = headers.get("content-length", ["0"])
         if not sizes[0].isdecimal() or len(sizes[0]) > 12 or int(sizes[0]) > most:
             raise Refused(413, f"more than {most >> 20} MB")
-        return await _read(receive, most)
+        try:
+            async with asyncio.timeout(BODY_SECONDS):
+                return await _read(receive, most)
+        except TimeoutError:
+            raise Refused(408, f"the request is not whole after {BODY_SECONDS:g} seconds") from None
 
 
 async def _read(receive: Receive, most: int) -> bytes:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import secrets
 import socket
 import webbrowser
@@ -19,6 +20,8 @@ LOOPBACK, LOOPBACK_6 = "127.0.0.1", "::1"
 """The addresses of this machine that no other one reaches."""
 AT_ONCE = 64
 """Requests that are answered at a time."""
+PATIENCE = 15.0
+"""Seconds in which the head of a request must come, and an answer be taken: connections are few."""
 
 
 def serve(
@@ -51,7 +54,7 @@ def serve(
     guarded = Guard(Api(first, limits, ready).application(), hosts, token)
     settings = uvicorn.Config(
         guarded,
-        http="h11",
+        http=impatient(PATIENCE),
         ws="none",
         loop="asyncio",
         lifespan="on",
@@ -63,6 +66,37 @@ def serve(
     )
     with listener, suppress(KeyboardInterrupt):
         uvicorn.Server(settings).run(sockets=[listener])
+
+
+def impatient(seconds: float) -> Any:
+    """The protocol of uvicorn's connections, but one on which nothing begins for so many seconds is ended.
+
+    It may take up to twice as long.
+    """
+    base = extra("uvicorn.protocols.http.h11_impl", "play").H11Protocol
+
+    class Impatient(base):  # type: ignore[misc, valid-type]
+        """A connection that is looked at now and then."""
+
+        cycle: Any
+
+        def connection_made(self, transport: asyncio.Transport) -> None:
+            super().connection_made(transport)
+            self._look(object())
+
+        def _look(self, before: object) -> None:
+            """End it if no request has begun since the last look, at which none was being answered."""
+            is_idle = self.cycle is None or self.cycle.response_complete
+            if is_idle and self.cycle is before:
+                self.transport.abort()
+            else:
+                self._next = self.loop.call_later(seconds, self._look, self.cycle)
+
+        def connection_lost(self, exc: Exception | None) -> None:
+            self._next.cancel()
+            super().connection_lost(exc)
+
+    return Impatient
 
 
 def _listening(host: str, port: int) -> socket.socket:

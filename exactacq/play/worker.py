@@ -25,10 +25,14 @@ class TaskError(Exception):
 
 
 class Worker:
-    """A process with so many megabytes of memory, started when it is first needed."""
+    """A process with so many megabytes of memory, started when it is first needed.
 
-    def __init__(self, megabytes: int) -> None:
-        self.megabytes = megabytes
+    Its temporary files are in the *folder*, if there is one: whoever made that takes away what is left in it
+    when the process is killed.
+    """
+
+    def __init__(self, megabytes: int, folder: str | None = None) -> None:
+        self.megabytes, self.folder = megabytes, folder
         self._process: Process | None = None
         self._turn = asyncio.Lock()
         self._stopped = self._at_work = False
@@ -68,6 +72,8 @@ class Worker:
         if self._process is not None and self._process.returncode is None:
             return
         line, environment = program("exactacq.play.bench")
+        if self.folder is not None:
+            environment["TMPDIR"] = self.folder
         self._process = await asyncio.create_subprocess_exec(
             *line, str(self.megabytes), stdin=PIPE, stdout=PIPE, env=environment
         )

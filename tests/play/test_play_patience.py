@@ -1,0 +1,129 @@
+"""Connections on which nothing comes, or nothing is taken, are ended; others are not."""
+
+from __future__ import annotations
+
+import asyncio
+import socket
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from threading import Thread
+from typing import Any
+
+import pytest
+
+from exactacq.play import guard
+from exactacq.play.guard import Guard
+from exactacq.play.server import impatient
+
+uvicorn = pytest.importorskip("uvicorn", reason="the extra play is not installed")
+
+SECONDS = 0.4
+HEAD = b"GET / HTTP/1.1\r\nHost: x\r\n"
+MUCH = 64 << 20
+"""Bytes that no buffer takes."""
+
+
+async def application(scope: Any, receive: Any, send: Any) -> None:
+    """Answers at once; with much, or after a while, where that is asked for."""
+    if scope["path"] == "/late":
+        await asyncio.sleep(4 * SECONDS)
+    body = bytes(MUCH if scope["path"] == "/much" else 2)
+    await send({"type": "http.response.start", "status": 200, "headers": []})
+    await send({"type": "http.response.body", "body": body})
+
+
+@contextmanager
+def listening(**settings: Any) -> Iterator[int]:
+    """A server of this application, with little patience; its port."""
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        config = uvicorn.Config(
+            application, http=impatient(SECONDS), lifespan="off", log_level="critical", **settings
+        )
+        server = uvicorn.Server(config)
+        thread = Thread(target=server.run, kwargs={"sockets": [listener]})
+        thread.start()
+        try:
+            yield listener.getsockname()[1]
+        finally:
+            server.should_exit = True
+            thread.join(20)
+
+
+def answered(port: int, path: str = "/") -> int:
+    with socket.create_connection(("127.0.0.1", port), 20) as plain:
+        plain.sendall(HEAD.replace(b"/ ", path.encode() + b" ") + b"Connection: close\r\n\r\n")
+        return int(plain.recv(100).split()[1])
+
+
+def ended(plain: socket.socket) -> bool:
+    """Whether the other side hangs up, within some seconds."""
+    plain.settimeout(20 * SECONDS)
+    try:
+        while plain.recv(1 << 16):
+            continue
+    except TimeoutError:
+        return False
+    except OSError:
+        return True
+    return True
+
+
+@pytest.mark.parametrize(
+    "sent", [b"", b"G", HEAD, HEAD + b"\r\n" + HEAD], ids=["none", "letter", "head", "second"]
+)
+def test_a_connection_without_a_request_is_ended(sent: bytes) -> None:
+    with listening() as port, socket.create_connection(("127.0.0.1", port), 20) as plain:
+        plain.sendall(sent)
+        assert ended(plain)
+
+
+def test_slow_connections_keep_others_out_for_a_while_only() -> None:
+    with listening(limit_concurrency=8) as port:
+        idle = [socket.create_connection(("127.0.0.1", port), 20) for _ in range(12)]
+        try:
+            end = time.monotonic() + 20
+            while answered(port) != 200:
+                assert time.monotonic() < end
+                time.sleep(SECONDS / 4)
+        finally:
+            for plain in idle:
+                plain.close()
+
+
+def test_an_answer_that_takes_long_comes() -> None:
+    with listening() as port:
+        assert answered(port, "/late") == 200
+
+
+def test_an_answer_that_is_not_taken_is_given_up() -> None:
+    with listening() as port, socket.create_connection(("127.0.0.1", port), 20) as plain:
+        plain.sendall(HEAD.replace(b"/ ", b"/much ") + b"\r\n")
+        time.sleep(5 * SECONDS)
+        plain.settimeout(20)
+        size = 0
+        try:
+            while read := plain.recv(1 << 20):
+                size += len(read)
+        except OSError:
+            pass
+        assert size < MUCH
+
+
+def test_a_body_that_does_not_come_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(guard, "BODY_SECONDS", 0.05)
+    monkeypatch.setattr(guard, "PATIENCE", 0.05)
+    sent: list[Any] = []
+
+    async def receive() -> Any:
+        if sent:
+            raise AssertionError
+        await asyncio.sleep(60)
+
+    async def send(message: Any) -> None:
+        sent.append(message)
+
+    headers = [(b"host", b"h"), (b"content-type", b"application/json"), (b"content-length", b"9")]
+    scope = {"type": "http", "method": "POST", "path": "/token/api/check", "headers": headers}
+    asyncio.run(Guard(application, ["h"], "token")(scope, receive, send))
+    assert sent[0]["status"] == 408 and b"not whole" in sent[1]["body"]
