@@ -19,6 +19,7 @@ from nightly import NIGHTLY
 from pages import HOSTILE, encoded, frames_of
 
 from exactacq import FormatError, isovist
+from exactacq.errors import Undecided
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
@@ -77,6 +78,19 @@ def test_frames_are_the_exact_maps_and_views_of_their_moments(eleven: Run) -> No
         assert [(p.x, p.y) for p in frame.frontier] == [(p.x, p.y) for _, p in learnt.frontier]
         outline = [piece.curve for piece in isovist(eleven.scene, stop.place, eleven.radius).pieces]
         assert [repr(curve) for curve in frame.view] == [repr(curve) for curve in outline]
+
+
+def test_a_stop_whose_view_is_undecided_has_none(eleven: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A path by shortest known ways has ends of such numbers that the library gives up some views there."""
+    monkeypatch.setattr("exactacq.visibility.isovist.Isovist.pieces", property(give_up))
+    frames = list(frames_of(eleven))
+    assert [event for frame in frames for event in frame.events] == list(eleven.events)
+    assert not any(frame.view or frame.is_passing for frame in frames)
+    assert all(frame["view"] == "" for frame in encoded(eleven, frames)["frames"])
+
+
+def give_up(view: object) -> None:
+    raise Undecided("a tie")
 
 
 def test_between_stops_map_and_view_are_exact_too(eleven: Run) -> None:

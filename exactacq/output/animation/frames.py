@@ -44,7 +44,8 @@ class Frame:
 
     ``known`` holds the known stretches of an obstacle's boundary by its index (a single known point is a
     segment of length 0), ``frontier`` the ends of known stretches beyond which a boundary is unknown,
-    ``view`` the closed outline of the isovist, and ``acquired`` the obstacles whose whole boundary is known.
+    ``view`` the closed outline of the isovist, or nothing where it is undecided, and ``acquired`` the
+    obstacles whose whole boundary is known.
     Stretches that are the same object as in the frame before cost nothing.
     """
 
@@ -116,8 +117,8 @@ def frames_of(
 
     At most *limit* (2 or more) stops, see `chosen`, and at most *fine* places between them at equal
     distances; fewer in scenes that are heavy or have views of many pieces, and none next to a stop. Those
-    that are beyond the library's limits are left out. *progress* is told how many of how many frames are
-    done. Cost: one map and one view a frame.
+    that are beyond the library's limits are left out, and views from stops that are. *progress* is told how
+    many of how many frames are done. Cost: one map and one view a frame.
     """
     kept = with_ways(run, chosen(stops(run), limit), fine)
     meter = Meter(progress, len(kept))
@@ -137,14 +138,18 @@ def frames_of(
 
 def _frame(run: Run, stop: Stop, walked: Length, event: Event | None) -> Frame:
     moment = walked if event is None else event
-    learnt, view = run.map_at(moment), run.view_at(moment)
+    learnt, is_passing = run.map_at(moment), stop.passing is not None
     known: dict[int, Sequence[Curve]] = {i: run.obstacles[i].edges for i in learnt.acquired}
     for i in learnt.incomplete:
         known[i] = [part.curve or Segment(part.start, part.end) for part in learnt.known(i)]
     frontier = [point for _, point in learnt.frontier]
-    outline = [piece.curve for piece in view.pieces]
+    try:
+        outline = [piece.curve for piece in run.view_at(moment).pieces]
+    except Undecided:
+        if is_passing:
+            raise
+        outline = []
     at = walked if event is None else walked + event.beyond
-    is_passing = stop.passing is not None
     return Frame(at, stop.place, stop.events, known, frontier, outline, learnt.acquired, is_passing)
 
 
