@@ -53,11 +53,9 @@ def tied(left: Tree, right: Tree, hair: Fraction = Fraction(0), made: int = 0) -
     return left, right, hair, made
 
 
-def turned(
-    *factors: tuple[Any, int], coefficient: str = "1", cut: int = 1, hair: Fraction = Fraction(0)
-) -> Tie:
-    """A relation of directions, with their multiples."""
-    return Tie((Relation(factors, coefficient),), cut, hair, "number")
+def turned(*factors: tuple[Any, int]) -> Tie:
+    """A relation of directions with their multiples: the first on one side, the others on the other."""
+    return Tie((Relation(factors, "1"),), 1, Fraction(0), "number")
 
 
 def cut_at(*spots: Spot, ccw: bool) -> tuple[tuple[Bow, ...], Bow]:
