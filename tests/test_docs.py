@@ -132,7 +132,7 @@ def test_everything_public_is_in_the_reference() -> None:
 # -- stored results ----------------------------------------------------------------------------------
 
 
-RESULTS = sorted((DOCS / "results").glob("*.json"))
+RESULTS = sorted((DOCS / "results").rglob("*.json"))
 
 
 @pytest.mark.parametrize("path", RESULTS, ids=lambda path: path.stem)

@@ -57,6 +57,13 @@ class TestRuns:
         run = explored(xa.Scene([square(50, 0)], start=(0, 0), radius=3))
         assert len(run.path) == 0 and run.unseen == (0,)
 
+    def test_a_start_on_a_boundary(self) -> None:
+        """Its frontier is where the robot stands: it was asked for again and again."""
+        for start in ((2, 0), (2, 1), (4, -1)):
+            run = explored(xa.load("squares").replace(start=start))
+            assert run.complete
+            xa.audit(run)
+
     def test_it_is_read_back(self) -> None:
         run = explored(xa.load("circles"))
         assert load_run(run.to_json()) == run

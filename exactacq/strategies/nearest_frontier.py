@@ -73,6 +73,9 @@ def _away(here: Point, place: Point) -> Real:
 
 def _follow(robot: Robot, way: ShortestPath, obstacle: int) -> None:
     """Go along a path while nothing is in the way and the obstacle is not wholly known."""
+    if not way.path:
+        # A robot that starts on a boundary is not at it before its first move.
+        robot.go_to(robot.position)
     for piece in way.path:
         if isinstance(piece, Arc):
             robot.walk_to(piece.end)
