@@ -10,6 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from functools import partial
+from itertools import groupby
+from operator import itemgetter
 from typing import TypeAlias
 
 from flint import arb, fmpq
@@ -91,8 +93,12 @@ class RadialSweep:
     def _sorted(self, slots: list[int]) -> list[list[int]]:
         """Slots grouped by exact direction, counterclockwise."""
         events, groups = self.faces.floats.events, list[list[int]]()
-        for slot in sorted(slots, key=events.__getitem__):
-            vector = self.faces.offset(events[slot])
+        slots = sorted(slots, key=events.__getitem__)
+        vectors = [self.faces.offset(events[slot]) for slot in slots]
+        if all(isinstance(x, fmpq) and isinstance(y, fmpq) for x, y in vectors):
+            turns = sorted(zip(map(_turned, vectors), slots, strict=True), key=itemgetter(0))
+            return [[slot for _, slot in group] for _, group in groupby(turns, key=itemgetter(0))]
+        for slot, vector in zip(slots, vectors, strict=True):
             low, high = 0, len(groups)
             while low < high:
                 middle = (low + high) // 2
@@ -273,6 +279,13 @@ def _parameter(curve: Curve, point: Point, own: bool, ray: Point) -> Real:
         tau: Real = 2 * (curve.center - point).dot(ray) / ray.norm_sq()
         return tau
     return meet(point, ray, curve, 1)
+
+
+def _turned(vector: Vector) -> tuple[bool, bool, fmpq]:
+    """How far a rational direction is turned from the east, in an order: half turns, and - x / y in each."""
+    x, y = vector
+    lower = y < 0 or (y == 0 and x < 0)
+    return (lower, True, -x / y) if y != 0 else (lower, False, x * 0)
 
 
 def _turn(a: Vector, b: Vector) -> int:
