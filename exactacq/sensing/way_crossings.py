@@ -14,9 +14,11 @@ from flint import fmpq
 from exactacq.geometry.coordinates import dot, raw
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.intersections import line_contacts
+from exactacq.kernel.bounded import TINY, UNIT
 from exactacq.kernel.extents import Extent
 from exactacq.kernel.family_images import FamilyImage
 from exactacq.kernel.images import SPOKES
+from exactacq.kernel.lines import line_at, side_of
 from exactacq.kernel.ways import Crossing, crossings, extents_from_way
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
@@ -89,9 +91,11 @@ class WayCrossings:
             (line_family.high, None, line_family.names[1]),
         ]
         if not certain:
-            cuts, told = self._cuts.of(line_family), None
+            cuts = self._cuts.of(line_family)
         for (low, first, called), (high, last, named) in pairwise(cuts):
-            role = self._role(line_family, rational_between(low, high), wanted) if told is None else told
+            role = told
+            if told is None or not certain:
+                role = self._role_of_part(line_family, rational_between(low, high), wanted, told)
             if role is None:
                 continue
             here = Side(self.way.number, role)
@@ -110,6 +114,19 @@ class WayCrossings:
     def _is_parallel(self, sector: Sector) -> bool:
         """Whether lines are normals of a straight edge, all parallel to the way."""
         return isinstance(sector, Sliding) and bool(dot(sector.base, raw(self.way.piece.direction)) == 0)
+
+    def _role_of_part(
+        self, line_family: LineFamily, t: fmpq, wanted: frozenset[int], told: Role | None
+    ) -> Role | None:
+        """On which side of the contact a line crosses the way, if it does; *told* if floats part its ends."""
+        if told is not None:
+            ax, ay, bx, by, error = self.way.image.ends
+            near = float(t)
+            at = line_at(line_family.sector.image, near, UNIT * abs(near) + TINY)
+            one, other = side_of(at, ax, ay, error, 0.0), side_of(at, bx, by, error, 0.0)
+            if one and other:
+                return None if one == other else told
+        return self._role(line_family, t, wanted)
 
     def _role(self, line_family: LineFamily, t: fmpq, wanted: frozenset[int]) -> Role | None:
         """On which side of the contact the line crosses the way within its free part, if it does."""
