@@ -1,11 +1,10 @@
 /** The drawing board: shows the drawing, what is selected, and what is being drawn. */
 
+import { labelsOf } from "./labels.js";
 import { $, add, set } from "./player/dom.js";
-import { labelOf } from "./model.js";
 import { float } from "./rational.js";
-import { edgesOf, heartOf, lineOf, middleOf } from "./shapes.js";
-
-const LABELLED = 150; // shapes beyond which only the selected one has its label
+import { edgesOf, lineOf, middleOf } from "./shapes.js";
+const START = [-10, -26, 10, 9]; // the box of the start's sign and letter about its place
 const HANDLED = 400; // vertices beyond which a shape's edges have no handles
 
 export function board({ state }, camera, grid) {
@@ -14,6 +13,7 @@ export function board({ state }, camera, grid) {
   const outlines = new Map();
   let draft = null; // {points, next, kind} of a shape that is being drawn, in rationals
   let cursor = null; // of the keyboard, in rationals
+  let pointed = null; // id of the shape that is pointed at
 
   /** The outline of each shape: the elements stay as long as their shapes do. */
   function drawShapes() {
@@ -39,18 +39,25 @@ export function board({ state }, camera, grid) {
 
   function drawLabels() {
     $("labels").replaceChildren();
-    const { drawing, selected } = state;
-    for (const shape of drawing.shapes) {
-      if (drawing.shapes.length > LABELLED && shape.id !== selected) continue;
-      if (shape.wall) continue;
-      const [x, y] = spot(heartOf(shape));
-      add($("labels"), "text", { x, y: y + 4.5 }, labelOf(drawing, shape));
+    const { drawing, selected, flaws } = state;
+    const wanted = [pointed, selected];
+    const preferred = flaws.flatMap(({ ids }) => ids);
+    const sign = beginning() && place(beginning());
+    const taken = sign ? [START.map((side, k) => side + sign[k % 2])] : [];
+    for (const { at, label } of labelsOf(drawing, camera, { wanted, preferred, taken })) {
+      add($("labels"), "text", { x: at[0], y: at[1] + 4.5 }, label);
     }
   }
 
+  /** Where the robot starts: null if that is not told. */
+  function beginning() {
+    const { start, terrain, strategy } = state.drawing;
+    return strategy === "sightseer" || !terrain ? start : [terrain.x, terrain.y];
+  }
+
   function drawGround() {
-    const { start, radius, terrain, strategy } = state.drawing;
-    const at = strategy === "sightseer" || !terrain ? start : [terrain.x, terrain.y];
+    const { radius, terrain, strategy } = state.drawing;
+    const at = beginning();
     for (const name of ["beginning", "reach"]) set($(name), { visibility: at ? "visible" : "hidden" });
     if (at) {
       const [x, y] = place(at);
@@ -129,6 +136,12 @@ export function board({ state }, camera, grid) {
     point(value) {
       cursor = value;
       drawDraft();
+    },
+    /** A shape that is pointed at has its label, whatever else has not. */
+    pointAt(id) {
+      if (id === pointed) return;
+      pointed = id;
+      drawLabels();
     },
   };
 }

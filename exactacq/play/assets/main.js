@@ -81,6 +81,10 @@ for (const button of document.querySelectorAll("[data-example]")) {
 for (const button of document.querySelectorAll("dialog [data-close]")) {
   button.addEventListener("click", () => button.closest("dialog").close());
 }
+for (const kind of ["pointerover", "focusin"]) {
+  $("shapes-list").addEventListener(kind, ({ target }) => board.pointAt(target.dataset.pick ?? null));
+}
+for (const kind of ["pointerout", "focusout"]) $("shapes-list").addEventListener(kind, () => board.pointAt(null));
 $("name").addEventListener("change", ({ target }) => store.edit({ ...state.drawing, name: target.value.trim() }));
 $("grid-step").addEventListener("change", ({ target }) => {
   grid.settings.chosen = target.value;

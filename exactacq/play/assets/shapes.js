@@ -102,9 +102,9 @@ function cut(edge, times) {
   return [...cut({ from, to: middle, bulge: half }, times - 1), ...cut({ from: middle, to, bulge: half }, times - 1)];
 }
 
-/** Where a label goes: the middle of the widest chord along the middle of a shape. */
+/** The widest chord along the middle of a shape, in which a label goes: [x, y] of its middle, and its width. */
 export function heartOf(shape) {
-  if (shape.center) return point(shape.center);
+  if (shape.center) return { middle: point(shape.center), wide: 2 * Math.abs(float(shape.radius)) };
   const [, low, , high] = extentOf(shape);
   const places = edgesOf(shape).flatMap((edge) => cut(edge, 3));
   const y = (low + high) / 2 + (high - low) * 1e-3;
@@ -118,5 +118,5 @@ export function heartOf(shape) {
   for (let k = 0; k + 1 < crossings.length; k += 2) {
     if (crossings[k + 1] - crossings[k] > best[1] - best[0]) best = [crossings[k], crossings[k + 1]];
   }
-  return [(best[0] + best[1]) / 2, y];
+  return { middle: [(best[0] + best[1]) / 2, y], wide: best[1] - best[0] };
 }

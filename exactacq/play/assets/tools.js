@@ -198,6 +198,8 @@ export function tools(store, camera, grid, board) {
   svg.addEventListener("pointerup", released);
   svg.addEventListener("pointercancel", released);
   svg.addEventListener("pointerleave", () => !drag && sketch());
+  $("shapes").addEventListener("pointerover", ({ target }) => board.pointAt(target.dataset.shape));
+  $("shapes").addEventListener("pointerout", () => board.pointAt(null));
   svg.addEventListener("dblclick", (event) => {
     const handle = event.target.closest("[data-edge]");
     if (state.mode === "draw" && state.tool === "polygon") close();
