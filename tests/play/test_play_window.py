@@ -1,4 +1,4 @@
-"""What the window shows: labels that leave each other room."""
+"""What the window shows: labels that leave each other room, and everything at any size."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import json
 from typing import Any
 
 import pytest
-from board_page import SHAPES, drop, point, show
+from board_page import SHAPES, WATCHES, drop, point, show, square
 from chromium import Chromium
 
 LABELS = "[...document.querySelectorAll('#labels text')].map((t) => t.textContent)"
@@ -14,6 +14,19 @@ LABEL_BOXES = (
     "[...document.querySelectorAll('#labels text')].map((t) => "
     "(({ x, y, width, height }) => [x, y + 3, x + width, y + height - 3])(t.getBBox()))"
 )
+SHOWN = (
+    "[...document.querySelectorAll('#shapes path:not(.wall)')].every((p) => { "
+    "const a = p.getBoundingClientRect(); "
+    "const b = document.getElementById('show').getBoundingClientRect(); "
+    "return a.left >= b.left && a.right <= b.right && a.top >= b.top && a.bottom <= b.bottom; })"
+)
+"""Whether no shape is cut off."""
+WIDEST = (
+    "(() => { const all = [...document.querySelectorAll('#shapes path:not(.wall)')].map((p) => "
+    "p.getBoundingClientRect()); "
+    "return Math.max(...all.map((b) => b.right)) - Math.min(...all.map((b) => b.left)); })()"
+)
+"""How wide the drawing is on the screen."""
 SHAPE = "document.querySelectorAll('#shapes path')[{}]"
 
 
@@ -80,3 +93,38 @@ def test_what_is_pointed_at_or_selected_has_its_label(page: Chromium) -> None:
     page.until(f"!{LABELS}.includes({json.dumps(name)})")
     page.run(f"document.querySelectorAll('[data-pick]')[{hidden}].click()")
     page.until(f"{LABELS}.includes({json.dumps(name)})")
+
+
+def test_a_narrower_window_cuts_nothing_off(page: Chromium) -> None:
+    page.run("document.querySelector('[data-example=plate]').click()")
+    page.until(f"{SHAPES} > 10", 30)
+    wide = page.run(WIDEST)
+    for width, height in ((900, 800), (600, 500), (360, 740), (1280, 800)):
+        page.resize(width, height)
+        page.until(SHOWN)
+    page.until(f"Math.abs({WIDEST} - {wide}) < 1")
+    page.click("#mode")
+    page.until(WATCHES, 90)
+    page.resize(700, 600)
+    page.until("document.getElementById('show').getBoundingClientRect().right <= 700")
+    page.run("document.getElementById('mode').click()")
+    page.until(SHOWN)
+
+
+def test_a_window_that_was_zoomed_stays_as_it_was(page: Chromium) -> None:
+    square(page)
+    page.run("document.querySelector('[data-action=larger]').click()")
+    place = f"(({{ x, y, width }}) => [x, y, width])({SHAPE.format(0)}.getBoundingClientRect())"
+    was = page.run(place)
+    page.resize(1000, 700)
+    page.until("document.getElementById('show').getBoundingClientRect().right <= 1000")
+    assert page.run(place) == pytest.approx(was, abs=0.1)
+    page.run("document.querySelector('[data-action=fit]').click()")
+    page.resize(360, 700)
+    page.until(SHOWN)
+
+
+def test_what_is_drawn_after_that_stays_in_the_window_too(page: Chromium) -> None:
+    square(page)
+    page.resize(420, 760)
+    page.until(SHOWN)

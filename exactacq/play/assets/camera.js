@@ -3,14 +3,20 @@
 import { clamp } from "./player/dom.js";
 
 const [LEAST, MOST] = [1e-90, 1e90]; // pixels a unit
-const ROOM = 0.82; // share of the window that what is looked at may fill
-const USUAL = 20; // units from bottom to top where there is nothing to be seen
+const ROOM = 0.86; // share of the window that what is looked at may fill
+const FOOT = 44; // pixels at its bottom where buttons lie
+const USUAL = [-8, -8, 8, 8]; // what is looked at where there is nothing to be seen
 const STEP = 1.25; // of a zoom by key or button
 
-export function camera(element) {
+/** The least box about two; one may be null. */
+const about = (a, b) => (b ? a.map((side, k) => (k < 2 ? Math.min : Math.max)(side, b[k])) : a);
+
+/** `extent` tells the box about everything (left, bottom, right, top), or null if there is nothing. */
+export function camera(element, extent) {
   const listeners = [];
   const { width, height } = element.getBoundingClientRect();
   const view = { x: 0, y: 0, scale: 24, width: width || 1, height: height || 1 };
+  let home = null; // what was put into the window as a whole, until it is moved or made larger by hand
   const tell = () => listeners.forEach((listener) => listener(view));
 
   const toWindow = ([x, y]) => [(x - view.x) * view.scale + view.width / 2, (view.y - y) * view.scale + view.height / 2];
@@ -18,39 +24,51 @@ export function camera(element) {
 
   /** Moves the window, by pixels. */
   function pan(du, dv) {
+    home = null;
     view.x -= du / view.scale;
     view.y += dv / view.scale;
     tell();
   }
 
   /** Makes all larger by a factor, about a place in the window. */
-  function zoom(factor, about = [view.width / 2, view.height / 2]) {
-    const [x, y] = toPlane(about);
+  function zoom(factor, fixed = [view.width / 2, view.height / 2]) {
+    home = null;
+    const [x, y] = toPlane(fixed);
     view.scale = clamp(view.scale * factor, LEAST, MOST);
-    const [u, v] = toPlane(about);
+    const [u, v] = toPlane(fixed);
     view.x += x - u;
     view.y += y - v;
     tell();
   }
 
-  /** Puts a box (left, bottom, right, top) into the window. */
-  function fit(box) {
-    const [left, bottom, right, top] = box ?? [0, 0, 0, 0];
-    const size = Math.max((right - left) / view.width, (top - bottom) / view.height);
-    view.scale = clamp(ROOM / (size || USUAL / view.height), LEAST, MOST);
-    [view.x, view.y] = [(left + right) / 2, (bottom + top) / 2];
+  /** Puts everything into the window, and keeps it there when that gets another size. */
+  function fit() {
+    home = extent();
+    if (!home || (home[0] === home[2] && home[1] === home[3])) home = USUAL.map((side, k) => side + (home?.[k] ?? 0));
+    show(home);
+  }
+
+  function show([left, bottom, right, top]) {
+    const high = Math.max(view.height - FOOT, 1);
+    view.scale = clamp(ROOM / Math.max((right - left) / view.width, (top - bottom) / high), LEAST, MOST);
+    [view.x, view.y] = [(left + right) / 2, (bottom + top - FOOT / view.scale) / 2];
     tell();
   }
 
   function center(x, y) {
+    home = null;
     [view.x, view.y] = [x, y];
     tell();
   }
 
   new ResizeObserver(([{ contentRect }]) => {
-    // What is in the upper left corner stays there.
     const [left, top] = toPlane([0, 0]);
     [view.width, view.height] = [contentRect.width || 1, contentRect.height || 1];
+    if (home) {
+      show(about(home, extent()));
+      return;
+    }
+    // What is in the upper left corner stays there.
     [view.x, view.y] = [left + view.width / 2 / view.scale, top - view.height / 2 / view.scale];
     tell();
   }).observe(element);

@@ -19,7 +19,7 @@ const RERUN = 350; // milliseconds after a setting has changed while a run is wa
 
 const store = makeStore();
 const { state } = store;
-const camera = makeCamera($("show"));
+const camera = makeCamera($("show"), () => extentOfAll(state.drawing));
 const grid = makeGrid(camera);
 const board = makeBoard(store, camera, grid);
 const tools = makeTools(store, camera, grid, board);
@@ -40,7 +40,7 @@ function opened(drawing) {
   runs.edit();
   trouble("");
   store.edit(drawing, { selected: null, vertex: null, tool: "select" });
-  camera.fit(extentOfAll(drawing));
+  camera.fit();
 }
 
 const actions = {
@@ -50,7 +50,7 @@ const actions = {
   watch: () => runs.watch(),
   undo: store.undo,
   redo: store.redo,
-  fit: () => camera.fit(extentOfAll(state.drawing)),
+  fit: camera.fit,
   larger: camera.larger,
   smaller: camera.smaller,
   open: files.open,
@@ -178,7 +178,7 @@ if (first) {
   files.show(first, "");
   if (first.trouble) trouble(first.trouble);
   store.forget();
-} else camera.fit(null);
+} else camera.fit();
 refresh();
 flaws.ask();
 document.body.dataset.ready = true;
