@@ -32,7 +32,7 @@ def binary() -> str | None:
 
 class Chromium:
     """A running browser with one tab. What a page logs, throws and asks the network for is
-    collected, and why a request was refused."""
+    collected, why a request was refused, and which kinds of questions the user was asked."""
 
     def __init__(self) -> None:
         program = binary()
@@ -56,6 +56,7 @@ class Chromium:
         self.complaints: list[str] = []
         self.requests: list[str] = []
         self.refused: list[str] = []
+        self.asked: list[str] = []
         self._session: str | None = None
         target = next(t for t in self.send("Target.getTargets")["targetInfos"] if t["type"] == "page")
         attached = self.send("Target.attachToTarget", targetId=target["targetId"], flatten=True)
@@ -125,6 +126,7 @@ class Chromium:
         elif method == "Log.entryAdded":
             self.complaints.append(said["entry"]["text"])
         elif method == "Page.javascriptDialogOpening":  # A page that asks whether to leave it is left.
+            self.asked.append(said["type"])
             self._begin("Page.handleJavaScriptDialog", accept=True)
         elif method == "Network.requestWillBeSent":
             self.requests.append(said["request"]["url"])

@@ -1,4 +1,4 @@
-"""What the window shows: labels that leave each other room, and everything at any size."""
+"""What the window shows: labels that leave each other room, everything at any size; and how it is left."""
 
 from __future__ import annotations
 
@@ -128,3 +128,43 @@ def test_what_is_drawn_after_that_stays_in_the_window_too(page: Chromium) -> Non
     square(page)
     page.resize(420, 760)
     page.until(SHOWN)
+
+
+def asks(page: Chromium, address: str) -> bool:
+    """Whether the page asks before it is left."""
+    page.asked.clear()
+    page.send("Page.navigate", url="about:blank")
+    page.until("location.href === 'about:blank'")
+    found = page.asked == ["beforeunload"]
+    assert found or not page.asked
+    show(page, address)
+    return found
+
+
+def test_leaving_asks_only_for_what_is_not_saved(page: Chromium, address: str, tmp_path: Any) -> None:
+    page.send("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(tmp_path))
+    assert not asks(page, address)
+    square(page)
+    assert asks(page, address)
+    square(page)
+    page.click("#undo")
+    page.until(f"{SHAPES} === 0")
+    assert not asks(page, address)
+    page.run("document.querySelector('[data-example=circles]').click()")
+    page.until(f"{SHAPES} === 2", 30)
+    page.click("#board")
+    assert not asks(page, address), "a file was opened, no more"
+    page.run("document.querySelector('[data-example=circles]').click()")
+    page.until(f"{SHAPES} === 2", 30)
+    page.run(
+        "(() => { const r = document.getElementById('range'); r.value = '7'; "
+        "r.dispatchEvent(new Event('change', { bubbles: true })); })()"
+    )
+    page.click("#board")
+    assert asks(page, address)
+    square(page)
+    assert page.run("document.title").startswith("* ")
+    page.run("document.querySelector('[data-save=scene]').click()")
+    page.until("document.body.dataset.busy === undefined && !document.querySelector('#save').open")
+    page.until("!document.title.startsWith('* ')")
+    assert not asks(page, address)

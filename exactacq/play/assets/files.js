@@ -157,7 +157,12 @@ export function files(store, { opened, trouble, runs }) {
   // -- saving -----------------------------------------------------------------------------------
 
   const made = {
-    scene: async () => [await receive("api/text", toRequest(state.drawing)), ".json"],
+    scene: async () => {
+      const saved = state.drawing;
+      const found = [await receive("api/text", toRequest(saved)), ".json"];
+      store.put({ saved });
+      return found;
+    },
     figure: async () => [await runs.file("figure", false), ".svg"],
     moment: async () => [await runs.file("figure", true), "-moment.svg"],
     trace: async () => [await runs.file("trace", false), "-run.json"],

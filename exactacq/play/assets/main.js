@@ -39,7 +39,7 @@ function trouble(text) {
 function opened(drawing) {
   runs.edit();
   trouble("");
-  store.edit(drawing, { selected: null, vertex: null, tool: "select" });
+  store.open(drawing);
   camera.fit();
 }
 
@@ -125,7 +125,7 @@ document.addEventListener("keydown", (event) => {
 });
 
 window.addEventListener("beforeunload", (event) => {
-  if (state.past.length && state.drawing.shapes.length) event.preventDefault();
+  if (store.isUnsaved()) event.preventDefault();
 });
 
 // -- showing -------------------------------------------------------------------------------------
@@ -151,7 +151,7 @@ function refresh() {
   $("watch").hidden = mode === "watch" || !runs.isOf(drawing);
   const hasRun = runs.isOf(drawing);
   for (const button of $("save").querySelectorAll("[data-save]:not([data-save=scene])")) button.disabled = !hasRun;
-  document.title = `${drawing.name || "Untitled scene"} - exactacq play`;
+  document.title = `${store.isUnsaved() ? "* " : ""}${drawing.name || "Untitled scene"} - exactacq play`;
 }
 
 /** A setting that changes while a run is watched makes the run anew. */

@@ -42,6 +42,11 @@ export function store() {
     tell();
   }
 
+  /** Shows another drawing, of which there is nothing to be saved. */
+  function open(drawing) {
+    edit(drawing, { selected: null, vertex: null, tool: "select", saved: drawing });
+  }
+
   function back(from, to) {
     if (!state[from].length) return;
     const drawing = state[from].at(-1);
@@ -54,7 +59,9 @@ export function store() {
   }
 
   return {
-    state, put, edit,
+    state, put, edit, open,
+    /** Whether something was drawn or edited since the drawing was saved or opened. */
+    isUnsaved: () => state.drawing !== state.saved && state.drawing.shapes.length > 0,
     undo: () => back("past", "future"),
     forget: () => (state.past = []),
     redo: () => back("future", "past"),
