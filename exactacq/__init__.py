@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from exactacq.scene.bounding import terrain_around
     from exactacq.scene.scene import Scene
     from exactacq.scene.shapes import Circle, Outline, Polygon, Terrain
+    from exactacq.sensing.decision import Decision
     from exactacq.sensing.event import Event, EventKind
     from exactacq.sensing.map import Map
     from exactacq.sensing.path import Path
@@ -57,6 +58,7 @@ __all__ = [
     "Around",
     "AuditError",
     "Circle",
+    "Decision",
     "Event",
     "EventKind",
     "ExactacqError",
@@ -108,6 +110,7 @@ _HOMES = {
     "Around": "exactacq.scene.bends",
     "AuditError": "exactacq.errors",
     "Circle": "exactacq.scene.shapes",
+    "Decision": "exactacq.sensing.decision",
     "Event": "exactacq.sensing.event",
     "EventKind": "exactacq.sensing.event",
     "ExactacqError": "exactacq.errors",

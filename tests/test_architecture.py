@@ -93,6 +93,7 @@ def test_the_audit_shares_nothing_with_what_it_checks() -> None:
     makers = ("visibility/", "sensing/", "strategies/")
     known = {other for name, others in used().items() if name.startswith("auditing") for other in others}
     assert {name for name in known if name.startswith(makers)} <= {
+        "sensing/decision",
         "sensing/event",
         "sensing/path",
         "strategies/run",
@@ -126,6 +127,7 @@ def test_rules_of_strategies_know_the_robot_and_nothing_else() -> None:
         "numbers/",
         "geometry/",
         "kernel/",
+        "sensing/decision",
         "sensing/event",
         *(f"strategies/{t}" for t in TOLD),
     )

@@ -284,8 +284,8 @@ class TestPeeking:
         moves = {"go_to", "walk", "walk_to", "circle", "follow", "take_up", "take", "go_back"}
         asks = {
             "radius", "start", "position", "at", "path", "length", "seen", "visited", "map", "frontier",
-            "sightings", "look", "links", "nearest_unvisited", "knows_unvisited", "way_to", "path_to",
-            "terrain", "in_sight", "incomplete", "nearest", "news", "lay", "way_back", "exits",
+            "sightings", "look", "links", "nearest_unvisited", "knows_unvisited", "unvisited", "way_to",
+            "path_to", "terrain", "in_sight", "incomplete", "nearest", "news", "lay", "way_back", "exits",
         }  # fmt: skip
         assert names == moves | asks
         assert set(vars(xa.Robot(SQUARES))).isdisjoint(names)

@@ -18,6 +18,7 @@ from typing import Any
 
 from exactacq.auditing.bounds import check_bounds, sightseer_values, spreader_values
 from exactacq.auditing.comparisons import AuditedBody
+from exactacq.auditing.decisions import check_decisions
 from exactacq.auditing.events import check_events, check_sights
 from exactacq.auditing.ground import Field, check_components
 from exactacq.auditing.knowledge import MOMENTS, Knowledge
@@ -42,11 +43,12 @@ def audit(run: Run, *, samples: int = 64, seed: int = 0, progress: Progress | No
     the final map, and on samples: *samples* random boundary points, half as many ends in other maps, and as
     many places on the path. That nothing at stake goes out of reach is asked where pieces of a line begin and
     at places inside `MOMENTS` of them. Equal seeds give equal samples. Of a strategy of the user's own all is
-    checked but what it does, and the values of its bounds. *progress* is told how many of how many steps are
-    done. Returns None if no flaw is found. ValueError for a run that was given up, `Undecided` where an exact
-    comparison is beyond the limits. Cost: about ten milliseconds a sample at ten obstacles in range, less
-    than one for each piece and event, and that of `MOMENTS` maps; for the Seed Spreader also of one map for
-    each piece on its lines, and for each place where something goes out of sight there.
+    checked but what it does, and the values of its bounds. Of decisions it is checked that what is told is
+    true and the chosen one the least of it, not that all is told. *progress* is told how many of how many
+    steps are done. Returns None if no flaw is found. ValueError for a run that was given up, `Undecided`
+    where an exact comparison is beyond the limits. Cost: about ten milliseconds a sample at ten obstacles in
+    range, less than one for each piece and event, and that of `MOMENTS` maps; for the Seed Spreader also of
+    one map for each piece on its lines, and for each place where something goes out of sight there.
 
     >>> import exactacq as xa
     >>> audit(xa.sightseer(xa.load("circles")), samples=8)
@@ -79,6 +81,7 @@ def audit(run: Run, *, samples: int = 64, seed: int = 0, progress: Progress | No
         Replay(run, field, bodies, tracks, rng).check(meter)
         values = spreader_values(run, field)
     check_sights(run)
+    check_decisions(run)
     check_bounds(run, values)
     _check_accounts(run)
     meter.close()

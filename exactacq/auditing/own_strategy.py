@@ -18,7 +18,14 @@ from exactacq.numbers.precision import workprec
 from exactacq.sensing.event import Ending, Event, EventKind
 from exactacq.strategies.run import OwnRun
 
-MOVES = (EventKind.START, EventKind.HIT, EventKind.LEAVE, EventKind.BACKTRACK, EventKind.STOP)
+MOVES = (
+    EventKind.START,
+    EventKind.HIT,
+    EventKind.LEAVE,
+    EventKind.BACKTRACK,
+    EventKind.DECIDE,
+    EventKind.STOP,
+)
 """What such a robot does."""
 SLACK = 1e-9
 """Floats of lengths that differ by no more than this part may be equal."""
@@ -50,6 +57,7 @@ def _then(run: OwnRun, bodies: Sequence[AuditedBody], event: Event, at: int | No
         EventKind.HIT: told is not None and at in (None, told),
         EventKind.BACKTRACK: at is None,
         EventKind.LEAVE: told is not None and at == told,
+        EventKind.DECIDE: at == told,
         EventKind.STOP: at == told,
     }
     if not is_right[event.kind]:

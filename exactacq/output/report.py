@@ -71,6 +71,8 @@ def run_report(run: Run) -> RenderableType:
         parts.append(f"given up at {_place(run.events[-1].point)}: a comparison is undecided")
     if run.bounds:
         parts += ["", _bounds(run)]
+    if any(event.decided is not None for event in run.events):
+        parts += ["", _decisions(run, names)]
     return Group(*parts, *_missed(run, names), *_notes(run.scene))
 
 
@@ -238,6 +240,18 @@ def _links(run: SightseerRun, names: list[str]) -> Table:
         table.add_row(ordinal(order), names[link.target], source, *ends, length, times)
     if len(run.links) > ROWS:
         table.add_row("...", f"{len(run.links) - ROWS} more: see --trace")
+    return table
+
+
+def _decisions(run: Run, names: list[str]) -> Table:
+    """Why the robot went on from each place as it did."""
+    decided = [(event, why) for event in run.events if (why := event.why(names))]
+    table = _table(Word.LENGTH, "", Word.WHY)
+    for event, why in decided[:ROWS]:
+        about = "" if event.obstacle is None else f" {names[event.obstacle]}"
+        table.add_row(f"{float(event.at):.6g}", f"{event.kind}{about}", why)
+    if len(decided) > ROWS:
+        table.add_row("...", "", f"{len(decided) - ROWS} more: see --trace")
     return table
 
 

@@ -1,7 +1,7 @@
 """Run files: runs as JSON, written and read without a rounding.
 
 A run file is one JSON object with ``"format": "exactacq run"`` and ``"version"``, the number of the
-format's version (`VERSION`). Files of versions 2 and 3 are read too (`old_run_files`), others are refused. It
+format's version (`VERSION`). Files of versions 2 to 4 are read too (`old_run_files`), others are refused. It
 has the scene, the path, visits, links, events and bounds, and one table of all algebraic numbers. Of a
 strategy of the user's own it has the name and ``"own": true``. The map is
 not written: the sensing is repeated on first use.
@@ -28,6 +28,7 @@ from exactacq.numbers.number_json import Decoder, Encoder, Number, is_place
 from exactacq.numbers.rationals import rational
 from exactacq.output.old_run_files import OLD_VERSIONS, upgraded
 from exactacq.scene.terrain_components import ground_of
+from exactacq.sensing.decision import Candidate, Decision, Rule
 from exactacq.sensing.event import SENSED, Ending, Event, EventKind, Occasion, Reason
 from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Path, Piece
@@ -36,7 +37,7 @@ from exactacq.strategies.registry import is_name
 from exactacq.strategies.run import Bound, Diversion, OwnRun, Run, SeedSpreaderRun, SightseerRun, TreeLink
 from exactacq.visibility.links import START
 
-FORMAT, VERSION = "exactacq run", 4
+FORMAT, VERSION = "exactacq run", 5
 DIGITS = 20
 """Decimals beside exact values are for readers: they are not read back."""
 FACTS = ("occasion", "other", "reason", "ending")
@@ -267,7 +268,42 @@ def _event(out: Encoder, event: Event, positions: list[str]) -> dict[str, Any]:
         "after": event.after,
         "inside": event.inside,
         "at": event.at.decimal(DIGITS) if event.inside else positions[event.after],
+        **({} if event.decision is None else {"decision": _decision(out, event.decision)}),
     }
+
+
+def _decision(out: Encoder, decision: Decision) -> dict[str, Any]:
+    document: dict[str, Any] = {"rule": decision.rule, "after": decision.after}
+    if decision.because:
+        document["because"] = decision.because
+    return {
+        **document,
+        "chosen": decision.chosen,
+        **_size(out, decision.length),
+        "others": [{"obstacle": k, **_size(out, length)} for k, length in decision.others],
+    }
+
+
+def _size(out: Encoder, length: Length | None) -> dict[str, Any]:
+    """A length that was compared; of one that has no exact form the decimal alone."""
+    if length is None:
+        return {}
+    decimal = {"length_decimal": length.decimal(DIGITS)}
+    try:
+        return {"length": _exact_length(out, length), **decimal}
+    except FormatError:
+        return decimal
+
+
+def _exact_length(out: Encoder, length: Length) -> Number | dict[str, Any]:
+    """A number; for a length with angles what it is made of (see `Length.numbers`)."""
+    algebraic, turn, *rest = map(out.number, length.numbers)
+    if turn == "0" and not rest:
+        return algebraic
+    count = len(rest) // 3
+    ways = zip(rest[count::2], rest[count + 1 :: 2], strict=True)
+    angles = [[factor, *way] for factor, way in zip(rest[:count], ways, strict=True)]
+    return {"algebraic": algebraic, "pi": turn, "angles": angles}
 
 
 # -- reading ---------------------------------------------------------------------------------------
@@ -369,8 +405,43 @@ def _read_events(
         reason = None if "reason" not in document else Reason(document["reason"])
         ending = None if "ending" not in document else Ending(document["ending"])
         occasion = None if "occasion" not in document else Occasion(document["occasion"])
+        decided = None
+        if "decision" in document:
+            decided = _read_decision(numbers, document["decision"], after, count)
         why: dict[str, Any] = {"occasion": occasion, "other": other, "reason": reason, "ending": ending}
+        why["decided"] = decided
         yield Event(kind, place, obstacle, after, path, inside, **why)
+
+
+def _read_decision(numbers: _Points, document: dict[str, Any], latest: int, count: int) -> Decision:
+    after, chosen = int(document["after"]), document["chosen"]
+    if not 0 <= after <= latest:
+        raise FormatError("a decision is not made before the event that it belongs to")
+    because = document.get("because", "")
+    if is_place(because):
+        raise FormatError("the reason of a decision is a text")
+    return Decision(
+        because,
+        None if chosen is None else _node(chosen, count),
+        _read_length(numbers, document.get("length")),
+        tuple(
+            Candidate(_obstacle(other["obstacle"], count), _read_length(numbers, other.get("length")))
+            for other in document["others"]
+        ),
+        Rule(document["rule"]),
+        after,
+    )
+
+
+def _read_length(numbers: _Points, value: Any) -> Length | None:
+    if value is None:
+        return None
+    number = numbers.numbers.number
+    if not isinstance(value, dict):
+        return Length(number(value))
+    angles = (Length.arc(*map(number, angle)) for angle in value["angles"])
+    turn = Length.turns(number(value["pi"]), "1/2")
+    return Length.sum((Length(number(value["algebraic"])), turn, *angles))
 
 
 def _indices(values: Iterable[Any], count: int) -> tuple[int, ...]:

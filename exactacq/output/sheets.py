@@ -168,5 +168,6 @@ def _events(run: Run) -> Iterator[Item]:
             "name": None if event.obstacle is None else names[event.obstacle],
             "at": float(event.at),
             "note": event.describe(names),
+            "why": event.why(names),
         }
         yield Item("events", place=event.point, properties=told)

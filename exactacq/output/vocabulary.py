@@ -1,8 +1,9 @@
 """The words and colours of figures, tables, pages and films: one of each for a thing, whoever shows it.
 
 Words are those of the paper where it has some (docs/glossary.md explains them). What happens on a path has
-its words with the events (`exactacq.sensing.event`). Obstacles have their labels (``Run.names``): their
-names, or "O" and their number from 1 in the order of the scene. "#1", "#2", ... is the order of visits.
+its words with the events (`exactacq.sensing.event`), and why the robot goes on with the decisions
+(`exactacq.sensing.decision`). Obstacles have their labels (``Run.names``): their names, or "O" and their
+number from 1 in the order of the scene. "#1", "#2", ... is the order of visits.
 """
 
 from __future__ import annotations
@@ -43,6 +44,8 @@ class Word(StrEnum):
     ROBOT = "robot"
     RADIUS = "R"
     LENGTH = "length"
+    WHY = "why"
+    """For what reason the robot goes on as it does."""
     PATH = "path"
     AGAIN = "walked again"
     VIEW = "view"

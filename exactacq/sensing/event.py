@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from html import escape
+from typing import Any
 
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
+from exactacq.sensing.decision import Decision
 from exactacq.sensing.path import Path
 
 
@@ -43,6 +45,8 @@ class EventKind(StrEnum):
     """The whole boundary of an obstacle is known."""
     LOSE = "lose"
     """An obstacle that is not acquired goes out of sight."""
+    DECIDE = "decide"
+    """A strategy of the user's own says why it moves on, where no other event begins its move."""
     MOMENT = "moment"
     """Nothing in particular: a place of the path that was asked for (see `exactacq.Run.near`)."""
 
@@ -142,6 +146,15 @@ _ENDED = {
 }
 
 
+_NOW = {
+    Reason.OUT_OF_SIGHT: "it goes out of sight",
+    Reason.OUT_OF_REACH: "what is known of it goes out of reach",
+    Reason.LINE_ENDS: "the line of the M-line ends",
+    Reason.OVERDUE: "it was out of reach already when the robot came to the line",
+}
+"""Why the Seed Spreader diverts now, and not later."""
+
+
 @dataclass(frozen=True, repr=False)
 class Event:
     """Something that happened after the first ``after`` pieces of the path, or ``inside`` the next one.
@@ -150,6 +163,10 @@ class Event:
     which part of the robot's way it happened, ``other`` where the Sightseer comes from or goes to (the number
     of an obstacle, or "S" for the start), ``reason`` why an obstacle is lost or diverted to, and ``ending``
     why the path ends. Events are in the order in which they happened.
+
+    The event that begins a move has the ``decision`` to make it, with the numbers that were compared; `why`
+    says it in words. It is told, and not compared: events are equal if all else is. ``decided`` is what it is
+    made from when it is first asked for, as some of its numbers were not needed on the way.
 
     >>> import exactacq as xa
     >>> run = xa.sightseer(xa.load("squares"))
@@ -169,6 +186,7 @@ class Event:
     other: int | str | None = field(default=None, kw_only=True)
     reason: Reason | None = field(default=None, kw_only=True)
     ending: Ending | None = field(default=None, kw_only=True)
+    decided: Decision | Callable[[], Decision] | None = field(default=None, kw_only=True, compare=False)
 
     def __repr__(self) -> str:
         about = "" if self.obstacle is None else f" of obstacle {self.obstacle}"
@@ -180,7 +198,31 @@ class Event:
         about = "" if self.obstacle is None else f" of obstacle {self.obstacle}"
         x, y = self.point.xy
         note = f", {escape(self.note)}" if self.note else ""
-        return f"<p><b>{self.kind}</b>{about} at ({x:.6g}, {y:.6g}) after {self.at._repr_latex_()}{note}</p>"
+        why = f"<br>{escape(self.why())}" if self.decided is not None else ""
+        after = self.at._repr_latex_()
+        return f"<p><b>{self.kind}</b>{about} at ({x:.6g}, {y:.6g}) after {after}{note}{why}</p>"
+
+    def __getstate__(self) -> dict[str, Any]:
+        """With the decision as it is told: what it is made from knows the scene."""
+        return {**self.__dict__, "decided": self.decision}
+
+    @property
+    def decision(self) -> Decision | None:
+        """Why the robot goes on as it does, if a move begins here, and its strategy told why.
+
+        Of the Sightseer all moves are told. The first time may cost some links: about a millisecond each.
+        `Undecided` if they cannot be put in order.
+
+        >>> import exactacq as xa
+        >>> leave = next(e for e in xa.sightseer(xa.load("figure1")).events if e.kind == "leave")
+        >>> print(leave.decision.rule, leave.decision.chosen, leave.decision.length, leave.decision.others)
+        nearest 1 -2 + sqrt(4010)/10 ()
+        """
+        decided = self.decided
+        if callable(decided):
+            decided = decided()
+            object.__setattr__(self, "decided", decided)
+        return decided
 
     @property
     def at(self) -> Length:
@@ -222,3 +264,19 @@ class Event:
             other = names[self.other] if isinstance(self.other, int) else other
             obstacle = obstacle if self.obstacle is None else names[self.obstacle]
         return text.format(other=other, obstacle=obstacle)
+
+    def why(self, names: Sequence[str] | None = None) -> str:
+        """Why the robot goes on as it does, in a sentence with the lengths that were compared, or "".
+
+        Obstacles by their *names* if given, else by their numbers. Cost and errors are those of `decision`.
+
+        >>> import exactacq as xa
+        >>> run = xa.sightseer(xa.load("figure2"))
+        >>> print(next(event.why(list(run.names())) for event in run.events if event.kind == "leave"))
+        nearest is O5: 4.236 < 7.652 (O9)
+        """
+        decision = self.decision
+        if decision is None:
+            return ""
+        now = f"; {_NOW[self.reason]}" if self.reason in _NOW and self.kind is EventKind.DIVERT else ""
+        return decision.describe(names) + now

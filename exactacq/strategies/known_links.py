@@ -6,11 +6,15 @@ Of equally long ones that to the obstacle with the least number in the scene com
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterable
+from dataclasses import dataclass
 from functools import partial
 from heapq import heappop, heappush
+from itertools import islice
 
 from exactacq.geometry.points import Point
 from exactacq.numbers.float_bounds import margin
+from exactacq.numbers.length import Length
+from exactacq.sensing.decision import FEW, Candidate, Decision, Rule
 from exactacq.visibility.links import START, Link, Links, Node
 
 SLACK = 1e-12
@@ -85,6 +89,17 @@ class KnownLinks:
             self._nearest[node] = self._by_length(node)
         return self._nearest[node].first(visited)
 
+    def nearest_few(self, node: Node, visited: Iterable[int], count: int) -> list[Link]:
+        """The shortest links, as `nearest` would find one after the other; at most *count* of them.
+
+        Fewer obstacles may be visited than before.
+        """
+        links, passed, found = self._by_length(node), set(visited), list[Link]()
+        while len(found) < count and (link := links.first(passed)) is not None:
+            found.append(link)
+            passed.add(link.target)
+        return found
+
     def _by_length(self, node: Node) -> _LinksByLength:
         if node == START:
             links = self._links.from_point(self._start)
@@ -101,3 +116,29 @@ class KnownLinks:
         assert isinstance(node, int)
         between = (self._links.between(node, j) for j in sorted(self._links.neighbours(node)))
         return [link for link in between if link is not None]
+
+
+@dataclass(frozen=True, slots=True)
+class NearestLink:
+    """That a link was the shortest one to what was not visited, when ``count`` obstacles were visited.
+
+    The next ones are looked for when somebody asks: the choice did not need their lengths.
+    """
+
+    links: KnownLinks
+    link: Link
+    visited: Iterable[int]
+    count: int
+    after: int
+
+    def decision(self) -> Decision:
+        """The decision for this link. `Undecided` if the next ones cannot be put in order."""
+        link, visited = self.link, islice(self.visited, self.count)
+        others = self.links.nearest_few(link.source, {link.target, *visited}, FEW)
+        return Decision(
+            chosen=link.target,
+            length=Length(link.length),
+            others=tuple(Candidate(other.target, Length(other.length)) for other in others),
+            rule=Rule.NEAREST,
+            after=self.after,
+        )

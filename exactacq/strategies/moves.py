@@ -10,6 +10,7 @@ from typing import NamedTuple, TypeAlias
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.sensing.event import SENSED, EventKind
+from exactacq.strategies.known_links import NearestLink
 from exactacq.strategies.known_map import KnownMap, Sighting
 from exactacq.strategies.walker import Walker
 from exactacq.visibility.links import Link
@@ -88,6 +89,7 @@ class KnownLink:
     length: Length
     _of: Walker = field(repr=False)
     _link: Link = field(repr=False)
+    _nearest: NearestLink | None = field(default=None, repr=False)
 
 
 @dataclass(frozen=True, eq=False)

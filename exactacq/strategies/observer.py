@@ -27,7 +27,7 @@ from exactacq.sensing.event import EventKind
 from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Path, Piece
 from exactacq.strategies.first_hit import first_hit, obstacle_at
-from exactacq.strategies.known_links import KnownLinks
+from exactacq.strategies.known_links import KnownLinks, NearestLink
 from exactacq.strategies.known_map import KnownMap, KnownPart, Sighting
 from exactacq.strategies.lap import Lap
 from exactacq.strategies.moves import KnownLink
@@ -152,6 +152,11 @@ class Observer:
         """Whether an obstacle was seen around which the robot has not walked."""
         # What was visited was seen: the robot stood on it.
         return len(self._numbers) > len(self._walker.visited)
+
+    @property
+    def unvisited(self) -> tuple[int, ...]:
+        """The obstacles of which something is known and around which the robot has not walked. Linear."""
+        return tuple(i for i, k in enumerate(self._numbers) if k not in self._walker.visited)
 
     @property
     def in_sight(self) -> frozenset[int]:
@@ -314,15 +319,21 @@ class Observer:
     def nearest_unvisited(self, source: int | None) -> KnownLink | None:
         """The shortest of the links from a boundary, or the start, to an obstacle that was not visited.
 
-        Of equally long ones the first one of `links`. None if there is none; `MoveError` as `links`. Cost:
-        that of the links that may be the shortest.
+        Of equally long ones the first one of `links`. None if there is none; `MoveError` as `links`. If it is
+        taken before any other move, that it was the nearest is told as the decision. Cost: that of the links
+        that may be the shortest.
 
         >>> import exactacq as xa
         >>> xa.Robot(xa.load("circles")).nearest_unvisited(None).target
         0
         """
-        link = self._known_links().nearest(self._node(source), self._walker.visited)
-        return None if link is None else self._known_link(link)
+        links, walker = self._known_links(), self._walker
+        link = links.nearest(self._node(source), walker.visited)
+        if link is None:
+            return None
+        return self._known_link(
+            link, NearestLink(links, link, walker.visited, len(walker.visited), walker.count)
+        )
 
     def way_to(self, point: Point | Sequence[object]) -> tuple[Length, str]:
         """Length and hand of the shorter walk along the present boundary, which is acquired, to a point.
@@ -462,9 +473,9 @@ class Observer:
             return self._numbers[source]
         raise MoveError(f"the links from obstacle {source!r} are known once it was walked around")
 
-    def _known_link(self, link: Link) -> KnownLink:
+    def _known_link(self, link: Link, nearest: NearestLink | None = None) -> KnownLink:
         source, target = self._own_number(link.source), self._own[link.target]
-        return KnownLink(source, target, Length(link.length), self._walker, link)
+        return KnownLink(source, target, Length(link.length), self._walker, link, nearest)
 
     def _check(self, owner: Walker, number: int | None, what: str) -> None:
         if owner is not self._walker:

@@ -8,14 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
 from functools import cmp_to_key, wraps
-from typing import Concatenate, ParamSpec, TypeVar
+from typing import Concatenate, ParamSpec, TypeAlias, TypeVar
 
 from exactacq.errors import MoveError, Undecided, shown
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
+from exactacq.sensing.decision import Decision
 from exactacq.sensing.event import EventKind, Occasion
 from exactacq.sensing.path import Piece
+from exactacq.strategies.known_links import NearestLink
 from exactacq.strategies.known_map import Sighting
 from exactacq.strategies.lap import Lap
 from exactacq.strategies.lookout import Lookout
@@ -24,6 +26,7 @@ from exactacq.strategies.observer import Observer, not_there
 from exactacq.strategies.routes import Exit, Route
 from exactacq.visibility.links import START, Link, Node, lexicographic
 
+Decided: TypeAlias = "Decision | Callable[[], Decision]"
 Told = TypeVar("Told")
 Given = ParamSpec("Given")
 
@@ -55,7 +58,8 @@ class Robot(Observer):
     `walk_to`, `circle`, `follow`, `take_up`, `take` and `go_back`; all else are questions, which cost no way.
     It never tells anything of the scene but what it has seen, of a boundary all around which it has walked
     the links that begin there, and at a known point of a boundary whether a route crosses it. A terrain's
-    border is no wall, and is not seen.
+    border is no wall, and is not seen. Moves take a *reason*, a text or a `Decision` with the robot's numbers
+    of obstacles, which the run tells with the event that begins the move; a move that makes no way has none.
 
     One that is *confined* keeps within the scene's `terrain` and knows its border; it starts in the SW
     corner. Obstacles are what the border leaves of them as far as the robot can come to them from there.
@@ -81,7 +85,11 @@ class Robot(Observer):
 
     @_move
     def go_to(
-        self, point: Point | Sequence[object], *, until: EventKind | Collection[EventKind] = ()
+        self,
+        point: Point | Sequence[object],
+        *,
+        until: EventKind | Collection[EventKind] = (),
+        reason: str | Decision = "",
     ) -> Halt:
         """Go straight to a point, or to the first place where that would lead into an obstacle.
 
@@ -103,8 +111,9 @@ class Robot(Observer):
         kind, sighting = (HaltKind.ARRIVED if hit is None else HaltKind.HIT), None
         if hit is not None and end == here and walker.at == hit[0]:
             return Halt(kind, here, self.at)
+        decided = self._decided(reason)
         if end != here:
-            self._set_off()
+            self._set_off(decided)
         if not kinds:
             walker.go_straight(START, end)
         elif end != here:
@@ -126,6 +135,7 @@ class Robot(Observer):
         *,
         to: Point | Sequence[object] | None = None,
         until: EventKind | Collection[EventKind] = (),
+        reason: str | Decision = "",
     ) -> Halt:
         """Walk along the present boundary with a hand at it: all around, or to a point, or until an event.
 
@@ -153,6 +163,7 @@ class Robot(Observer):
             )
         if target is not None and target == here:
             return Halt(HaltKind.ARRIVED, target, self.at)
+        self._explain(self._decided(reason))
         lap = self._lap
         if lap is None or lap.forward is not (hand == "left"):
             lap = self._lap = Lap(walker.boundary(), here, hand == "left")
@@ -171,7 +182,7 @@ class Robot(Observer):
         return Halt(HaltKind.ROUND, walker.position, self.at)
 
     @_move
-    def walk_to(self, point: Point | Sequence[object]) -> None:
+    def walk_to(self, point: Point | Sequence[object], *, reason: str | Decision = "") -> None:
         """Walk to a point of the present boundary, which is acquired, the shorter way: see `way_to`.
 
         >>> import exactacq as xa
@@ -182,12 +193,12 @@ class Robot(Observer):
         """
         self._lap = None
         try:
-            self._walker_on_known_boundary().walk_to(Point.of(point))
+            self._walk_to(Point.of(point), reason)
         except ValueError as error:
             raise not_there(error) from None
 
     @_move
-    def circle(self) -> None:
+    def circle(self, *, reason: str | Decision = "") -> None:
         """Walk all around the present boundary, with the left hand at it. `MoveError` at no boundary.
 
         One that a border cuts is walked to the end on the left hand's way, then to the other one, where the
@@ -200,11 +211,12 @@ class Robot(Observer):
         ((0,), (0,))
         """
         self._at_boundary()
+        self._explain(self._decided(reason))
         self._lap = None
         self._walker.circumnavigate(self._on_edge)
 
     @_move
-    def follow(self, route: Route, *, watch: Watch | None = None) -> Halt:
+    def follow(self, route: Route, *, watch: Watch | None = None, reason: str | Decision = "") -> Halt:
         """Follow a route to the end of its piece, or to the first place where it leads into an obstacle.
 
         The robot must be where it left the route. What *watch* is, a function, is asked where the robot sets
@@ -223,8 +235,8 @@ class Robot(Observer):
         walker, here = self._walker, self.position
         crossing, over = route._coming(), route.piece >= len(route.pieces)
         target = here if over else route.pieces[route.piece].end if crossing is None else crossing.stop.point
-        kind = HaltKind.ARRIVED if crossing is None else HaltKind.HIT
-        if target != here and not self._go_along(Segment(here, target), watch):
+        kind, decided = HaltKind.ARRIVED if crossing is None else HaltKind.HIT, self._decided(reason)
+        if target != here and not self._go_along(Segment(here, target), watch, decided):
             kind = HaltKind.STOPPED
         route._place, self._lap = walker.position, None
         if kind is HaltKind.HIT and crossing is not None:
@@ -237,7 +249,7 @@ class Robot(Observer):
         return self._landed(kind, node, moved=walker.position is not here)
 
     @_move
-    def take_up(self, route: Route, place: Exit) -> None:
+    def take_up(self, route: Route, place: Exit, *, reason: str | Decision = "") -> None:
         """Walk along the present boundary to a place where a route comes out of it, and go on from there.
 
         It is the shorter way: see `way_to`. `MoveError` if the place is not one of this obstacle, or behind
@@ -258,11 +270,11 @@ class Robot(Observer):
         if crossing.component.index != self._walker.at or crossing.number < route._next:
             raise MoveError("the place is not ahead at the obstacle where the robot is")
         self._lap = None
-        self._walker_on_known_boundary().walk_to(place.point)
+        self._walk_to(place.point, reason)
         route._take_up(crossing)
 
     @_move
-    def take(self, link: KnownLink) -> Way:
+    def take(self, link: KnownLink, *, reason: str | Decision = "") -> Way:
         """Walk along the present boundary to where a link begins, and go along it.
 
         Of its equally short segments it is the one with the least walk before, of those the one to which the
@@ -282,9 +294,13 @@ class Robot(Observer):
         if link.source is None and self.position != self.start:
             raise MoveError("the link begins at the start, and the robot is somewhere else")
         leave, hit = self._nearest_segment(known)
-        if known.source != START:
+        decided = self._decided(reason, link._nearest)
+        if known.source == START:
+            self._explain(decided)
+        else:
             walker.walk_to(leave)
-            walker.mark(EventKind.LEAVE, int(known.source), occasion=Occasion.ADVANCE, other=known.target)
+            why = {"occasion": Occasion.ADVANCE, "other": known.target, "decided": decided}
+            walker.mark(EventKind.LEAVE, int(known.source), **why)
         walker.go_straight(known.target, hit)
         walker.mark(EventKind.HIT, known.target, occasion=Occasion.ADVANCE, other=known.source)
         self._lap = None
@@ -292,7 +308,7 @@ class Robot(Observer):
         return Way(link.source, link.target, leave, hit, link.length, walker)
 
     @_move
-    def go_back(self, way: Way) -> None:
+    def go_back(self, way: Way, *, reason: str | Decision = "") -> None:
         """Walk along the present boundary to where a way has ended, and go back to where it began.
 
         `MoveError` if the robot is not at the obstacle to which the way led, or if it would have to walk
@@ -306,11 +322,12 @@ class Robot(Observer):
         """
         walker = self._walker
         self._check(way._of, way.target, "way ends")
+        decided = self._decided(reason)
         if walker.position != way.hit:
             self._walker_on_known_boundary().walk_to(way.hit)
         source, target = self._scene_node(way.source), self._numbers[way.target]
         back = Occasion.BACKTRACK
-        walker.mark(EventKind.LEAVE, target, occasion=back, other=source)
+        walker.mark(EventKind.LEAVE, target, occasion=back, other=source, decided=decided)
         walker.go_straight(source, way.leave)
         at = source if isinstance(source, int) else None
         walker.mark(EventKind.BACKTRACK, at, occasion=back, other=target)
@@ -327,10 +344,32 @@ class Robot(Observer):
         if self._moves > self._most:
             raise EnoughMoves
 
-    def _set_off(self) -> None:
-        """Write that the robot leaves the boundary where it is, if it is at one."""
+    def _decided(self, reason: str | Decision, nearest: NearestLink | None = None) -> Decided | None:
+        """What a strategy decides here, if it says so, or takes the nearest link that it was told of here."""
+        if reason:
+            decision = reason if isinstance(reason, Decision) else Decision(reason)
+            return decision.numbered(self._numbers, self._walker.count)
+        return None if nearest is None or nearest.after != self._walker.count else nearest.decision
+
+    def _explain(self, decided: Decided | None) -> None:
+        """Tell what was decided, with the event that brought the robot here or with one of its own."""
+        walker = self._walker
+        if decided is not None and not walker.explain(decided, walker.count) and self._writes:
+            walker.mark(EventKind.DECIDE, walker.at if isinstance(walker.at, int) else None, decided=decided)
+
+    def _walk_to(self, point: Point, reason: str | Decision) -> None:
+        """Walk to a point of the present boundary; ValueError, before all else, if it is not on it."""
+        walker, decided = self._walker_on_known_boundary(), self._decided(reason)
+        if decided is not None and walker.way_to(point)[0].sign() > 0:
+            self._explain(decided)
+        walker.walk_to(point)
+
+    def _set_off(self, decided: Decided | None) -> None:
+        """Tell what was decided; if the robot is at a boundary, with writing that it leaves this."""
         if self._writes and self._walker.at != START:
-            self._walker.mark(EventKind.LEAVE, int(self._walker.at))
+            self._walker.mark(EventKind.LEAVE, int(self._walker.at), decided=decided)
+        else:
+            self._explain(decided)
 
     def _landed(
         self, kind: HaltKind, node: Node, sighting: Sighting | None = None, moved: bool = True
@@ -343,7 +382,7 @@ class Robot(Observer):
         self._take_in()
         return Halt(kind, walker.position, self.at, sighting)
 
-    def _go_along(self, way: Segment, watch: Watch | None) -> bool:
+    def _go_along(self, way: Segment, watch: Watch | None, decided: Decided | None) -> bool:
         """Go a free way with distinct ends; False if *watch* stops the robot before."""
         walker, numbers = self._walker, self._numbering
         count, self._is_underway = len(numbers.order), watch is not None
@@ -358,7 +397,7 @@ class Robot(Observer):
                     piece = Piece("straight", None, Segment(walker.position, stop))
                 if stop is None or stop != walker.position:
                     if walker.position is way.start:
-                        self._set_off()
+                        self._set_off(decided)
                     walker.move(piece)
                     walker.position = piece.end
                 if stop is not None:

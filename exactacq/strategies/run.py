@@ -272,8 +272,9 @@ class Run:
         """The events in rows: what happened, to which obstacle, after which length, where, and why.
 
         ``number`` is that of the event in `events`, ``at`` the length of the path so far, ``x`` and ``y`` the
-        place, all floats in the scene's unit; ``obstacle`` its number, ``name`` its label. Linear in the
-        path.
+        place, all floats in the scene's unit; ``obstacle`` its number, ``name`` its label; ``why`` tells the
+        decision to make the move that begins there (see `Event.why`). Linear in the path; and a few links for
+        each decision, the first time.
 
         >>> import exactacq as xa
         >>> row = xa.sightseer(xa.load("circles")).event_table[2]

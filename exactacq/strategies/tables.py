@@ -94,6 +94,7 @@ EVENTS = (
     "reason",
     "ending",
     "note",
+    "why",
 )
 
 
@@ -118,4 +119,5 @@ def _event_rows(events: Iterable[Event], names: Sequence[str]) -> Iterator[Row]:
             "reason": None if event.reason is None else event.reason.value,
             "ending": None if event.ending is None else event.ending.value,
             "note": event.describe(names),
+            "why": event.why(names),
         }

@@ -14,6 +14,7 @@ from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.scene.boundary_walk import Boundary
+from exactacq.sensing.decision import Decision
 from exactacq.sensing.event import Ending, Event, EventKind
 from exactacq.sensing.memory import Memory, Report
 from exactacq.sensing.path import Path, Piece
@@ -27,7 +28,9 @@ class Walker:
         self.memory = memory
         self._boundaries: dict[int, Boundary] = {}
         self.pieces: list[Piece] = []
-        self._marks: list[Callable[..., Event]] = []
+        self._marks: list[partial[Event]] = []
+        # The number of the last mark, and the pieces before it.
+        self._last_mark = 0, 0
         self.start = self.position = start
         self.at: Node = START
         # In the order of the visits: a dict is a set that keeps it.
@@ -101,8 +104,22 @@ class Walker:
     # -- the trace ---------------------------------------------------------------------------------
 
     def mark(self, kind: EventKind, obstacle: int | None, **why: Any) -> None:
-        """Write an event here and now; *why* are its occasion, other, reason and ending (see `Event`)."""
+        """Write an event here and now; *why* are its occasion, other, reason, ending and what is decided (see
+        `Event`)."""
+        self._last_mark = len(self._marks), len(self.pieces)
         self._marks.append(partial(Event, kind, self.position, obstacle, len(self.pieces), **why))
+
+    def explain(self, decided: Decision | Callable[[], Decision], after: int) -> bool:
+        """Tell the decision on what follows the event that was marked last, if that was after *after* pieces.
+
+        One that has a decision keeps it.
+        """
+        number, place = self._last_mark
+        mark = self._marks[number]
+        if place != after or mark.keywords.get("decided") is not None:
+            return False
+        self._marks[number] = partial(mark, decided=decided)
+        return True
 
     def _write(self, reports: list[Report]) -> None:
         for r in reports:

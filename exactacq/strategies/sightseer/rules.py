@@ -3,6 +3,8 @@ circle it, backtrack by a depth-first stack. They know the robot, and nothing el
 
 from __future__ import annotations
 
+from exactacq.numbers.length import Length
+from exactacq.sensing.decision import Candidate, Decision, Rule
 from exactacq.strategies.moves import KnownLink, Way
 from exactacq.strategies.robot import Robot
 
@@ -42,5 +44,14 @@ class Tour:
 
     def _backtrack(self) -> None:
         way = self.stack.pop()
-        self.robot.go_back(way)
+        self.robot.go_back(way, reason=self._why_back(way))
         self.walked_back.add(way.target)
+
+    def _why_back(self, way: Way) -> Decision:
+        robot = self.robot
+        return Decision(
+            rule=Rule.BACK,
+            chosen="S" if way.source is None else way.source,
+            length=Length(robot.radius),
+            others=tuple(map(Candidate, robot.unvisited)),
+        )
