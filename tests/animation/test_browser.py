@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 import json
+import math
 from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
@@ -142,6 +143,24 @@ def test_back_from_the_way_leads_to_the_event_before(
     assert texts(browser, "#status") == [f"On the way after event {leave} of {len(circles.events)}"]
     browser.press("ArrowLeft")
     assert texts(browser, "#status") == [f"{leave}. leave O1, to O2"]
+
+
+def test_what_the_robot_is_about_to_do_is_told(
+    browser: Chromium, pages: dict[str, Path], circles: Run
+) -> None:
+    """From where it decides that, which is before it leaves, to where it decides something else."""
+    first, second, end = "only O1 is in reach: 3", "only O2 is in reach: 2", "every obstacle is visited"
+    scale, rounded = encoded(circles)["scale"], 3 + 4 * math.pi
+    browser.open(pages["circles"])
+    assert texts(browser, "#plan .kind") == ["why"]
+    for length, why in (
+        (0, first), (rounded - 0.01, first), (rounded + 0.01, second), (30, second), (0, first)
+    ):  # fmt: skip
+        slide(browser, length * scale)
+        assert texts(browser, "#why") == [why]
+    browser.press("End")
+    assert texts(browser, "#why") == [end]
+    assert texts(browser, "#list .because") == [first, second]
 
 
 def halfway(curve: Curve) -> tuple[float, float]:

@@ -283,7 +283,7 @@ def test_events_have_exact_lengths_names_and_frames(circles: Run) -> None:
     ]  # fmt: skip
     paper = Paper.of(circles.scene, circles.start, 20.0)
     exact = {}
-    for event, (_, kind, obstacle, _, number) in zip(circles.events, data["events"], strict=True):
+    for event, (_, kind, obstacle, _, number, _) in zip(circles.events, data["events"], strict=True):
         shown = data["frames"][number]
         assert shown["place"] == paper.point(event.point.xy)
         exact[kind, obstacle] = shown["exact"]
@@ -484,3 +484,21 @@ def test_closed_outlines_of_views_are_drawn_whole(room: Run) -> None:
         assert not entry["view"] or (entry["view"].count("M") == 1 and entry["view"].endswith("Z"))
     curves: list[Curve] = list(shown[0].view)
     assert all(a.end == b.start for a, b in pairwise([*curves, curves[0]]))
+
+
+def test_plans_are_told_from_where_they_are_made(eleven: Run) -> None:
+    """In the frame where the robot decides, and in no frame before; at the end, why it ends."""
+    frames, data = list(frames_of(eleven)), encoded(eleven)
+    names = list(eleven.names())
+    decided = [event for event in eleven.events if event.decision is not None]
+    assert [why for _, why in data["plans"]] == [
+        *(event.why(names) for event in decided),
+        "every obstacle is visited",
+    ]
+    for (number, _), event in zip(data["plans"], decided, strict=False):
+        made = event.decision.after
+        place = eleven.path[made].start if made < len(eleven.path) else eleven.path[-1].end
+        assert frames[number].place == place
+        assert number == 0 or frames[number - 1].after < made
+    assert data["plans"][-1][0] == len(frames) - 1
+    assert [event[5] for event in data["events"]] == [event.why(names) for event in eleven.events]

@@ -56,6 +56,8 @@ class Frame:
     frontier: Sequence[Point]
     view: Sequence[Curve]
     acquired: Sequence[int] = ()
+    after: int = 0
+    """Whole pieces of the path behind the robot."""
     is_passing: bool = False
     """Whether nothing happens there: a place between two stops."""
 
@@ -150,7 +152,8 @@ def _frame(run: Run, stop: Stop, walked: Length, event: Event | None) -> Frame:
             raise
         outline = []
     at = walked if event is None else walked + event.beyond
-    return Frame(at, stop.place, stop.events, known, frontier, outline, learnt.acquired, is_passing)
+    acquired, after = learnt.acquired, stop.after
+    return Frame(at, stop.place, stop.events, known, frontier, outline, acquired, after, is_passing)
 
 
 def with_ways(run: Run, kept: Sequence[Stop], fine: int) -> list[Stop]:

@@ -140,6 +140,7 @@ def told(run: Run, frames: Iterable[Frame], labels: Labels, paper: Paper | None 
     paper = paper or Paper.of(run.scene, run.start, float(run.radius), sweep is not None)
     numbers = {id(event): number for number, event in enumerate(run.events, 1)}
     known, shown, events = Changes(paper), [], []
+    plans = Plans(run, names)
     coarse = replace(paper, decimals=COARSE)
     acquired: dict[int, int] = {}
     for number, frame in enumerate(frames):
@@ -148,7 +149,8 @@ def told(run: Run, frames: Iterable[Frame], labels: Labels, paper: Paper | None 
             acquired.setdefault(index, number)
         for event in frame.events:
             what = event.kind, event.obstacle, event.describe(names)
-            events.append([numbers[id(event)], *what, number])
+            events.append([numbers[id(event)], *what, number, event.why(names)])
+        plans.advance(frame.after)
         shown.append(
             {
                 "at": paper.length(float(frame.at)),
@@ -187,7 +189,28 @@ def told(run: Run, frames: Iterable[Frame], labels: Labels, paper: Paper | None 
         "frames": shown,
         "known": known.entries(),
         "events": events,
+        "plans": plans.told,
     }
+
+
+class Plans:
+    """What the robot is about to do in each frame, and why: from where it decides that, to the next decision.
+
+    ``told`` has the number of the first frame and the sentence of each; at the end, why the path ends.
+    """
+
+    def __init__(self, run: Run, names: Sequence[str]) -> None:
+        self.told: list[tuple[int, str]] = []
+        stop = run.events[-1]
+        self._ahead = [(e.decision.after, e.why(names)) for e in reversed(run.events) if e.decision]
+        self._ahead.insert(0, (stop.after, stop.describe(names)))
+        self._frame = 0
+
+    def advance(self, after: int) -> None:
+        """The next frame, after so many whole pieces of the path."""
+        while self._ahead and self._ahead[-1][0] <= after:
+            self.told.append((self._frame, self._ahead.pop()[1]))
+        self._frame += 1
 
 
 def _visits(paper: Paper, run: Run) -> list[list[float]]:

@@ -5,7 +5,7 @@ import { $, add, counted, last, set } from "./player/dom.js";
 import { legend } from "./player/legend.js";
 import { numbers, seconds } from "./player/player.js";
 import { staging } from "./player/stage.js";
-import { line } from "./player/words.js";
+import { line, planned } from "./player/words.js";
 
 const { title, runs } = JSON.parse($("data").textContent);
 const number = numbers(runs[0]);
@@ -27,6 +27,7 @@ function panel(data) {
     const exact = frames[now].exact !== null && (ended || length === frames[now].at);
     find("length").textContent = exact ? frames[now].exact : `≈ ${number(length)}`;
     const event = events[last(events, (entry) => entry[4], now)];
+    find("why").textContent = planned(data.plans, now);
     find("happened").textContent = line(event, obstacles);
     root.host.dataset.ended = ended;
     root.host.dataset.frame = now;

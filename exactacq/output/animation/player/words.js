@@ -13,9 +13,15 @@ export function line(event, obstacles) {
   return `${event[0]}. ${kind}${name && ` ${name}`}${note && `, ${note}`}`;
 }
 
+/** Why the robot does what it is about to do in a frame. */
+export function planned(plans, now) {
+  const plan = plans[last(plans, ([frame]) => frame, now)];
+  return plan && plan[0] <= now ? plan[1] : "";
+}
+
 /** The list of a run's events, whose buttons call `chosen`; and what tells where the robot is. */
 export function wording(data, number, chosen) {
-  const { frames, events, obstacles } = data;
+  const { frames, events, obstacles, plans } = data;
 
   /** The frames at which something happens, and the events of each. */
   const happenings = new Map();
@@ -34,6 +40,7 @@ export function wording(data, number, chosen) {
     what.append(note && ", ");
     add(what, "span", { class: "name" }, note);
     add(button, "span", { class: "at" }, `at ${frames[event[4]].exact}`);
+    if (event[5]) add(button, "span", { class: "because name" }, event[5]);
     button.addEventListener("click", () => chosen(event[4]));
     return button;
   });
@@ -49,6 +56,7 @@ export function wording(data, number, chosen) {
     set($("slider"), { "aria-valuetext": `${length} of ${data.length}` });
     $("previous").disabled = now === 0 && at === 0;
     $("next").disabled = !(eventful.at(-1) > now);
+    $("why").textContent = planned(plans, now);
     const more = here.length > TOLD ? `; and ${here.length - TOLD} more` : "";
     const status = exact
       ? here.slice(0, TOLD).map((k) => line(events[k], obstacles)).join("; ") + more
