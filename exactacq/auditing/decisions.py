@@ -123,8 +123,10 @@ class _Told:
         return next((event.obstacle for event in self.later if event.kind is kind), None)
 
     def _same(self, told: list[int], true: Collection[int], what: str) -> None:
-        if set(told) != set(true):
-            self._refuse(f"names obstacles {sorted(told)} as {what}, but {sorted(true)} were")
+        """Some of the obstacles of which it is true are told, and the number of the others."""
+        more = self.decision.more
+        if not set(told) <= set(true) or len(told) + more != len(true):
+            self._refuse(f"names obstacles {told} and {more} more as {what}, but {sorted(true)} were")
 
     def _refuse(self, flaw: str) -> NoReturn:
         raise AuditError(f"the decision at {event_name(self.run, self.event)} {flaw}")

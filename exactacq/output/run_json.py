@@ -281,6 +281,7 @@ def _decision(out: Encoder, decision: Decision) -> dict[str, Any]:
         "chosen": decision.chosen,
         **_size(out, decision.length),
         "others": [{"obstacle": k, **_size(out, length)} for k, length in decision.others],
+        **({"more": decision.more} if decision.more else {}),
     }
 
 
@@ -430,6 +431,7 @@ def _read_decision(numbers: _Points, document: dict[str, Any], latest: int, coun
         ),
         Rule(document["rule"]),
         after,
+        int(document.get("more", 0)),
     )
 
 

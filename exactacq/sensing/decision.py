@@ -16,7 +16,9 @@ DIGITS, MOST_DIGITS = 4, 64
 SHORT = 8
 """Rationals of at most so many characters are told as they are."""
 FEW = 3
-"""Obstacles that a sentence names; the number of the others is told."""
+"""Obstacles that are told, or named in a sentence, where only their number matters."""
+NEXT = 2
+"""Obstacles that are told after the nearest: each costs a link that the choice did not need."""
 
 
 class Rule(StrEnum):
@@ -51,13 +53,16 @@ class Decision:
     it: the length of its link, or how far it is away. ``others`` are told with theirs. How many depends on
     the rule:
 
-    - nearest: the three nearest others, the first one first; with none of them there are no others at all;
-    - back: all known obstacles that are not visited, to which no link leads; ``length`` is the radius R,
-      which no link exceeds;
+    - nearest: the two nearest others, the first one first; with none of them there are no others at all;
+    - back: known obstacles that are not visited, to which no link leads, three at most; ``length`` is the
+      radius R, which no link exceeds;
     - about to be lost: all others of which this is true, in the order of their numbers, and how far they are
       away;
-    - go on: all incomplete obstacles, none of which is about to be lost;
+    - go on: incomplete obstacles, three at most, none of which is about to be lost;
     - own: what the strategy says.
+
+    ``more`` is the number of obstacles of which the same is true and that are not told; of those that are
+    farther than the told ones it is not counted.
 
     ``because`` is the reason in a strategy's own words. ``after`` tells when it was made: after so many
     pieces of the path. The robot sets it. Lengths may be given as numbers, the others as pairs or as numbers
@@ -78,12 +83,15 @@ class Decision:
     others: tuple[Candidate, ...] = ()
     rule: Rule = Rule.OWN
     after: int = 0
+    more: int = 0
 
     def __post_init__(self) -> None:
         if not isinstance(self.because, str):
             raise FormatError(f"a reason is a text, not {shown(self.because)}")
         if self.chosen not in (None, "S"):
             _number_of(self.chosen)
+        if _number_of(self.more) < 0:
+            raise FormatError(f"a reason leaves out no fewer than 0 obstacles, not {self.more}")
         object.__setattr__(self, "length", _length(self.length))
         object.__setattr__(self, "others", tuple(_candidates(self.others)))
         object.__setattr__(self, "rule", Rule(self.rule))
@@ -104,8 +112,8 @@ class Decision:
 
         ``numbers[k]`` is the other number of k; `FormatError` if there is none.
 
-        >>> Decision("by chance", chosen=1).numbered([7, 4], after=2)
-        Decision(because='by chance', chosen=4, length=None, others=(), rule=<Rule.OWN: 'own'>, after=2)
+        >>> Decision("by chance", chosen=1).numbered([7, 4], after=2)  # doctest: +ELLIPSIS
+        Decision(because='by chance', chosen=4, ..., rule=<Rule.OWN: 'own'>, after=2, more=0)
         """
         for k in (self.chosen, *(c.obstacle for c in self.others)):
             if isinstance(k, int) and not 0 <= k < len(numbers):
@@ -126,14 +134,14 @@ class Decision:
         obstacle 2 and obstacle 3 are equally near: 5; obstacle 2 has the smaller number
         """
         label = _Naming(names)
-        lengths = {c.obstacle: c.length for c in self.others}
+        others = [c.obstacle for c in self.others]
         if self.rule is Rule.OWN:
             return self._own(label)
         if self.rule is Rule.GO_ON:
-            left = f"; incomplete: {label.listed(lengths, 'and')}" if lengths else ""
+            left = f"; incomplete: {label.listed(others, 'and', self.more)}" if others else ""
             return f"on along the M-line: nothing is about to be lost{left}"
         if self.rule is Rule.BACK:
-            where, reach = label.listed(lengths, "or"), _text(self.length, DIGITS)
+            where, reach = label.listed(others, "or", self.more), _text(self.length, DIGITS)
             return f"back to {label(self.chosen)}: no link of at most {reach} leads from here to {where}"
         if self.rule is Rule.NEAREST:
             one = "only {} is in reach: {}"
@@ -146,7 +154,7 @@ class Decision:
         if not self.others:
             return one.format(chosen, size)
         if ties := self.ties:
-            every = label.listed((self.chosen, *ties), "and", len(ties) + 1)
+            every = label.listed((self.chosen, *ties), "and")
             least = "smallest" if len(ties) > 1 else "smaller"
             return f"{every} are equally near: {size}; {chosen} has the {least} number"
         rest = [f"{_text(c.length, digits)} ({label(c.obstacle)})" for c in self.others[:FEW]]
@@ -179,11 +187,9 @@ class _Naming:
             return f"obstacle {node}" if self._names is None else self._names[node]
         return "it" if node is None else node
 
-    def listed(self, nodes: Iterable[int | str | None], last: str, most: int = FEW) -> str:
-        """The first nodes, and how many there are besides."""
-        every = [self(node) for node in nodes]
-        if len(every) > most:
-            return f"{', '.join(every[:most])} {last} {len(every) - most} more"
+    def listed(self, nodes: Iterable[int | str | None], last: str, more: int = 0) -> str:
+        """Nodes, and how many there are besides."""
+        every = [self(node) for node in nodes] + [f"{more} more"] * bool(more)
         return f" {last} ".join([", ".join(every[:-1]), every[-1]] if every[1:] else every)
 
 

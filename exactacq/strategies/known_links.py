@@ -14,7 +14,7 @@ from itertools import islice
 from exactacq.geometry.points import Point
 from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.length import Length
-from exactacq.sensing.decision import FEW, Candidate, Decision, Rule
+from exactacq.sensing.decision import NEXT, Candidate, Decision, Rule
 from exactacq.visibility.links import START, Link, Links, Node
 
 SLACK = 1e-12
@@ -134,7 +134,7 @@ class NearestLink:
     def decision(self) -> Decision:
         """The decision for this link. `Undecided` if the next ones cannot be put in order."""
         link, visited = self.link, islice(self.visited, self.count)
-        others = self.links.nearest_few(link.source, {link.target, *visited}, FEW)
+        others = self.links.nearest_few(link.source, {link.target, *visited}, NEXT)
         return Decision(
             chosen=link.target,
             length=Length(link.length),

@@ -4,7 +4,7 @@ circle it, backtrack by a depth-first stack. They know the robot, and nothing el
 from __future__ import annotations
 
 from exactacq.numbers.length import Length
-from exactacq.sensing.decision import Candidate, Decision, Rule
+from exactacq.sensing.decision import FEW, Candidate, Decision, Rule
 from exactacq.strategies.moves import KnownLink, Way
 from exactacq.strategies.robot import Robot
 
@@ -48,10 +48,11 @@ class Tour:
         self.walked_back.add(way.target)
 
     def _why_back(self, way: Way) -> Decision:
-        robot = self.robot
+        left = self.robot.unvisited
         return Decision(
             rule=Rule.BACK,
             chosen="S" if way.source is None else way.source,
-            length=Length(robot.radius),
-            others=tuple(map(Candidate, robot.unvisited)),
+            length=Length(self.robot.radius),
+            others=tuple(map(Candidate, left[:FEW])),
+            more=len(left[FEW:]),
         )
