@@ -6,6 +6,7 @@ import json
 import pickle
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -17,10 +18,12 @@ from test_laws_of_runs import run_of
 import exactacq as xa
 from exactacq.auditing.decisions import check_decisions
 from exactacq.errors import AuditError, FormatError
+from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.output.report import console, run_report
 from exactacq.sensing.decision import Candidate, Decision, Rule
-from exactacq.sensing.event import Event
+from exactacq.sensing.event import Event, Reason
+from exactacq.strategies.seed_spreader.reasons import nearest_loss
 from exactacq.study.claims.farthest import farthest_first
 from exactacq.study.random_scenes import Subject, random_scene
 from exactacq.visibility.links import START
@@ -115,6 +118,101 @@ class TestSightseer:
         assert isinstance(late[0].decision, Decision) and late[0].decided is late[0].decision
 
 
+@cache
+def sweeps() -> tuple[xa.Run, ...]:
+    """Sweeps with diversions for one obstacle, and for the nearest of several."""
+    scenes = [random_scene(Subject.SEED_SPREADER, seed) for seed in (41, 50)]
+    return *map(xa.seed_spreader, scenes), *map(gallery_run, ("figure4", "case2", "case3", "m18"))
+
+
+class TestSeedSpreader:
+    def test_diversions_are_told_and_lead_to_the_nearest(self) -> None:
+        several = 0
+        for run in sweeps():
+            diversions = [event for event in run.events if event.kind == "divert"]
+            assert len(diversions) == len(run.diversions) > 0
+            for event in diversions:
+                decision, chart = event.decision, run.map_at(event)
+                assert (decision.rule, decision.chosen) == (Rule.ABOUT_TO_BE_LOST, event.obstacle)
+                told = [Candidate(decision.chosen, decision.length), *decision.others]
+                assert {k for k, _ in told} <= set(chart.incomplete)
+                assert all(
+                    decision.length < other.length
+                    or (decision.length == other.length and decision.chosen < other.obstacle)
+                    for other in decision.others
+                )
+                several += len(decision.others)
+                for k, length in told:
+                    ends = [p for part in chart.known(k) for p in (part.start, part.end)]
+                    assert min(xa.Segment(event.point, p).length for p in ends if p != event.point) >= length
+        assert several >= 3
+
+    def test_reasons_to_divert_now(self) -> None:
+        words = {
+            event.reason: event.why() for run in sweeps() for event in run.events if event.kind == "divert"
+        }
+        assert words[Reason.LINE_ENDS].endswith("; the line of the M-line ends")
+        assert words[Reason.OUT_OF_SIGHT].endswith("; it goes out of sight")
+        assert words[Reason.OUT_OF_REACH].endswith("; what is known of it goes out of reach")
+
+    def test_going_on_is_told_where_it_goes_on(self) -> None:
+        """The next piece is straight, unless nothing follows; and all that is incomplete is counted."""
+        for run in sweeps():
+            on = [event for event in decided(run) if event.decision.rule is Rule.GO_ON]
+            assert on[0] is run.events[0]
+            for event in on:
+                chart = run.memory.after(event.after)
+                assert run.path[event.after].kind == "straight"
+                left = event.decision.others
+                assert {k for k, _ in left} <= set(chart.incomplete)
+                assert len(left) + event.decision.more == len(chart.incomplete)
+
+    def test_a_tie(self) -> None:
+        aims = {3: Point(1, 1), 1: Point(-1, 1), 2: Point(2, 0), 0: Point(0, 3)}
+        decision = nearest_loss(1, aims, Point(0, 0))
+        assert [k for k, _ in decision.others] == [3, 2, 0] and decision.ties == (3,)
+        words = "obstacle 1 and obstacle 3 are equally near: 1.414; obstacle 1 has the smaller number"
+        assert decision.describe() == words
+
+    @pytest.mark.parametrize(
+        ("rule", "changes", "words"),
+        [
+            (Rule.ABOUT_TO_BE_LOST, {"length": "5/2"}, "is not so far away"),
+            (Rule.ABOUT_TO_BE_LOST, {"others": ((4, 9),)}, "obstacle 4 is not about to be lost"),
+            (Rule.ABOUT_TO_BE_LOST, {"length": None}, "is not about to be lost"),
+            (Rule.GO_ON, {"others": ()}, "as incomplete"),
+            (Rule.GO_ON, {"more": 1}, "as incomplete"),
+        ],
+    )
+    def test_lies_are_found(self, rule: Rule, changes: dict[str, object], words: str) -> None:
+        run = gallery_run("figure4")
+        k = next(k for k, e in enumerate(run.events) if e.decision and e.decision.rule is rule)
+        event = replace(run.events[k], decided=replace(run.events[k].decision, **changes))
+        with pytest.raises(AuditError, match="the decision at event") as caught:
+            xa.audit(replace(run, events=(*run.events[:k], event, *run.events[k + 1 :])), samples=0)
+        assert words in str(caught.value)
+
+    @pytest.mark.parametrize(
+        ("changes", "words"),
+        [
+            ({"chosen": 4}, "is for obstacle 4"),
+            ({"others": ((4, 1),)}, "prefers obstacle 2 to obstacle 4"),
+            ({"others": ((0, 9),)}, "names obstacles [0], which were not incomplete"),
+        ],
+    )
+    def test_lies_are_found_without_a_map(self, changes: dict[str, object], words: str) -> None:
+        run = gallery_run("figure4")
+        k = next(k for k, e in enumerate(run.events) if e.kind == "divert")
+        event = replace(run.events[k], decided=replace(run.events[k].decision, **changes))
+        with pytest.raises(AuditError) as caught:
+            check_decisions(replace(run, events=(*run.events[:k], event, *run.events[k + 1 :])))
+        assert words in str(caught.value)
+
+    def test_honest_sweeps_pass(self) -> None:
+        for run in sweeps()[:3]:
+            xa.audit(run, samples=0)
+
+
 def _visited(run: xa.Run, after: int) -> set[int]:
     """By the path: each obstacle whose perimeter was walked in one go before."""
     found = set()
@@ -161,7 +259,7 @@ class TestWords:
 
     def test_of_losses(self) -> None:
         loss = Decision(chosen=4, length=2, rule="about to be lost")
-        assert loss.describe(self.NAMES) == "only O5 is about to be lost, and 2 away"
+        assert loss.describe(self.NAMES) == "only O5 is about to be lost, 2 away"
         more = replace(loss, others=((1, 3), (2, 4), (3, 5), (5, 6)))
         words = "nearest of what is about to be lost is O5: 2 < 3 (O2), 4 (O3), 5 (O4) and 1 more"
         assert more.describe(self.NAMES) == words

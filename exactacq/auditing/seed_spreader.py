@@ -271,6 +271,7 @@ class Replay:
         if self._line is None or i not in self._at_stake(chart):
             raise AuditError(f"{self.name(event)}: the obstacle is not at stake on an eastern line")
         self._check_reason(event, chart, leap)
+        self._check_told(event, chart)
         self._go(Segment(leave, self._aim(event, told, chart)), i)
         if not same(told.hit, self.here):
             raise AuditError(f"diversion {self.diverted} did not reach {place_text(told.hit)}")
@@ -425,6 +426,23 @@ class Replay:
             is_due = False
         if not is_due:
             raise AuditError(f"{name} is due to {event.note!r}, which is not so")
+
+    def _check_told(self, event: Event, chart: Any) -> None:
+        """What the decision says is about to be lost is at stake, and as far away as it says.
+
+        The nearest visible point of an obstacle may be farther than the nearest known one.
+        """
+        decision = event.decision
+        others = () if decision is None else ((decision.chosen, decision.length), *decision.others)
+        stakes = self._at_stake(chart)
+        for k, length in others:
+            if not isinstance(k, int) or length is None or k not in stakes:
+                raise AuditError(f"the decision at {self.name(event)}: obstacle {k} is not about to be lost")
+            known = self._known(chart, k)
+            near = min((p - self.here).norm_sq() for curve in known for p in _near_points(curve, self.here))
+            order = (length.algebraic**2).compare(near)
+            if order < 0 or (order > 0 and self.run.target == "known"):
+                raise AuditError(f"the decision at {self.name(event)}: obstacle {k} is not so far away")
 
     def _check_unseen_later(self, name: str, chart: Any, i: int, leap: CrossingPoint | None) -> None:
         """By the map nothing of an obstacle is seen from the rest of the line."""

@@ -56,8 +56,7 @@ class Decision:
     - nearest: the two nearest others, the first one first; with none of them there are no others at all;
     - back: known obstacles that are not visited, to which no link leads, three at most; ``length`` is the
       radius R, which no link exceeds;
-    - about to be lost: all others of which this is true, in the order of their numbers, and how far they are
-      away;
+    - about to be lost: all others of which this is true, and how far their nearest points are away;
     - go on: incomplete obstacles, three at most, none of which is about to be lost;
     - own: what the strategy says.
 
@@ -147,7 +146,7 @@ class Decision:
             one = "only {} is in reach: {}"
             several = "nearest is"
         else:
-            one = "only {} is about to be lost, and {} away"
+            one = "only {} is about to be lost, {} away"
             several = "nearest of what is about to be lost is"
         chosen, digits = label(self.chosen), self._digits()
         size = _text(self.length, digits)

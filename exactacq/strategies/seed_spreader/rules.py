@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import NamedTuple, Protocol
 
 from exactacq.geometry.points import Point
+from exactacq.sensing.decision import Decision
 from exactacq.sensing.event import Ending, EventKind, Occasion, Reason
 from exactacq.strategies.moves import Halt, HaltKind
 from exactacq.strategies.options import TargetChoice
@@ -14,6 +15,7 @@ from exactacq.strategies.robot import Robot
 from exactacq.strategies.routes import Exit, Route
 from exactacq.strategies.seed_spreader.losses import Line, Loss
 from exactacq.strategies.seed_spreader.mline import MLine
+from exactacq.strategies.seed_spreader.reasons import going_on, nearest_loss
 
 
 class Stuck(Exception):
@@ -88,7 +90,8 @@ class Spreader:
             if route.piece != self._line_of:
                 self._line_of = route.piece
                 self.line = Line(robot, route, self.lookahead) if self.mline.line(route.piece) else None
-            halt = robot.follow(route, watch=None if self.line is None else self.line.watch)
+            watch = None if self.line is None else self.line.watch
+            halt = robot.follow(route, watch=watch, reason=going_on(robot.incomplete))
             if halt.kind is HaltKind.HIT:
                 self._meet(route, halt)  # 1(b), 1(c)
             elif halt.kind is HaltKind.STOPPED and self.line is not None:
@@ -129,13 +132,14 @@ class Spreader:
     def _divert(self, losses: list[Loss]) -> None:
         """Acquire the nearest obstacle that is about to be lost, and come back."""
         robot = self.robot
-        leave = robot.position
+        leave, visible = robot.position, self.target is TargetChoice.VISIBLE
         about = {loss.obstacle: loss for loss in losses}
-        obstacle, aim = robot.nearest(about, visible=self.target is TargetChoice.VISIBLE)
-        loss = about[obstacle]
+        aims = dict(robot.nearest([k], visible=visible) for k in about) if losses[1:] else {}
+        obstacle, aim = robot.nearest(about, visible=visible)
+        loss, why = about[obstacle], nearest_loss(obstacle, {**aims, obstacle: aim}, leave)
         self.tell(EventKind.DIVERT, obstacle, reason=loss.reason)
         out = robot.lay([leave, aim])
-        self._approach(out, obstacle)
+        self._approach(out, obstacle, why)
         hit = robot.position
         robot.circle()
         robot.walk_to(hit)
@@ -144,11 +148,12 @@ class Spreader:
         self.tell(EventKind.RETURN, obstacle, reason=loss.reason)
         self.diversions.append(Excursion(loss, leave, hit))
 
-    def _approach(self, route: Route, aimed: int | None) -> None:
+    def _approach(self, route: Route, aimed: int | None, why: Decision | str = "") -> None:
         """Go the straight way, around what is in the way; or to the first hit of the *aimed* obstacle."""
         robot = self.robot
         occasion = Occasion.WAY_BACK if aimed is None else Occasion.WAY_OUT
-        while (halt := robot.follow(route)).kind is HaltKind.HIT:
+        halt = robot.follow(route, reason=why)
+        while halt.kind is HaltKind.HIT:
             obstacle = _obstacle(halt)
             self.tell(EventKind.HIT, obstacle, occasion=occasion)
             if aimed is not None:
@@ -161,6 +166,7 @@ class Spreader:
             if not exits:
                 raise Stuck(Ending.WAY_CLOSED, obstacle)
             self._take_up(route, exits[-1], obstacle, occasion)
+            halt = robot.follow(route)
         if aimed is not None:
             self.encounters.append(aimed)
             self.tell(EventKind.HIT, aimed, occasion=Occasion.DIVERSION)
