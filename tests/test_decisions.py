@@ -23,6 +23,7 @@ from exactacq.numbers.length import Length
 from exactacq.output.report import console, run_report
 from exactacq.sensing.decision import Candidate, Decision, Rule
 from exactacq.sensing.event import Event, Reason
+from exactacq.strategies.known_links import KnownLinks
 from exactacq.strategies.seed_spreader.reasons import nearest_loss
 from exactacq.study.claims.farthest import farthest_first
 from exactacq.study.random_scenes import Subject, random_scene
@@ -109,6 +110,20 @@ class TestSightseer:
     def test_another_rule_of_choice_is_not_called_nearest(self) -> None:
         run = farthest_first(TIED)
         assert {e.decision.rule for e in decided(run)} <= {Rule.BACK}
+
+    def test_others_that_cannot_be_put_in_order(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        """The choice stands, and nobody says that there was no other."""
+        run = xa.sightseer(TIED)
+
+        def undecided(*_: object) -> list[object]:
+            raise xa.Undecided("two links")
+
+        monkeypatch.setattr(KnownLinks, "nearest_few", undecided)
+        words = "nearest is obstacle 0: 4; which ones come next is undecided"
+        assert run.events[0].why() == words
+        again = xa.load_run(run.to_json())
+        assert again.events[0].why() == words
+        check_decisions(again)
 
     def test_the_others_are_looked_for_when_they_are_asked_for(self) -> None:
         run = xa.sightseer(TIED)

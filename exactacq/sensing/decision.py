@@ -53,7 +53,8 @@ class Decision:
     it: the length of its link, or how far it is away. ``others`` are told with theirs. How many depends on
     the rule:
 
-    - nearest: the two nearest others, the first one first; with none of them there are no others at all;
+    - nearest: the two nearest others, the first one first; with none of them there are no others at all, or
+      ``because`` says why they are not told;
     - back: known obstacles that are not visited, to which no link leads, three at most; ``length`` is the
       radius R, which no link exceeds;
     - about to be lost: all others of which this is true, and how far their nearest points are away;
@@ -65,7 +66,7 @@ class Decision:
 
     ``because`` is the reason in a strategy's own words. ``after`` tells when it was made: after so many
     pieces of the path. The robot sets it. Lengths may be given as numbers, the others as pairs or as numbers
-    of obstacles alone. `FormatError` for what is no text, number or obstacle.
+    of obstacles alone. `FormatError` for what is no text, number or obstacle, ValueError for another rule.
 
     >>> import exactacq as xa
     >>> decision = Decision("the widest gap", chosen=3, length=5, others=[(1, "7/2")])
@@ -151,7 +152,7 @@ class Decision:
         chosen, digits = label(self.chosen), self._digits()
         size = _text(self.length, digits)
         if not self.others:
-            return one.format(chosen, size)
+            return f"{several} {chosen}: {size}; {self.because}" if self.because else one.format(chosen, size)
         if ties := self.ties:
             every = label.listed((self.chosen, *ties), "and")
             least = "smallest" if len(ties) > 1 else "smaller"

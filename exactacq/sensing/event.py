@@ -210,8 +210,7 @@ class Event:
     def decision(self) -> Decision | None:
         """Why the robot goes on as it does, if a move begins here, and its strategy told why.
 
-        Of the Sightseer all moves are told. The first time may cost some links: about a millisecond each.
-        `Undecided` if they cannot be put in order.
+        Of the Sightseer all moves are told. The first time may cost some links, a few milliseconds each.
 
         >>> import exactacq as xa
         >>> leave = next(e for e in xa.sightseer(xa.load("figure1")).events if e.kind == "leave")
@@ -268,7 +267,8 @@ class Event:
     def why(self, names: Sequence[str] | None = None) -> str:
         """Why the robot goes on as it does, in a sentence with the lengths that were compared, or "".
 
-        Obstacles by their *names* if given, else by their numbers. Cost and errors are those of `decision`.
+        Obstacles by their *names* if given, else by their numbers. The first time it costs what `decision`
+        does.
 
         >>> import exactacq as xa
         >>> run = xa.sightseer(xa.load("figure2"))

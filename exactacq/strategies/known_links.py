@@ -11,6 +11,7 @@ from functools import partial
 from heapq import heappop, heappush
 from itertools import islice
 
+from exactacq.errors import Undecided
 from exactacq.geometry.points import Point
 from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.length import Length
@@ -132,10 +133,14 @@ class NearestLink:
     after: int
 
     def decision(self) -> Decision:
-        """The decision for this link. `Undecided` if the next ones cannot be put in order."""
-        link, visited = self.link, islice(self.visited, self.count)
-        others = self.links.nearest_few(link.source, {link.target, *visited}, NEXT)
+        """The decision for this link. The next ones are left out if they cannot be put in order."""
+        link, visited, because = self.link, islice(self.visited, self.count), ""
+        try:
+            others = self.links.nearest_few(link.source, {link.target, *visited}, NEXT)
+        except Undecided:
+            others, because = [], "which ones come next is undecided"
         return Decision(
+            because,
             chosen=link.target,
             length=Length(link.length),
             others=tuple(Candidate(other.target, Length(other.length)) for other in others),
