@@ -41,6 +41,7 @@ class _Told:
         return {e.obstacle for e in events if e.obstacle is not None and not (e.inside and e.after == then)}
 
     def check(self) -> None:
+        """What all decisions have in common, then what its rule says."""
         told, event = self.decision, self.event
         walked = {piece.obstacle for piece in self.run.path[max(told.after, 0) : event.after]}
         if not 0 <= told.after <= event.after or not walked <= {event.obstacle} - {None}:
