@@ -81,7 +81,6 @@ def audit(run: Run, *, samples: int = 64, seed: int = 0, progress: Progress | No
         Replay(run, field, bodies, tracks, rng).check(meter)
         values = spreader_values(run, field)
     check_sights(run)
-    check_decisions(run)
     check_bounds(run, values)
     _check_accounts(run)
     meter.close()
@@ -92,6 +91,7 @@ def audit(run: Run, *, samples: int = 64, seed: int = 0, progress: Progress | No
     meter.close()
     knowledge.check_in_sight(samples)
     meter.close()
+    check_decisions(run)
 
 
 def _bodies(run: Run, world: World) -> Iterator[AuditedBody]:
