@@ -111,3 +111,25 @@ def test_a_phone_scrolls_up_and_down_only(browser: Chromium, address: str) -> No
     browser.click("#mode")
     browser.until(WATCHES, 60)
     assert browser.run("document.documentElement.scrollWidth") <= 360
+
+
+def test_the_welcome_goes_when_anything_is_done(page: Chromium) -> None:
+    hidden = "document.getElementById('welcome').hidden"
+    assert page.run(hidden) is False
+    inside = (
+        "(() => { const a = document.getElementById('reach').getBoundingClientRect(); "
+        "const b = document.getElementById('show').getBoundingClientRect(); "
+        "return a.top > b.top && a.bottom < b.bottom && a.left > b.left && a.right < b.right; })()"
+    )
+    assert page.run(inside), "all that the robot can see is in the window"
+    page.click("[data-tool=terrain]")
+    for x, y in ((300, 200), (700, 500)):
+        click(page, x, y)
+    page.until("document.querySelector('[data-tool=select]').ariaPressed === 'true'")
+    assert page.run(hidden) is True
+    assert page.run("getComputedStyle(document.getElementById('board')).outlineStyle") == "none"
+    page.click("[data-action=fresh]")
+    page.until(f"!{hidden}")
+    page.run("document.querySelector('[data-example=circles]').click()")
+    page.until(f"{SHAPES} === 2", 30)
+    assert page.run(hidden) is True

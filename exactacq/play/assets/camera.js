@@ -5,7 +5,7 @@ import { clamp } from "./player/dom.js";
 const [LEAST, MOST] = [1e-90, 1e90]; // pixels a unit
 const ROOM = 0.86; // share of the window that what is looked at may fill
 const FOOT = 44; // pixels at its bottom where buttons lie
-const USUAL = [-8, -8, 8, 8]; // what is looked at where there is nothing to be seen
+const USUAL = [-10, -10, 10, 10]; // what is looked at where there is nothing but a start with a range of 10
 const STEP = 1.25; // of a zoom by key or button
 
 /** The least box about two; one may be null. */

@@ -146,7 +146,8 @@ function refresh() {
   $("undo").disabled = !state.past.length || mode === "watch";
   $("redo").disabled = !state.future.length || mode === "watch";
   if (document.activeElement !== $("name")) $("name").value = drawing.name;
-  $("welcome").hidden = drawing.shapes.length > 0 || tool !== "select" || mode !== "draw";
+  // It goes when anything is done, and comes back with a new drawing.
+  $("welcome").hidden = drawing !== state.saved || drawing.shapes.length > 0 || tool !== "select" || mode !== "draw";
   $("mode-word").textContent = mode === "draw" ? "Run" : "Edit";
   $("watch").hidden = mode === "watch" || !runs.isOf(drawing);
   const hasRun = runs.isOf(drawing);
