@@ -94,6 +94,22 @@ class TestRoutes:
         (home,) = robot.exits(back, 0)
         assert home.point is enters
 
+    def test_that_turn_within_an_obstacle(self) -> None:
+        """Or end in it; a route that ends in the wall touches it, and that is free."""
+        robot = xa.Robot(SQUARES)
+        for ends, places in (
+            ([(3, 0), (3, 9)], [(1, (3, 1))]),
+            ([(3, 0)], []),
+            ([(3, 0), (3, 1)], [(1, (3, 1))]),
+        ):
+            route = robot.lay([robot.position, *ends])
+            halt = robot.follow(route)
+            assert (halt.kind, halt.place) == (HaltKind.HIT, Point(2, 0))
+            robot.circle()
+            found = [(place.piece, place.point) for place in robot.exits(route, 0)]
+            assert found == [(piece, Point(*point)) for piece, point in places]
+            robot.go_to((0, 0))
+
     def test_of_no_length(self) -> None:
         robot = xa.Robot(SQUARES)
         route = robot.lay([(0, 0), (0, 0)])
@@ -122,8 +138,9 @@ class TestRoutes:
         ):
             with pytest.raises(xa.MoveError, match="another robot"):
                 ask()
-        with pytest.raises(xa.MoveError, match="begins where the robot is"):
-            robot.lay([(1, 0), (2, 0)])
+        for places in ([(1, 0), (2, 0)], []):
+            with pytest.raises(xa.MoveError, match="begins where the robot is"):
+                robot.lay(places)
         with pytest.raises(xa.MoveError, match="not at the end of this piece"):
             route.turn()
         robot.go_to((0, 5))

@@ -52,21 +52,13 @@ class Observer:
         confined: bool = False,
     ) -> None:
         ground = ground_of(scene) if confined else None
-        corner = None if ground is None else ground.terrain.south_west
-        place = start_of(scene, start) if corner is None else corner
-        border = [] if confined else scene.meets_border()
-        if border:
+        place = start_of(scene, start) if ground is None else ground.terrain.south_west
+        if ground is None and (border := scene.meets_border()):
             rule = "meets the terrain's border: only the Seed Spreader takes such obstacles"
             raise InvalidScene([f"obstacle {scene.obstacles[k].label} {rule}" for k in border])
         reach = radius_of(scene, radius, place)
-        if corner is not None and (start is not None or scene.start is not None):
-            given = start_of(scene, start)
-            if given != corner:
-                rule = f"is not the terrain's SW corner {place_text(corner)}"
-                raise InvalidScene([f"the start {place_text(given)} {rule}"])
-        for obstacle in scene.obstacles:
-            if ground is None and obstacle.locate(place) is Location.INSIDE:
-                raise InvalidScene([f"the start {place_text(place)} lies inside obstacle {obstacle.label}"])
+        if flaws := list(_start_flaws(scene, start, place, confined)):
+            raise InvalidScene(flaws)
         links = None if confined else Links(scene, reach)
         table = EdgeTable(scene.obstacles) if links is None else links.table
         self._radius, self._table, self._ground, self._scene = reach, table, ground, scene
@@ -258,13 +250,13 @@ class Observer:
         >>> xa.Robot(xa.load("squares")).lay([(0, 0), (0, 4), (9, 4)])
         <Route of 2 pieces, at 0>
         """
-        here, *rest = [Point.of(point) for point in points] or [Point(0, 0)]
-        if here is not self.position and here != self.position:
+        places, here = [Point.of(point) for point in points], self.position
+        if not places or (places[0] is not here and places[0] != here):
             raise MoveError("a route begins where the robot is")
-        for point in rest:
-            self._check_border(point)
-        pieces = [Segment(p, q) for p, q in pairwise([self.position, *rest]) if p != q]
-        return Route(pieces, self._walker, self.position, self._blocking.crossings(pieces))
+        for place in places[1:]:
+            self._check_border(place)
+        pieces = [Segment(p, q) for p, q in pairwise([here, *places[1:]]) if p != q]
+        return Route(pieces, self._walker, here, self._blocking.crossings(pieces))
 
     def way_back(self, route: Route) -> Route:
         """The way back along a route, from the robot's place on it to where it was laid.
@@ -498,6 +490,17 @@ class Observer:
                 "use walk, which tells when it is there"
             )
         return self._walker
+
+
+def _start_flaws(
+    scene: Scene, start: Point | Sequence[object] | None, place: Point, confined: bool
+) -> Iterator[str]:
+    """What is wrong with the place where a robot is to start."""
+    if not confined:
+        inside = (o for o in scene.obstacles if o.locate(place) is Location.INSIDE)
+        yield from (f"the start {place_text(place)} lies inside obstacle {o.label}" for o in inside)
+    elif not (start is None and scene.start is None) and (given := start_of(scene, start)) != place:
+        yield f"the start {place_text(given)} is not the terrain's SW corner {place_text(place)}"
 
 
 def _hulls(table: EdgeTable, ground: Ground) -> Floats:

@@ -127,8 +127,13 @@ class Blocking:
         return edge.direction.dot(side.direction).sign() > 0
 
     def is_free(self, obstacle: Obstacle, point: Point) -> bool:
-        """Whether a point of an obstacle's boundary is one of a component's, so has free points beside it."""
-        return self.ground is None or any(c.is_bounded_by(point) for c in self.ground.of(obstacle.index))
+        """Whether a point of an obstacle is on a component's boundary, so that free points are beside it.
+
+        In the plane the component is the obstacle.
+        """
+        if self.ground is None:
+            return bool(obstacle.edges_at(point))
+        return any(c.is_bounded_by(point) for c in self.ground.of(obstacle.index))
 
     def _owner(self, obstacle: Obstacle, begin: WayPoint, end: WayPoint) -> Blocker | None:
         if self.ground is None:
