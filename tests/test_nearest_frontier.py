@@ -68,6 +68,23 @@ class TestRuns:
         run = explored(xa.load("circles"))
         assert load_run(run.to_json()) == run
 
+    def test_why_it_goes_where_it_goes(self) -> None:
+        """Each round begins with a decision for an incomplete obstacle that is nearer than those told."""
+        run = explored(xa.load("figure2"))
+        decisions = [event.decision for event in run.events if event.decision is not None]
+        assert [decision.chosen for decision in decisions] == [0, 4, 6, 9, 10, 5, 7, 1, 3, 8, 2]
+        for decision in decisions:
+            chart = run.record.after(decision.after)
+            here = run.path[decision.after].start
+            assert {decision.chosen, *(k for k, _ in decision.others)} <= set(chart.incomplete)
+            assert all(decision.length <= length for _, length in decision.others)
+            if decision.others:
+                assert decision.because.endswith("the last one as the crow flies")
+                last, straight = decision.others[-1]
+                known = [p for part in chart.known(last) for p in (part.start, part.end)]
+                assert min(xa.Segment(here, p).length for p in known) <= straight
+        assert run.events[0].why() == "to the nearest frontier by path (obstacle 0: 6.917)"
+
 
 class TestRules:
     def test_the_nearest_by_path_not_by_sight(self) -> None:
@@ -81,10 +98,17 @@ class TestRules:
         robot.go_to((2, 0))
         robot.circle()
         assert len(robot.map.acquired) == 1 and len(robot.map.incomplete) == 2
-        obstacle, way = baseline._nearest(robot)
+        obstacle, way, why = baseline._nearest(robot)
         assert way.end.x < 0 and len(way.path) == 1
         assert all(end.x > 19 for number, end in robot.frontier if number != obstacle)
         assert all(way.length <= robot.path_to(end).length for _, end in robot.frontier)
+        (other,) = why.others
+        assert (why.chosen, why.length, why.more) == (obstacle, way.length, 0)
+        # The path around the wall to the other one was looked for, as it is nearer as the crow flies.
+        assert other.length == min(
+            robot.path_to(end).length for number, end in robot.frontier if number == other.obstacle
+        )
+        assert why.describe().startswith(f"to the nearest frontier by path (obstacle {obstacle}: ")
 
     def test_what_is_in_the_way_is_acquired_first(self) -> None:
         """The way to the first goal leads into what stands before it."""

@@ -18,6 +18,7 @@ from exactacq.geometry.curves import Arc
 from exactacq.geometry.points import Point, distance
 from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
+from exactacq.sensing.decision import NEXT, Candidate, Decision
 from exactacq.sensing.event import EventKind
 from exactacq.strategies.known_map import KnownPart
 from exactacq.strategies.moves import HaltKind
@@ -28,42 +29,66 @@ if TYPE_CHECKING:
 
 PARTS = 8
 """Places on an edge where the robot may stop once an obstacle is acquired."""
+NEAREST, STRAIGHT = "to the nearest frontier by path", ", the last one as the crow flies"
+"""Why the robot goes to a frontier; what is told of one whose path need not be looked for."""
 
 
 def nearest_frontier(robot: Robot) -> None:
     """Acquire all obstacles that come into sight, each from its frontier that is nearest at the time.
 
-    Of frontiers equally near the first one of `Robot.frontier` is taken. Numbers that are found from numbers
-    that are found from numbers grow longer. So the robot aims at a place beside a frontier that has short
-    ones (`KnownMap.beside`), and walks to the frontier from there; and before it leaves a boundary that is
-    wholly known, it goes on to the nearest of `PARTS` places on the edge where it is.
+    Of frontiers equally near the first one of `Robot.frontier` is taken. The run tells the paths that were
+    compared, and of the next obstacle, to which none was looked for, the straight distance.
+
+    Numbers that are found from numbers that are found from numbers grow longer. So the robot aims at a place
+    beside a frontier that has short ones (`KnownMap.beside`), and walks to the frontier from there; and
+    before it leaves a boundary that is wholly known, it goes on to the nearest of `PARTS` places on the edge
+    where it is.
 
     >>> import exactacq as xa
     >>> run = xa.explore(xa.load("squares"), "nearest-frontier")
     >>> print(run.length, run.map.acquired)
     sqrt(5) + 9 (0, 1)
+    >>> print(run.events[0].why())
+    to the nearest frontier by path (obstacle 0: 2.236)
     """
     while robot.frontier:
-        obstacle, way = _nearest(robot)
-        _follow(robot, way, obstacle)
-        _acquire(robot)
+        here, (obstacle, way, why) = robot.position, _nearest(robot)
+        _follow(robot, way, obstacle, why)
+        _acquire(robot, why if robot.position == here else "")
         _rest(robot)
 
 
-def _nearest(robot: Robot) -> tuple[int, ShortestPath]:
-    """The obstacle of the nearest frontier, and the way there: asked for while it may be the shortest."""
+def _nearest(robot: Robot) -> tuple[int, ShortestPath, Decision]:
+    """The obstacle of the nearest frontier, the way there, and why; found while it may be shortest."""
     known = robot.map
     places = [(obstacle, known.beside(obstacle, end)) for obstacle, end in known.frontier]
     ends = [(_away(robot.position, end), obstacle, end) for obstacle, end in places]
     best: tuple[int, ShortestPath] | None = None
-    for _, obstacle, end in sorted(ends, key=lambda found: found[0]):
+    ends.sort(key=lambda found: found[0])
+    lengths: dict[int, Length] = {}
+    for _, obstacle, end in ends:
         if best is not None and best[1].length <= Length(distance(robot.position, end)):
             break
         way = robot.path_to(end)
+        if obstacle not in lengths or way.length < lengths[obstacle]:
+            lengths[obstacle] = way.length
         if best is None or way.length < best[1].length:
             best = obstacle, way
     assert best is not None, "there is a frontier"
-    return best
+    beyond = next(((k, end) for _, k, end in ends if k not in lengths), None)
+    straight = None if beyond is None else Candidate(beyond[0], Length(distance(robot.position, beyond[1])))
+    return *best, _why(best[0], lengths, straight)
+
+
+def _why(chosen: int, lengths: dict[int, Length], straight: Candidate | None) -> Decision:
+    """The decision for a frontier, by the lengths of paths, and the next one's straight distance if any."""
+    paths = sorted(
+        (Candidate(*found) for found in lengths.items()), key=lambda other: float(other.length or 0)
+    )
+    others = [other for other in paths if other.obstacle != chosen]
+    told = tuple(others[:NEXT]) + (() if straight is None else (straight,))
+    because = NEAREST if straight is None else NEAREST + STRAIGHT
+    return Decision(because, chosen, lengths[chosen], told, more=len(others[NEXT:]))
 
 
 def _away(here: Point, place: Point) -> Real:
@@ -71,21 +96,22 @@ def _away(here: Point, place: Point) -> Real:
     return (place - here).norm_sq()
 
 
-def _follow(robot: Robot, way: ShortestPath, obstacle: int) -> None:
+def _follow(robot: Robot, way: ShortestPath, obstacle: int, why: Decision) -> None:
     """Go along a path while nothing is in the way and the obstacle is not wholly known."""
     if not way.path:
         # A robot that starts on a boundary is not at it before its first move.
         robot.go_to(robot.position)
-    for piece in way.path:
+    for k, piece in enumerate(way.path):
+        reason = "" if k else why
         if isinstance(piece, Arc):
-            robot.walk_to(piece.end)
-        elif robot.go_to(piece.end).kind is HaltKind.HIT:
+            robot.walk_to(piece.end, reason=reason)
+        elif robot.go_to(piece.end, reason=reason).kind is HaltKind.HIT:
             return
         if obstacle not in robot.map.incomplete:
             return
 
 
-def _acquire(robot: Robot) -> None:
+def _acquire(robot: Robot, why: Decision | str) -> None:
     """Walk along the boundary where the robot is, if that is not known yet, until it is."""
     at = robot.at
     if at is None or at not in robot.map.incomplete:
@@ -93,7 +119,8 @@ def _acquire(robot: Robot) -> None:
     left, right = _known_beside(robot.map.known(at), robot.position)
     hand = "left" if left <= right else "right"
     while at in robot.map.incomplete:
-        robot.walk(hand, until=EventKind.ACQUIRE)
+        robot.walk(hand, until=EventKind.ACQUIRE, reason=why)
+        why = ""
 
 
 def _known_beside(parts: Sequence[KnownPart], here: Point) -> tuple[Length, Length]:
