@@ -355,6 +355,42 @@ class TestOwn:
         assert [e.decision for e in again.events] == [e.decision for e in run.events]
         assert again.to_json() == run.to_json()
 
+    def test_on_routes(self) -> None:
+        """Where a piece begins, along a boundary and from it on, and not where no way is made."""
+
+        def sweep(robot: xa.Robot) -> None:
+            route = robot.lay([(0, 0), (20, 0)])
+            robot.follow(route, reason="to the east")
+            robot.follow(route, reason="no way")
+            robot.circle()
+            place = next(robot.exits(route, 0))
+            robot.take_up(route, place, reason=xa.Decision("around it", chosen=0, length=xa.Length.turns(1)))
+            with pytest.raises(xa.MoveError):
+                robot.take_up(route, place, reason="not ahead")
+            with pytest.raises(FormatError):
+                robot.follow(route, reason=xa.Decision(chosen=7))
+            robot.follow(route, watch=lambda _: robot.position, reason="no step")
+            robot.follow(route, reason="on")
+
+        scene = xa.Scene([xa.Circle((5, 0), 2)], start=(0, 0), radius=20)
+        run = xa.explore(scene, sweep)
+        assert [(e.kind.value, e.after, e.why()) for e in decided(run)] == [
+            ("start", 0, "to the east"),
+            ("decide", 2, "around it (obstacle 0: 6.283)"),
+            ("leave", 3, "on"),
+        ]
+        xa.audit(run, samples=4)
+
+    def test_a_walk_to_where_the_robot_is_tells_nothing(self) -> None:
+        def still(robot: xa.Robot) -> None:
+            robot.go_to((5, 0))
+            robot.circle()
+            robot.walk_to(robot.position, reason="here already")
+            with pytest.raises(xa.MoveError):
+                robot.walk_to((0, 0), reason="no such point")
+
+        assert decided(xa.explore(self.SCENE, still)) == []
+
     def test_a_link_taken_later_was_not_decided_now(self) -> None:
         def slow(robot: xa.Robot) -> None:
             link = robot.nearest_unvisited(None)
