@@ -271,8 +271,9 @@ class Replay:
         if self._line is None or i not in self._at_stake(chart):
             raise AuditError(f"{self.name(event)}: the obstacle is not at stake on an eastern line")
         self._check_reason(event, chart, leap)
+        aim = self._aim(event, told, chart)
         self._check_told(event, chart)
-        self._go(Segment(leave, self._aim(event, told, chart)), i)
+        self._go(Segment(leave, aim), i)
         if not same(told.hit, self.here):
             raise AuditError(f"diversion {self.diverted} did not reach {place_text(told.hit)}")
         self._circumnavigate(i, event)
