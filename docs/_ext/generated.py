@@ -22,6 +22,7 @@ import exactacq as xa
 from exactacq.files import gallery
 from exactacq.output.figures import draw as figures
 from exactacq.output.figures.vertex_scan_figure import limit_figure
+from exactacq.scene.bounding import at_corner
 from exactacq.study import claims
 from exactacq.study.claims.model import Case, Subject
 from exactacq.study.claims.tightness import YARDSTICKS
@@ -56,6 +57,17 @@ def _moment(path: Path) -> None:
     figures.save(run, path, at=run.near(1000))
 
 
+def _compared(path: Path) -> None:
+    scene = xa.load("figure2")
+    framed = scene.replace(terrain=xa.terrain_around(scene, 1))
+    runs = [
+        xa.explore(framed, "sightseer"),
+        xa.explore(at_corner(framed), "seed-spreader"),
+        xa.explore(framed, "nearest-frontier"),
+    ]
+    figures.save_side_by_side(runs, path)
+
+
 def _way(path: Path) -> None:
     found = xa.shortest_path(xa.load("figure2"), (23, 3), (8, 25))
     figures.save(found, path)
@@ -65,10 +77,11 @@ PICTURES: dict[str, Callable[[Path], None]] = {
     **{f"{name}.svg": _whole(name) for name in ("figure1", "figure2", "figure3", "figure4", "plate")},
     "plate_moment.svg": _moment,
     "shortest_path.svg": _way,
+    "compared.svg": _compared,
     "polygon_limit.svg": lambda path: limit_figure().savefig(path),
 }
 """The pictures that pages name, each with what draws it."""
-TEXTS = ("verdicts.md", "tightest.md", "tightness.md", "trust.md", "commands.md")
+TEXTS = ("verdicts.md", "tightest.md", "tightness.md", "trust.md", "comparison.md", "commands.md")
 """The texts that pages include."""
 
 
@@ -85,6 +98,7 @@ def generate(app: Any) -> None:
     scenes = ((name, _subject(name), claims_page.example(name)) for name in gallery.names())
     tightness_page.write(folder, YARDSTICKS, scenes)
     trust_page.write(folder, Path(app.srcdir) / "results")
+    trust_page.write(folder, Path(app.srcdir) / "results" / "comparison", "comparison.md")
     command_page.write(folder)
 
 

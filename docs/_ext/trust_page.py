@@ -1,4 +1,4 @@
-"""The tables of the page on trust, from the results that are stored in ``docs/results``.
+"""The tables of the pages on trust and comparison, from the results that are stored in ``docs/results``.
 
 Each file there is one experiment: its ``title``, what it ``asks``, the ``commands`` that made it, the commit
 that it was made with as ``version``, and a table with ``columns`` and ``rows``, or a ``campaign``: what
@@ -16,11 +16,11 @@ NAMED, WHY = 40, 160
 """Most scenes of a campaign that are named, and most characters of the reason."""
 
 
-def write(folder: Path, results: Path) -> None:
-    """Write trust.md: all experiments."""
+def write(folder: Path, results: Path, name: str = "trust.md") -> None:
+    """Write all experiments of a folder."""
     stored = [json.loads(path.read_text(encoding="utf-8")) for path in sorted(results.glob("*.json"))]
     lines = [line for result in stored for line in section(result)]
-    (folder / "trust.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    (folder / name).write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 def section(result: dict[str, Any]) -> Iterator[str]:
