@@ -40,10 +40,9 @@ EXAMPLES = {
         ),
     ),
     "compare": (
-        Example("compare figure3 --figure both.svg", "Both strategies on one terrain, side by side."),
         Example(
-            "compare figure3 --animate both.html",
-            "A page that plays both runs on one clock: after the same length of each path.",
+            "compare figure3 --figure both.svg --animate both.html",
+            "Both strategies on one terrain: drawn side by side, and a page that plays both on one clock.",
         ),
         Example(
             "compare figure2 --strategy sightseer --strategy nearest-frontier",
