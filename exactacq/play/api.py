@@ -199,8 +199,8 @@ class Api:
         except TaskError as error:
             exploration.trouble = error.told
             exploration.state = "stopped" if "stopped" in error.told else "failed"
-        if exploration.state == "stopped" and exploration is self.exploration:
-            await self.explorer.start()  # So that the next run need not wait for it.
+        if exploration is self.exploration:
+            await self.explorer.start()  # If it ended, the next run need not wait for another one.
 
     async def tell_run(self, request: Any) -> Any:
         """How far the run is."""

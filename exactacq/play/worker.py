@@ -51,7 +51,7 @@ class Worker:
         """
         async with self._turn:
             self._stopped = False
-            await self.start()
+            await self._begin()
             try:
                 async with asyncio.timeout(seconds):
                     return await self._done(json.dumps(task).encode() + b"\n" + body, heard)
@@ -68,7 +68,11 @@ class Worker:
                     self.kill()
 
     async def start(self) -> None:
-        """Start the process if there is none."""
+        """Start the process if there is none; tasks that are at work come first."""
+        async with self._turn:
+            await self._begin()
+
+    async def _begin(self) -> None:
         if self._process is not None and self._process.returncode is None:
             return
         line, environment = program("exactacq.play.bench")
