@@ -25,6 +25,9 @@ mp.dps = 1000
 CLEAR = mp.mpf(10) ** -500
 """Trees are so small that what is below this is 0 wherever no proof is asked for."""
 
+LARGE, LARGER = 2**107 - 1, 2**127 - 1
+"""Primes: of the product of one and the square of the other no factor is found by trial division."""
+
 Tree: TypeAlias = "tuple[Any, ...]"
 """("q", rational), ("root", ascending coefficients, index), ("sqrt", tree), or an operation and two trees."""
 
@@ -278,6 +281,13 @@ def _root_below(t: Tree) -> Tree | None:
     return ("/", t[1], t) if t[0] == "sqrt" and clear_sign(t) else None
 
 
+def _square_taken_in(t: Tree) -> Tree | None:
+    """sqrt(a) = sqrt(a p^2) / p, for a large prime p."""
+    if t[0] != "sqrt" or t[1][0] != "q":
+        return None
+    return ("/", ("sqrt", q(t[1][1] * LARGE**2)), q(LARGE))
+
+
 def _one_root(t: Tree) -> Tree | None:
     """sqrt(a) sqrt(b) = sqrt(a b)."""
     if t[0] != "*" or t[1][0] != "sqrt" or t[2][0] != "sqrt":
@@ -307,6 +317,7 @@ RULES: tuple[Rule, ...] = (
     _nested_difference,
     _inverse,
     _root_below,
+    _square_taken_in,
     _one_root,
     _by_its_polynomial,
 )

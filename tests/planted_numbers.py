@@ -7,7 +7,7 @@ from typing import Any
 
 import test_length_oracle as length_oracle
 import test_number_oracle as number_oracle
-from matrix_numbers import Tree, mp, q
+from matrix_numbers import LARGE, LARGER, Tree, mp, q
 from moebius import Bow, Spot
 from planted_geometry import root_spot, spot
 from planting import Fault, Law, Planted
@@ -109,6 +109,12 @@ NUMBER_FAULTS = [
         TIES,
         tied(minus(sqrt(2), q(1)), sqrt(minus(q(3), sqrt(8)))),
         Fault(linear_forms, "denested", "ONE if q > 0 else -ONE", "ONE"),
+    ),
+    Planted(
+        "radicals that differ by the square of a large prime are added as they are",
+        TIES,
+        tied(sqrt(LARGER * LARGE**2), ("*", q(LARGE), sqrt(LARGER))),
+        Fault(linear_forms, "merged", "terms[e] += c * ratio", "terms[e] += c + ratio"),
     ),
     Planted(
         "a conjugate is not the inverse times the norm",

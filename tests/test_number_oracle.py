@@ -12,6 +12,7 @@ from flint import arb, fmpq
 from hypothesis import assume, event, given
 from hypothesis import strategies as st
 from matrix_numbers import (
+    LARGER,
     Tree,
     at,
     clear_sign,
@@ -45,7 +46,8 @@ hairs = st.sampled_from(HAIRS)
 small = st.sampled_from([Fraction(n, d) for n in range(-7, 8) for d in (1, 2, 3)])
 positive = st.sampled_from([Fraction(n, d) for n in range(1, 12) for d in (1, 3)])
 rationals = small.map(q)
-surds = positive.map(lambda value: ("sqrt", q(value)))
+radicands = st.one_of(positive, positive, positive, positive.map(lambda value: value * LARGER))
+surds = radicands.map(lambda value: ("sqrt", q(value)))
 
 
 @st.composite
