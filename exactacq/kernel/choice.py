@@ -60,13 +60,12 @@ def mattering(
     along: set[int],
     known: Known,
     ahead: bool,
-    sights: bool,
 ) -> tuple[list[int], list[Group]]:
     """Which of some families matter on a leg, by their numbers, and from where obstacles surely are seen.
 
-    If nobody asks for *sights*, only those matter that may show anything new. *owners* are the obstacles that
-    edges count for, and whether all of the edge does. The leg lies on the boundaries of the obstacles
-    *along*, which are in sight anyway. The robot walks it *ahead*, from its low end, or back.
+    *owners* are the obstacles that edges count for, and whether all of the edge does. The leg lies on the
+    boundaries of the obstacles *along*, which are in sight anyway. The robot walks it *ahead*, from its low
+    end, or back.
     """
     chosen = [False] * len(extents)
     sources: dict[int, list[Source]] = {}
@@ -90,8 +89,6 @@ def mattering(
             if one.edge not in news:
                 news[one.edge] = []
             news[one.edge].append(n)
-        if not sights:
-            continue
         surely = span.inner(one.surely)
         for k, whole in concerned:
             if k not in along:

@@ -53,8 +53,7 @@ class KnownSpans(Mapping[int, Sequence[Span]]):
 class FamilyFilter:
     """Chooses the families of one leg that matter, for some obstacles; *known* is rounded inward.
 
-    When obstacles are in sight matters only if *sights* are asked for. ``in_sight`` then has, for obstacles,
-    intervals of the leg from which they are surely seen.
+    ``in_sight`` then has, for obstacles, intervals of the leg from which they are surely seen.
     """
 
     def __init__(
@@ -64,9 +63,8 @@ class FamilyFilter:
         obstacles: Collection[int],
         along: Collection[int],
         known: Mapping[int, Sequence[Span]],
-        sights: bool = True,
     ) -> None:
-        self.leg, self.targets, self.known, self.sights = leg, targets, known, sights
+        self.leg, self.targets, self.known = leg, targets, known
         self.obstacles, self.along = set(obstacles), set(along)
         self.in_sight: dict[int, list[Interval]] = {}
 
@@ -75,9 +73,7 @@ class FamilyFilter:
         span, rail = self.leg.span, None if self.leg.edge is None else self.leg.rail
         part = LegSpan(bounds(span.low, rail), bounds(span.high, rail))
         owners, obstacles, ahead = self.targets.owners, self.obstacles, self.leg.ahead
-        numbers, groups = mattering(
-            extents, part, owners, obstacles, self.along, self.known, ahead, self.sights
-        )
+        numbers, groups = mattering(extents, part, owners, obstacles, self.along, self.known, ahead)
         for k, first, last in groups:
             self.in_sight.setdefault(k, []).extend(self._interval(first, last))
         return [extents[n] for n in numbers]

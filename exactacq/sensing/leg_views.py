@@ -65,8 +65,7 @@ class Share:
 class Shares:
     """What a leg shows of some obstacles.
 
-    *view* gives what is seen from a point, with the edges through it if these are known. Where parts of edges
-    are *known*, only what matters is made; if *sights* are not asked for, that is what may be new.
+    *view* gives what is seen from a point, with the edges through it if these are known.
     """
 
     def __init__(
@@ -79,17 +78,16 @@ class Shares:
         known: Mapping[int, Sequence[Span]] | None = None,
         of: dict[int, list[Share]] | None = None,
         ends: dict[int, list[tuple[CutEnd, Interval]]] | None = None,
-        sights: bool = True,
     ) -> None:
         self.complex, self.targets, self.leg = complex_, targets, leg
         self.obstacles, self.view = obstacles, view
         self.in_sight: Mapping[int, Sequence[Interval]] = {}
-        self.of = self._found(known, sights) if of is None else of
+        self.of = self._found(known) if of is None else of
         self.ends = self._seen_ends() if ends is None else ends
 
-    def _found(self, known: Mapping[int, Sequence[Span]] | None, sights: bool) -> dict[int, list[Share]]:
+    def _found(self, known: Mapping[int, Sequence[Span]] | None) -> dict[int, list[Share]]:
         parts: list[tuple[int, ViewFamily, int, None]] = []
-        for family, side in self._families(known, sights):
+        for family, side in self._families(known):
             for k, target in self.targets.on(family.edges[1 - side]):
                 if k in self.obstacles:
                     part = self._clipper.clipped(family, 1 - side, target.span)
@@ -137,13 +135,11 @@ class Shares:
         place = leg.start if u is leg.first else leg.end if u is leg.last else None
         return None if place is None else self.view(place, leg.own(u))
 
-    def _families(
-        self, known: Mapping[int, Sequence[Span]] | None, sights: bool
-    ) -> Iterator[tuple[ViewFamily, int]]:
+    def _families(self, known: Mapping[int, Sequence[Span]] | None) -> Iterator[tuple[ViewFamily, int]]:
         """The families at the leg; only those that matter if it is told what is *known*."""
         complex_, leg, obstacles = self.complex, self.leg, self.obstacles
         along = [k for k in obstacles if self._is_along(k)]
-        chooser = None if known is None else FamilyFilter(leg, self.targets, obstacles, along, known, sights)
+        chooser = None if known is None else FamilyFilter(leg, self.targets, obstacles, along, known)
         choose = None if chooser is None else chooser.choose
         if leg.edge is None:
             x, y, right, top = leg.box

@@ -140,8 +140,7 @@ class Sensor:
         """
         if self._last is None or self._last.shares.leg is not leg:
             known = KnownSpans(covers, self.rails)
-            near = self._near(leg)
-            shares = Shares(self.complex, self.targets, leg, near, self._view, known, sights=False)
+            shares = Shares(self.complex, self.targets, leg, self._near(leg), self._view, known)
             self._last = LegNews(shares, covers)
         return self._last.upto(u, place, acquired)
 
