@@ -82,13 +82,15 @@ def mattering(
             chosen[n] = True
             continue
         outer = span.outer(one.source)
-        # What is seen from an end of the leg alone is part of the view from there.
-        if outer[0] > outer[1] or not (outer[0] < inf and outer[1] > -inf):
+        if outer[0] > outer[1]:
             continue
         if not _is_known(one, known):
             if one.edge not in news:
                 news[one.edge] = []
             news[one.edge].append(n)
+        # What is seen from an end of the leg alone is part of the view from there.
+        if not (outer[0] < inf and outer[1] > -inf):
+            continue
         surely = span.inner(one.surely)
         for k, whole in concerned:
             if k not in along:
