@@ -10,7 +10,7 @@ from collections import Counter
 from dataclasses import dataclass
 from functools import partial
 
-from flint import arb, fmpq
+from flint import arb
 
 from exactacq.geometry.late import Pin, late_point
 from exactacq.geometry.points import Point
@@ -87,7 +87,7 @@ class LineFollower:
     def _followed(self, at: FeatureLine, names: Names) -> tuple[list[Met], list[Met], tuple[bool, bool]]:
         """What a line meets behind and ahead, nearest first, and whether the last of it blocks the line."""
         sector, feature, own = at.sector, at.feature, at.feature.edges[-1]
-        if isinstance(sector.center[0], fmpq) and isinstance(sector.base[0], fmpq):
+        if sector.is_rational:
             image = line_at(sector.image, *float_ball(at.t))
             here = image[0], image[1]
             walk = WalkedLine(

@@ -216,7 +216,7 @@ class FamilyClipper:
         Differences of floats are off by far less than half of themselves.
         """
         sector, side = free_views.sector, free_views.sides[k]
-        if not (isinstance(sector.center[0], fmpq) and isinstance(sector.base[0], fmpq)):
+        if not sector.is_rational:
             return False
         ends = family.first, family.last
         (low, p), (high, q) = (float_ball(end.t) for end in ends)

@@ -119,7 +119,7 @@ class WayCrossings:
         self, line_family: LineFamily, t: fmpq, wanted: frozenset[int], told: Role | None
     ) -> Role | None:
         """On which side of the contact a line crosses the way, if it does; *told* if floats part its ends."""
-        if told is not None:
+        if told is not None and line_family.sector.is_rational:
             ax, ay, bx, by, error = self.way.image.ends
             near = float(t)
             at = line_at(line_family.sector.image, near, UNIT * abs(near) + TINY)

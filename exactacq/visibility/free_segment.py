@@ -115,7 +115,7 @@ def _as_far_as_walls(
 
     It is where it crosses a straight edge between its ends: the contact, where it begins, is not inside.
     """
-    if any(isinstance(c, Real) for c in (*sector.center, *sector.base)):
+    if not sector.is_rational:
         return edges, set()
     walls: set[int] = set()
     at = line_at(sector.image, *float_ball(t))

@@ -69,7 +69,7 @@ class Sector(ABC):
 
     @cached_property
     def image(self) -> lines.Frame:
-        """The sector in floats, if its frame is rational."""
+        """The sector in floats, if it `is_rational`."""
         (x, y), (dx, dy) = self.center, self.base
         kind, radius, sense = self._kind
         return kind, nearest_float(x), nearest_float(y), nearest_float(dx), nearest_float(dy), radius, sense
@@ -105,7 +105,9 @@ class Sector(ABC):
         """The parameter of an event that there is, if a rational quadratic is seen to have it as a root."""
         return None
 
-    def _is_rational(self) -> bool:
+    @cached_property
+    def is_rational(self) -> bool:
+        """Whether all coordinates of the centre and the base vector are rational: one alone says nothing."""
         return all(isinstance(v, fmpq) for v in (*self.center, *self.base))
 
     def _frame(self, center: Vector) -> tuple[Vector, Any, Any]:
@@ -161,7 +163,7 @@ class Turning(Sector):
 
     def root(self, center: Vector, radius_sq: fmpq, side: int, sign: int) -> QuadraticRoot | fmpq | None:
         """With d = e + t e': (d x w)^2 = r^2 |d|^2, if w leads to the centre; d x w is across - t along."""
-        if side == 0 or not self._is_rational():
+        if side == 0 or not self.is_rational:
             return None
         _, along, across = self._frame(center)
         square = radius_sq * dot(self.base, self.base)
@@ -223,7 +225,7 @@ class Rolling(Sector):
 
     def root(self, center: Vector, radius_sq: fmpq, side: int, sign: int) -> QuadraticRoot | fmpq | None:
         """That of the quadratic in `exact`, if k is rational."""
-        if not self._is_rational():
+        if not self.is_rational:
             return None
         rho_sq = dot(self.base, self.base)
         product = Real(rho_sq * radius_sq).sqrt().rational if side else fmpq(0)
@@ -266,7 +268,7 @@ class Sliding(Sector):
 
     def root(self, center: Vector, radius_sq: fmpq, side: int, sign: int) -> QuadraticRoot | fmpq | None:
         """(|e|^2 t - along)^2 = r^2 |e|^2."""
-        if side == 0 or not self._is_rational():
+        if side == 0 or not self.is_rational:
             return None
         square = dot(self.base, self.base)
         _, along, _ = self._frame(center)

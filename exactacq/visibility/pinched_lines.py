@@ -12,8 +12,6 @@ from __future__ import annotations
 
 from functools import cached_property, partial
 
-from flint import fmpq
-
 from exactacq.geometry.coordinates import cross, sign
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.points import Point
@@ -61,7 +59,7 @@ class TangentLine:
 
     def __init__(self, table: EdgeTable, sector: Sector, t: Real) -> None:
         self.table = table
-        self._image = line_at(sector.image, *float_ball(t)) if isinstance(sector.base[0], fmpq) else None
+        self._image = line_at(sector.image, *float_ball(t)) if sector.is_rational else None
         self._make = partial(sector.touch, t)
 
     @cached_property
