@@ -209,7 +209,7 @@ class Map:
     def beside(self, i: int, end: Point) -> Point:
         """A known point of obstacle i with short coordinates, beside an end of known boundary.
 
-        Of the known part it is in the last `CLOSE`th, as parameters along the edge go. The end itself if that
+        It is in the last 64th of the known part, as parameters along the edge go. The end itself if that
         is a vertex or a single known point.
 
         >>> import exactacq as xa
