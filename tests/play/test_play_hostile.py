@@ -21,7 +21,7 @@ from servers import Served, served
 httpx = pytest.importorskip("httpx", reason="httpx is not installed")
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
 
-COUNT = 5000 if NIGHTLY else 80
+COUNT = 5000 if NIGHTLY else 150
 """Requests that are tried."""
 PATIENCE = 150.0
 """Seconds for an answer: a file may be read for two minutes."""
