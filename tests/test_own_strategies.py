@@ -360,3 +360,13 @@ class TestPeeking:
         with pytest.raises(xa.Undecided):
             xa.explore(CIRCLES, go)
         assert len(caught) == 1
+
+
+def test_a_way_to_a_place_with_one_irrational_coordinate() -> None:
+    """(21/5, 2 sqrt(21)/5): a normal of that way has one rational coordinate too, and no image."""
+    robot = xa.Robot(xa.load("circles"))
+    ((_, end), *_) = robot.frontier
+    assert end.x.rational is not None
+    assert end.y.rational is None
+    robot.go_to(end)
+    assert robot.position == end
