@@ -12,6 +12,7 @@ import struct
 import zlib
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cache
 from io import BytesIO
 from pathlib import Path
 from random import Random
@@ -216,6 +217,7 @@ def _current_runs() -> tuple[bytes, ...]:
     return tuple(json.dumps(run.to_json()).encode() for run in runs)
 
 
+@cache
 def kinds() -> dict[str, Kind]:
     """All formats by their names; "run" is that of runs."""
     drawn = ({}, {"union": True}, {"tolerance": 1}, {"thicken": "1/3"}, {"outer": "drop"}, {"outer": "room"})

@@ -9,11 +9,16 @@ import os
 from collections.abc import Iterable
 from typing import TypeVar
 
+import pytest
 from hypothesis import settings
 
 T = TypeVar("T")
 
 NIGHTLY = "nightly" in (settings.get_current_profile_name(), os.environ.get("HYPOTHESIS_PROFILE"))
+
+
+by_night = pytest.mark.skipif(not NIGHTLY, reason="tried at night")
+"""A test that takes long, of what shorter ones try every day."""
 
 
 def some(values: Iterable[T], k: int) -> list[T]:
@@ -24,6 +29,6 @@ def some(values: Iterable[T], k: int) -> list[T]:
     return [found[i * len(found) // k] for i in range(k)]
 
 
-def examples(everyday: int, nightly: int) -> settings:
-    """How many examples Hypothesis tries."""
-    return settings(max_examples=nightly if NIGHTLY else everyday)
+def examples(everyday: int, nightly: int | None = None) -> settings:
+    """How many examples Hypothesis tries: at night 20 times as many, if no other number is given."""
+    return settings(max_examples=(nightly or 20 * everyday) if NIGHTLY else everyday)

@@ -7,6 +7,7 @@ from random import Random
 
 import pytest
 from flint import arb, fmpq
+from nightly import some
 from strategies import arc_terrain, degenerate_terrain, random_terrain
 
 import exactacq as xa
@@ -47,10 +48,10 @@ def told(monkeypatch: pytest.MonkeyPatch) -> list[tuple[bool | None, bool | None
 
 @pytest.mark.parametrize("terrain", [random_terrain, degenerate_terrain, arc_terrain])
 def test_an_obstacle_is_whole_from_the_place_on(terrain: object, told: list[tuple[bool, bool]]) -> None:
-    for seed in range(6):
-        some = terrain(Random(seed))  # type: ignore[operator]
-        scene = some.scene()
-        xa.sightseer(xa.Scene(scene.shapes, some.start, enclosure=scene.enclosure, radius=some.radius))
+    for seed in some(range(6), 3):
+        drawn = terrain(Random(seed))  # type: ignore[operator]
+        scene = drawn.scene()
+        xa.sightseer(xa.Scene(scene.shapes, drawn.start, enclosure=scene.enclosure, radius=drawn.radius))
     assert any(before is not None for before, _ in told) and any(after is not None for _, after in told)
     assert not any(before for before, _ in told)
     assert all(after in (True, None) for _, after in told)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
@@ -42,10 +43,16 @@ def files() -> dict[str, Path]:
     return found
 
 
+@cache
+def nodes(text: str) -> list[ast.AST]:
+    """All that a source says."""
+    return list(ast.walk(ast.parse(text)))
+
+
 def imports(text: str, known: set[str]) -> set[str]:
     """What a file imports of the package, wherever the statement stands: in functions and for types too."""
     found = set()
-    for node in ast.walk(ast.parse(text)):
+    for node in nodes(text):
         if isinstance(node, ast.ImportFrom):
             assert node.level == 0, "imports are absolute"
         if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "exactacq":
@@ -75,6 +82,7 @@ def violations(order: list[str], used: dict[str, set[str]]) -> list[str]:
     return wrong
 
 
+@cache
 def used() -> dict[str, set[str]]:
     known = files()
     return {name: imports(path.read_text(encoding="utf-8"), set(known)) for name, path in known.items()}
@@ -114,9 +122,9 @@ TOLD = ("robot", "routes", "moves", "known_map", "options", "seed_spreader/")
 
 def peeks(text: str) -> list[str]:
     """Private names that a file reads and does not define."""
-    nodes = list(ast.walk(ast.parse(text)))
-    private = [node for node in nodes if isinstance(node, ast.Attribute) and re.match("_(?!_)", node.attr)]
-    own = {node.name for node in nodes if isinstance(node, ast.FunctionDef)}
+    found = nodes(text)
+    private = [node for node in found if isinstance(node, ast.Attribute) and re.match("_(?!_)", node.attr)]
+    own = {node.name for node in found if isinstance(node, ast.FunctionDef)}
     own |= {node.attr for node in private if isinstance(node.ctx, ast.Store)}
     return [node.attr for node in private if node.attr not in own]
 
@@ -147,7 +155,7 @@ def test_no_class_name_is_used_twice() -> None:
     """Nor with an underscore: a name has one meaning in the whole package."""
     homes: dict[str, list[str]] = {}
     for name, path in files().items():
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        for node in nodes(path.read_text(encoding="utf-8")):
             if isinstance(node, ast.ClassDef):
                 homes.setdefault(node.name.lstrip("_"), []).append(name)
     assert {name: where for name, where in homes.items() if len(where) > 1} == {}

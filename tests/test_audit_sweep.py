@@ -509,15 +509,18 @@ class TestBounds:
 
 @pytest.mark.parametrize(
     "seed",
-    [
-        1001113,  # a view past a corner is as long as the range
-        1000221,  # the start of a circle is known alone
-        1000251,  # a way touches an arc
-        1000230,  # a leg ends where a family does
-        1000756,  # parts end at one height on both sides of an arc
-        1001201,  # points of vertical edges
-        1001472,  # on the way back nothing is learned
-    ],
+    some(
+        [
+            1001113,  # a view past a corner is as long as the range
+            1000221,  # the start of a circle is known alone
+            1000251,  # a way touches an arc
+            1000230,  # a leg ends where a family does
+            1000756,  # parts end at one height on both sides of an arc
+            1001201,  # points of vertical edges
+            1001472,  # on the way back nothing is learned
+        ],
+        2,
+    ),
 )
 def test_moments_that_once_had_no_answer(seed: int) -> None:
     """Maps at events of random sweeps that were wrong, or took too many bits to prove equal numbers equal."""

@@ -163,7 +163,7 @@ class TestFailures:
             assert "ZeroDivisionError: planted (in doubt)" in faults(store)[0][2]
 
     def test_a_scene_that_hangs_is_a_timeout(self) -> None:
-        settings = replace(QUICK, claims="planted_claims:HANGING", scenes=3, timeout=4)
+        settings = replace(QUICK, claims="planted_claims:HANGING", scenes=3, timeout=3)
         with opened(settings) as store:
             conduct(settings, store, 1)
             assert store.rows("SELECT outcome, json IS NULL FROM scenes ORDER BY seed") == [

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,7 @@ from test_cli import answered, refused
 import exactacq as xa
 from exactacq import cli
 from exactacq.cli.completion import strategies
+from exactacq.output.animation import frames
 from exactacq.strategies import registry
 
 MINE = """
@@ -32,6 +34,7 @@ def come(robot):
 @pytest.fixture(autouse=True)
 def elsewhere(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr(registry, "_known", {})
+    monkeypatch.setattr(frames, "frames_of", partial(frames.frames_of, limit=9, fine=0))
     monkeypatch.chdir(tmp_path)
 
 

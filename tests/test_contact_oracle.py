@@ -5,7 +5,7 @@ from __future__ import annotations
 from drawn_curves import library_curve, library_point, pairs
 from hypothesis import event, given
 from moebius import Bow, Complex, Drawn, Trace, is_zero, line_meetings, meetings, mp, place
-from scaled import examples
+from nightly import examples
 
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.intersections import ContactKind, contacts, line_contacts, spans
@@ -88,20 +88,20 @@ def check_points(case: tuple[Drawn, Drawn]) -> None:
         assert curve.may_pass(point, 64) or not trace.holds(place(spot))
 
 
-@examples(300)
+@examples(120)
 @given(pairs())
 def test_contacts_are_the_oracles(pair: tuple[Drawn, Drawn]) -> None:
     check_contacts(pair)
 
 
-@examples(150)
+@examples(60)
 @given(pairs())
 def test_lines_meet_curves_where_the_oracle_says(case: tuple[Drawn, Drawn]) -> None:
     check_line(case)
     check_spans(case)
 
 
-@examples(100)
+@examples(50)
 @given(pairs())
 def test_curves_pass_the_points_that_the_oracle_says(case: tuple[Drawn, Drawn]) -> None:
     check_points(case)

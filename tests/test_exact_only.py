@@ -42,11 +42,11 @@ def spreader(name: str, **options: object) -> Callable[[], xa.Run]:
 
 
 RUNS: dict[str, Callable[[], xa.Run]] = {
-    **{f"sightseer {name}": sightseer(name) for name in ("figure1", "circles", "m8", "m11")},
+    **{f"sightseer {name}": sightseer(name) for name in some(("circles", "m11", "figure1", "m8"), 2)},
     "octagons": lambda: xa.sightseer(random_octagons(5, 1), 5),
     **{
         f"random sightseer {seed}": (lambda s=seed: xa.sightseer(random_scene(Subject.SIGHTSEER, s)))
-        for seed in some(range(10), 3)
+        for seed in some(range(10), 2)
     },
     **({"spreader figure4": spreader("figure4")} if NIGHTLY else {"spreader case2": spreader("case2")}),
     "spreader m25, what is visible": spreader("m25", target="visible"),

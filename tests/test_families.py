@@ -9,6 +9,7 @@ from hashlib import sha256
 
 import pytest
 from flint import fmpq
+from nightly import some
 
 import exactacq as xa
 from exactacq.files.scene_json import scene_to_json
@@ -117,7 +118,7 @@ class TestEveryFamily:
         assert len({written(scene.replace(name="")) for scene in scenes}) == 6
         assert scenes[3].name == f"{family.value}-8-{strategy.value}-3"
 
-    @pytest.mark.parametrize("strategy", list(Strategy), ids=str)
+    @pytest.mark.parametrize("strategy", some(list(Strategy), 1), ids=str)
     def test_is_explored_and_passes_the_audit(self, family: Family, strategy: Strategy) -> None:
         scene = family_scene(family, SIZES[0], 0, strategy)
         run = xa.sightseer(scene) if strategy is Strategy.SIGHTSEER else xa.seed_spreader(scene)

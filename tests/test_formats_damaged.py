@@ -23,7 +23,7 @@ from exactacq.files.loops import nesting
 from exactacq.files.repairs import flattened
 from exactacq.scene import validation
 
-COUNT = int(os.environ.get("EXACTACQ_MUTATIONS", "60" if NIGHTLY else "12"))
+COUNT = int(os.environ.get("EXACTACQ_MUTATIONS", "60" if NIGHTLY else "8"))
 SECONDS = 20
 """More than any file may take, on a busy machine too; most take milliseconds."""
 LONGEST = 1000

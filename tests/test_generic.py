@@ -7,6 +7,7 @@ from random import Random
 
 import pytest
 from flint import arb, ctx
+from nightly import some
 from strategies import degenerate_terrain, random_terrain
 
 import exactacq as xa
@@ -79,7 +80,7 @@ class TestPlaces:
 
 
 @pytest.mark.parametrize("make", [random_terrain, degenerate_terrain])
-@pytest.mark.parametrize("seed", [0, 1, 3, 5, 6])
+@pytest.mark.parametrize("seed", some([0, 1, 3, 5, 6], 2))
 def test_the_map_after_any_length_lies_between_its_neighbours(make: object, seed: int) -> None:
     """What is known grows, and the places beside have rational parameters."""
     terrain, rng, beside = make(Random(seed)), Random(seed), Length("1e-9")

@@ -17,7 +17,7 @@ from flint import fmpq
 from hypothesis import assume, event, given
 from hypothesis import strategies as st
 from moebius import Bow, Spot
-from scaled import examples
+from nightly import examples
 from test_number_oracle import HAIRS
 
 from exactacq.geometry.curves import Arc

@@ -14,6 +14,7 @@ import pytest
 from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from nightly import examples
 
 from exactacq.errors import FormatError, Undecided
 from exactacq.geometry.curves import Arc
@@ -401,7 +402,7 @@ distant = st.tuples(
 squares = st.sampled_from([fmpq(9), fmpq(7), fmpq(5, 2), fmpq(25, 4)])
 
 
-@settings(max_examples=60, deadline=None)
+@examples(25)
 @given(squares, st.lists(distant, min_size=2, max_size=24, unique=True), st.randoms(use_true_random=False))
 def test_pieces_of_a_circle_add_to_a_full_turn(square: fmpq, where: list, rng: random.Random) -> None:
     arcs = pieces([make(square, x, y, side) for make, x, y, side in where], square)

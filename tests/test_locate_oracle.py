@@ -17,7 +17,7 @@ from drawn_curves import HAIRS, UNITS, Draw, Move, Vector, cells, library_point,
 from hypothesis import event, given
 from hypothesis import strategies as st
 from moebius import Image, Spot, is_zero, mp, number, place, turns
-from scaled import examples
+from nightly import examples
 
 from exactacq import Outline, Scene
 from exactacq.geometry.curves import Arc, Curve, Segment

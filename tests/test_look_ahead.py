@@ -179,14 +179,14 @@ def degenerate(seed: int) -> tuple[list[Curve], list[Curve], fmpq, fmpq, fmpq]:
 class TestTheStrategyAgrees:
     """Two answers that share no code."""
 
-    @pytest.mark.parametrize("first", range(0, 60, 12))
+    @pytest.mark.parametrize("first", some(range(0, 60, 12), 2))
     def test_in_general_position(self, first: int) -> None:
         for seed in range(first, first + 12):
             targets, others, radius, start, stop = prediction._scene(seed)
             expected = prediction.sees(targets, others, radius, start, stop)
             assert sees(targets, others, radius, start, stop) is expected, seed
 
-    @pytest.mark.parametrize("first", range(0, 90, 10))
+    @pytest.mark.parametrize("first", some(range(0, 90, 10), 3))
     def test_on_grids(self, first: int) -> None:
         for seed in range(first, first + 10):
             targets, others, radius, start, stop = degenerate(seed)
@@ -209,14 +209,14 @@ def named(name: str | int) -> Scene:
     return xa.load(name) if isinstance(name, str) else random_scene(Subject.SEED_SPREADER, name)
 
 
-@pytest.mark.parametrize("name", some(["m18", 2, "relay"], 2))
+@pytest.mark.parametrize("name", some(["m18", 2, "relay"], 1))
 def test_a_forgotten_diversion_is_found(name: str | int, monkeypatch: pytest.MonkeyPatch) -> None:
     audit(xa.seed_spreader(named(name)), samples=2)
     with pytest.raises(AuditError, match=r"\(lose of obstacle \d+\) is not followed by a diversion"):
         audit(misled(monkeypatch, named(name), True), samples=2)
 
 
-@pytest.mark.parametrize("name", some(["m25", "relay", 41, 50, 62, 70], 3))
+@pytest.mark.parametrize("name", some(["m25", 41, "relay", 50, 62, 70], 2))
 def test_a_needless_diversion_is_found(name: str | int, monkeypatch: pytest.MonkeyPatch) -> None:
     audit(xa.seed_spreader(named(name)), samples=2)
     with pytest.raises(AuditError, match=r"is needless: by the map .* is seen from"):

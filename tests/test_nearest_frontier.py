@@ -37,7 +37,7 @@ class TestRuns:
         assert (run.strategy, run.title) == ("nearest-frontier", "Strategy nearest-frontier")
         assert run.complete and run.ending.value == "finished"
 
-    @pytest.mark.parametrize("name", [name for name in gallery.names() if name not in SLOW])
+    @pytest.mark.parametrize("name", some([name for name in gallery.names() if name not in SLOW], 14))
     def test_the_gallery(self, name: str) -> None:
         scene = gallery.scene(name)
         if scene.start is None or scene.meets_border():

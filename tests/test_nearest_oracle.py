@@ -18,7 +18,7 @@ from nearest_oracle import (
     least,
     parallel,
 )
-from scaled import examples
+from nightly import examples
 from test_contact_oracle import digits, seen
 
 from exactacq.geometry.curves import Arc, Segment

@@ -26,7 +26,7 @@ from matrix_numbers import (
     settled,
     size,
 )
-from scaled import examples
+from nightly import examples
 from sympy.polys.matrices.exceptions import DMNonInvertibleMatrixError
 
 from exactacq.numbers.between import rational_between

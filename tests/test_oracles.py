@@ -201,7 +201,7 @@ class TestShortestVisible:
                 assert free_sample_shorter(terrain.shapes, 0, j, best.length - 1e-9) is None
                 assert sampled is None or -1e-9 < sampled.length - best.length < 0.1
 
-    @examples(4, 200)
+    @examples(2, 200)
     @given(terrains())
     def test_images_have_the_same_weights(self, terrain: object) -> None:
         before = visibility_weights(terrain.shapes, terrain.radius, terrain.start)

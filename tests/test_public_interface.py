@@ -11,6 +11,7 @@ import re
 import subprocess
 import sys
 from fractions import Fraction
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
@@ -20,8 +21,10 @@ import pytest
 from flint import fmpq
 from hypothesis import given
 from hypothesis import strategies as st
+from nightly import NIGHTLY
 
 import exactacq as xa
+from exactacq.output.animation import frames
 
 Q = Fraction
 ROOT = Path(xa.__file__).parent
@@ -281,7 +284,9 @@ def documented() -> list[ModuleType]:
 
 
 @pytest.mark.parametrize("module", documented(), ids=lambda module: module.__name__)
-def test_examples_in_docstrings(module: ModuleType) -> None:
+def test_examples_in_docstrings(module: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
+    if not NIGHTLY:  # Animations show few moments.
+        monkeypatch.setattr(frames, "frames_of", partial(frames.frames_of, limit=9, fine=0))
     found = doctest.testmod(module)
     assert found.attempted > 0
     assert found.failed == 0

@@ -118,7 +118,7 @@ class TestLaws:
     def test_audited(self, terrain: Terrain) -> None:
         law_of_the_audit(terrain)
 
-    @pytest.mark.parametrize("seed", some([0, 9, 16, 22, 26, 33, 53, 62, 67, 68, 83, 153, 161, 177, 208], 8))
+    @pytest.mark.parametrize("seed", some([0, 9, 16, 22, 26, 33, 53, 62, 67, 68, 83, 153, 161, 177, 208], 4))
     def test_audited_cases(self, seed: int) -> None:
         """Scenes on which the audit or an oracle once found a flaw."""
         rng = Random(seed)
