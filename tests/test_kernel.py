@@ -438,6 +438,11 @@ def test_compiled_or_not_the_floats_are_the_same() -> None:
 IMPORT = "from exactacq import kernel; print(kernel.DESCRIPTION, kernel.COMPILED)"
 
 
+def test_it_is_told_without_an_import_of_its_own() -> None:
+    told = asked("", "import exactacq as xa; print(xa.kernel.DESCRIPTION)")
+    assert told.stdout == f"{kernel.DESCRIPTION}\n"
+
+
 def test_the_switch(tmp_path: Path) -> None:
     """Without compiled forms, with forms of other sources, and with forms of these sources."""
     copy = tmp_path / "exactacq" / "kernel"
