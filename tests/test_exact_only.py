@@ -99,3 +99,17 @@ def test_floats_decide_nothing(name: str, monkeypatch: pytest.MonkeyPatch) -> No
     assert told(RUNS[name]()) == usual
     spoil(monkeypatch)
     assert told(RUNS[name]()) == usual
+
+
+@pytest.mark.parametrize("exact", [False, True], ids=["floats", "exact"])
+def test_a_known_corner_is_told_once(exact: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Exact views end in the corner twice, on both of its edges: the point was told beside what it ends."""
+    monkeypatch.setattr(kernel, "EXACT_ONLY", exact)
+    run = xa.sightseer(random_scene(Subject.SIGHTSEER, 90000036))
+    for event in run.events:
+        known = run.map_at(event)
+        for i in known.seen:
+            parts = known.known(i)
+            alone = {part.start for part in parts if part.curve is None}
+            assert len(alone) == sum(part.curve is None for part in parts)
+            assert not alone & {end for part in parts if part.curve for end in (part.start, part.end)}

@@ -288,11 +288,18 @@ class Map:
     def _is_acquired(self, i: int) -> bool:
         return self._targets.is_whole(i, self._covers)
 
-    def _is_told_by_next(self, i: int, k: int) -> bool:
-        """Whether the corner where an edge ends is known as a point of the next one."""
+    def _is_told_beside(self, i: int, k: int, part: Interval) -> bool:
+        """Whether a known point of an edge is a corner of which another edge tells.
+
+        A known corner belongs to the edge that starts there, unless it ends a known part of the other one.
+        """
         targets = self._targets.of[i]
-        target, after = targets[k], targets[(k + 1) % len(targets)]
-        if len(targets) == 1 or target.span.end != after.span.start:
+        before, target, after = targets[k - 1], targets[k], targets[(k + 1) % len(targets)]
+        if len(targets) == 1:
+            return False
+        if part.low.compare(target.span.low) == 0:
+            return before.span.end == target.span.start and self._reaches_end(before)
+        if part.high.compare(target.span.high) != 0 or target.span.end != after.span.start:
             return False
         return any(part.low.compare(after.span.low) == 0 for part in self._parts(after))
 
@@ -304,8 +311,8 @@ class Map:
             return
         for part in self._parts(target):
             if part.low.compare(part.high) == 0:
-                # The two ends may be one point in two forms. A corner belongs to the edge that starts there.
-                if not (part.high.compare(target.span.high) == 0 and self._is_told_by_next(i, k)):
+                # The two ends may be one point in two forms.
+                if not self._is_told_beside(i, k, part):
                     yield Known(k, part.start, part.start, None)
             else:
                 yield Known(k, part.start, part.end, curve.part(part.start, part.end))
