@@ -148,17 +148,19 @@ def test_results_are_whole_and_name_what_made_them(path: Path, extension: Module
         assert len(row) == len(result["columns"])
 
 
-def test_a_campaign_is_told_with_what_is_open(extension: ModuleType) -> None:
-    statement = {"claim": "L1", "called": "true", "held": 3, "failed": 1, "unanswered": 2}
+def test_campaigns_are_told_as_one_with_what_is_open(extension: ModuleType) -> None:
+    statement = {
+        "claim": "L1", "statement": "printed", "called": "true", "held": 3, "failed": 1, "unanswered": 2
+    }  # fmt: skip
     summary = {
         "statements": [statement, {**statement, "called": "false", "held": 50}],
         "scenes": {"passed": 5, "undecided": 1},
         "wrong": [],
         "open": [{"scene": f"sightseer:{k}", "what": "undecided", "why": "a tie"} for k in range(45)],
     }
-    lines = list(importlib.import_module("trust_page")._campaign(summary))
-    assert lines[:3] == ["| passed | undecided |", "|---|---|", "| 5 | 1 |"]
-    assert "The 1 statements that are called true held 3 times on single scenes, failed 1 times" in lines[4]
+    lines = list(importlib.import_module("trust_page")._campaigns([summary, {**summary, "open": []}]))
+    assert lines[:3] == ["| passed | undecided |", "|---|---|", "| 10 | 2 |"]
+    assert "The 1 statements that are called true held 6 times on single scenes, failed 2 times" in lines[4]
     assert lines[-3] == "| `sightseer:39` | undecided | a tie |" and lines[-1].startswith("5 more")
 
 

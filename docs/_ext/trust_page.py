@@ -1,8 +1,9 @@
 """The tables of the pages on trust and comparison, from the results that are stored in ``docs/results``.
 
 Each file there is one experiment: its ``title``, what it ``asks``, the ``commands`` that made it, the commit
-that it was made with as ``version``, and a table with ``columns`` and ``rows``, or a ``campaign``: what
-``exactacq verify --json`` printed. ``notes`` follow the table. Files are shown in the order of their names.
+that it was made with as ``version``, and a table with ``columns`` and ``rows``, or ``campaigns``: what
+each ``exactacq verify --json`` printed. ``notes`` follow the table. Files are shown in the order of their
+names.
 """
 
 from __future__ import annotations
@@ -28,8 +29,8 @@ def section(result: dict[str, Any]) -> Iterator[str]:
     yield from (f"## {result['title']}", "", result["asks"], "", "```console")
     yield from (f"$ {command}" for command in result["commands"])
     yield from ("```", "", f"Made with the version of commit `{result['version']}`.", "")
-    if "campaign" in result:
-        yield from _campaign(result["campaign"])
+    if "campaigns" in result:
+        yield from _campaigns(result["campaigns"])
     else:
         yield from table(result["columns"], result["rows"])
     if result.get("notes"):
@@ -45,17 +46,19 @@ def table(columns: Iterable[str], rows: Iterable[Iterable[object]]) -> Iterator[
     yield from (f"| {' | '.join(map(str, row))} |" for row in rows)
 
 
-def _campaign(summary: dict[str, Any]) -> Iterator[str]:
+def _campaigns(summaries: list[dict[str, Any]]) -> Iterator[str]:
     """What became of the scenes, what was said of the statements that are called true, and what is open."""
-    yield from table(summary["scenes"], [summary["scenes"].values()])
-    true = [row for row in summary["statements"] if row["called"] == "true"]
+    outcomes = list(summaries[0]["scenes"])
+    yield from table(outcomes, [[sum(part["scenes"][key] for part in summaries) for key in outcomes]])
+    true = [row for part in summaries for row in part["statements"] if row["called"] == "true"]
     held, failed, unanswered = (sum(row[key] for row in true) for key in ("held", "failed", "unanswered"))
+    count = len({(row["claim"], row["statement"]) for row in true})
     yield ""
     yield (
-        f"The {len(true)} statements that are called true held {held} times on single scenes, "
+        f"The {count} statements that are called true held {held} times on single scenes, "
         f"failed {failed} times, and got no answer {unanswered} times."
     )
-    left = [*summary["wrong"], *summary["open"]]
+    left = [one for part in summaries for one in (*part["wrong"], *part["open"])]
     if left:
         yield ""
         rows = [(f"`{one['scene']}`", one["what"], one["why"][:WHY]) for one in left[:NAMED]]
