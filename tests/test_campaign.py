@@ -15,7 +15,7 @@ from typing import Any
 
 import pytest
 import typer
-from nightly import some
+from nightly import by_night, some
 from planted_claims import MARK, SOUND, no_third
 from typer.testing import CliRunner
 
@@ -184,6 +184,7 @@ class TestKills:
             assert (tmp_path / "mark").exists()
             assert verdicts(store) == expected
 
+    @by_night
     def test_a_scene_that_kills_every_process_is_given_up(self) -> None:
         settings = replace(QUICK, claims="planted_claims:DYING", scenes=4)
         with opened(settings) as store:
@@ -191,6 +192,7 @@ class TestKills:
             assert store.rows("SELECT seed FROM scenes WHERE outcome = 'passed'") == [(0,), (1,), (3,)]
             assert [(task.seed, what) for task, what, _ in faults(store)] == [(2, "crashed")]
 
+    @by_night
     def test_workers_that_cannot_start_are_an_error(self) -> None:
         settings = replace(QUICK, claims="planted_claims:NOTHING")
         with Store(None, settings, []) as store, pytest.raises(ProcessError, match="end before they take up"):

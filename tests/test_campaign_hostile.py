@@ -21,6 +21,7 @@ from typing import Any
 
 import pytest
 from hostile_mounts import cannot_mount, ending, in_own_mounts, without_override
+from nightly import by_night
 from test_campaign import QUICK, SOUND, opened, verdicts
 
 from exactacq.cli.entry import main
@@ -311,6 +312,7 @@ def _slowly(task: int) -> int:
     return task
 
 
+@by_night
 def test_results_that_came_in_time_are_taken_late() -> None:
     """All processes whose time was over after a pause of the coordinator were killed, finished or not."""
     with Team(slow, 2, 1.5) as team:
@@ -327,6 +329,7 @@ def _never_ready() -> Callable[[int], int]:
     raise AssertionError("the process is killed before")
 
 
+@by_night
 def test_processes_that_never_start_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
     """One that was stopped while it started had no deadline, and the campaign waited for ever."""
     monkeypatch.setattr(processes, "START", 0.5)

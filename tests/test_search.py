@@ -12,6 +12,7 @@ from random import Random
 import pytest
 import typer
 from flint import fmpq
+from nightly import by_night
 from typer.testing import CliRunner
 
 import exactacq as xa
@@ -205,6 +206,7 @@ def test_the_child_process_judges_alike_and_is_ended_when_slow() -> None:
     assert time.monotonic() - begun < 20
 
 
+@by_night
 def test_a_draft_that_ends_the_process_is_a_fault() -> None:
     with Referee(dies, limit=60) as referee:
         assert referee.judge(two_boxes()).reason == "fault: 2 processes died, the last with exit status 7"
