@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -69,6 +71,23 @@ def test_names_are_those_of_the_features(tmp_path: Path) -> None:
     assert [shape.name for shape in read(tmp_path, document).shapes] == ["hall", "3"]
     room = read(tmp_path, document, start=("1/2", "1/2"))
     assert room.enclosure.name == "hall" and [shape.name for shape in room.shapes] == ["hall, hole 1"]
+
+
+@pytest.mark.parametrize("suffix", ["geojson", "json"])
+def test_half_a_character_in_a_name_is_refused(tmp_path: Path, suffix: str) -> None:
+    path = tmp_path / f"areas.{suffix}"
+    path.write_text(json.dumps(feature(polygon(SQUARE), name="a\ud800")))
+    with pytest.raises(xa.FormatError, match=r"column \d+: \\ud800 is half of a character"):
+        xa.load(path, start=(-1, 0))
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="names of files are bytes")
+def test_a_file_whose_name_is_no_text_gives_results_that_can_be_written(tmp_path: Path) -> None:
+    path = tmp_path / os.fsdecode(b"caf\xe9.geojson")
+    path.write_text(json.dumps(polygon(SQUARE)))
+    scene = xa.load(path, start=(-1, 0))
+    assert scene.name == "caf?"
+    xa.write(scene, tmp_path / "scene.json")
 
 
 def test_the_start_tells_which_side_is_free(tmp_path: Path) -> None:

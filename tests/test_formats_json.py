@@ -206,6 +206,29 @@ def test_noise_is_refused_quickly(tmp_path: Path, content: bytes, message: str) 
     assert len(str(caught.value)) < 400
 
 
+@pytest.mark.parametrize(
+    ("name", "place"),
+    [
+        (r"\ud800", "line 2, column 2"),
+        (r"\\\\\uDFFF", "line 2, column 6"),
+        (r"a\ude42\ud83d", "line 2, column 3"),
+        (r"\ud83d\ud83d\ude42", "line 2, column 2"),
+    ],
+)
+def test_half_a_character_is_refused_with_its_place(tmp_path: Path, name: str, place: str) -> None:
+    """It was taken, and then could not be written to any file."""
+    path = write(tmp_path, f'{{"obstacles": [], "name":\n"{name}"}}')
+    with pytest.raises(FormatError, match=rf"scene.json: {place}: \\u[\w]{{4}} is half of a character"):
+        load(path)
+
+
+@pytest.mark.parametrize(
+    ("name", "value"), [(r"\ud83d\ude42", "\U0001f642"), (r"\\ud800", r"\ud800"), (r"\u00e9\n", "é\n")]
+)
+def test_whole_characters_may_be_escaped(tmp_path: Path, name: str, value: str) -> None:
+    assert load(write(tmp_path, f'{{"obstacles": [], "name": "{name}"}}')).name == value
+
+
 def test_too_many_edges_are_refused_before_validation(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

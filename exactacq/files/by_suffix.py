@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -41,8 +42,13 @@ def load(path: str | Path, *, start: Point | Sequence[object] | None = None, **o
 def contents_of(
     path: str | Path, start: Point | Sequence[object] | None, options: Mapping[str, Any]
 ) -> Contents:
-    """What a file holds before anything is decided; errors as those of `load`, which name no file here."""
-    return format_of(Path(path)).read(Path(path), _place(start), options)
+    """What a file holds before anything is decided; errors as those of `load`, which name no file here.
+
+    A drawing has its file's name. Bytes in that that are no UTF-8 become question marks: results are UTF-8.
+    """
+    contents = format_of(Path(path)).read(Path(path), _place(start), options)
+    name = None if contents.name is None else contents.name.encode("utf-8", "replace").decode()
+    return contents if name == contents.name else replace(contents, name=name)
 
 
 @contextmanager

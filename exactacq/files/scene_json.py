@@ -7,6 +7,7 @@ scene is the same scene: shapes, names, start, terrain, enclosure, radius and no
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NoReturn
@@ -27,6 +28,10 @@ MAX_COMMAS = 8 * MAX_EDGES
 SCENE_KEYS = ("name", "start", "radius", "terrain", "enclosure", "obstacles", "notes")
 SHAPE_KEYS = ("name", "boundary", "circle")
 BEND_KEYS = ("center", "clockwise", "through")
+_ESCAPE = re.compile(
+    r"\\u[dD][89abAB][\da-fA-F]{2}\\u[dD][c-fC-F][\da-fA-F]{2}|(?P<half>\\u[dD][89a-fA-F][\da-fA-F]{2})|\\."
+)
+"""An escape in JSON: two surrogates, which are one character; one of them alone; or any other."""
 
 
 class _Literal(str):
@@ -55,10 +60,15 @@ def contents_of(document: Any, start: tuple[fmpq, fmpq] | None = None) -> Conten
 
 
 def parse_json(data: bytes) -> Any:
-    """JSON data, numbers as the text that stands in the file; `FormatError` for what is no JSON."""
+    """JSON data, numbers as the text that stands in the file; `FormatError` for what is no JSON.
+
+    JSON can write half of a character (a surrogate without its other half), which no file, figure or page
+    can: that is a `FormatError` too, with its place. Linear in the data.
+    """
+    text = decoded(data)
     try:
-        return json.loads(
-            decoded(data),
+        document = json.loads(
+            text,
             parse_float=_Literal,
             parse_int=_Literal,
             parse_constant=_Literal,
@@ -69,6 +79,16 @@ def parse_json(data: bytes) -> Any:
         raise FormatError(f"{place}: not JSON ({one_line(error.msg)}); correct the file") from None
     except RecursionError:
         raise FormatError("nested too deeply; a scene has five levels") from None
+    for escape in _ESCAPE.finditer(text):
+        if escape["half"]:
+            line, column = (
+                text.count("\n", 0, escape.start()) + 1,
+                escape.start() - text.rfind("\n", 0, escape.start()),
+            )
+            raise FormatError(
+                f"line {line}, column {column}: {escape['half']} is half of a character; write a whole one"
+            )
+    return document
 
 
 def scene_of(document: Any) -> Scene:

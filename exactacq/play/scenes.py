@@ -44,8 +44,6 @@ class Request:
         told = parse_json(body)
         if not isinstance(told, dict) or "scene" not in told:
             raise FormatError("a request is an object with a scene")
-        if b"\\u" in body:
-            _check_whole(told)
         for key in told:
             if key not in SETTINGS:
                 raise FormatError(f"unknown key {key[:40]!r}; known are {', '.join(SETTINGS)}")
@@ -62,14 +60,6 @@ class Request:
         """The scene to be explored; `InvalidScene` with all rules that are broken."""
         scene = self.contents.scene(advise=False)
         return at_corner(scene) if self.strategy is Strategy.SEED_SPREADER else scene
-
-
-def _check_whole(document: object) -> None:
-    """JSON can write half of a character (a lone surrogate), which no file and no figure can."""
-    try:
-        json.dumps(document, ensure_ascii=False).encode()
-    except UnicodeEncodeError:
-        raise FormatError("a text holds half of a character; write whole ones") from None
 
 
 def text_of(contents: Contents) -> str:
