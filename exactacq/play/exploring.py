@@ -16,10 +16,10 @@ from exactacq.output.figures.draw import figure, rendered
 from exactacq.output.vocabulary import Labels, Word, missed_word
 from exactacq.play.scenes import Request, dumped
 from exactacq.progress import Progress
+from exactacq.strategies.explore import explore
 from exactacq.strategies.options import Strategy
-from exactacq.strategies.run import Run, SeedSpreaderRun
+from exactacq.strategies.run import Run, SightseerRun
 from exactacq.strategies.seed_spreader.strategy import seed_spreader
-from exactacq.strategies.sightseer.strategy import sightseer
 
 SOON, FINE = (48, 0), (LIMIT, 200)
 """Stops, and places between them, looked at before the run is first shown; then to make it smooth."""
@@ -75,13 +75,15 @@ def _told_as(what: str, tell: Tell) -> Progress:
 
 def _run(request: Request, progress: Progress) -> Run:
     scene = request.scene()
-    if request.strategy is Strategy.SIGHTSEER:
-        return sightseer(scene, progress=progress)
-    return seed_spreader(scene, lookahead=request.lookahead, target=request.target.value, progress=progress)
+    if request.strategy is Strategy.SEED_SPREADER:
+        return seed_spreader(
+            scene, lookahead=request.lookahead, target=request.target.value, progress=progress
+        )
+    return explore(scene, request.strategy, progress=progress)
 
 
 def _report(run: Run, trouble: str) -> dict[str, Any]:
-    """What the page says of a run as a whole: its exact length, the bounds, and what it missed."""
+    """What the page says of a run as a whole: its exact length, the bounds, what it did and missed."""
     bounds = [
         {
             **row,
@@ -90,16 +92,17 @@ def _report(run: Run, trouble: str) -> dict[str, Any]:
         }
         for row, bound in zip(run.bound_table, run.bounds, strict=True)
     ]
-    names = list(run.names())
+    names, is_visiting = list(run.names()), isinstance(run, SightseerRun)
+    done = run.visits if is_visiting else run.map.acquired
     missed = {
         Word.UNSEEN: [names[k] for k in run.unseen],
-        missed_word(isinstance(run, SeedSpreaderRun)): [names[k] for k in run.unvisited],
+        missed_word(not is_visiting): [names[k] for k in run.unvisited],
     }
     return {
         "title": run.title,
         "length": list(readable(run.length, CLOSED_FORM, DIGITS)),
         "bounds": bounds,
         "missed": {word: some for word, some in missed.items() if some},
-        "visits": [len(run.visits), len(run.obstacles)],
+        "done": [Word.VISITED if is_visiting else Word.ACQUIRED, len(done), len(run.obstacles)],
         "trouble": trouble,
     }

@@ -23,10 +23,12 @@ from exactacq.scene.bounding import at_corner
 from exactacq.scene.scene import Obstacle, Scene, radius_of, start_of
 from exactacq.scene.terrain_components import ground_of
 from exactacq.scene.validation import LISTED, violations
-from exactacq.strategies.options import Strategy, TargetChoice
+from exactacq.strategies.options import Baseline, Strategy, TargetChoice
 
 SETTINGS = ("scene", "strategy", "lookahead", "target")
 """What a request about a drawing may hold."""
+STRATEGIES: tuple[Strategy | Baseline, ...] = (*Strategy, *Baseline)
+"""How a drawing may be explored: by any strategy that comes with the library."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +36,7 @@ class Request:
     """A drawing, and how it is to be explored."""
 
     contents: Contents
-    strategy: Strategy = Strategy.SIGHTSEER
+    strategy: Strategy | Baseline = Strategy.SIGHTSEER
     lookahead: bool = True
     target: TargetChoice = TargetChoice.KNOWN
 
@@ -47,14 +49,15 @@ class Request:
         for key in told:
             if key not in SETTINGS:
                 raise FormatError(f"unknown key {key[:40]!r}; known are {', '.join(SETTINGS)}")
-        strategy = told.get("strategy", Strategy.SIGHTSEER)
-        if strategy not in list(Strategy):
-            raise FormatError(f"strategy: {' or '.join(Strategy)}")
+        name = told.get("strategy", Strategy.SIGHTSEER)
+        strategy = next((known for known in STRATEGIES if known == name), None)
+        if strategy is None:
+            raise FormatError(f"strategy: one of {', '.join(STRATEGIES)}")
         lookahead = told.get("lookahead", True)
         if not isinstance(lookahead, bool):
             raise FormatError("lookahead: true or false")
         target = TargetChoice(told.get("target", TargetChoice.KNOWN))
-        return cls(contents_of(told["scene"]), Strategy(strategy), lookahead, target)
+        return cls(contents_of(told["scene"]), strategy, lookahead, target)
 
     def scene(self) -> Scene:
         """The scene to be explored; `InvalidScene` with all rules that are broken."""
@@ -93,25 +96,38 @@ def flaws(request: Request) -> list[dict[str, Any]]:
             "loops": [-1 if loops[k].is_enclosure else k for k in violation.loops],
             "places": [place.xy for place in violation.places if all(map(isfinite, place.xy))],
         }
-        for violation in found[:LISTED]
+        for violation in found
     ]
-    if len(found) > LISTED:
-        told.append({"text": f"and {len(found) - LISTED} more", "loops": [], "places": []})
-    return told or [{"text": text, "loops": [], "places": []} for text in _lacks(request)]
+    return _listed(told or list(_lacks(request)))
 
 
-def _lacks(request: Request) -> Iterator[str]:
-    """What a legal scene lacks for its strategy."""
+def _listed(told: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """At most `LISTED` flaws, and how many more there are."""
+    left = len(told) - LISTED
+    return told if left <= 0 else [*told[:LISTED], _flaw(f"and {left} more")]
+
+
+def _flaw(text: str, *loops: int) -> dict[str, Any]:
+    return {"text": text, "loops": list(loops), "places": []}
+
+
+def _lacks(request: Request) -> Iterator[dict[str, Any]]:
+    """What is wrong with a legal scene for its strategy."""
     try:
         scene = request.scene()
         place = scene.start
-        if request.strategy is Strategy.SIGHTSEER:
+        if request.strategy is not Strategy.SEED_SPREADER:
             place = start_of(scene)
+            for k in scene.meets_border():
+                label = scene.obstacles[k].label
+                yield _flaw(
+                    f"obstacle {label} meets the terrain's border: only the Seed Spreader takes it", k
+                )
         elif scene.enclosure is None or scene.terrain is not None:
             ground_of(scene)
         radius_of(scene, None, place)
     except InvalidScene as error:
-        yield from error.violations
+        yield from map(_flaw, error.violations)
 
 
 def opened(

@@ -29,7 +29,7 @@ TERRAIN = {"width": "20", "height": "20", "origin": ["0", "0"]}
 SCENE = {"name": "a", "start": ["0", "0"], "radius": "20", "obstacles": [DISC, {"boundary": SQUARE}]}
 DRAWINGS: list[Any] = [
     {"scene": SCENE},
-    {"scene": {**SCENE, "enclosure": ROOM, "notes": ["n"]}, "strategy": "sightseer"},
+    {"scene": {**SCENE, "enclosure": ROOM, "notes": ["n"]}, "strategy": "nearest-frontier"},
     {
         "scene": {**SCENE, "terrain": TERRAIN},
         "strategy": "seed-spreader",

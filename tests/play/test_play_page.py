@@ -9,6 +9,13 @@ from pathlib import Path
 from board_page import SHAPES, WATCHES, click, key, show, square
 from chromium import Chromium
 
+from exactacq.play.scenes import STRATEGIES
+
+CHOOSE = (
+    "(() => {{ const s = document.getElementById('strategy'); s.value = '{}'; "
+    "s.dispatchEvent(new Event('change', {{ bubbles: true }})); }})()"
+)
+
 
 def test_a_square_is_drawn_run_scrubbed_and_saved(page: Chromium, tmp_path: Path) -> None:
     page.send("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(tmp_path))
@@ -52,6 +59,42 @@ def test_what_is_broken_is_told_beside_the_shapes(page: Chromium) -> None:
     page.click("#mode")
     assert page.run("document.getElementById('trouble').hidden") is False
     assert page.run("document.body.dataset.mode") == "draw"
+
+
+def test_every_strategy_is_offered_with_what_it_does(page: Chromium) -> None:
+    offered = page.run("[...document.getElementById('strategy').options].map((o) => o.value)")
+    assert offered == list(STRATEGIES)
+    told = set()
+    for name in offered:
+        page.run(CHOOSE.format(name))
+        told.add(page.run("document.getElementById('strategy-told').textContent"))
+    assert len(told) == len(offered) and "" not in told
+
+
+def test_a_run_without_bounds_says_so_and_tells_its_reasons(page: Chromium) -> None:
+    page.run("document.querySelector('[data-example=circles]').click()")
+    page.until(f"{SHAPES} === 2", 30)
+    page.run(CHOOSE.format("nearest-frontier"))
+    page.click("#mode")
+    page.until(WATCHES, 60)
+    assert page.run("document.getElementById('summary').textContent").startswith("2 of 2 obstacles acquired")
+    assert page.run("document.getElementById('boundless').hidden") is False
+    page.press("Home")
+    assert page.run("document.getElementById('why').textContent").startswith(
+        "to the nearest frontier by path"
+    )
+    page.run(CHOOSE.format("sightseer"))
+    page.until("document.getElementById('outcome-title').textContent === 'Sightseer Strategy'", 60)
+    page.until(WATCHES, 60)
+    assert page.run("document.getElementById('verdicts').textContent") == ": 4 of 4 hold"
+    assert page.run("document.getElementById('boundless').hidden") is True
+
+
+def test_an_example_is_watched_by_one_click(page: Chromium) -> None:
+    page.click("#welcome [data-watch]")
+    page.until("document.body.dataset.busy === 'run' || document.body.dataset.mode === 'watch'", 30)
+    page.run("document.getElementById('stop').click()")
+    page.until("!document.body.dataset.busy", 30)
 
 
 def test_a_run_is_stopped(page: Chromium) -> None:

@@ -10,12 +10,13 @@ from urllib.parse import urlsplit
 
 import pytest
 
-from exactacq import load, sightseer
+from exactacq import explore, load, load_run, sightseer
 from exactacq.output.vocabulary import DARK, colours
 
 httpx = pytest.importorskip("httpx", reason="httpx is not installed")
 
 DISCS = [{"circle": {"center": [x, "0"], "radius": r}} for x, r in (("5", "2"), ("12", "3"))]
+ROOM = [[x, y] for x, y in (("-30", "-30"), ("30", "-30"), ("30", "30"), ("-30", "30"))]
 SCENE = {"start": ["0", "0"], "radius": "20", "obstacles": DISCS}
 JSON = {"content-type": "application/json"}
 FILE = {"content-type": "application/octet-stream"}
@@ -59,11 +60,30 @@ def test_a_run_is_told_and_saved_exactly(address: str) -> None:
     assert httpx.get(address + "api/run?number=0").status_code == 410
 
 
+def test_a_baseline_is_run_and_saved_like_the_others(address: str) -> None:
+    number = post(address, "api/run", {"scene": SCENE, "strategy": "nearest-frontier"}).json()["number"]
+    assert finished(address, number)["state"] == "finished"
+    data = httpx.get(address + f"api/data?number={number}").json()
+    own = explore(load("circles"), "nearest-frontier")
+    assert data["report"]["length"] == [f"≈ {own.length.decimal(20)}"]
+    assert data["report"]["bounds"] == [] and data["report"]["done"] == ["acquired", 2, 2]
+    assert data["run"]["plans"][0][1] == own.events[0].why(list(own.names()))
+    trace = post(address, "api/save?kind=trace", None).json()
+    saved = load_run(trace)
+    assert (saved.path, saved.events) == (own.path, own.events)
+    refused = post(address, "api/check", {"scene": SCENE, "strategy": "best"})
+    assert refused.status_code == 422 and "nearest-frontier" in refused.json()["error"]
+
+
 def test_broken_rules_are_told_with_their_places(address: str) -> None:
     crossing = {**SCENE, "obstacles": [DISCS[0], {"circle": {"center": ["7", "0"], "radius": "1"}}]}
     (flaw, *_) = post(address, "api/check", {"scene": crossing}).json()["flaws"]
     assert flaw["loops"] == [0, 1] and "disjoint" in flaw["text"] and flaw["places"]
     assert post(address, "api/check", {"scene": SCENE}).json() == {"flaws": []}
+    met = {**SCENE, "enclosure": ROOM, "terrain": {"width": "9", "height": "9", "origin": ["-1", "-4"]}}
+    for strategy in ("sightseer", "nearest-frontier"):
+        (flaw,) = post(address, "api/check", {"scene": met, "strategy": strategy}).json()["flaws"]
+        assert flaw["loops"] == [1] and "O2 meets the terrain's border" in flaw["text"]
     swept = {"scene": SCENE, "strategy": "seed-spreader"}
     assert "terrain" in post(address, "api/check", swept).json()["flaws"][0]["text"]
 

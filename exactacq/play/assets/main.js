@@ -78,6 +78,12 @@ for (const button of document.querySelectorAll("[data-tool]")) {
 for (const button of document.querySelectorAll("[data-example]")) {
   button.addEventListener("click", () => files.openGallery(button.dataset.example));
 }
+for (const button of document.querySelectorAll("[data-watch]")) {
+  button.addEventListener("click", async () => {
+    await files.openGallery(button.dataset.watch);
+    if (state.drawing.shapes.length) await runs.run();
+  });
+}
 for (const button of document.querySelectorAll("dialog [data-close]")) {
   button.addEventListener("click", () => button.closest("dialog").close());
 }

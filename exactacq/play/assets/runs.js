@@ -104,10 +104,10 @@ export function runs(store, camera, trouble) {
     $("outcome-title").textContent = report.title;
     $("whole").textContent = exact;
     $("decimal").textContent = decimal;
-    const [visited, all] = report.visits;
-    $("summary").textContent = `${visited} of ${counted(all, "obstacle")} visited, ${counted(run.happened, "event")}`;
+    const [word, some, all] = report.done;
+    $("summary").textContent = `${some} of ${counted(all, "obstacle")} ${word}, ${counted(run.happened, "event")}`;
     $("missed").replaceChildren();
-    for (const [word, names] of Object.entries(report.missed)) add($("missed"), "p", {}, `${word}: ${names.join(", ")}`);
+    for (const [what, names] of Object.entries(report.missed)) add($("missed"), "p", {}, `${what}: ${names.join(", ")}`);
     if (report.trouble) add($("missed"), "p", { class: "bad" }, report.trouble);
     $("bounds").replaceChildren();
     for (const bound of report.bounds) {
@@ -117,7 +117,11 @@ export function runs(store, camera, trouble) {
       const verdict = !bound.applies ? "does not apply" : bound.holds ? `holds, ${bound.ratio}` : `fails, ${bound.ratio}`;
       add(row, "td", { class: bound.applies && !bound.holds ? "bad" : "" }, verdict);
     }
+    const applied = report.bounds.filter((bound) => bound.applies);
+    const holding = applied.filter((bound) => bound.holds).length;
+    $("verdicts").textContent = applied.length ? `: ${holding} of ${applied.length} hold` : "";
     $("bounds-part").hidden = !report.bounds.length;
+    $("boundless").hidden = report.bounds.length > 0;
     document.body.dataset.whole = whole;
   }
 

@@ -45,6 +45,7 @@ export function settings(store, grid) {
     const { strategy, lookahead, target, terrain } = state.drawing;
     const isSwept = strategy === "seed-spreader";
     $("strategy").value = strategy;
+    $("strategy-told").textContent = $("strategy").selectedOptions[0].title;
     $("lookahead").checked = lookahead;
     $("target").value = target;
     $("start-fields").hidden = isSwept;
