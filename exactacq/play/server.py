@@ -19,7 +19,7 @@ from exactacq.play.guard import Guard
 LOOPBACK, LOOPBACK_6 = "127.0.0.1", "::1"
 """The addresses of this machine that no other one reaches."""
 AT_ONCE = 64
-"""Requests that are answered at a time."""
+"""Connections at a time, of which the idle ones make room for others."""
 PATIENCE = 15.0
 """Seconds in which the head of a request must come, and an answer be taken: connections are few."""
 
@@ -71,26 +71,57 @@ def serve(
 def impatient(seconds: float) -> Any:
     """The protocol of uvicorn's connections, but one on which nothing begins for so many seconds is ended.
 
-    It may take up to twice as long.
+    It may take up to twice as long. Where there are as many connections as there may be, a new one ends the
+    one that has been idle for the longest time: those keep nobody out.
     """
     base = extra("uvicorn.protocols.http.h11_impl", "play").H11Protocol
+    misuse = extra("h11", "play").LocalProtocolError
 
     class Impatient(base):  # type: ignore[misc, valid-type]
         """A connection that is looked at now and then."""
 
         cycle: Any
 
+        @property
+        def is_idle(self) -> bool:
+            """Whether no request is being answered; the head of one may be on its way."""
+            return self.cycle is None or self.cycle.response_complete
+
         def connection_made(self, transport: asyncio.Transport) -> None:
             super().connection_made(transport)
+            self.idle_since = self.loop.time()
+            self._make_room()
             self._look(object())
+
+        def on_response_complete(self) -> None:
+            self.idle_since = self.loop.time()
+            super().on_response_complete()
+
+        def _make_room(self) -> None:
+            """End another connection if there are too many for a request to be answered."""
+            if self.limit_concurrency is None or len(self.connections) < self.limit_concurrency:
+                return
+            idle = [other for other in self.connections if other is not self and other.is_idle]
+            if idle:
+                longest = min(idle, key=lambda other: other.idle_since)
+                longest.transport.abort()
+                self.connections.discard(longest)  # At once: it would be counted until it is told of its end.
 
         def _look(self, before: object) -> None:
             """End it if no request has begun since the last look, at which none was being answered."""
-            is_idle = self.cycle is None or self.cycle.response_complete
-            if is_idle and self.cycle is before:
+            if self.is_idle and self.cycle is before:
                 self.transport.abort()
             else:
                 self._next = self.loop.call_later(seconds, self._look, self.cycle)
+
+        def send_400_response(self, msg: str) -> None:
+            """Tell that a request makes no sense, and end; uvicorn fails where it must not send so much.
+
+            It sends a text to those who ask for a head alone, and after an answer that is complete.
+            """
+            with suppress(misuse):
+                super().send_400_response(msg)
+            self.transport.close()
 
         def connection_lost(self, exc: Exception | None) -> None:
             self._next.cancel()

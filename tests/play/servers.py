@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import IO
 from urllib.parse import urlsplit
 
 import pytest
@@ -45,16 +46,23 @@ class Served:
 
 @contextmanager
 def served(
-    *options: str, place: str = "127.0.0.1", folder: Path | None = None, **environment: str
+    *options: str,
+    place: str = "127.0.0.1",
+    folder: Path | None = None,
+    errors: IO[str] | None = None,
+    **environment: str,
 ) -> Iterator[Served]:
-    """A server with options, in a folder; it must end by control-C, at once and quietly."""
+    """A server with options, in a folder; it must end by control-C, at once and quietly.
+
+    What it says of errors goes to a file, if there is one.
+    """
     pytest.importorskip("starlette", reason="the extra play is not installed")
     pytest.importorskip("uvicorn", reason="the extra play is not installed")
     line = [sys.executable, "-u", "-m", "exactacq", "play", "--no-browser", *options]
     own = [environment.pop("PYTHONPATH", None), str(ROOT), os.environ.get("PYTHONPATH")]
     environment["PYTHONPATH"] = os.pathsep.join(filter(None, own))
     with subprocess.Popen(
-        line, stdout=subprocess.PIPE, text=True, cwd=folder, env={**os.environ, **environment}
+        line, stdout=subprocess.PIPE, stderr=errors, text=True, cwd=folder, env={**os.environ, **environment}
     ) as server:
         assert server.stdout is not None
         try:

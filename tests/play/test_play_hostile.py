@@ -8,6 +8,7 @@ import socket
 import sys
 import time
 from collections.abc import Iterator
+from contextlib import contextmanager
 from http.client import HTTPException, HTTPResponse
 from pathlib import Path
 from typing import Any
@@ -29,10 +30,9 @@ MEMORY = 700
 """Megabytes that the server itself may need: the largest body a few times, and its libraries."""
 
 
-@pytest.fixture(scope="module")
-def watched(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Served, Path]]:
-    """A server with little time and memory, and the folder beside which it must write nothing."""
-    folder = tmp_path_factory.mktemp("watched")
+@contextmanager
+def started(folder: Path) -> Iterator[Served]:
+    """A server with little time and memory, whose writing is noted in a folder; it tells of no failure."""
     for name in ("home", "tmp", "cwd", "cache"):
         (folder / name).mkdir()
     environment = {
@@ -41,7 +41,20 @@ def watched(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Served, 
         "XDG_CACHE_HOME": str(folder / "cache"), "XDG_CONFIG_HOME": str(folder / "cache"),
         "SECRET": "neither read nor told",
     }  # fmt: skip
-    with served("--seconds", "5", "--memory", "1024", folder=folder / "cwd", **environment) as server:
+    options, said = ("--seconds", "5", "--memory", "1024"), folder / "said"
+    with (
+        said.open("w") as errors,
+        served(*options, folder=folder / "cwd", errors=errors, **environment) as server,
+    ):
+        yield server
+    assert "Traceback" not in said.read_text(errors="replace"), said.read_text(errors="replace")[-3000:]
+
+
+@pytest.fixture(scope="module")
+def watched(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Served, Path]]:
+    """A server, and the folder beside which it must write nothing."""
+    folder = tmp_path_factory.mktemp("watched")
+    with started(folder) as server:
         yield server, folder
     assert not any((folder / "tmp").iterdir())
 

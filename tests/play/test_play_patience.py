@@ -6,6 +6,7 @@ import asyncio
 import socket
 import time
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from threading import Thread
 from typing import Any
@@ -78,17 +79,38 @@ def test_a_connection_without_a_request_is_ended(sent: bytes) -> None:
         assert ended(plain)
 
 
-def test_slow_connections_keep_others_out_for_a_while_only() -> None:
+@pytest.mark.parametrize("sent", [b"", HEAD, HEAD + b"\r\n"], ids=["none", "head", "answered"])
+def test_idle_connections_keep_nobody_out(sent: bytes) -> None:
+    """They did until they were ended, for half a minute."""
     with listening(limit_concurrency=8) as port:
-        idle = [socket.create_connection(("127.0.0.1", port), 20) for _ in range(12)]
+        idle = []
         try:
-            end = time.monotonic() + 20
-            while answered(port) != 200:
-                assert time.monotonic() < end
-                time.sleep(SECONDS / 4)
+            for _ in range(12):
+                idle.append(socket.create_connection(("127.0.0.1", port), 20))
+                idle[-1].sendall(sent)
+            assert [answered(port) for _ in range(3)] == [200] * 3
         finally:
             for plain in idle:
                 plain.close()
+
+
+def test_requests_at_work_are_not_ended_for_others() -> None:
+    with listening(limit_concurrency=4) as port, ThreadPoolExecutor() as threads:
+        late = [threads.submit(answered, port, "/late") for _ in range(3)]
+        time.sleep(SECONDS)
+        assert answered(port) == 503
+        assert [one.result() for one in late] == [200] * 3
+
+
+@pytest.mark.parametrize("method", [b"HEAD", b"POST"])
+def test_what_makes_no_sense_is_refused_quietly(method: bytes, caplog: pytest.LogCaptureFixture) -> None:
+    """In place of the body of an answer to HEAD, which has none, uvicorn sent a traceback to the terminal."""
+    head = HEAD.replace(b"GET", method) + b"Transfer-Encoding: chunked\r\n\r\n"
+    with listening() as port, socket.create_connection(("127.0.0.1", port), 20) as plain:
+        plain.sendall(head + b"f" * 30 + b"\r\n")
+        assert plain.recv(100).startswith(b"HTTP/1.1 400")
+        assert ended(plain)
+    assert not caplog.records
 
 
 def test_an_answer_that_takes_long_comes() -> None:
