@@ -433,6 +433,11 @@ def test_two_runs_side_by_side(tmp_path: Path) -> None:
     left, right = drawn.axes[0], drawn.axes[1]
     assert left.bbox.y0 == pytest.approx(right.bbox.y0)
     assert left.bbox.height == pytest.approx(right.bbox.height)
+    bars = [ax for ax in drawn.axes if ax.get_xlabel() == "path, by length"]
+    longest = float(max(seen.length, swept.length))
+    assert [bar.get_xlim() for bar in bars] == [(0, longest)] * 2, "one colour is one length"
+    (mark,) = [line.get_xdata()[0] for bar in bars for line in bar.lines]
+    assert mark == float(min(seen.length, swept.length))
     for suffix, magic in some(((".svg", b"<?xml"), (".pdf", b"%PDF"), (".png", b"\x89PNG")), 1):
         paths = [tmp_path / f"{name}{suffix}" for name in "ab"]
         for path in paths:

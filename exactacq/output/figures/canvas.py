@@ -113,6 +113,8 @@ class Canvas:
         self.radius = None if radius is None else float(radius)
         self.room = room
         self.low, self.high = self._view()
+        # Where the colours of the path end, also at a moment of the run.
+        self.longest = 0.0 if self.run is None else float(self.run.length)
         self.legend: dict[str, Any] = {}
         self.spots: list[tuple[Spot, float]] = []
         self.colours: PathCollection | None = None
@@ -278,7 +280,7 @@ class Canvas:
         if sum(stroke.length for stroke in self.strokes) == 0:
             return None
         assert self.run is not None
-        total = float(self.run.length)  # Of all moments of a run, the colours are those of its end.
+        total = self.longest
         steps = Steps.of(self.strokes, COLOURS)
         tolerance = 1e-7 * max(self.width, self.height)
         ranks = steps.ranks(self.strokes, [piece.obstacle for piece in self.pieces], tolerance)
@@ -394,8 +396,9 @@ class Canvas:
 
 
 def show_alike(drawings: Sequence[Canvas]) -> None:
-    """Let drawings that are not drawn yet show one rectangle, so that they can be compared."""
+    """Let drawings that are not drawn yet show one rectangle, and one length of the path by one colour."""
     low = np.min([drawing.low for drawing in drawings], axis=0)
     high = np.max([drawing.high for drawing in drawings], axis=0)
+    longest = max(drawing.longest for drawing in drawings)
     for drawing in drawings:
-        drawing.low, drawing.high = low, high
+        drawing.low, drawing.high, drawing.longest = low, high, longest

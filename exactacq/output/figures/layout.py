@@ -169,6 +169,8 @@ class _Setting:
         corner = x + (self.full - length) / 2, y + self.foot - 0.12
         spot = (corner[0] / full, corner[1] / total, length / full, 0.09 / total)
         bar = page.colorbar(self.drawing.colours, cax=page.add_axes(spot), orientation="horizontal")
+        if self.drawing.run is not None and float(self.drawing.run.length) < self.drawing.longest:
+            bar.ax.axvline(float(self.drawing.run.length), color=INK, linewidth=1.6)
         bar.set_label(f"{Word.PATH}, by {Word.LENGTH}", size=8, color=SOFT, labelpad=1)
         bar.ax.tick_params(labelsize=7.5, colors=SOFT, length=2, width=0.6)
         bar.outline.set_visible(False)
