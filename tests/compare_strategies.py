@@ -1,10 +1,10 @@
 """Strategies compared on the gallery and on random scenes: makes the results in ``docs/results/comparison``.
 
 ``python tests/compare_strategies.py gallery`` and ``... random [--scenes N] [--first SEED]`` write their
-tables there, for the version that is checked out. A scene without a terrain gets the rectangle about all that
-is in it, one unit wider, for the Seed Spreader. As with `exactacq compare`, that one starts in the SW corner,
-the others at the scene's start, or else there too. A run that takes more than ``--seconds S`` of processor
-time is given up. Takes some seven minutes of it for 1,000 scenes.
+tables there, for the version that is checked out. A scene without a terrain gets the rectangle about all its
+obstacles, one unit wider, for the Seed Spreader. As with `exactacq compare`, that one starts in the SW
+corner, the others at the scene's start, or else there too. A run that takes more than ``--seconds S`` of
+processor time is given up. Takes some seven minutes of it for 1,000 scenes.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from exactacq.study.random_scenes import Subject, random_scene
 FOLDER = Path(__file__).parent.parent / "docs" / "results" / "comparison"
 STRATEGIES = (*Strategy, *Baseline)
 MARGIN = 1
-"""How far the terrain of a scene without one goes beyond all that is in it."""
+"""How far the terrain of a scene without one goes beyond its obstacles."""
 
 
 class Slow(BaseException):
@@ -82,7 +82,8 @@ def outcome(scene: xa.Scene, strategy: str, seconds: float) -> Outcome:
 def with_terrain(scene: xa.Scene) -> xa.Scene:
     """The scene with a terrain; one in an enclosure stays as it is, for the Seed Spreader takes none."""
     has_one = scene.terrain is not None or scene.enclosure is not None
-    return scene if has_one else scene.replace(terrain=terrain_around(scene, MARGIN))
+    around = scene.replace(start=None)
+    return scene if has_one else scene.replace(terrain=terrain_around(around, MARGIN))
 
 
 def gallery_result(seconds: float) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from nightly import some
 import exactacq as xa
 from exactacq.files.scene_json import scene_to_json
 from exactacq.geometry.points import Point
-from exactacq.numbers.real import Real
+from exactacq.numbers.real import Real, rational
 from exactacq.scene.shapes import Shape
 from exactacq.study.claims.model import Subject
 from exactacq.study.random_scenes import random_scene
@@ -104,6 +104,29 @@ def test_the_terrain_around_a_scene_holds_it() -> None:
         xa.terrain_around(scene, -1)
     with pytest.raises(xa.InvalidScene, match="no extent"):
         xa.terrain_around(xa.Scene([]))
+
+
+@pytest.mark.parametrize("margin", [0, "1/3"])
+def test_the_terrain_around_a_scene_holds_its_start(margin: object) -> None:
+    """It did not: the Sightseer began outside of the terrain that `compare` showed."""
+    disc = xa.Circle((5, 0), 2)
+    about, room = xa.terrain_around(xa.Scene([disc]), margin), rational(margin)
+    for start, sides in (
+        ((5, 3), (3, -2, 7, 3)), ((-1, -4), (-1, -4, 7, 2)), ((9, 1), (3, -2, 9, 2)),
+        ((3, -2), (3, -2, 7, 2)),
+    ):  # fmt: skip
+        scene = xa.Scene([disc], start)
+        west, south, east, north = xa.terrain_around(scene, margin).limits
+        assert (west + room, south + room, east - room, north - room) == sides
+        assert xa.terrain_around(scene.replace(start=None), margin) == about
+
+
+def test_the_terrain_around_an_irrational_start_is_a_little_wider() -> None:
+    root = xa.Real(10**9).sqrt()
+    start = xa.Point(root, -root)
+    west, south, east, north = xa.terrain_around(xa.Scene([xa.Circle((5, 0), 2)], start)).limits
+    assert (west, north) == (3, 2)
+    assert 0 < xa.Real(east) - root < root / 10**6 and 0 < -root - xa.Real(south) < root / 10**6
 
 
 def test_a_rectangular_room_is_its_terrain() -> None:

@@ -19,13 +19,14 @@ from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Terrain, shape_edges
 
 DIGITS = 6
-"""An irrational extent of an arc is rounded outward, by less than 10^-DIGITS of its radius."""
+"""An irrational extent is rounded outward, by less than 10^-DIGITS of an arc's radius or of a coordinate."""
 
 
 def terrain_around(scene: Scene, margin: object = 0) -> Terrain:
-    """The least terrain that holds all obstacles of a scene, wider by *margin* on every side.
+    """The least terrain that holds all obstacles of a scene and its start, wider by *margin* on every side.
 
-    It is exact, but for arcs of irrational radius, about which it is less than 10^-6 of the radius too wide.
+    That of the obstacles alone is the one around ``scene.replace(start=None)``. It is exact, but for arcs of
+    irrational radius and irrational coordinates of a start, where it is too wide by less than 10^-6 of them.
     With a margin the SW corner, where the Seed Spreader starts, is free. Raises `InvalidScene` for a scene
     without obstacles, and `FormatError` if the margin is no number or negative. Linear in the edges.
 
@@ -33,6 +34,8 @@ def terrain_around(scene: Scene, margin: object = 0) -> Terrain:
     >>> scene = xa.Scene([xa.Circle((5, 0), 2), [(0, 0), (1, 0), (1, 1)]])
     >>> xa.terrain_around(scene, "1/2")
     Terrain(width=8, height=5, origin=(-1/2, -5/2))
+    >>> xa.terrain_around(scene.replace(start=(-1, 0)), "1/2")
+    Terrain(width=9, height=5, origin=(-3/2, -5/2))
     """
     with about("margin"):
         room = rational(margin)
@@ -41,6 +44,10 @@ def terrain_around(scene: Scene, margin: object = 0) -> Terrain:
     if not scene.obstacles:
         raise InvalidScene(["a scene without obstacles has no extent: give a terrain"])
     west, south, east, north = _extent([edge for o in scene.obstacles for edge in o.edges])
+    if scene.start is not None:
+        x, y = scene.start.x, scene.start.y
+        west, south = min(west, -_upward(-x)), min(south, -_upward(-y))
+        east, north = max(east, _upward(x)), max(north, _upward(y))
     origin = west - room, south - room
     return Terrain(east - west + 2 * room, north - south + 2 * room, origin)
 
@@ -86,12 +93,12 @@ def _sides(arc: Arc) -> Iterator[tuple[tuple[int, int], fmpq]]:
             yield (x, y), (center[0] + x * radius if x else center[1] + y * radius)
 
 
-def _upward(radius: Real) -> fmpq:
-    """A rational radius, or a decimal that is a little more."""
-    if radius.rational is not None:
-        return radius.rational
-    unit = fmpq(10) ** (floor(log10(float(radius))) - DIGITS)
-    _, high = radius.enclosure(max(0, ceil(-log2(float(unit)))) + 8)
+def _upward(number: Real) -> fmpq:
+    """A rational number, or a decimal that is a little more."""
+    if number.rational is not None:
+        return number.rational
+    unit = fmpq(10) ** (floor(log10(abs(float(number)))) - DIGITS)
+    _, high = number.enclosure(max(0, ceil(-log2(float(unit)))) + 8)
     return fmpq((high / unit).ceil()) * unit
 
 
