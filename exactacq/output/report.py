@@ -18,6 +18,7 @@ from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.numbers.rationals import plain
 from exactacq.numbers.real import Real
+from exactacq.output.turns import turns
 from exactacq.output.vocabulary import Word, missed_word, ordinal
 from exactacq.scene.scene import Scene
 from exactacq.sensing.event import Ending
@@ -244,14 +245,17 @@ def _links(run: SightseerRun, names: list[str]) -> Table:
 
 
 def _decisions(run: Run, names: list[str]) -> Table:
-    """Why the robot went on from each place as it did."""
-    decided = [(event, why) for event in run.events if (why := event.why(names))]
+    """Why the robot went on from each place as it did, and where it turned on the M-line."""
+    told = [(turn.after, 0, run.path.length_after(turn.after), "turn", turn.words) for turn in turns(run)]
+    for number, event in enumerate(run.events, 1):
+        if why := event.why(names):
+            about = "" if event.obstacle is None else f" {names[event.obstacle]}"
+            told.append((event.after, number, event.at, f"{event.kind}{about}", why))
     table = _table(Word.LENGTH, "", Word.WHY)
-    for event, why in decided[:ROWS]:
-        about = "" if event.obstacle is None else f" {names[event.obstacle]}"
-        table.add_row(f"{float(event.at):.6g}", f"{event.kind}{about}", why)
-    if len(decided) > ROWS:
-        table.add_row("...", "", f"{len(decided) - ROWS} more: see --trace")
+    for _, _, at, what, why in sorted(told, key=lambda row: row[:2])[:ROWS]:
+        table.add_row(f"{float(at):.6g}", what, why)
+    if len(told) > ROWS:
+        table.add_row("...", "", f"{len(told) - ROWS} more: see --trace")
     return table
 
 

@@ -36,6 +36,7 @@ from exactacq.output import vocabulary
 from exactacq.output.animation.frames import Frame, stops
 from exactacq.output.figures.sweep import SweptTerrain, window
 from exactacq.output.regions import Region
+from exactacq.output.turns import turns
 from exactacq.output.vocabulary import SCALE, SCALE_END, SCALE_END_DARK, Labels, Word
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Terrain
@@ -196,14 +197,18 @@ def told(run: Run, frames: Iterable[Frame], labels: Labels, paper: Paper | None 
 class Plans:
     """What the robot is about to do in each frame, and why: from where it decides that, to the next decision.
 
-    ``told`` has the number of the first frame and the sentence of each; at the end, why the path ends.
+    ``told`` has the number of the first frame and the sentence of each; at the end, why the path ends. The
+    Seed Spreader turns at the ends of its lines, which is told too, though it decides nothing there.
     """
 
     def __init__(self, run: Run, names: Sequence[str]) -> None:
         self.told: list[tuple[int, str]] = []
         stop = run.events[-1]
-        self._ahead = [(e.decision.after, e.why(names)) for e in reversed(run.events) if e.decision]
-        self._ahead.insert(0, (stop.after, stop.describe(names)))
+        plans = {event.decision.after: event.why(names) for event in run.events if event.decision}
+        for after, words in turns(run):
+            plans[after] = "; ".join(filter(None, (words, plans.get(after))))
+        plans[stop.after] = stop.describe(names)
+        self._ahead = sorted(plans.items(), reverse=True)
         self._frame = 0
 
     def advance(self, after: int) -> None:
