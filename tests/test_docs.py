@@ -142,7 +142,7 @@ def test_results_are_whole_and_name_what_made_them(path: Path, extension: Module
     assert re.fullmatch("[0-9a-f]{7,40}", result["version"])
     assert text.count("$ ") >= len(result["commands"]) > 0
     for command in result["commands"]:
-        files = [DOCS.parent / name for name in re.findall(r"\btests/\w+\.py", command)]
+        files = [DOCS.parent / name for name in re.findall(r"\btests/[\w/]+\.py", command)]
         assert "exactacq verify" in command or (files and all(file.is_file() for file in files))
     for row in result.get("rows", ()):
         assert len(row) == len(result["columns"])
