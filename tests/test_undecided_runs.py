@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import pickle
 from collections.abc import Callable
 from functools import partial
@@ -13,7 +14,10 @@ import pytest
 import exactacq as xa
 from exactacq import cli
 from exactacq.auditing import audit as auditing
+from exactacq.files.scene_json import scene_to_json
 from exactacq.output.animation import frames
+from exactacq.play import exploring
+from exactacq.play.scenes import Request
 from exactacq.sensing.event import Ending
 from exactacq.sensing.memory import Memory
 
@@ -62,6 +66,19 @@ def test_the_error_carries_the_run_so_far(name: str, count: int, monkeypatch: py
     assert pickle.loads(pickle.dumps(error)).run == run
     with pytest.raises(ValueError, match="given up"):
         xa.audit(run)
+
+
+@pytest.mark.parametrize("name", STRATEGIES)
+def test_the_page_to_draw_in_plays_what_there_is(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    undecided_after(monkeypatch, 3)
+    monkeypatch.setattr(exploring, "FINE", exploring.SOON)
+    parts: list[bytes] = []
+    body = json.dumps({"scene": scene_to_json(xa.load(STRATEGIES[name][1])), "strategy": name})
+    exploring.Explored().explore(Request.of(body.encode()), lambda *_: None, parts.append)
+    told = json.loads(parts[0])
+    assert WORDS in told["report"]["trouble"]
+    assert told["report"]["bounds"] == [] and not told["report"]["is_own"]
+    assert told["run"]["plans"][-1][1].startswith("given up")
 
 
 @pytest.mark.parametrize("name", STRATEGIES)

@@ -18,7 +18,7 @@ from exactacq.play.scenes import Request, dumped
 from exactacq.progress import Progress
 from exactacq.strategies.explore import explore
 from exactacq.strategies.options import Strategy
-from exactacq.strategies.run import Run, SightseerRun
+from exactacq.strategies.run import OwnRun, Run, SightseerRun
 from exactacq.strategies.seed_spreader.strategy import seed_spreader
 
 SOON, FINE = (48, 0), (LIMIT, 200)
@@ -102,6 +102,7 @@ def _report(run: Run, trouble: str) -> dict[str, Any]:
         "title": run.title,
         "length": list(readable(run.length, CLOSED_FORM, DIGITS)),
         "bounds": bounds,
+        "is_own": isinstance(run, OwnRun),
         "missed": {word: some for word, some in missed.items() if some},
         "done": [Word.VISITED if is_visiting else Word.ACQUIRED, len(done), len(run.obstacles)],
         "trouble": trouble,

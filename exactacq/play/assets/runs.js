@@ -121,7 +121,8 @@ export function runs(store, camera, trouble) {
     const holding = applied.filter((bound) => bound.holds).length;
     $("verdicts").textContent = applied.length ? `: ${holding} of ${applied.length} hold` : "";
     $("bounds-part").hidden = !report.bounds.length;
-    $("boundless").hidden = report.bounds.length > 0;
+    // Those of the paper have none of a run that was given up, or without obstacles.
+    $("boundless").hidden = report.bounds.length > 0 || !report.is_own;
     document.body.dataset.whole = whole;
   }
 
