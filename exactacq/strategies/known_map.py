@@ -17,6 +17,7 @@ from exactacq.strategies.numbering import Numbering
 from exactacq.strategies.routes import Route
 from exactacq.strategies.seed_spreader.hulls import hull, overlap
 from exactacq.strategies.seed_spreader.range_thresholds import leftmost, nearest_of, nearest_point
+from exactacq.visibility.known_ground import KnownGround
 
 
 @dataclass(frozen=True)
@@ -225,6 +226,13 @@ class KnownMap:
         """
         chart, k = self._of(i)
         return chart.beside(k, Point.of(end))
+
+    @cached_property
+    def _known_ground(self) -> KnownGround:
+        """What a shortest path has to respect."""
+        numbers = self._numbers.order[: self._count]
+        own = {k: i for i, k in enumerate(numbers)}
+        return KnownGround.on_map(self._chart(set(numbers)), number=own.__getitem__)
 
     def _of(self, i: int) -> tuple[Map, int]:
         """A map that is right for an obstacle, and its number there."""

@@ -3,8 +3,9 @@
 B. Yamauchi, "A frontier-based approach for autonomous exploration", CIRA 1997: the robot goes to the nearest
 place where what it knows ends, by the shortest path through what it knows. There that is a grid whose cells
 are known to be open; here boundaries are known, and frontiers are the ends of their known parts. So the paths
-here are shortest around the obstacles that are wholly known. Others do not count: where one is in the way
-(`Robot.go_to` halts there), it has a frontier itself, and that is taken to be the nearest.
+here are shortest among all that is known, and what is not known counts as free (`Robot.path_to`). Where it is
+not (`Robot.go_to` halts there), what is in the way has a frontier itself, and that is taken to be the
+nearest.
 
 The robot needs no terrain, and ends when no frontier is left. It acquires an obstacle in each round.
 """
@@ -104,7 +105,8 @@ def _follow(robot: Robot, way: ShortestPath, obstacle: int, why: Decision) -> No
     for k, piece in enumerate(way.path):
         reason = "" if k else why
         if isinstance(piece, Arc):
-            robot.walk_to(piece.end, reason=reason)
+            # A path that turns left has the obstacle on its left.
+            robot.walk("left" if piece.ccw else "right", to=piece.end, reason=reason)
         elif robot.go_to(piece.end, reason=reason).kind is HaltKind.HIT:
             return
         if obstacle not in robot.map.incomplete:

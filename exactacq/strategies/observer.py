@@ -7,7 +7,6 @@ obstacles that it has not seen. Equal scenes give equal numbers.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
 from functools import cmp_to_key
 from itertools import pairwise
 from math import inf
@@ -36,6 +35,7 @@ from exactacq.strategies.routes import Exit, Route
 from exactacq.strategies.seed_spreader.blocked import Blocking
 from exactacq.strategies.seed_spreader.range_thresholds import nearest_of, nearest_point
 from exactacq.strategies.walker import Walker
+from exactacq.visibility.known_ground import KnownGround
 from exactacq.visibility.links import START, Link, Links, Node
 from exactacq.visibility.shortest_path import ShortestPath, shortest_path
 
@@ -74,8 +74,8 @@ class Observer:
         # The last point of a boundary that the robot told, and whose it is.
         self._told: tuple[Point, int] | None = None
         self._lap: Lap | None = None
-        # What is wholly known as a scene, by the numbers of these obstacles.
-        self._acquired: tuple[tuple[int, ...], Scene] | None = None
+        # What paths have to respect after so many pieces of the way.
+        self._charted: tuple[int, KnownGround] | None = None
         self._moves, self._most = 0, inf
         # Why it does not move any more, if it does not.
         self._stuck: ExactacqError | None = None
@@ -346,28 +346,31 @@ class Observer:
         return length, "left" if forward else "right"
 
     def path_to(self, point: Point | Sequence[object]) -> ShortestPath:
-        """A shortest path from here to a point around the obstacles that are wholly known.
+        """A shortest path from here to a point that respects all that is known.
 
-        Of others, nothing is taken to be in the way: neither what is not known, nor known parts of their
-        boundaries. `MoveError` for a point inside an obstacle that is wholly known, and for a robot that is
-        confined to a terrain; what `shortest_path` raises and costs besides, and when one more obstacle is
-        acquired what it costs to make its scene.
+        What is not known counts as free. Obstacles that are wholly known are solid; known parts of other
+        boundaries are walls that the path does not cross, but may touch, follow and turn around: see
+        `shortest_path` on a map, of which this is the robot's own, made anew only where more is known. A
+        robot that is confined stays in its terrain. `MoveError` for a point inside an obstacle that is wholly
+        known, for one beyond the border of the terrain, and if border and walls leave no path; what
+        `shortest_path` raises and costs besides.
 
         >>> import exactacq as xa
         >>> robot = xa.Robot(xa.load("circles"))
         >>> print(robot.path_to((8, 0)).length)
-        8
+        sqrt(445)/5 + sqrt(21)
         >>> _ = robot.take(robot.nearest_unvisited(None)), robot.circle()
         >>> print(robot.path_to((8, 0)).length.decimal(6), robot.path_to((7, 0)).length)
         6.83712 2*pi
         """
-        if self._ground is not None:
-            raise MoveError("a robot that is confined to a terrain knows no shortest paths: use routes")
+        goal = Point.of(point)
+        self._check_border(goal)
         try:
-            found = shortest_path(self._known_scene(), self.position, point)
+            found = shortest_path(self._known_ground(), self.position, goal)
         except InvalidScene as error:
             raise MoveError(f"no path: {error.violations[0]}") from None
-        assert found is not None, "without a terrain there is a way"
+        if found is None:
+            raise MoveError(f"no path: border and known boundaries part the robot from {goal}")
         return found
 
     # -- how it is done ----------------------------------------------------------------------------
@@ -387,15 +390,15 @@ class Observer:
             self._sightings.append(seen)
             self._on_sighting(seen)
 
-    def _known_scene(self) -> Scene:
-        """The obstacles that are wholly known, without their names."""
-        known = tuple(sorted(self._walker.memory.acquired))
-        if self._acquired is None or self._acquired[0] != known:
-            scene, count = self._scene, len(self._scene.shapes)
-            shapes = [replace(scene.shapes[k], name=None) for k in known if k < count]
-            room = scene.enclosure if any(k >= count for k in known) else None
-            self._acquired = known, Scene(shapes, enclosure=room)
-        return self._acquired[1]
+    def _known_ground(self) -> KnownGround:
+        """What paths have to respect."""
+        walker = self._walker
+        if self._charted is None or self._charted[0] != walker.count:
+            known = None if self._charted is None else self._charted[1]
+            chart, number = walker.memory.now, self._own.__getitem__
+            ground = KnownGround.on_map(chart, number=number, known=known)
+            self._charted = walker.count, ground
+        return self._charted[1]
 
     def _own_number(self, node: Node) -> int | None:
         return self._own[node] if isinstance(node, int) else None

@@ -7,6 +7,10 @@ are pegs that stop nothing: their one entry has side 0.
 
 A terrain is convex, so a way between two of its points leaves it along arcs only. An arc that crosses its
 border counts as the arcs that are left of it.
+
+A chain (`exactacq.visibility.known_chains`) is a polygon without area: its corners and arcs are pegs on that
+side where they are convex, and its ends are corners of angle 0. There the two sides of a path share the
+directions along the chain.
 """
 
 from __future__ import annotations
@@ -20,14 +24,23 @@ from typing import NamedTuple
 
 import numpy as np
 
-from exactacq.geometry.coordinates import raw
+from exactacq.geometry.coordinates import Vector, cross, dot, raw, sign
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable, Floats, Ints
 from exactacq.scene.shapes import Terrain
 from exactacq.scene.terrain_components import pieces_within
-from exactacq.visibility.features import Feature, directions_at, enters, features, leaving, parallel
+from exactacq.visibility.chain_table import ChainTable
+from exactacq.visibility.features import (
+    Feature,
+    directions_at,
+    enters,
+    features,
+    is_spike,
+    leaving,
+    parallel,
+)
 
 ZERO = Real(0)
 
@@ -48,6 +61,7 @@ class Peg:
     before: int | None = None
     after: int | None = None
     owns_start: bool = True
+    is_tip: bool = False
 
     @property
     def is_place(self) -> bool:
@@ -127,18 +141,21 @@ def _unit(vector: Point) -> tuple[float, float]:
 
 
 class Pegs:
-    """The corners and arcs of a scene, and maybe places: their numbers and entries come last."""
+    """The corners and arcs of a scene and chains, and maybe places: their numbers and entries come last."""
 
     def __init__(self, table: EdgeTable, terrain: Terrain | None) -> None:
         self.table = table
         self.pegs: list[Peg] = []
         self.at_vertex: dict[int, Peg] = {}
         self.on_edge: dict[int, list[Peg]] = {}
-        for feature in features(table):
+        for feature in features(table.solid if isinstance(table, ChainTable) else table):
             if feature.round:
                 self._add_arcs(feature.edges[0], terrain)
             elif is_within(Point(*feature.center), terrain):
                 self._add_corner(feature)
+        if isinstance(table, ChainTable):
+            for e in range(table.solids, len(table.curves)):
+                self._add_of_chain(table, e)
         for peg in self.pegs:
             if peg.arc is not None and not peg.arc.full:
                 self._join(peg, peg.arc)
@@ -150,12 +167,17 @@ class Pegs:
     def with_places(self, places: Sequence[Point]) -> Pegs:
         """These pegs and those of some places."""
         pegs = copy(self)
-        added = [Peg(self.own + k, place, self.table.edges_at(place)) for k, place in enumerate(places)]
+        added = [self._place(self.own + k, place) for k, place in enumerate(places)]
         pegs.pegs = self.pegs + added
         pegs.entries = self.entries + [(peg, 0) for peg in added]
         rows = zip(self.rows, EntryRows.of(pegs.entries[2 * self.own :]), strict=True)
         pegs.rows = EntryRows(*(np.concatenate(pair) for pair in rows))
         return pegs
+
+    def _place(self, number: int, place: Point) -> Peg:
+        edges = self.table.edges_at(place)
+        tip = self.table.tip_at(edges, place) if isinstance(self.table, ChainTable) else None
+        return Peg(number, place, edges if tip is None else tip, is_tip=tip is not None)
 
     def _add_corner(self, feature: Feature) -> None:
         incoming, outgoing = feature.edges
@@ -165,6 +187,28 @@ class Pegs:
         peg = Peg(len(self.pegs), Point(*feature.center), feature.edges, range=turns)
         self.at_vertex[outgoing] = peg
         self.pegs.append(peg)
+
+    def _add_of_chain(self, table: ChainTable, e: int) -> None:
+        """The arc that an edge of a chain is on its side, and the corner at its end."""
+        curve, following = table.curves[e], int(table.next[e])
+        if isinstance(curve, Arc) and curve.ccw:
+            peg = Peg(len(self.pegs), curve.center, (e,), arc=curve)
+            self.on_edge[e] = [peg]
+            self.pegs.append(peg)
+        is_end, first = following == table.twin(e), table.way(e, curve.end)
+        last = table.way(following, curve.end)
+        if is_end:
+            is_peg = table.tip_at((min(e, following),), curve.end) is not None
+        else:
+            turn = sign(cross(first, last))
+            is_peg = turn > 0
+            if turn == 0 and sign(dot(first, last)) < 0:
+                is_peg = is_spike(curve, table.curves[following])
+        if is_peg:
+            peg = Peg(len(self.pegs), curve.end, (e, following), range=(Point(*first), Point(*last)))
+            peg.is_tip = is_end
+            self.at_vertex[following] = peg
+            self.pegs.append(peg)
 
     def _add_arcs(self, e: int, terrain: Terrain | None) -> None:
         curve = self.table.curves[e]
@@ -187,10 +231,17 @@ class Pegs:
             return
         if following in self.at_vertex:
             peg.after = self.at_vertex[following].number
-        elif parallel(leaving(curves[e], at_end=True), leaving(curves[following], at_end=False)):
+        elif parallel(self._leaving(e, at_end=True), self._leaving(following, at_end=False)):
             for other in self.on_edge.get(following, ()):
                 if other.arc and other.arc.start is curves[following].start:
                     peg.after, other.before = other.number, peg.number
+
+    def _leaving(self, e: int, at_end: bool) -> Vector:
+        """Direction of travel at one end of an edge."""
+        curve, table = self.table.curves[e], self.table
+        if isinstance(table, ChainTable) and e >= table.solids:
+            return table.way(e, curve.end if at_end else curve.start)
+        return leaving(curve, at_end)
 
     def entry(self, peg: Peg, side: int) -> int:
         """The number of an entry."""
@@ -211,18 +262,29 @@ class Pegs:
         centers, rhos = (np.abs(values).max(initial=1e-200) for values in (self.rows.centers, self.rows.rhos))
         return max(self.table.magnitude, float(centers), float(rhos))
 
+    def rim(self, peg: Peg, contact: Point) -> tuple[int, ...]:
+        """The edges through a contact, on the peg's side of a chain; none inside an arc."""
+        if peg.arc is None:
+            return peg.edges
+        at_start = contact == peg.arc.start
+        if not at_start and contact != peg.arc.end:
+            return ()
+        (e,), table = peg.edges, self.table
+        if isinstance(table, ChainTable) and e >= table.solids:
+            return (int(table.previous[e]), e) if at_start else (e, int(table.next[e]))
+        return table.edges_at(contact)
+
     def may_leave(self, entry: int, contact: Point, along: Point) -> bool:
         """Whether a ray from a contact in a tangent direction does not lead straight into the obstacle."""
         peg, _ = self.entries[entry]
-        own = peg.edges
-        if peg.arc is not None:
-            if contact != peg.arc.start and contact != peg.arc.end:
-                return True
-            own = self.table.edges_at(contact)
-        if not own:
+        own, table = self.rim(peg, contact), self.table
+        if not own or peg.is_tip:
             return True
-        incoming, outgoing = (self.table.curves[e] for e in (own[0], own[-1]))
-        ways = list(directions_at(self.table, contact, own))
+        incoming, outgoing = (table.curves[e] for e in (own[0], own[-1]))
+        if isinstance(table, ChainTable) and own[0] >= table.solids:
+            ways = [table.way(e, contact) for e in own]
+        else:
+            ways = list(directions_at(table, contact, own))
         return not enters(incoming, outgoing, ways[0], ways[-1], raw(along))
 
 

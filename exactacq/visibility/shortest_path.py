@@ -14,7 +14,8 @@ from exactacq.numbers.length import Length
 from exactacq.scene.ports import SVG, made
 from exactacq.scene.scene import Scene
 from exactacq.scene.validation import place_text
-from exactacq.visibility.scene_tables import SceneTables, place_in
+from exactacq.visibility.known_ground import Charted, Grounded, KnownGround
+from exactacq.visibility.scene_tables import place_in
 from exactacq.visibility.taut_search import Label, PathSearch, TautWay
 
 BITS = 64
@@ -28,6 +29,9 @@ class ShortestPath:
     empty if start and end are one point. Of several shortest paths it is the one whose ``points`` come first:
     of the first that differ, the one with the least x, then the least y; where two arcs of one circle lead to
     the same point, the counterclockwise one.
+
+    Of a path on a map ``scene`` are the obstacles that are wholly known, without their names, and ``walls``
+    the known parts of the boundaries of others.
 
     >>> import exactacq as xa
     >>> found = xa.shortest_path(xa.Scene([xa.Circle((0, 0), 1)]), (-2, 0), (2, 0))
@@ -47,6 +51,7 @@ class ShortestPath:
     path: tuple[Curve, ...]
     length: Length
     count: int = field(default=1)
+    walls: tuple[Curve, ...] = field(default=(), repr=False)
 
     @property
     def points(self) -> tuple[Point, ...]:
@@ -69,7 +74,9 @@ class ShortestPath:
         return f"<ShortestPath from {ends}: {float(self.length):.6g}, {pieces}>"
 
 
-def shortest_path(scene: Scene, start: object, end: object) -> ShortestPath | None:
+def shortest_path(
+    scene: Scene | Charted | Grounded | KnownGround, start: object, end: object
+) -> ShortestPath | None:
     """A shortest path between two points of free space; None if there is no path at all.
 
     Each point is a `Point` or a pair of numbers, with algebraic coordinates. Free space is closed: a path may
@@ -78,24 +85,35 @@ def shortest_path(scene: Scene, start: object, end: object) -> ShortestPath | No
     common, so a path ends only where a terrain's border cuts free space into parts; an obstacle that touches
     the border in a point does not cut it.
 
+    The *scene* may be a map, as `Robot.map` or ``run.map``: then what is not known counts as free. Obstacles
+    that are wholly known are as in a scene. Known parts of other boundaries are walls without thickness: a
+    path may touch them, follow them on both sides and turn around their ends, and does not cross them. A
+    point on such a wall is on its free side, where the robot was that saw it; single known points are none.
+
     Lengths are compared exactly, and those that are equal are proved to be: see `ShortestPath` for the choice
     among them. Raises `InvalidScene` if a point lies inside an obstacle or outside the terrain, `FormatError`
-    for what is no point, and `Undecided` where lengths are too close to tell. Cost: linear in the number of
-    corners and arcs for each that the search comes to; only the tangents that are tried are made.
+    for what is no point, no scene and no map, and `Undecided` where lengths are too close to tell. Cost:
+    linear in the number of corners and arcs for each that the search comes to; only the tangents that are
+    tried are made.
 
     >>> import exactacq as xa
     >>> wall = xa.Polygon([(0, -1), (1, -1), (1, 3), (0, 3)])
-    >>> print(xa.shortest_path(xa.Scene([wall]), (-3, 0), (5, 0)).length)
+    >>> scene = xa.Scene([wall], start=(-3, 0), radius=9)
+    >>> print(xa.shortest_path(scene, (-3, 0), (5, 0)).length)
     1 + sqrt(10) + sqrt(17)
+    >>> seen = xa.Robot(scene).map
+    >>> print(xa.shortest_path(seen, (-3, 0), (5, 0)).length)
+    sqrt(10) + sqrt(26)
     """
-    ends = place_in(scene, "start", start), place_in(scene, "end", end)
+    ground = KnownGround.of(scene)
+    ends = place_in(ground.scene, "start", start), place_in(ground.scene, "end", end)
     if ends[0] == ends[1]:
-        return ShortestPath(scene, *ends, (), Length(0))
-    goal = PathSearch(SceneTables.of(scene).tangents, *ends).run()
+        return ShortestPath(ground.scene, *ends, (), Length(0), walls=ground.walls)
+    goal = PathSearch(ground.tangents, *ends).run()
     if goal is None:
         return None
     tree = _Equals(goal)
-    return ShortestPath(scene, *ends, tuple(tree.chosen()), goal.length, tree.count)
+    return ShortestPath(ground.scene, *ends, tuple(tree.chosen()), goal.length, tree.count, ground.walls)
 
 
 _Link: TypeAlias = "tuple[TautWay, Label]"
@@ -104,44 +122,80 @@ _Spot: TypeAlias = "tuple[Label, _Link | None, int]"
 
 
 class _Equals:
-    """All paths of the least length, as the labels of the goal's ways back to the start."""
+    """All paths of the least length, as the labels of the goal's ways back to the start.
+
+    On both sides of the end of a chain a path has the directions along it, and so several rows of labels.
+    Paths are counted by where they lead: those that have led the same way so far are one.
+    """
 
     def __init__(self, goal: Label) -> None:
         self.goal, self.links = goal, dict[int, list[_Link]]()
         self._start = goal
-        self._counts: dict[int, int] = {}
+        self._find_links()
         self.count = self._counted()
 
-    def _counted(self) -> int:
-        """How many paths there are; finds the links of each label on the way."""
-        stack = [self.goal]
+    def _find_links(self) -> None:
+        """Find the links of each label, and the start."""
+        stack, known = [self.goal], {id(self.goal)}
         while stack:
-            label = stack[-1]
-            todo = [way.source for way in label.ways if id(way.source) not in self._counts]
-            if todo:
+            label = stack.pop()
+            self._start = label if not label.ways else self._start
+            for way in label.ways:
+                self.links.setdefault(id(way.source), []).append((way, label))
+                if id(way.source) not in known:
+                    known.add(id(way.source))
+                    stack.append(way.source)
+
+    def _counted(self) -> int:
+        """How many paths there are: by the labels that one form of a path may have come to."""
+        counts: dict[frozenset[int], int] = {frozenset((id(self.goal),)): 1}
+        stack: list[tuple[Label, ...]] = [(self._start,)]
+        following: dict[frozenset[int], list[tuple[Label, ...]]] = {}
+        while stack:
+            labels = stack[-1]
+            key = _key(labels)
+            if key not in following:
+                following[key] = self._groups(labels)
+            todo = [group for group in following[key] if _key(group) not in counts]
+            if todo and key not in counts:
                 stack += todo
                 continue
             stack.pop()
-            if id(label) in self._counts:
-                continue
-            for way in label.ways:
-                self.links.setdefault(id(way.source), []).append((way, label))
-            self._start = label if not label.ways else self._start
-            self._counts[id(label)] = sum(self._counts[id(way.source)] for way in label.ways) or 1
-        return self._counts[id(self.goal)]
+            if key not in counts:
+                counts[key] = sum(counts[_key(group)] for group in following[key])
+        return counts[frozenset((id(self._start),))]
+
+    def _groups(self, labels: tuple[Label, ...]) -> list[tuple[Label, ...]]:
+        """The labels to which labels of one place lead, those by the same pieces together."""
+        groups: list[tuple[TautWay, list[Label]]] = []
+        for label in labels:
+            for way, target in self.links.get(id(label), ()):
+                same = (found for first, found in groups if _is_same(first, way))
+                found = next(same, None)
+                if found is None:
+                    groups.append((way, [target]))
+                elif target not in found:
+                    found.append(target)
+        return [tuple(found) for _, found in groups]
 
     def chosen(self) -> Iterator[Curve]:
         """The pieces of the path whose points come first."""
         spots: list[_Spot] = [(self._start, None, 0)]
+        last: Curve | None = None
         while spots[0][0] is not self.goal or spots[0][1] is not None:
-            ends = [found for spot in spots for found in self._onward(spot, None)]
+            ends = [found for spot in spots for found in self._onward(spot, None, last)]
             ends.sort(key=cmp_to_key(_order))
-            first, _ = ends[0]
-            spots = [spot for piece, spot in ends if piece is first or _order((piece, spot), ends[0]) == 0]
-            yield first
+            last, _ = ends[0]
+            spots = [spot for piece, spot in ends if piece is last or _order((piece, spot), ends[0]) == 0]
+            yield last
 
-    def _onward(self, spot: _Spot, piece: Curve | None) -> Iterator[tuple[Curve, _Spot]]:
-        """The longest pieces that begin at a spot or go on with a *piece*, and where they end."""
+    def _onward(
+        self, spot: _Spot, piece: Curve | None, last: Curve | None = None
+    ) -> Iterator[tuple[Curve, _Spot]]:
+        """The longest pieces that begin at a spot or go on with a *piece*, and where they end.
+
+        Those that go on with the *last* piece are other paths, in which it is longer.
+        """
         label, link, done = spot
         if label is self.goal and link is None:
             assert piece is not None
@@ -150,15 +204,30 @@ class _Equals:
         has_ended = False
         for way, target in self.links[id(label)] if link is None else (link,):
             if done == len(way.pieces):
-                yield from self._onward((target, None, 0), piece)
+                yield from self._onward((target, None, 0), piece, last)
                 continue
             following, _ = way.pieces[done]
             longer = following if piece is None else _joined(piece, following)
+            if piece is None and last is not None and _joined(last, following) is not None:
+                continue
             if longer is not None:
                 yield from self._onward((label, (way, target), done + 1), longer)
             elif piece is not None and not has_ended:
                 has_ended = True
                 yield piece, spot
+
+
+def _key(labels: tuple[Label, ...]) -> frozenset[int]:
+    return frozenset(map(id, labels))
+
+
+def _is_same(one: TautWay, other: TautWay) -> bool:
+    """Whether two ways from one place have the same pieces."""
+    if len(one.pieces) != len(other.pieces):
+        return False
+    pairs = list(zip(one.pieces, other.pieces, strict=True))
+    is_alike = all(_kind(a) == _kind(b) for (a, _), (b, _) in pairs)
+    return is_alike and all(a.end is b.end or a.end == b.end for (a, _), (b, _) in pairs)
 
 
 def _joined(first: Curve, second: Curve) -> Curve | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cmp_to_key
 from itertools import count, pairwise
 from typing import NamedTuple, TypeAlias
@@ -15,14 +15,17 @@ from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
 from exactacq.scene.scene import Scene
+from exactacq.visibility.known_ground import Charted, Grounded, KnownGround
 from exactacq.visibility.pegs import Peg
-from exactacq.visibility.scene_tables import SceneTables, place_in
+from exactacq.visibility.scene_tables import place_in
 from exactacq.visibility.tangents import FreeTangent, Tangents
 
 BITS = 64
 
 
-def tangent_graph(scene: Scene, points: Iterable[object] = ()) -> nx.MultiGraph:
+def tangent_graph(
+    scene: Scene | Charted | Grounded | KnownGround, points: Iterable[object] = ()
+) -> nx.MultiGraph:
     """The graph on which shortest paths lie: its edges are what a taut path may be made of.
 
     Nodes are numbers, the given *points* first, in their order; equal ones share the first of their numbers.
@@ -35,10 +38,11 @@ def tangent_graph(scene: Scene, points: Iterable[object] = ()) -> nx.MultiGraph:
     - "arc": a part of a convex arc between neighbouring nodes. Two nodes of a circle may be joined by two.
 
     Free space is closed: tangents may graze. If the scene has a terrain, what lies beyond its border is left
-    out. Distances between the given points, as by networkx's Dijkstra with ``weight="length"``, are those of
-    `shortest_path`. Raises `InvalidScene` for a point inside an obstacle or outside the terrain,
-    `FormatError` for what is no point, and `Undecided`. Cost: quadratic in the corners and arcs, times the
-    edges near a segment; for few pairs `shortest_path` does far less.
+    out. On a map the ends of known parts are corners too, obstacles have the map's numbers, and corners and
+    places in one point are two nodes if they lie on different sides of a wall. Distances between the given
+    points, as by networkx's Dijkstra with ``weight="length"``, are those of `shortest_path`. Raises what
+    that one raises. Cost: quadratic in the corners and arcs, times the edges near a segment; for few pairs
+    `shortest_path` does far less.
 
     >>> import exactacq as xa, networkx as nx
     >>> graph = xa.tangent_graph(xa.Scene([xa.Circle((0, 0), 1)]), [(-2, 0), (2, 0)])
@@ -47,17 +51,18 @@ def tangent_graph(scene: Scene, points: Iterable[object] = ()) -> nx.MultiGraph:
     >>> print(nx.dijkstra_path_length(graph, 0, 1, weight="length"))
     pi/3 + 2*sqrt(3)
     """
-    places = [place_in(scene, f"point {k}", point) for k, point in enumerate(points)]
-    return _GraphOfTangents(SceneTables.of(scene).tangents.with_places(places)).graph
+    ground = KnownGround.of(scene)
+    places = [place_in(ground.scene, f"point {k}", point) for k, point in enumerate(points)]
+    return _GraphOfTangents(ground.tangents.with_places(places), ground.numbers).graph
 
 
 class _GraphOfTangents:
     """A tangent graph in the making."""
 
-    def __init__(self, tangents: Tangents) -> None:
-        self.graph, self.tangents = nx.MultiGraph(), tangents
+    def __init__(self, tangents: Tangents, numbers: Sequence[int]) -> None:
+        self.graph, self.tangents, self.numbers = nx.MultiGraph(), tangents, numbers
         self.pegs, self.table = tangents.pegs, tangents.table
-        self.places: dict[int, Point] = {}
+        self.places: dict[int, Peg] = {}
         """The nodes of places."""
         self.node_of: dict[int, int] = {}
         """Nodes by the numbers of pegs."""
@@ -71,12 +76,12 @@ class _GraphOfTangents:
             node = self._place_at(peg.center)
             if node is None:
                 node = peg.number - own
-                self.places[node] = peg.center
+                self.places[node] = peg
                 self.graph.add_node(node, point=peg.center, kind="place")
             self.node_of[peg.number] = node
         for peg in self.pegs.pegs[:own]:
             if peg.arc is None:
-                node = self._place_at(peg.center)
+                node = self._place_at(peg.center, peg.edges)
                 self.node_of[peg.number] = self._node(peg.center, "corner") if node is None else node
         found = [(i, j, tangent) for i, j in self._pairs() if (tangent := tangents.between(i, j))]
         contacts: dict[int, list[tuple[_End, Point]]] = {}
@@ -98,8 +103,12 @@ class _GraphOfTangents:
                 if (i, j) <= (turned(j), turned(i)):
                     yield i, j
 
-    def _place_at(self, point: Point) -> int | None:
-        return next((node for node, place in self.places.items() if place == point), None)
+    def _place_at(self, point: Point, edges: Sequence[int] | None = None) -> int | None:
+        """The node of the place that a point is, if there is one; on some edges, which know their side."""
+        for node, place in self.places.items():
+            if place.center == point and (edges is None or any(e in edges for e in place.edges)):
+                return node
+        return None
 
     def _node(self, point: Point, kind: str) -> int:
         node = next(self._next)
@@ -138,7 +147,7 @@ class _GraphOfTangents:
         if self.pegs.pegs[other].arc is None:
             return self.node_of[other]
         if joint not in self._joints:
-            node = self._place_at(end)
+            node = self._place_at(end, self.pegs.pegs[joint].edges)
             self._joints[joint] = self._node(end, "joint") if node is None else node
         return self._joints[joint]
 
@@ -153,16 +162,22 @@ class _GraphOfTangents:
         if (
             a == b
             or key in self._straight
-            or any(self._passes(curve, node) for node in {*self.places} - {a, b})
+            or any(self._passes(curve, i, node) for node in {*self.places} - {a, b})
         ):
             return
         self._straight.add(key)
         edge = self._edge_along(curve, one)
         self._add_edge(a, b, curve, Length(tangent.length), "tangent" if edge is None else "edge", edge)
 
-    def _passes(self, curve: Segment, node: int) -> bool:
-        place = self.places[node]
-        return curve.may_pass(place, BITS) and curve.passes(place)
+    def _passes(self, curve: Segment, i: int, node: int) -> bool:
+        """Whether a tangent from an entry passes a place, and not on the other side of a chain."""
+        place, point = self.places[node], self.places[node].center
+        if not curve.may_pass(point, BITS) or not curve.passes(point):
+            return False
+        if point in (curve.start, curve.end):
+            # That end is a corner of a chain, and the place is on its other side.
+            return False
+        return self.tangents.between(i, self.pegs.entry(place, 0)) is not None
 
     def _edge_along(self, curve: Segment, peg: Peg) -> int | None:
         """The straight edge that a free segment from a peg begins along.
@@ -183,7 +198,7 @@ class _GraphOfTangents:
         return None
 
     def _add_edge(self, a: int, b: int, curve: Curve, length: Length, kind: str, edge: int | None) -> None:
-        obstacle = None if edge is None else self.table.owners[edge]
+        obstacle = None if edge is None else self.numbers[self.table.owners[edge]]
         self.graph.add_edge(a, b, length=length, curve=curve, kind=kind, obstacle=obstacle)
 
 

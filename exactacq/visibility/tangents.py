@@ -14,7 +14,9 @@ by at most 2 w, the second by e + w, and |D| by 2 w twice: together by (e + 7 w)
 (e + 8 w) / |D| is taken, and 2^-49 for the roundings; where that is more than 1, nothing is decided.
 
 A tangent counts only from one touch to the next: one that touches a further corner or arc on its way is the
-sum of others. So every way has one form.
+sum of others. So every way has one form. What a line does not cross of a chain it touches at a peg, unless it
+runs along it from one peg to the next. So a tangent that meets a chain on its way is none, and one that runs
+along a piece of it has both its ends on the same side.
 """
 
 from __future__ import annotations
@@ -35,6 +37,7 @@ from exactacq.kernel.clearance import crossed
 from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import Floats
+from exactacq.visibility.chain_table import ChainTable
 from exactacq.visibility.free_segment import is_free_among
 from exactacq.visibility.pegs import EntryRows, Peg, Pegs
 
@@ -199,20 +202,35 @@ class Tangents:
             rough = [(*beams.start[k].tolist(), blur), (*beams.end[k].tolist(), blur)]
             if self._doubtful(i, j, *rough) is None:
                 return None
-        line = self._line(i, j)
+        line = None if self._is_on_circle(i, j) or self._is_on_circle(j, i) else self._line(i, j)
         if line is None or line.tangent.length.sign() == 0:
             return None
         start, end, along = line.tangent.start, line.tangent.end, line.along
         if not is_sure and not (self._is_touched(i, start, along) and self._is_touched(j, end, along)):
             return None
         edges = self._doubtful(i, j, held_point(start), held_point(end))
-        if edges is None or not is_free_among(self.table, start, end, edges):
+        if edges is None:
+            return None
+        if isinstance(self.table, ChainTable):
+            chained = [e for e in edges if e >= self.table.solids]
+            edges = [e for e in edges if e < self.table.solids]
+            if self._meets_chain(self.table, i, j, line, chained):
+                return None
+        if not is_free_among(self.table, start, end, edges):
             return None
         for entry, contact, way in ((i, start, along), (j, end, -along)):
             peg, _ = pegs.entries[entry]
             if not (is_sure and not peg.is_place) and not pegs.may_leave(entry, contact, way):
                 return None
         return None if self._is_divided(i, j, line, edges) else line.tangent
+
+    def _is_on_circle(self, i: int, j: int) -> bool:
+        """Whether entry i is seen to be a point of the circle of entry j, to which it has no tangent."""
+        (one, _), (other, _) = self.pegs.entries[i], self.pegs.entries[j]
+        if one.arc is not None or other.arc is None:
+            return False
+        circle = self.table.on_circle_of(other.edges[0])
+        return any(e in circle for e in one.edges)
 
     def _line(self, i: int, j: int) -> _Touching | None:
         """The exact tangent, whatever is in its way."""
@@ -285,7 +303,38 @@ class Tangents:
         peg, _ = self.pegs.entries[entry]
         if peg.arc is not None:
             return self.table.on_circle_of(peg.edges[0])
-        return tuple(e for e in peg.edges if isinstance(self.table.curves[e], Segment))
+        own = [e for e in peg.edges if isinstance(self.table.curves[e], Segment)]
+        if isinstance(self.table, ChainTable):
+            own += [self.table.twin(e) for e in own]
+        return tuple(own)
+
+    def _meets_chain(self, table: ChainTable, i: int, j: int, line: _Touching, edges: Sequence[int]) -> bool:
+        """Whether a tangent meets a chain on its way, but for chains away from these edges and its own ones.
+
+        So does one that runs along a piece of a chain and has its ends on different sides of that.
+        """
+        pegs, ends = [self.pegs.entries[entry][0] for entry in (i, j)], (line.tangent.start, line.tangent.end)
+        for e in edges:
+            circle = table.on_circle_of(e)
+            on = [
+                peg.arc is None and (table.twin(e) in peg.edges or any(f in circle for f in peg.edges))
+                for peg in pegs
+            ]
+            if table.touches(e, *ends, (on[0], on[1])):
+                return True
+        own, other = (
+            {
+                e
+                for e in self.pegs.rim(peg, contact)
+                if e >= table.solids and isinstance(table.curves[e], Segment)
+            }
+            for peg, contact in zip(pegs, ends, strict=True)
+        )
+        along = {e for e in own if e in other or table.twin(e) in other}
+        if along:
+            return not own & other
+        beyond = (table.curves[e] for e in own | other)
+        return any(line.passes(point) for curve in beyond for point in (curve.start, curve.end))
 
     def _is_divided(self, i: int, j: int, line: _Touching, edges: list[int]) -> bool:
         """Whether a segment that meets some edges touches a further peg on its way."""

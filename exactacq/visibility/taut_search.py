@@ -297,9 +297,10 @@ class PathSearch:
             self._push(self._tries(label))
 
     def _number(self, way: TautWay) -> tuple[int, int]:
-        """What tells ways to one label apart: the peg that they come from, and its label if it is an arc."""
+        """What tells ways to one label apart: the peg that they come from, its label if there are several."""
         peg, _ = self.pegs.entries[way.source.entry]
-        return peg.number, id(way.source) if peg.arc is not None else len(way.pieces)
+        is_one = peg.arc is None and not peg.is_tip
+        return peg.number, len(way.pieces) if is_one else id(way.source)
 
     def _is_behind(self, label: Label, other: Label) -> bool:
         """Whether a label on an arc is longer than another one, and the way from there along the arc."""

@@ -24,7 +24,7 @@ ABOVE, BESIDE = 0.5, 0.6
 
 
 def way_figure(found: ShortestPath) -> Figure:
-    """A matplotlib figure of a shortest path in its scene.
+    """A matplotlib figure of a shortest path in its scene, or on its map.
 
     `FormatError` for a scene that is 10^-9 times its distance from the origin or less.
     """
@@ -32,6 +32,7 @@ def way_figure(found: ShortestPath) -> Figure:
     strokes = [piece.stroke() for piece in found.path]
     spots = [np.array(point.xy) for point in found.points]
     spots += [row for stroke in strokes for row in stroke.points()]
+    spots += [row for wall in found.walls for row in wall.stroke().points()]
     low, high = window(found.scene, [*(c for r in regions for c in r.box), *spots], 1.0, False)
     size = float(np.max(high - low))
     lack = np.maximum(size * NARROWEST / WIDEST - (high - low), 0) / 2 + MARGIN * size
@@ -61,6 +62,9 @@ def draw_path(axes: Any, found: ShortestPath, regions: list[Region], view: tuple
             frame = Outline([(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)], closed=True)
             outline = Outline.make_compound_path(frame, outline)
         axes.add_patch(PathPatch(outline, zorder=1, joinstyle="round", **STYLES[Word.OBSTACLE]))
+    for wall in found.walls:
+        look = {"fill": False, "edgecolor": INK, "linewidth": 1.6, "capstyle": "round", "zorder": 2}
+        axes.add_patch(PathPatch(part(wall.stroke(), 0.0, 1.0), **look))
     terrain = found.scene.terrain
     if terrain is not None:
         sides = float(terrain.width), float(terrain.height)
