@@ -17,6 +17,7 @@ from strategies import FREE_CUSPS, ROUNDED_U, S_BAND, SPIKES, STADIUM, box
 
 import exactacq as xa
 from exactacq.geometry.points import Location
+from exactacq.study.random_scenes import Subject, random_scene
 
 CIRCLE = xa.Circle((0, 0), 1)
 EAST, NORTH, WEST, SOUTH = 0, 1, 2, 3
@@ -334,3 +335,52 @@ def place_on(edge: object, u: float) -> xa.Point:
 
 def swept(edge: object, point: xa.Point) -> float:
     return float(edge.part(edge.start, point).length)
+
+
+# -- within a terrain ------------------------------------------------------------------------------
+
+
+def confined(*obstacles: object) -> xa.Robot:
+    return xa.Robot(xa.Scene(obstacles, terrain=xa.Terrain(9, 9), radius=20), confined=True)
+
+
+def test_nothing_leads_around_an_obstacle_at_the_border() -> None:
+    """The west side of a bar that crosses the border is in sight: it ends at the border and in a corner."""
+    robot = confined(box(4, 5, -1, 6))
+    assert str(robot.path_to((9, 0)).length) == "2*sqrt(13) + sqrt(61)"
+    assert robot.path_to((8, 0)).points[1] == xa.Point(4, 6)
+    assert robot.path_to((4, 0)).length == 4
+    assert xa.shortest_path(robot.map, (0, 0), (8, 0)).length == robot.path_to((8, 0)).length
+
+
+def test_border_and_known_boundary_may_leave_no_path() -> None:
+    robot = confined(box(4, 5, -1, 10))
+    assert robot.path_to((4, 9)).length == xa.Real(97).sqrt()
+    with pytest.raises(xa.MoveError, match=r"part the robot from \(9, 0\)"):
+        robot.path_to((9, 0))
+    with pytest.raises(xa.MoveError, match="beyond the border"):
+        robot.path_to((10, 0))
+
+
+RUNS_ALONG = (0, 14, 31)
+"""Seeds of scenes where an obstacle runs along the border: there a path in the scene may follow it."""
+
+
+@pytest.mark.parametrize("seed", [seed for seed in some(range(60), 8) if seed not in RUNS_ALONG])
+def test_when_all_is_known_paths_are_those_in_the_terrain(seed: int) -> None:
+    scene = random_scene(Subject.SEED_SPREADER, seed)
+    run = xa.seed_spreader(scene)
+    known = not run.map.incomplete and len(run.map.acquired) == len(run.obstacles)
+    west, south, east, north = scene.terrain.limits
+    rng, corner = Random(seed), scene.terrain.south_west
+    for _ in range(3):
+        goal = (
+            west + (east - west) * rng.randint(0, 12) / 12,
+            south + (north - south) * rng.randint(0, 12) / 12,
+        )
+        if any(o.locate(xa.Point(*goal)) is Location.INSIDE for o in scene.obstacles):
+            continue
+        whole, partly = xa.shortest_path(scene, corner, goal), xa.shortest_path(run.map, corner, goal)
+        if whole is not None and known:
+            assert (partly.length, partly.count) == (whole.length, whole.count)
+        assert whole is None or partly.length <= whole.length
