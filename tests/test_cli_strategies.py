@@ -190,3 +190,32 @@ def test_shells_are_offered_words_and_files() -> None:
     written("", "seen.py"), written("", "notes.txt")
     assert strategies("") == ["sightseer", "seed-spreader", "nearest-frontier", "seen.py"]
     assert strategies("see") == ["seed-spreader", "seen.py"]
+
+
+class TestConfined:
+    SWEEP = """
+import exactacq as xa
+
+@xa.strategy("north", confined=True)
+def north(robot):
+    west, south, east, top = robot.terrain.limits
+    robot.go_to((west, top))
+"""
+
+    def test_it_starts_in_the_corner(self, capsys: pytest.CaptureFixture[str]) -> None:
+        """The scene has a start of its own."""
+        name, terrain = written(self.SWEEP), ("--terrain", "bbox:1/2")
+        out = answered(
+            capsys, "explore", "circles", *terrain, "--strategy", name, "--trace", "run.json", "--audit",
+        )  # fmt: skip
+        assert "S = (2.5, -3.5), R = 20, 2 obstacles" in out and "length  7" in out and "audit passed" in out
+        run = xa.load_run("run.json")
+        assert isinstance(run, xa.OwnRun) and run.confined and run.ground is not None
+        both = ("--strategy", f"{name}:north", "--strategy", "sightseer")
+        assert "north" in answered(capsys, "compare", "circles", *terrain, *both, "--figure", "both.svg")
+
+    def test_it_needs_a_terrain_and_its_corner(self, capsys: pytest.CaptureFixture[str]) -> None:
+        name = written(self.SWEEP)
+        assert "a confined robot needs a terrain" in refused(capsys, "explore", "circles", "--strategy", name)
+        line = refused(capsys, "explore", "figure2", "--strategy", name, "--start", "1,0")
+        assert "is not the terrain's SW corner (0, 0)" in line

@@ -370,3 +370,54 @@ def test_a_way_to_a_place_with_one_irrational_coordinate() -> None:
     assert end.y.rational is None
     robot.go_to(end)
     assert robot.position == end
+
+
+class TestConfined:
+    """Runs by a robot that keeps within a terrain, with an obstacle that the border cuts in two."""
+
+    BAR = xa.Polygon([(2, -1), (3, -1), (3, 9), (2, 9)])
+    SCENE = xa.Scene([BAR, xa.Circle((1, 4), "1/2")], terrain=xa.Terrain(6, 8), radius=9, start=(0, 0))
+
+    @staticmethod
+    def around(robot: xa.Robot) -> None:
+        robot.go_to((6, 0))
+        robot.circle()
+        robot.go_to((1, "7/2"))
+        robot.circle()
+
+    def test_obstacles_are_components(self) -> None:
+        xa.strategy("around", confined=True)(self.around)
+        for run in (xa.explore(self.SCENE, "around"), xa.explore(self.SCENE, self.around)):
+            assert run.confined and run.ground is not None
+            assert [body.closed for body in run.obstacles] == [False, True]
+            assert run.map.acquired == (0, 1) and run.complete and run.visits == (1,)
+            xa.audit(run, samples=6)
+            assert xa.load_run(run.to_json()) == run == pickle.loads(pickle.dumps(run))
+
+    def test_the_robot_of_a_function_is_not_confined(self) -> None:
+        with pytest.raises(xa.InvalidScene, match="meets the terrain's border"):
+            xa.explore(self.SCENE, self.around)
+
+    def test_it_is_drawn_and_played_within_the_border(self) -> None:
+        short = xa.strategy("short", confined=True)(lambda robot: robot.go_to((1, 0)))
+        run = xa.explore(xa.Scene([self.BAR], terrain=xa.Terrain(6, 8), radius=9), short)
+        assert "M-line" not in svg(run)
+        text = page(run, frames_of(run))
+        assert '"mline":""' in text.replace(" ", "")
+
+    def test_a_start_elsewhere_is_refused(self) -> None:
+        xa.strategy("around", confined=True)(self.around)
+        with pytest.raises(xa.InvalidScene, match="not the terrain's SW corner"):
+            xa.explore(self.SCENE, "around", start=(1, 1))
+        with pytest.raises(xa.InvalidScene, match="a confined robot needs a terrain"):
+            xa.explore(self.SCENE.replace(terrain=None), "around")
+
+    def test_what_it_goes_on_without_end_for_is_ended(self) -> None:
+        @xa.strategy("endless", confined=True)
+        def endless(robot: xa.Robot) -> None:
+            while True:
+                robot.go_to((0, 1))
+                robot.go_to((0, 0))
+
+        run = xa.explore(self.SCENE, endless, max_moves=5)
+        assert run.ending is Ending.MOST_MOVES and run.confined

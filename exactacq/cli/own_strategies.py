@@ -21,16 +21,15 @@ WORDS = "|".join((*Strategy, *Baseline, "FILE.py:NAME"))
 
 
 class NamedStrategy(NamedTuple):
-    """What `exactacq.explore` takes, the strategy's name in messages, and the file where it is, if known."""
+    """What `exactacq.explore` takes, the strategy's name in messages, and the file where it is, if known.
+
+    It ``sweeps`` if its robot is confined to a terrain, and so starts in the corner of that.
+    """
 
     strategy: str | Rules
     name: str
     file: str = ""
-
-    @property
-    def sweeps(self) -> bool:
-        """Whether it starts in the corner of a terrain."""
-        return self.strategy is Strategy.SEED_SPREADER
+    sweeps: bool = False
 
 
 def chosen(text: str) -> NamedStrategy:
@@ -39,7 +38,7 @@ def chosen(text: str) -> NamedStrategy:
     NAME is that under which the file registers the strategy, or that of a function. The file is run.
     """
     if text in tuple(Strategy):
-        return NamedStrategy(Strategy(text), text)
+        return NamedStrategy(Strategy(text), text, sweeps=text == Strategy.SEED_SPREADER)
     if text in tuple(Baseline):
         return NamedStrategy(text, text)
     from exactacq.strategies.registry import names, registered
@@ -47,7 +46,7 @@ def chosen(text: str) -> NamedStrategy:
     own = registered(text)
     if own is not None:
         code = getattr(own.rules, "__code__", None)
-        return NamedStrategy(text, text, "" if code is None else code.co_filename)
+        return NamedStrategy(text, text, "" if code is None else code.co_filename, own.confined)
     path, colon, name = (text, "", "") if text.endswith(".py") else text.rpartition(":")
     if not path:
         raise StrategyError(
@@ -70,7 +69,7 @@ def _of_file(path: str, name: str | None) -> NamedStrategy:
         raise StrategyError(f"--strategy: {path} has no strategy {shown(name)}; {_told(path, offered)}")
     own = registered(name)
     if own is not None and own.rules.__module__ == module.__name__:
-        return NamedStrategy(name, name, path)
+        return NamedStrategy(name, name, path, own.confined)
     return NamedStrategy(getattr(module, name), name, path)
 
 

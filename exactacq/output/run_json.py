@@ -3,8 +3,8 @@
 A run file is one JSON object with ``"format": "exactacq run"`` and ``"version"``, the number of the
 format's version (`VERSION`). Files of versions 2 to 4 are read too (`old_run_files`), others are refused. It
 has the scene, the path, visits, links, events and bounds, and one table of all algebraic numbers. Of a
-strategy of the user's own it has the name and ``"own": true``. The map is
-not written: the sensing is repeated on first use.
+strategy of the user's own it has the name and ``"own": true``, and ``"confined": true`` if its robot was
+confined to the terrain. The map is not written: the sensing is repeated on first use.
 """
 
 from __future__ import annotations
@@ -130,7 +130,8 @@ def _run(document: dict[str, Any]) -> Run:
     is_own = document.get("own") is True and is_name(strategy)
     if not is_own and strategy not in (SightseerRun.strategy, SeedSpreaderRun.strategy):
         raise FormatError(f"a run of the unknown strategy {str(strategy)[:40]!r}")
-    ground = ground_of(scene) if strategy == SeedSpreaderRun.strategy else None
+    confined = is_own and document.get("confined") is True
+    ground = ground_of(scene) if confined or strategy == SeedSpreaderRun.strategy else None
     count = len(scene.obstacles if ground is None else ground.components)
     path = Path(_read_piece(numbers, piece, count) for piece in document["path"])
     memory = None
@@ -149,7 +150,7 @@ def _run(document: dict[str, Any]) -> Run:
         "record": memory,
     }
     if is_own:
-        return with_bounds(OwnRun(**common, name=strategy))
+        return with_bounds(OwnRun(**common, name=strategy, confined=confined))
     if ground is None:
         links = tuple(_read_link(numbers, link, count) for link in document["links"])
         return with_bounds(SightseerRun(**common, links=links, stack_depth=int(document["stack_depth"])))
@@ -207,7 +208,7 @@ def _of_strategy(out: Encoder, run: Run) -> dict[str, Any]:
     if isinstance(run, SightseerRun):
         return {"stack_depth": run.stack_depth, "links": [_link(out, link) for link in run.links]}
     if isinstance(run, OwnRun):
-        return {"own": True}
+        return {"own": True, "confined": True} if run.confined else {"own": True}
     assert isinstance(run, SeedSpreaderRun)
     return {
         "lookahead": run.lookahead,

@@ -35,9 +35,11 @@ def explore(
 
     The latter is the name of one that `exactacq.strategy` has registered, or a function: it is called with a
     `Robot` at the start, and the run, an `OwnRun`, ends when it returns. If it calls more than *max_moves* of
-    the robot's moves, the run ends where it is, with `Ending.MOST_MOVES`. *radius* and *start* default to the
-    scene's own. *progress* is told how many edges of obstacles that are wholly known there are, and how many
-    in all; of the paper's strategies it is told what they say, and *max_moves* is nothing to them.
+    the robot's moves, the run ends where it is, with `Ending.MOST_MOVES`; questions are not counted, so one
+    that asks for ever and does not move is not ended. If it is registered as confined, the robot is confined
+    to the scene's terrain, and *start*, if given, is the SW corner of that. *radius* and *start* default to
+    the scene's own. *progress* is told how many edges of obstacles that are wholly known there are, and how
+    many in all; of the paper's strategies it is told what they say, and *max_moves* is nothing to them.
 
     Raises `StrategyError` for a name that is not known, what `Robot` and the paper's strategies raise,
     `FormatError` if *max_moves* is no positive integer, `Undecided` with the run so far for a comparison
@@ -61,13 +63,13 @@ def explore(
         if not callable(strategy):
             raise StrategyError(f"no strategy {shown(strategy)}; there are {', '.join(names())}")
         own = of_function(strategy)
-    robot = Robot(scene, start, radius)
+    robot = Robot(scene, start, radius, confined=own.confined)
     return _explored(own, robot, scene, max_moves, progress)
 
 
 @uncollected()
 def _explored(own: OwnStrategy, robot: Robot, scene: Scene, most: int, progress: Progress | None) -> OwnRun:
-    edges = [len(obstacle.edges) for obstacle in scene.obstacles]
+    edges = [len(body.edges) for body in robot._walker.memory.bodies]
     meter = Meter(progress, sum(edges))
 
     def heard(sighting: Sighting) -> None:
@@ -99,16 +101,19 @@ def _explored(own: OwnStrategy, robot: Robot, scene: Scene, most: int, progress:
 
 def _finished(own: OwnStrategy, robot: Robot, scene: Scene) -> OwnRun:
     path, events, record = robot._walker.trace()
+    # A lap leads all around: along a boundary that the border cuts there is none.
+    rounds = (k for k in robot._walker.visited if record.bodies[k].closed)
     return OwnRun(
         scene=scene,
         radius=robot.radius,
         start=robot.start,
         path=path,
-        visits=tuple(robot._walker.visited),
+        visits=tuple(rounds),
         events=events,
         bounds=(),
-        unseen=tuple(k for k in range(len(scene.obstacles)) if k not in record.seen),
+        unseen=tuple(k for k in range(len(record.bodies)) if k not in record.seen),
         unvisited=tuple(sorted(record.incomplete)),
         record=record,
         name=own.name,
+        confined=own.confined,
     )

@@ -23,24 +23,32 @@ _NAME = re.compile(r"\w[\w-]*")
 
 @dataclass(frozen=True)
 class OwnStrategy:
-    """A strategy with its name, and what bounds the length of its runs, if anything does."""
+    """A strategy with its name, and what bounds the length of its runs, if anything does.
+
+    If it is ``confined``, so is its robot: it keeps within the scene's terrain and starts in the SW corner.
+    """
 
     name: str
     rules: Rules
     bounds: Bounds | None = None
+    confined: bool = False
 
 
 _BASELINES = {Baseline.NEAREST_FRONTIER.value: OwnStrategy(Baseline.NEAREST_FRONTIER, nearest_frontier)}
 _known: dict[str, OwnStrategy] = {}
 
 
-def strategy(name: str, *, bounds: Bounds | None = None) -> Callable[[Function], Function]:
+def strategy(
+    name: str, *, bounds: Bounds | None = None, confined: bool = False
+) -> Callable[[Function], Function]:
     """Register a strategy of one's own under a name: a decorator of a function that takes a `Robot`.
 
     The name has letters, digits, "-" and "_" only. *bounds*, if given, is called with each finished run and
     gives names, sources and exact values of bounds on its length; they are found again, and not read, when a
-    run is read from a file. A function that is defined anew in the same module takes the place of the one
-    before. Raises `StrategyError` for another name, and for that of another strategy.
+    run is read from a file. The robot of a *confined* strategy is confined to the scene's terrain (see
+    `Robot`), and starts in its SW corner, as that of the Seed Spreader. A function that is defined anew in
+    the same module takes the place of the one before. Raises `StrategyError` for another name, and for that
+    of another strategy.
 
     >>> import exactacq as xa
     >>> @xa.strategy("nearest-first", bounds=lambda run: [("most", "a guess", run.radius * 2)])
@@ -61,7 +69,7 @@ def strategy(name: str, *, bounds: Bounds | None = None) -> Callable[[Function],
         other = _known.get(name)
         if other is not None and _home(other.rules) != _home(rules):
             raise StrategyError(f"there is a strategy {name} already, in {_home(other.rules)[0]}")
-        _known[name] = OwnStrategy(name, rules, bounds)
+        _known[name] = OwnStrategy(name, rules, bounds, confined)
         return rules
 
     return register

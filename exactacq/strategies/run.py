@@ -118,14 +118,15 @@ class Run:
 
     @property
     def ground(self) -> Ground | None:
-        """What the terrain leaves of the scene's obstacles; None for the Sightseer."""
+        """What the terrain leaves of the scene's obstacles, if the robot was confined to it; else None."""
         return None
 
     @property
     def obstacles(self) -> Sequence[Body]:
         """What the numbers of obstacles in this run mean.
 
-        The scene's obstacles; for the Seed Spreader the components that its terrain leaves of them.
+        The scene's obstacles; of a robot that was confined to a terrain, as for the Seed Spreader, the
+        components that this leaves of them.
         """
         return self.scene.obstacles if self.ground is None else self.ground.components
 
@@ -413,8 +414,7 @@ class SeedSpreaderRun(Run):
     @cached_property
     def ground(self) -> Ground:
         """What the terrain leaves of the scene's obstacles."""
-        ground = None if self.record is None else self.record.ground
-        return ground_of(self.scene) if ground is None else ground
+        return _ground(self)
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
@@ -422,7 +422,8 @@ class OwnRun(Run):
     """A finished exploration by a strategy of the user's own, of that ``name`` (see `exactacq.explore`).
 
     It has no bounds unless the strategy was registered with some; ``unvisited`` obstacles are those that were
-    seen and are not wholly known.
+    seen and are not wholly known. If the robot was ``confined`` to the terrain, obstacles are the components
+    of this, and ``visits`` those among them that the border does not cut.
 
     >>> import exactacq as xa
     >>> run = xa.explore(xa.load("circles"), lambda robot: robot.go_to((3, 0)))
@@ -431,6 +432,12 @@ class OwnRun(Run):
     """
 
     name: str
+    confined: bool = False
+
+    @cached_property
+    def ground(self) -> Ground | None:
+        """What the terrain leaves of the scene's obstacles, if the robot was confined to it; else None."""
+        return _ground(self) if self.confined else None
 
     @property
     def strategy(self) -> str:
@@ -444,3 +451,9 @@ class OwnRun(Run):
 
     def __repr__(self) -> str:
         return super().__repr__().replace("OwnRun", f"OwnRun {self.name}", 1)
+
+
+def _ground(run: Run) -> Ground:
+    """What the terrain leaves of the scene's obstacles, as the run has found it or anew."""
+    ground = None if run.record is None else run.record.ground
+    return ground_of(run.scene) if ground is None else ground

@@ -8,7 +8,7 @@ from typing import Any
 from exactacq.output.animation.frames import Frame
 from exactacq.output.animation.page import Paper, told, whole_page
 from exactacq.output.vocabulary import Labels
-from exactacq.strategies.run import Run, SeedSpreaderRun
+from exactacq.strategies.run import Run
 
 
 def page_of_runs(
@@ -30,7 +30,7 @@ def page_of_runs(
         raise ValueError("a page of runs has at least one")
     first, *others = runs
     radius = max(float(run.radius) for run in runs)
-    swept = all(isinstance(run, SeedSpreaderRun) for run in runs)
+    swept = all(run.ground is not None for run in runs)
     paper = Paper.of(first.scene, first.start, radius, swept, [run.start for run in others])
     shown = [
         _named(run, told(run, own, Labels(labels), paper)) for run, own in zip(runs, frames, strict=True)

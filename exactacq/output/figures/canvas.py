@@ -337,7 +337,7 @@ class Canvas:
 
     def _sweeping(self) -> None:
         """The M-line, its crossing points, and the ends of diversions: D on the M-line, Q where they hit."""
-        if self.sweep is None:
+        if self.sweep is None or not self.sweep.line:
             return
         line: dict[str, Any] = {"color": SOFT, "linewidth": 0.7, "linestyle": (0, (4, 3))}
         self.axes.plot(*zip(*self.sweep.corners, strict=True), zorder=1.5, **line)

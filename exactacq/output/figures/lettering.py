@@ -93,7 +93,7 @@ class Lettering:
             west, south, east, north = map(float, canvas.scene.terrain.limits)
             corners = (west, south), (east, south), (east, north), (west, north), (west, south)
             room.mark_line(self._sampled([Stroke(p, q, math.dist(p, q)) for p, q in pairwise(corners)]))
-        if canvas.sweep is not None:
+        if canvas.sweep is not None and canvas.sweep.line:
             room.mark_line(self._sampled([segment.stroke() for segment in canvas.sweep.line]))
         for spot, size in canvas.spots:
             room.mark_spot(self._spot(spot), size)

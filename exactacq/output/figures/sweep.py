@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from math import inf
 
 import numpy as np
 
@@ -18,7 +19,7 @@ from exactacq.output.regions import Region
 from exactacq.scene.edge_table import EdgeTable, Floats
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Terrain
-from exactacq.scene.terrain_components import Component
+from exactacq.scene.terrain_components import Component, Ground
 from exactacq.sensing.event import EventKind
 from exactacq.strategies.run import Run, SeedSpreaderRun
 from exactacq.strategies.seed_spreader.blocked import Blocking
@@ -43,15 +44,22 @@ class Detour:
 
 
 class SweptTerrain:
-    """What the Seed Spreader's terrain looks like to a run."""
+    """What the terrain looks like to a run that is confined to it; only the Seed Spreader has an M-line."""
 
-    def __init__(self, run: SeedSpreaderRun) -> None:
-        ground = run.ground
+    def __init__(self, run: Run, ground: Ground) -> None:
         self.terrain, self.ground = ground.terrain, ground
-        mline = MLine(ground.terrain, run.radius)
-        self.line: Sequence[Segment] = mline.pieces
-        self.width = float(mline.width)
-        crossings = mline.crossings(Blocking(ground, EdgeTable(run.scene.obstacles)))
+        self.line: Sequence[Segment] = ()
+        self.width, self.arrives = inf, True
+        self.crossings: list[Spot] = []
+        self.detours: list[Detour] = []
+        if isinstance(run, SeedSpreaderRun):
+            self._sweep(run)
+        self.regions = [component_region(component, ground.terrain) for component in ground.components]
+
+    def _sweep(self, run: SeedSpreaderRun) -> None:
+        mline = MLine(self.terrain, run.radius)
+        self.line, self.width = mline.pieces, float(mline.width)
+        crossings = mline.crossings(Blocking(self.ground, EdgeTable(run.scene.obstacles)))
         self.crossings = list(dict.fromkeys(crossing.stop.point.xy for crossing in crossings))
         self.arrives = bool(run.path) and run.path[-1].end == mline.pieces[-1].end
         self.detours = [Detour(d.leave.xy, d.hit.xy, range(d.first, d.last)) for d in run.diversions]
@@ -59,12 +67,11 @@ class SweptTerrain:
         # One at most: an obstacle closes the way there or back, and the run ends.
         for event in starts[len(self.detours) :]:
             self.detours.append(Detour(event.point.xy, None, range(event.after, len(run.path))))
-        self.regions = [component_region(component, ground.terrain) for component in ground.components]
 
     @classmethod
     def of(cls, run: Run) -> SweptTerrain | None:
-        """The sweep of a run of the Seed Spreader, else None."""
-        return cls(run) if isinstance(run, SeedSpreaderRun) else None
+        """The terrain of a run that is confined to it, else None."""
+        return None if run.ground is None else cls(run, run.ground)
 
     @property
     def corners(self) -> list[Spot]:
