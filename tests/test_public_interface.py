@@ -252,6 +252,7 @@ class TestErrorsWhereTheMistakeIs:
             (lambda: xa.Scene([], radius="x"), "radius: not a number: 'x'"),
             (lambda: xa.Scene([], radius=True), "radius: not a number: True"),
             (lambda: xa.Scene([], name=3), "name: a name is a text, not 3"),
+            (lambda: xa.Circle((0, 0), 1, name="\udc80"), r"name: '.udc80' has half of a character"),
             (lambda: xa.sightseer(SCENE, "x"), "radius: not a number: 'x'"),
             (lambda: xa.seed_spreader(SWEPT, "x"), "radius: not a number: 'x'"),
             (lambda: xa.isovist(SCENE, (0, 0), "x"), "radius: not a number: 'x'"),

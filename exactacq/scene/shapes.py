@@ -293,7 +293,9 @@ def _bent(ring: tuple[tuple[fmpq, fmpq, Any], ...]) -> Iterator[Vertex]:
 
 
 def as_name(name: str | None) -> str | None:
-    """A name as it is; `FormatError` for what is no text."""
+    """A name as it is; `FormatError` for what is no text, or has half of a character, which no file holds."""
     if name is not None and not isinstance(name, str):
         raise FormatError(f"name: a name is a text, not {shown(name)}")
+    if name and any("\ud800" <= letter <= "\udfff" for letter in name):
+        raise FormatError(f"name: {shown(name)} has half of a character (a surrogate without its other half)")
     return name
