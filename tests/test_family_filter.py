@@ -20,7 +20,8 @@ from exactacq.geometry.curves import Curve, Segment
 from exactacq.kernel.extents import Extent, Span
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.sensing import family_filter
+from exactacq.sensing import family_filter, visibility_complex
+from exactacq.sensing.complex_edges import FamilySweeper
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.free_way import WayViews
 from exactacq.sensing.legs import Leg, legs_of
@@ -306,3 +307,15 @@ def test_a_family_with_a_line_parallel_to_the_way() -> None:
     run = xa.sightseer(xa.Scene([wall, square, hidden, front], start=("13/2", -1), radius=60))
     (seen,) = (event.point for event in run.events if event.kind == "sight" and event.obstacle == 1)
     assert seen == xa.Point(6, 2)
+
+
+def test_forgetting_changes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Families that are out of reach are dropped, and made again when the robot comes back."""
+    usual = record(xa.sightseer(random_octagons(30, 1), 3))
+    monkeypatch.setattr(visibility_complex, "KEPT", 1)
+    monkeypatch.setattr(visibility_complex, "SEEN_FROM_KEPT", 1)
+    made: list[int] = []
+    of = FamilySweeper.of
+    monkeypatch.setattr(FamilySweeper, "of", lambda self, e: made.append(e) or of(self, e))
+    assert record(xa.sightseer(random_octagons(30, 1), 3)) == usual
+    assert len(made) > len(set(made)) > 200

@@ -20,10 +20,10 @@ from exactacq.sensing.line_family import SingleLine, family_of
 from exactacq.sensing.view_families import ViewFamily
 from exactacq.visibility.sensor_range import Range
 
-KEPT = 1536
-"""Edges whose families are remembered, the last used: enough for a wide neighbourhood, and a bound of the
-memory."""
-SEEN_FROM_KEPT = 256
+KEPT = 512
+"""Edges whose families are remembered, the last used; more only where a neighbourhood has more than half as
+many: then twice its edges. So no way makes a family twice, and memory is bounded by what is near."""
+SEEN_FROM_KEPT = 128
 """Edges for which it is remembered what is seen from them."""
 
 
@@ -65,12 +65,24 @@ class Neighbourhood:
 
     def __init__(self, sweeper: FamilySweeper) -> None:
         self.table, self.range, self.images = sweeper.table, sweeper.range, sweeper.images
-        self._of = lru_cache(KEPT)(sweeper.of)
+        self._sweeper, self._most = sweeper, KEPT
+        # In the order of their last use.
+        self._kept: dict[int, EdgeFamilies] = {}
 
     def near(self, box: Floats) -> list[EdgeFamilies]:
         """The families of the edges within reach of a box."""
         left, bottom, right, top = box.tolist()
-        return [self._of(e) for e in self.table.around((left, bottom), (right, top), self.range.above)]
+        edges = self.table.around((left, bottom), (right, top), self.range.above)
+        found = [self._of(e) for e in edges]
+        self._most = max(self._most, 2 * len(edges))
+        while len(self._kept) > self._most:
+            del self._kept[next(iter(self._kept))]
+        return found
+
+    def _of(self, edge: int) -> EdgeFamilies:
+        families = self._kept.pop(edge, None) or self._sweeper.of(edge)
+        self._kept[edge] = families
+        return families
 
     def extents(self, edge: int) -> list[Extent]:
         """What families show of others from an edge, and single lines that meet it."""
