@@ -160,8 +160,10 @@ def _crossed(family: FamilyImage, way: WayImage, curves: list[CurveImage]) -> Cr
     that line, or moves away from it, until a line is parallel to it: so if none is, both ends tell.
 
     If a line between is parallel to the way, the crossing leaves over infinity and comes back from the other
-    side, and the contact is behind it before and ahead after, or the other way round. Then the way may be met
-    by one of the two parts only.
+    side, and the contact is behind it before and ahead after, or the other way round. Where it leaves to is
+    where the lines point to, or the opposite, for they turn by a quarter at most: to one side of a and from
+    the other side to b. Both parts may meet the way, for two tangents of a circle pass a point. What is
+    known is that one of them does not.
     """
     first, last = Outermost(family, way, True), Outermost(family, way, False)
     one, other, a, b = first.line, last.line, first.met, last.met
@@ -181,20 +183,22 @@ def _crossed(family: FamilyImage, way: WayImage, curves: list[CurveImage]) -> Cr
     is_rising = a[2] < b[2]
     part = 0
     if is_parallel:
-        part = _part(a[2] - a[3], a[2] + a[3], b[2] - b[3], b[2] + b[3], low, high)
-        if role != -last_role or part == OPEN:
+        ahead = _ahead(one, way)
+        if role != -last_role or ahead == 0 or ahead != _ahead(other, way):
+            return _unknown()
+        is_rising = ahead == role
+        part = _part(a, b, is_rising, low, high)
+        if part == OPEN:
             return _unknown()
         if part == 0:
             return Crossed(CONTACT, NOT_MET, NOT_MET, [], [])
-        # The first part begins at a and moves away from b, the last one comes to b, moving towards a.
-        beyond = (-inf, -inf) if is_rising == (part < 0) else (inf, inf)
-        end = (beyond[0], beyond[1], 0.0, 0.0, 0.0)
+        beyond = inf if is_rising == (part < 0) else -inf
+        end = (beyond, beyond, 0.0, 0.0, 0.0)
         if part < 0:
             spots, keys = (spots[0], end), (keys[0], [])
         else:
             role, spots, keys = last_role, (end, spots[1]), ([], keys[1])
             turn = -turn
-        is_rising = not is_rising
     elif role != last_role or role == OPEN:
         return _unknown()
     if role == 0:
@@ -279,17 +283,23 @@ def _role(met: Meeting, family: FamilyImage, at: Outermost, way: WayImage) -> in
     return OPEN
 
 
-def _part(a_low: float, a_high: float, b_low: float, b_high: float, low: float, high: float) -> int:
+def _ahead(line: Line, way: WayImage) -> int:
+    """1 or -1 as a line certainly points ahead along the way or back; else 0."""
+    error = UNIT * max(abs(way.line.wx), abs(way.line.wy)) + TINY
+    height, bound = dot(line[2], line[3], line[5], way.line.wx, way.line.wy, error)
+    return 1 if height > bound else -1 if -height > bound else 0
+
+
+def _part(a: Meeting, b: Meeting, is_rising: bool, low: float, high: float) -> int:
     """Which part of a family that passes infinity may meet a way: the first (-1), the last (1), none (0).
 
-    `OPEN` if both may. The first line crosses the way's line in a, the last one in b.
+    `OPEN` if both may. The first line crosses the way's line in a, the last one in b; in between parameters
+    rise, or fall.
     """
-    if a_high < b_low:
-        first, last = low <= a_high, high >= b_low
-    elif b_high < a_low:
-        first, last = high >= a_low, low <= b_high
+    if is_rising:
+        first, last = high >= a[2] - a[3], low <= b[2] + b[3]
     else:
-        return OPEN
+        first, last = low <= a[2] + a[3], high >= b[2] - b[3]
     if first and last:
         return OPEN
     return -1 if first else 1 if last else 0
