@@ -18,6 +18,7 @@ from strategies import FREE_CUSPS, ROUNDED_U, S_BAND, SPIKES, STADIUM, box
 import exactacq as xa
 from exactacq.geometry.points import Location
 from exactacq.study.random_scenes import Subject, random_scene
+from exactacq.visibility.known_ground import KnownGround
 
 CIRCLE = xa.Circle((0, 0), 1)
 EAST, NORTH, WEST, SOUTH = 0, 1, 2, 3
@@ -335,6 +336,29 @@ def place_on(edge: object, u: float) -> xa.Point:
 
 def swept(edge: object, point: xa.Point) -> float:
     return float(edge.part(edge.start, point).length)
+
+
+@pytest.mark.parametrize("seed", some(range(120), 6))
+def test_what_robots_know_is_like_many_chords(seed: int) -> None:
+    """The ends of views are irrational, and lie on lines with corners: in chords they are rational."""
+    rng = Random(seed)
+    robot = xa.Robot(random_scene(Subject.SIGHTSEER, seed))
+    for _ in range(3):
+        known = KnownGround.of(robot.map)
+        walls = [row for chain in known.chains if len(row := in_chords(chain)) > 1]
+        other = Walled(walls, known.scene)
+        for _ in range(3):
+            ends = [tuple(Fraction(rng.randint(-70, 70), 10) for _ in "xy") for _ in "ab"]
+            free = [o.locate(xa.Point(*p)) is Location.OUTSIDE for o in known.scene.obstacles for p in ends]
+            if all(free) and not any(robot.map.knows(p) for p in ends):
+                length = float(found(robot.map, *ends).length)
+                assert length == pytest.approx(float(found(other, *ends).length), abs=0.03)
+        robot.go_to((rng.randint(-6, 6), rng.randint(-6, 6)))
+
+
+def in_chords(chain: object) -> list[tuple]:
+    places = [place for piece in chain.pieces for place in chords(piece.curve, 0.0, 1.0)]
+    return [place for k, place in enumerate(places) if not k or place != places[k - 1]]
 
 
 # -- within a terrain ------------------------------------------------------------------------------

@@ -141,6 +141,14 @@ def test_equally_short_paths_are_counted() -> None:
     assert found(build(circle_grid(4, 1, 1, 4)), (-2, 0), (14, 0)).count == 2
 
 
+def test_one_path_turns_where_another_goes_straight_on() -> None:
+    """The one that turns has its point first; it does not go on with the other from there."""
+    shapes = [[(2, 0), ("21/10", 3), ("19/10", 3)], [(3, 0), ("17/5", "7/10"), (3, 1), ("29/10", "4/5")]]
+    path = found(xa.Scene(shapes), (1, 0), (4, 1))
+    assert (path.length, path.count) == (2 + xa.Real(2).sqrt(), 2)
+    assert path.points[1:-1] == (xa.Point(2, 0), xa.Point(3, 1))
+
+
 def test_halves_of_a_circle_are_equal() -> None:
     path = found(xa.Scene([xa.Circle((0, 0), 1)]), (0, 1), (0, -1))
     assert path.length == xa.Length.turns(1, HALF) and path.count == 2 and kinds(path) == "("
