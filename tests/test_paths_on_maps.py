@@ -16,6 +16,7 @@ from planted_maps import PartlyKnown, Walled
 from strategies import FREE_CUSPS, ROUNDED_U, S_BAND, SPIKES, STADIUM, box
 
 import exactacq as xa
+from exactacq import kernel
 from exactacq.geometry.points import Location
 from exactacq.study.random_scenes import Subject, random_scene
 from exactacq.visibility.known_ground import KnownGround
@@ -99,6 +100,23 @@ def test_distances_are_those_of_the_graph(seed: int) -> None:
     for i, j in pairwise(range(len(ends))):
         length = nx.dijkstra_path_length(graph, i, j, weight="length")
         assert length == found(chart, ends[i], ends[j]).length
+
+
+@pytest.mark.parametrize("seed", some(range(60), 6))
+def test_floats_do_not_decide(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With all bounds infinite paths are the same, among walls and on what a robot sees at first."""
+    _, walls, solids, places = drawn(seed, bool(seed % 2))
+    sight = xa.Robot(random_scene(Subject.SIGHTSEER, seed)).map
+    asked = [(Walled(walls, xa.Scene(solids)), places[0], places[-1]), (sight, (-6, -5), (6, 5))]
+    paths = [found(*ask) for ask in asked]
+    monkeypatch.setattr(kernel, "EXACT_ONLY", True)
+    again = (
+        Walled(walls, xa.Scene(solids)),
+        KnownGround(sight._known_ground.scene, sight._known_ground.chains),
+    )
+    for path, chart in zip(paths, again, strict=True):
+        other = found(chart, path.start, path.end)
+        assert (other.length, other.count, other.points) == (path.length, path.count, path.points)
 
 
 THIN = 1e-5
@@ -238,6 +256,8 @@ def test_what_is_no_map_is_refused() -> None:
         xa.shortest_path(3, (0, 0), (1, 1))
     with pytest.raises(xa.FormatError, match="a scene or a map"):
         xa.tangent_graph("figure2", [(0, 0)])
+    with pytest.raises(xa.FormatError, match="a scene or a map"):
+        xa.shortest_path(xa.Robot(xa.load("circles")), (0, 0), (1, 1))
 
 
 # -- laws ------------------------------------------------------------------------------------------

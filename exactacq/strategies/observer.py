@@ -368,7 +368,7 @@ class Observer:
         goal = Point.of(point)
         self._check_border(goal)
         try:
-            found = shortest_path(self._known_ground(), self.position, goal)
+            found = shortest_path(self._ground_of_paths(), self.position, goal)
         except InvalidScene as error:
             raise MoveError(f"no path: {error.violations[0]}") from None
         if found is None:
@@ -392,7 +392,7 @@ class Observer:
             self._sightings.append(seen)
             self._on_sighting(seen)
 
-    def _known_ground(self) -> KnownGround:
+    def _ground_of_paths(self) -> KnownGround:
         """What paths have to respect."""
         walker = self._walker
         if self._charted is None or self._charted[0] != walker.count:
