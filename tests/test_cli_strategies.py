@@ -216,6 +216,6 @@ def north(robot):
 
     def test_it_needs_a_terrain_and_its_corner(self, capsys: pytest.CaptureFixture[str]) -> None:
         name = written(self.SWEEP)
-        assert "a confined robot needs a terrain" in refused(capsys, "explore", "circles", "--strategy", name)
+        assert "needs a terrain" in refused(capsys, "explore", "circles", "--strategy", name)
         line = refused(capsys, "explore", "figure2", "--strategy", name, "--start", "1,0")
         assert "is not the terrain's SW corner (0, 0)" in line

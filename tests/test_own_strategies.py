@@ -409,7 +409,7 @@ class TestConfined:
         xa.strategy("around", confined=True)(self.around)
         with pytest.raises(xa.InvalidScene, match="not the terrain's SW corner"):
             xa.explore(self.SCENE, "around", start=(1, 1))
-        with pytest.raises(xa.InvalidScene, match="a confined robot needs a terrain"):
+        with pytest.raises(xa.InvalidScene, match="needs a terrain"):
             xa.explore(self.SCENE.replace(terrain=None), "around")
 
     def test_what_it_goes_on_without_end_for_is_ended(self) -> None:

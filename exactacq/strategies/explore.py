@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from exactacq.errors import FormatError, MoveError, StrategyError, Undecided, shown
+from exactacq.errors import FormatError, InvalidScene, MoveError, StrategyError, Undecided, shown
 from exactacq.geometry.points import Point
 from exactacq.progress import Meter, Progress
 from exactacq.scene.scene import Scene
@@ -63,6 +63,8 @@ def explore(
         if not callable(strategy):
             raise StrategyError(f"no strategy {shown(strategy)}; there are {', '.join(names())}")
         own = of_function(strategy)
+    if own.confined and scene.terrain is None:
+        raise InvalidScene([f"{own.name} needs a terrain: a rectangle with width and height"])
     robot = Robot(scene, start, radius, confined=own.confined)
     return _explored(own, robot, scene, max_moves, progress)
 

@@ -51,8 +51,6 @@ class Observer:
         *,
         confined: bool = False,
     ) -> None:
-        if confined and scene.terrain is None:
-            raise InvalidScene(["a confined robot needs a terrain: a rectangle with width and height"])
         ground = ground_of(scene) if confined else None
         place = start_of(scene, start) if ground is None else ground.terrain.south_west
         if ground is None and (border := scene.meets_border()):
