@@ -394,6 +394,27 @@ class TestConfined:
             xa.audit(run, samples=6)
             assert xa.load_run(run.to_json()) == run == pickle.loads(pickle.dumps(run))
 
+    def test_an_audit_holds_it_to_the_border(self) -> None:
+        """What was walked without a border is no run by a robot that keeps within one."""
+        scene = xa.Scene([xa.Circle((3, 4), 1)], terrain=xa.Terrain(6, 8), radius=9, start=(0, 0))
+        inside, outside = (xa.explore(scene, lambda robot, y=y: robot.go_to((1, y))) for y in (7, 9))
+        xa.audit(replace(inside, confined=True, record=None), samples=4)
+        with pytest.raises(xa.AuditError, match="piece 0 leaves the terrain"):
+            xa.audit(replace(outside, confined=True, record=None), samples=4)
+
+    def test_a_lap_may_end_in_a_tiny_piece(self) -> None:
+        """One shorter than a thousand millionth of the boundary was not waited for: not all around."""
+
+        def lap(robot: xa.Robot) -> None:
+            robot.go_to((2, 0))
+            for place in ((2, -1), (2, "1e-12"), (2, 0)):
+                robot.walk("left", to=place)
+
+        box = xa.Polygon([(2, -1), (4, -1), (4, 1), (2, 1)])
+        run = xa.explore(xa.Scene([box], start=(0, 0), radius=9), lap)
+        assert run.visits == (0,)
+        xa.audit(run, samples=4)
+
     def test_the_robot_of_a_function_is_not_confined(self) -> None:
         with pytest.raises(xa.InvalidScene, match="meets the terrain's border"):
             xa.explore(self.SCENE, self.around)

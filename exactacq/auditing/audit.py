@@ -60,7 +60,7 @@ def audit(run: Run, *, samples: int = 64, seed: int = 0, progress: Progress | No
     rng = Random(seed)
     meter = Meter(progress, len(run.path), len(run.events), MOMENTS + 1, 5 * samples // 2, samples)
     world, field = World(run.scene), None
-    if isinstance(run, SeedSpreaderRun):
+    if run.ground is not None:
         field = Field(run, world)
         check_components(run, field)
     bodies = list(_bodies(run, world))

@@ -75,17 +75,19 @@ def _is_rounded(run: OwnRun, tracks: Tracks, number: int) -> bool:
     perimeter = run.obstacles[number].perimeter
     least, most = (float(perimeter) * (1 + sign * SLACK) for sign in (-1, 1))
     for first, begun in enumerate(tracks):
-        walked, last = 0.0, first
-        while walked < least and last < len(tracks):
-            track = tracks[last]
-            if track is None or begun is None or run.path[last].obstacle != number:
+        walked = 0.0
+        for last in range(first, len(tracks)):
+            track, piece = tracks[last], run.path[last]
+            if track is None or begun is None or piece.obstacle != number:
                 break
             if track.forward is not begun.forward:
                 break
-            walked += float(run.path[last].length)
-            last += 1
-        if least <= walked <= most and same(run.path[last - 1].end, run.path[first].start):
-            return Length.sum(run.path[k].length for k in range(first, last)) == perimeter
+            walked += float(piece.length)
+            if walked > most:
+                break
+            # The last piece of a lap may be shorter than what floats tell apart.
+            if walked >= least and same(piece.end, run.path[first].start):
+                return Length.sum(run.path[k].length for k in range(first, last + 1)) == perimeter
     return False
 
 
