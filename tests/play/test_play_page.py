@@ -49,6 +49,25 @@ def test_a_square_is_drawn_run_scrubbed_and_saved(page: Chromium, tmp_path: Path
     page.until("document.body.dataset.mode === 'draw'")
 
 
+def test_the_terrain_moves_the_start_of_a_sweep_only(page: Chromium) -> None:
+    square(page)
+    page.click("[data-tool=terrain]")
+    click(page, 300, 600)
+    click(page, 800, 150)
+    place = "document.getElementById('beginning').getAttribute('transform')"
+    page.run(CHOOSE.format("sightseer"))
+    own = page.run(place)
+    page.run(CHOOSE.format("seed-spreader"))
+    assert page.run(place) != own
+    page.run(CHOOSE.format("nearest-frontier"))
+    assert page.run(place) == own
+    page.click("[data-tool=start]")
+    click(page, 500, 500)
+    assert (
+        page.run(place) != own and page.run("document.getElementById('strategy').value") == "nearest-frontier"
+    )
+
+
 def test_what_is_broken_is_told_beside_the_shapes(page: Chromium) -> None:
     square(page)
     page.click("[data-tool=circle]")

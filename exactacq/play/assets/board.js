@@ -52,7 +52,7 @@ export function board({ state }, camera, grid) {
   /** Where the robot starts: null if that is not told. */
   function beginning() {
     const { start, terrain, strategy } = state.drawing;
-    return strategy === "sightseer" || !terrain ? start : [terrain.x, terrain.y];
+    return strategy === "seed-spreader" && terrain ? [terrain.x, terrain.y] : start;
   }
 
   function drawGround() {
@@ -61,7 +61,7 @@ export function board({ state }, camera, grid) {
     for (const name of ["beginning", "reach"]) set($(name), { visibility: at ? "visible" : "hidden" });
     if (at) {
       const [x, y] = place(at);
-      set($("beginning"), { transform: `translate(${x} ${y})`, "data-start": strategy === "sightseer" });
+      set($("beginning"), { transform: `translate(${x} ${y})`, "data-start": strategy !== "seed-spreader" });
       set($("reach"), { cx: x, cy: y, r: radius ? Math.max(0, float(radius)) * camera.view.scale : 0 });
     }
     const [x, y] = terrain ? place([terrain.x, terrain.y]) : [0, 0];

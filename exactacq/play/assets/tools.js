@@ -50,7 +50,8 @@ export function tools(store, camera, grid, board) {
   function place(at) {
     const { tool, drawing } = state;
     if (tool === "start") {
-      edit({ ...drawing, start: at, strategy: "sightseer" }, { tool: "select" });
+      const strategy = drawing.strategy === "seed-spreader" ? "sightseer" : drawing.strategy;
+      edit({ ...drawing, start: at, strategy }, { tool: "select" });
       return;
     }
     if (tool === "polygon" && points.length > 2 && isFirst(at)) {
