@@ -195,11 +195,12 @@ def test_radius_beyond_the_view_is_said_in_the_legend(circles: Run) -> None:
         Scene([square(0, 10 * k) for k in range(1, 12)], start=(0, 0), radius=10, name="a column"),
         Scene([square(3, 3)], start=(1, 1), radius=3, enclosure=square(0, 0, 9)),
         Scene(start=(0, 0), radius=3),
+        Scene([square(9, 0)], start=(0, 0), radius=3, name="a name that is too long for a title, " * 4),
         gallery.scene("m18"),
         gallery.scene("e3"),
         gallery.scene("case2"),
     ],
-    ids=["figure2", "row", "column", "room", "empty", "m18", "e3", "case2"],
+    ids=["figure2", "row", "column", "room", "empty", "named", "m18", "e3", "case2"],
 )
 def test_layout_keeps_everything_apart_and_true(scene: Scene) -> None:
     """Drawing, colour bar, legend and titles do not overlap nor leave the page; both axes have one scale."""

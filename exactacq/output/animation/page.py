@@ -34,7 +34,7 @@ from exactacq.geometry.strokes import Stroke
 from exactacq.numbers.length import Length
 from exactacq.output import vocabulary
 from exactacq.output.animation.frames import Frame, stops
-from exactacq.output.figures.sweep import SweptTerrain, window
+from exactacq.output.figures.sweep import SweptTerrain, turning_places, window
 from exactacq.output.regions import Region
 from exactacq.output.turns import turns
 from exactacq.output.vocabulary import SCALE, SCALE_END, SCALE_END_DARK, Labels, Word
@@ -138,7 +138,7 @@ def _hash(text: str) -> str:
 def told(run: Run, frames: Iterable[Frame], labels: Labels, paper: Paper | None = None) -> dict[str, Any]:
     """What the scripts show, as JSON data; on a *paper* of the run's own if none is given."""
     sweep, names = SweptTerrain.of(run), list(run.names())
-    paper = paper or Paper.of(run.scene, run.start, float(run.radius), sweep is not None)
+    paper = paper or Paper.of(run.scene, run.start, float(run.radius), sweep is not None, turning_places(run))
     numbers = {id(event): number for number, event in enumerate(run.events, 1)}
     known, shown, events = Changes(paper), [], []
     plans = Plans(run, names)

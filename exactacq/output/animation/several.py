@@ -7,6 +7,7 @@ from typing import Any
 
 from exactacq.output.animation.frames import Frame
 from exactacq.output.animation.page import Paper, told, whole_page
+from exactacq.output.figures.sweep import turning_places
 from exactacq.output.vocabulary import Labels
 from exactacq.strategies.run import Run
 
@@ -28,10 +29,11 @@ def page_of_runs(
     """
     if not runs:
         raise ValueError("a page of runs has at least one")
-    first, *others = runs
+    first = runs[0]
     radius = max(float(run.radius) for run in runs)
     swept = all(run.ground is not None for run in runs)
-    paper = Paper.of(first.scene, first.start, radius, swept, [run.start for run in others])
+    places = [place for run in runs for place in (run.start, *turning_places(run))]
+    paper = Paper.of(first.scene, first.start, radius, swept, places)
     shown = [
         _named(run, told(run, own, Labels(labels), paper)) for run, own in zip(runs, frames, strict=True)
     ]

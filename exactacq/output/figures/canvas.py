@@ -23,7 +23,7 @@ from matplotlib.path import Path as Outline
 from matplotlib.transforms import Affine2D
 
 from exactacq.numbers.length import Length
-from exactacq.output.figures.sweep import Detour, SweptTerrain, window
+from exactacq.output.figures.sweep import Detour, SweptTerrain, turning_places, window
 from exactacq.output.regions import Region, Steps, closed, part
 from exactacq.output.snapshot import Snapshot
 from exactacq.output.vocabulary import (
@@ -140,6 +140,7 @@ class Canvas:
         """The drawn rectangle: everything there is, a margin, and no side shorter than NARROWEST inches."""
         corners = [corner for region in self.regions for corner in region.box]
         corners += [np.array(self.start)] if self.start is not None else []
+        corners += [np.array(place.xy) for place in turning_places(self.run)] if self.run is not None else []
         low, high = window(self.scene, corners, self.radius or 1.0, self.sweep is not None)
         size = float(np.max(high - low))
         margin = size * (0.07 if self.scene.enclosure is not None else 0.05)

@@ -8,6 +8,7 @@ room there, farther away with a leader line, or smaller. In floats: for drawing 
 
 from __future__ import annotations
 
+from bisect import bisect
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -193,6 +194,14 @@ def extent(lines: Sequence[str], size: float) -> Spot:
     """Width and height of a label of some lines."""
     wide = max(_width(line) for line in lines)
     return wide * size, (0.85 + LEADING * (len(lines) - 1)) * size
+
+
+def fitted(line: str, size: float, most: float) -> str:
+    """A line of text, cut if it is wider than *most*: then it ends with "…"."""
+    if _width(line) * size <= most:
+        return line
+    kept = bisect(range(1, len(line)), most, key=lambda count: _width(line[:count] + "…") * size)
+    return line[:kept].rstrip() + "…"
 
 
 def _gaps(spots: Floats, extents: Spot, target: Floats) -> Floats:

@@ -15,12 +15,15 @@ from matplotlib.legend_handler import HandlerTuple
 
 from exactacq.files.whole_files import readable
 from exactacq.output.figures.canvas import Canvas
+from exactacq.output.figures.labels import fitted
 from exactacq.output.figures.lettering import Lettering
 from exactacq.output.vocabulary import INK, LINE, MISSED, SOFT, Labels, Word, missed_word
 from exactacq.strategies.run import SeedSpreaderRun, SightseerRun
 
 CLOSED_FORM = 40
 """Closed forms of at most this many characters are shown in the title, the decimal value of others."""
+TITLE = 12.0
+"""Size of a title, in points."""
 LEGEND: dict[str, Any] = {
     "frameon": False, "labelcolor": INK, "borderpad": 0, "borderaxespad": 0, "handlelength": 1.8,
     "columnspacing": 1.5, "labelspacing": 0.4, "handler_map": {tuple: HandlerTuple(ndivide=1)},
@@ -108,8 +111,10 @@ class _Setting:
     """What stands around a finished drawing; lengths in inches."""
 
     def __init__(self, drawing: Canvas) -> None:
-        self.drawing, self.title = drawing, title(drawing)
+        self.drawing = drawing
         self.wide, self.high = drawing.width * drawing.scale, drawing.height * drawing.scale
+        first, *others = title(drawing)
+        self.title = [fitted(first, TITLE, 72 * (self.full - 0.4)), *others]
 
     @property
     def full(self) -> float:
@@ -149,7 +154,7 @@ class _Setting:
         axes.locator_params(nbins=6, min_n_ticks=2)
         middle, top = (x + self.full / 2) / full, 1 - (total - (bottom + self.high + self.above)) / total
         for k, line in enumerate(self.title):
-            size, colour = ((12, INK), (9.5, SOFT), (9.5, MISSED))[k]
+            size, colour = ((TITLE, INK), (9.5, SOFT), (9.5, MISSED))[k]
             place = top - (0.24 + 0.24 * k) / total
             page.text(
                 middle, place, line, ha="center", va="center", size=size, color=colour, parse_math=False

@@ -14,6 +14,7 @@ import numpy as np
 
 from exactacq.errors import FormatError
 from exactacq.geometry.curves import Segment
+from exactacq.geometry.points import Point
 from exactacq.geometry.strokes import Stroke
 from exactacq.output.regions import Region
 from exactacq.scene.edge_table import EdgeTable, Floats
@@ -107,6 +108,15 @@ def window(scene: Scene, corners: Sequence[Floats], radius: float, swept: bool) 
     if not np.max(high - low) > np.max(np.abs((low, high))) * FINEST:
         raise FormatError("too small to be drawn so far from the origin; move the scene closer")
     return low, high
+
+
+def turning_places(run: Run) -> list[Point]:
+    """Where straight pieces of a run's path end; the rest lies on boundaries.
+
+    A strategy of the user's own may lead the robot far from all obstacles.
+    """
+    straight = (piece.curve for piece in run.path if piece.kind == "straight")
+    return [place for curve in straight for place in (curve.start, curve.end)]
 
 
 def component_region(component: Component, terrain: Terrain) -> Region:
