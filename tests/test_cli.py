@@ -114,7 +114,7 @@ def test_both_strategies_side_by_side(capsys: pytest.CaptureFixture[str], tmp_pa
     assert "no sightseer: obstacle O1 meets the terrain's border" in alone
     assert "Seed Spreader Strategy" in alone
     room = scene(tmp_path, circle(3, -3, 1), enclosure=[[-9, -9], [9, -9], [0, 9]])
-    assert "no seed-spreader: the Seed Spreader sweeps a rectangle" in answered(capsys, "compare", room)
+    assert "no seed-spreader: a rectangle is needed" in answered(capsys, "compare", room)
 
 
 def test_numbers_are_exact(capsys: pytest.CaptureFixture[str]) -> None:
@@ -219,7 +219,7 @@ def test_version_and_help(capsys: pytest.CaptureFixture[str]) -> None:
         (["--start", "x,0"], "--start: not a number"),
         (["--start", "nan,0"], "--start: not a number"),
         (["--start", "5,0"], "start"),
-        (["--strategy", "seed-spreader"], "needs a terrain"),
+        (["--strategy", "seed-spreader"], "a terrain is needed: give one with --terrain"),
         (["--strategy", "seed-spreader", "--terrain", "9"], "--terrain: not two or four numbers"),
         (["--strategy", "seed-spreader", "--terrain", "1/9,1/9"], "outside the terrain"),
         (["--strategy", "seed-spreader", "--target", "far"], "--target"),

@@ -104,7 +104,7 @@ def test_a_view_is_written(capsys: pytest.CaptureFixture[str], tmp_path: Path) -
 
 
 def test_isovist_refuses(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    assert "lies inside" in refused(capsys, "isovist", "circles", "--at", "5,0")
+    assert "--at: (5, 0) lies inside obstacle O1" in refused(capsys, "isovist", "circles", "--at", "5,0")
     assert "--at: not two numbers" in refused(capsys, "isovist", "circles", "--at", "5")
     assert "must end in .wkt" in refused(
         capsys, "isovist", "circles", "--at", "0,0", "--out", tmp_path / "x.json"
@@ -187,7 +187,8 @@ def test_a_path_is_told_drawn_and_written(capsys: pytest.CaptureFixture[str], tm
 
 
 def test_path_refuses(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    assert "end: the point (5, 0) lies inside" in refused(capsys, "path", "circles", "0,0", "5,0")
+    assert "B: (5, 0) lies inside obstacle O1" in refused(capsys, "path", "circles", "0,0", "5,0")
+    assert "A: (900, 0) lies beyond the enclosure" in refused(capsys, "path", "plate", "900,0", "-30,-60")
     assert "A: not two numbers" in refused(capsys, "path", "circles", "0", "5,0")
     assert "Missing argument 'B'" in refused(capsys, "path", "circles", "0,0")
     assert "--figur" in refused(capsys, "path", "circles", "0,0", "9,9", "--figur", "x.svg")

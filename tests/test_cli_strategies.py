@@ -104,7 +104,9 @@ class TestWhatIsWrong:
         assert "which of mine.py?" in refused(capsys, "explore", "circles", "--strategy", "mine.py")
         written("import math\nSPEED = 3\n", "empty.py")
         for name in ("empty.py", "empty.py:math", "empty.py:SPEED", "empty.py:"):
-            assert "there is none in it" in refused(capsys, "explore", "circles", "--strategy", name)
+            assert "there is no strategy in it: define" in refused(
+                capsys, "explore", "circles", "--strategy", name
+            )
 
     @pytest.mark.parametrize(
         ("text", "message"),
@@ -208,7 +210,7 @@ def north(robot):
         out = answered(
             capsys, "explore", "circles", *terrain, "--strategy", name, "--trace", "run.json", "--audit",
         )  # fmt: skip
-        assert "S = (2.5, -3.5), R = 20, 2 obstacles" in out and "length  7" in out and "audit passed" in out
+        assert "S = (-0.5, -3.5), R = 20, 2 obstacles" in out and "length  7" in out and "audit passed" in out
         run = xa.load_run("run.json")
         assert isinstance(run, xa.OwnRun) and run.confined and run.ground is not None
         both = ("--strategy", f"{name}:north", "--strategy", "sightseer")
@@ -216,6 +218,8 @@ def north(robot):
 
     def test_it_needs_a_terrain_and_its_corner(self, capsys: pytest.CaptureFixture[str]) -> None:
         name = written(self.SWEEP)
-        assert "needs a terrain" in refused(capsys, "explore", "circles", "--strategy", name)
+        assert "a terrain is needed: give one with --terrain" in refused(
+            capsys, "explore", "circles", "--strategy", name
+        )
         line = refused(capsys, "explore", "figure2", "--strategy", name, "--start", "1,0")
         assert "is not the terrain's SW corner (0, 0)" in line

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import pickle
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
@@ -18,6 +19,7 @@ import exactacq as xa
 from exactacq.geometry.points import Point
 from exactacq.output.animation.frames import frames_of
 from exactacq.output.animation.page import page
+from exactacq.output.animation.several import page_of_runs
 from exactacq.output.figures import svg
 from exactacq.output.report import console, run_report
 from exactacq.sensing.event import Ending
@@ -212,6 +214,18 @@ class TestNames:
 
         assert xa.explore(CIRCLES, sightseer).name == "sightseer-"
 
+    def test_are_told_to_the_decorator(self) -> None:
+        with pytest.raises(xa.StrategyError, match=r'write @xa.strategy\("NAME"\)'):
+            xa.strategy(nearest_first)  # type: ignore[arg-type]
+        with pytest.raises(xa.StrategyError, match="nothing is no function: None"):
+            xa.strategy("nothing")(None)  # type: ignore[type-var]
+
+    def test_of_what_takes_no_robot(self) -> None:
+        for rules in (lambda: None, lambda robot, speed: None, lambda *, robot: None):
+            with pytest.raises(xa.StrategyError, match="cannot be called with a robot and nothing else"):
+                xa.explore(CIRCLES, rules)
+        assert xa.explore(CIRCLES, lambda robot, speed=3: None).length == 0
+
     def test_of_what_is_no_strategy(self) -> None:
         for thing in (None, 3, b"sightseer"):
             with pytest.raises(xa.StrategyError, match="no strategy"):
@@ -240,6 +254,12 @@ class TestBounds:
     def test_are_not_those_of_another_strategy_of_its_name(self) -> None:
         xa.strategy("touch", bounds=self.told(3))(nearest_first)
         assert xa.explore(CIRCLES, touch).bounds == ()
+
+    @pytest.mark.parametrize("told", [3, [3], ["abcd"], [("most", "a guess")], [("most", "a guess", "far")]])
+    def test_without_name_source_and_value_are_refused(self, told: object) -> None:
+        xa.strategy("still", bounds=lambda run: told)(lambda robot: None)  # type: ignore[arg-type, return-value]
+        with pytest.raises(xa.StrategyError, match="bounds of still: "):
+            xa.explore(CIRCLES, "still")
 
     def test_with_one_name_are_refused(self) -> None:
         xa.strategy("mine", bounds=lambda run: [("b", "", 1), ("b", "", 2)])(touch)
@@ -284,6 +304,14 @@ class TestWhatIsMadeOfRuns:
         for name in ("run.svg", "run.csv", "run.dxf", "run.geojson"):
             xa.write(run, tmp_path / name)
         assert run._repr_html_().startswith("<div><p>OwnRun")
+
+    def test_pictures_show_a_path_that_leaves_the_obstacles_behind(self) -> None:
+        run = xa.explore(CIRCLES, lambda robot: robot.go_to((0, 40)))
+        assert xa.figure(run).axes[0].get_ylim()[1] > 40
+        still = xa.explore(CIRCLES, lambda robot: None)
+        for text in (page(run, frames_of(run)), page_of_runs([still, run], map(frames_of, [still, run]))):
+            for box in re.findall(r'"box":\[([\d.]+),([\d.]+)\]', text.replace(" ", "")):
+                assert float(box[1]) > 2 * float(box[0])
 
 
 class TestAudits:

@@ -156,7 +156,9 @@ class TestWalks:
             robot.walk("up")
         with pytest.raises(ValueError, match="a robot looks out for sight"):
             robot.walk(until="hit")
-        with pytest.raises(ValueError, match="'seen' is not a valid EventKind"):
+        with pytest.raises(
+            ValueError, match="a robot looks out for sight, regain, acquire, lose, not for seen"
+        ):
             robot.walk(until="seen")
 
 

@@ -138,6 +138,8 @@ class TestRoutes:
         ):
             with pytest.raises(xa.MoveError, match="another robot"):
                 ask()
+        with pytest.raises(xa.MoveError, match=r"a route is what robot\.lay or robot\.way_back gives, not "):
+            robot.follow([(0, 0), (20, 0)])  # type: ignore[arg-type]
         for places in ([(1, 0), (2, 0)], []):
             with pytest.raises(xa.MoveError, match="begins where the robot is"):
                 robot.lay(places)

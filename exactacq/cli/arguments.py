@@ -71,6 +71,38 @@ def _loaded(name: str, start: str | None, options: dict[str, object]) -> Scene:
     return load(name, **options).replace(start=place)
 
 
+def check_radius(name: str, scene: Scene, range_: fmpq | None) -> None:
+    """`FormatError` if neither an option nor the scene of that name tells how far the robot sees."""
+    if range_ is None and scene.radius is None:
+        raise FormatError(f"{name}: the scene has no radius of vision: give one with --radius R")
+
+
+def check_start(scene: Scene, sweeps: bool) -> None:
+    """`InvalidScene` with the option that helps if a strategy, one that *sweeps* or not, cannot start."""
+    from exactacq.scene.bounding import rectangular_room
+
+    if sweeps and scene.terrain is None and rectangular_room(scene) is None:
+        if scene.enclosure is not None:
+            cure = "leave out the enclosure (of a drawing: --outer drop), and give --terrain"
+            raise InvalidScene([f"a rectangle is needed: {cure}"])
+        raise InvalidScene(["a terrain is needed: give one with --terrain, such as --terrain bbox:1"])
+    if not sweeps and scene.start is None:
+        raise InvalidScene(["a start is needed: give one with --start X,Y"])
+
+
+def check_free(scene: Scene, option: str, place: tuple[fmpq, fmpq]) -> None:
+    """`InvalidScene` with the option's name for a place inside an obstacle."""
+    from exactacq.geometry.points import Location, Point
+    from exactacq.scene.validation import place_text
+    from exactacq.visibility.scene_tables import SceneTables
+
+    point = Point(*place)
+    for where, obstacle in SceneTables.of(scene).around(point):
+        if where is Location.INSIDE:
+            kind = "beyond the enclosure" if obstacle.is_enclosure else "inside obstacle"
+            raise InvalidScene([f"{option}: {place_text(point)} lies {kind} {obstacle.label}"])
+
+
 def needs_start(name: str) -> bool:
     """Whether a scene is in a file that tells no start, so that the place to look from takes its part."""
     from exactacq.files.gallery import names

@@ -16,6 +16,8 @@ from exactacq.cli.arguments import (
     SceneName,
     Start,
     TerrainSize,
+    check_radius,
+    check_start,
     range_of,
     same_file,
     scene_of,
@@ -71,15 +73,15 @@ def compare(
             raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
     wanted = [chosen(text) for text in strategy or Strategy]
     world = scene_of(scene, start, options, terrain)
-    if range_ is None and world.radius is None:
-        raise FormatError(f"{scene}: the scene has no radius of vision: give one with --radius R")
+    check_radius(scene, world, range_)
     corner = at_corner(world)
     runs: list[Run] = []
     refusals: list[str] = []
     for rules in wanted:
-        at_its_corner = world.start is None or rules.sweeps
+        placed = corner if world.start is None or rules.sweeps else world
         try:
-            runs.append(explored(corner if at_its_corner else world, range_, rules, max_moves=max_moves))
+            check_start(placed, rules.sweeps)
+            runs.append(explored(placed, range_, rules, max_moves=max_moves))
         except InvalidScene as error:
             first, *others = error.violations
             more = f" (and {len(others)} more)" if others else ""

@@ -17,6 +17,8 @@ from exactacq.cli.arguments import (
     SceneName,
     Start,
     TerrainSize,
+    check_radius,
+    check_start,
     naming,
     number_of,
     range_of,
@@ -101,8 +103,8 @@ def explore(
         raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
     rules = chosen(strategy)
     world = scene_of(scene, start, options, terrain)
-    if range_ is None and world.radius is None:
-        raise FormatError(f"{scene}: the scene has no radius of vision: give one with --radius R")
+    check_radius(scene, world, range_)
+    check_start(world, rules.sweeps)
     trouble: ExactacqError | None = None
     at_start = at_corner(world) if rules.sweeps and start is None else world
     try:

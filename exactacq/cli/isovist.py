@@ -10,6 +10,8 @@ from exactacq.cli.arguments import (
     DRAWINGS,
     Radius,
     SceneName,
+    check_free,
+    check_radius,
     needs_start,
     place_of,
     range_of,
@@ -40,8 +42,8 @@ def isovist(
     if out is not None and same_file(check_output(out, DRAWINGS), scene):
         raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
     world = scene_of(scene, at if needs_start(scene) else None, options)
-    if range_ is None and world.radius is None:
-        raise FormatError(f"{scene}: the scene has no radius of vision: give one with --radius R")
+    check_radius(scene, world, range_)
+    check_free(world, "--at", place)
     view = view_from(world, place, range_)
     remarks = () if out is None else write(view, out)
     console().print(view_report(view))

@@ -61,6 +61,10 @@ def _of_file(path: str, name: str | None) -> NamedStrategy:
 
     module = _run(path)
     offered = _offered(module)
+    if not offered:
+        raise StrategyError(
+            f"--strategy: {path}: there is no strategy in it: define a function that takes a robot"
+        )
     if name is None:
         if len(offered) != 1:
             raise StrategyError(f"--strategy: which of {path}? {_told(path, offered)}")
@@ -74,9 +78,7 @@ def _of_file(path: str, name: str | None) -> NamedStrategy:
 
 
 def _told(path: str, offered: list[str]) -> str:
-    return (
-        f"there are {', '.join(f'{path}:{name}' for name in offered)}" if offered else "there is none in it"
-    )
+    return f"there are {', '.join(f'{path}:{name}' for name in offered)}"
 
 
 def _offered(module: ModuleType) -> list[str]:

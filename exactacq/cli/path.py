@@ -6,7 +6,16 @@ from typing import Annotated, Any
 
 import typer
 
-from exactacq.cli.arguments import DRAWINGS, FigureFile, SceneName, needs_start, place_of, same_file, scene_of
+from exactacq.cli.arguments import (
+    DRAWINGS,
+    FigureFile,
+    SceneName,
+    check_free,
+    needs_start,
+    place_of,
+    same_file,
+    scene_of,
+)
 from exactacq.cli.options import reads_files
 from exactacq.errors import FormatError, InvalidScene
 
@@ -35,7 +44,10 @@ def path(
     for file, suffixes in ((figure, FIGURES), (out, DRAWINGS)):
         if file is not None and same_file(check_output(file, suffixes), scene):
             raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
-    found = shortest_path(scene_of(scene, a if needs_start(scene) else None, options), *ends)
+    world = scene_of(scene, a if needs_start(scene) else None, options)
+    for name, place in zip("AB", ends, strict=True):
+        check_free(world, name, place)
+    found = shortest_path(world, *ends)
     if found is None:
         raise InvalidScene([f"{scene}: no path leads from {a} to {b}: the terrain's border is in the way"])
     remarks = () if out is None else write(found, out)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from flint import fmpq
 
-from exactacq.errors import StrategyError
+from exactacq.errors import StrategyError, shown
 from exactacq.geometry.intersections import nearest_points
 from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.length import Length
@@ -43,12 +44,25 @@ def own_bounds(run: OwnRun, own: OwnStrategy | None) -> tuple[Bound, ...]:
     """The bounds that a strategy of the user's own tells, if it tells any; two cannot have one name."""
     if own is None or own.bounds is None:
         return ()
-    told = [(str(name), str(source), Length(value)) for name, source, value in own.bounds(run)]
+    found = own.bounds(run)
+    if not isinstance(found, Iterable):
+        raise StrategyError(f"bounds of {run.name}: several are needed, as in a list, not {shown(found)}")
+    told = [_told(run.name, bound) for bound in found]
     if len({name for name, _, _ in told}) < len(told):
         raise StrategyError(
             f"two bounds of {run.name} have one name: {', '.join(name for name, _, _ in told)}"
         )
     return tuple(_bound(name, source, value, run.length, True) for name, source, value in told)
+
+
+def _told(strategy: str, bound: Any) -> tuple[str, str, Length]:
+    """Name, source and value of a bound that a strategy tells; `StrategyError` for anything else."""
+    try:
+        name, source, value = bound
+        return str(name), str(source), Length(value)
+    except (TypeError, ValueError) as error:
+        text = f"bounds of {strategy}: name, source and value are needed, not {shown(bound)}"
+        raise StrategyError(text) from error
 
 
 def sightseer_bounds(run: SightseerRun) -> tuple[Bound, ...]:

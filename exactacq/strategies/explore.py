@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from inspect import signature
 
 from exactacq.errors import FormatError, InvalidScene, MoveError, StrategyError, Undecided, shown
 from exactacq.geometry.points import Point
@@ -41,9 +42,9 @@ def explore(
     the scene's own. *progress* is told how many edges of obstacles that are wholly known there are, and how
     many in all; of the paper's strategies it is told what they say, and *max_moves* is nothing to them.
 
-    Raises `StrategyError` for a name that is not known, what `Robot` and the paper's strategies raise,
-    `FormatError` if *max_moves* is no positive integer, `Undecided` with the run so far for a comparison
-    beyond the library's limits, and whatever the strategy raises.
+    Raises `StrategyError` for a name that is not known and for what cannot be called with a robot, what
+    `Robot` and the paper's strategies raise, `FormatError` if *max_moves* is no positive integer, `Undecided`
+    with the run so far for a comparison beyond the library's limits, and whatever the strategy raises.
 
     >>> import exactacq as xa
     >>> def touch(robot):
@@ -63,10 +64,24 @@ def explore(
         if not callable(strategy):
             raise StrategyError(f"no strategy {shown(strategy)}; there are {', '.join(names())}")
         own = of_function(strategy)
+    _check_call(own)
     if own.confined and scene.terrain is None:
         raise InvalidScene([f"{own.name} needs a terrain: a rectangle with width and height"])
     robot = Robot(scene, start, radius, confined=own.confined)
     return _explored(own, robot, scene, max_moves, progress)
+
+
+def _check_call(own: OwnStrategy) -> None:
+    """`StrategyError` if rules cannot be called with a robot alone, as far as they tell what they take."""
+    try:
+        taken = signature(own.rules)
+    except (TypeError, ValueError):
+        return
+    try:
+        taken.bind(None)
+    except TypeError as error:
+        text = f"the strategy {own.name} cannot be called with a robot and nothing else: {error}"
+        raise StrategyError(text) from None
 
 
 @uncollected()

@@ -117,8 +117,8 @@ class EnoughMoves(BaseException):
 
 def kinds_of(until: EventKind | Collection[EventKind]) -> frozenset[EventKind]:
     """Kinds of sightings that were given as one or several."""
-    kinds = frozenset(map(EventKind, [until] if isinstance(until, str) else until))
-    if not kinds <= set(SENSED):
+    kinds = frozenset([until] if isinstance(until, str) else until)
+    if others := kinds - set(SENSED):
         words = ", ".join(SENSED)
-        raise ValueError(f"a robot looks out for {words}, not for {', '.join(sorted(kinds - set(SENSED)))}")
-    return kinds
+        raise ValueError(f"a robot looks out for {words}, not for {', '.join(sorted(map(str, others)))}")
+    return frozenset(map(EventKind, kinds))

@@ -13,7 +13,7 @@ from math import inf
 
 from flint import fmpq
 
-from exactacq.errors import ExactacqError, InvalidScene, MoveError
+from exactacq.errors import ExactacqError, InvalidScene, MoveError, shown
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Location, Point, distance_sq
 from exactacq.numbers.length import Length
@@ -252,7 +252,7 @@ class Observer:
         """
         places, here = [Point.of(point) for point in points], self.position
         if not places or (places[0] is not here and places[0] != here):
-            raise MoveError("a route begins where the robot is")
+            raise MoveError("a route begins where the robot is: let its first point be robot.position")
         for place in places[1:]:
             self._check_border(place)
         pieces = [Segment(p, q) for p, q in pairwise([here, *places[1:]]) if p != q]
@@ -287,9 +287,8 @@ class Observer:
         >>> print(*(place.point for place in robot.exits(route, 0)))
         (4, 0)
         """
+        self._check_owner(route)
         k, memory = self._seen(i), self._walker.memory
-        if route._of is not self._walker:
-            raise MoveError("the route is that of another robot")
         if k not in memory.acquired:
             raise MoveError(f"parts of obstacle {i} are unknown, and so is where a route comes out of it")
         return iter(route._exits(k, memory.now))
@@ -454,9 +453,15 @@ class Observer:
         if any(v.compare(a) < 0 or v.compare(b) > 0 for v, a, b in zip((x, y), above, below, strict=True)):
             raise MoveError(f"{point} lies beyond the border of the terrain")
 
-    def _check_route(self, route: Route) -> None:
+    def _check_owner(self, route: Route) -> None:
+        """`MoveError` for what is no route of this robot."""
+        if not isinstance(route, Route):
+            raise MoveError(f"a route is what robot.lay or robot.way_back gives, not {shown(route)}")
         if route._of is not self._walker:
             raise MoveError("the route is that of another robot")
+
+    def _check_route(self, route: Route) -> None:
+        self._check_owner(route)
         if route._place is not self.position and route._place != self.position:
             raise MoveError("the robot is not on the route, where it left it")
 

@@ -62,10 +62,14 @@ def strategy(
     """
     if name in tuple(Strategy) or name in _BASELINES:
         raise StrategyError(f"{name} is a strategy of exactacq: choose another name")
+    if callable(name):
+        raise StrategyError('a strategy is registered under a name: write @xa.strategy("NAME")')
     if not is_name(name):
         raise StrategyError(f'a strategy has a name of letters, digits, "-" and "_", not {shown(name)}')
 
     def register(rules: Function) -> Function:
+        if not callable(rules):
+            raise StrategyError(f"the strategy {name} is no function: {shown(rules)}")
         other = _known.get(name)
         if other is not None and _home(other.rules) != _home(rules):
             raise StrategyError(f"there is a strategy {name} already, in {_home(other.rules)[0]}")
