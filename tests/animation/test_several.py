@@ -108,6 +108,14 @@ def test_it_loads_in_silence(browser: Chromium, opened: Path) -> None:
     assert told(browser, "name") == ["Sightseer Strategy", "Seed Spreader Strategy", "Strategy touch"]
 
 
+def test_the_word_why_is_not_there_alone(browser: Chromium, opened: Path) -> None:
+    browser.open(opened)
+    shown = browser.run(
+        f"{SHADOWS}.map((root) => getComputedStyle(root.getElementById('plan')).visibility === 'visible')"
+    )
+    assert shown == [bool(text) for text in told(browser, "why")] == [True, True, False]
+
+
 def test_all_go_equally_far_and_those_that_are_done_wait(
     browser: Chromium, opened: Path, data: dict[str, Any], runs: list[Run]
 ) -> None:
