@@ -214,6 +214,10 @@ class TestNames:
 
         assert xa.explore(CIRCLES, sightseer).name == "sightseer-"
 
+    def test_of_one_that_takes_no_link(self) -> None:
+        with pytest.raises(xa.MoveError, match=r"a link is what robot\.links .* gives, not None"):
+            xa.explore(CIRCLES, lambda robot: robot.take(None))
+
     def test_are_told_to_the_decorator(self) -> None:
         with pytest.raises(xa.StrategyError, match=r'write @xa.strategy\("NAME"\)'):
             xa.strategy(nearest_first)  # type: ignore[arg-type]

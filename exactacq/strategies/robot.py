@@ -289,6 +289,9 @@ class Robot(Observer):
         >>> print(way.leave, way.hit, robot.length)
         (7, 0) (9, 0) 5 + 12*pi
         """
+        if not isinstance(link, KnownLink):
+            # That there is none is what `nearest_unvisited` often answers.
+            raise MoveError(f"a link is what robot.links or robot.nearest_unvisited gives, not {shown(link)}")
         walker, known = self._walker, link._link
         self._check(link._of, link.source, "link begins")
         if link.source is None and self.position != self.start:
