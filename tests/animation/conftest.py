@@ -26,7 +26,7 @@ def eleven() -> Run:
 def room() -> Run:
     """Two obstacles with hostile names in a room with a round corner."""
     shapes = [Polygon([(2, 2), (4, 2), (4, 5)], name=HOSTILE[0]), Circle((8, 4), 1, name=HOSTILE[1])]
-    walls = Outline([(0, 0), (10, 0), (10, 6, "1/3"), (8, 8), (0, 8)], name="\ud800 \u202ewall")
+    walls = Outline([(0, 0), (10, 0), (10, 6, "1/3"), (8, 8), (0, 8)], name="\u2028 \u202ewall")
     return sightseer(Scene(shapes, (1, 1), enclosure=walls, radius=12, name=HOSTILE[0]))
 
 
