@@ -188,6 +188,18 @@ def test_a_circle_whose_known_part_passes_its_first_point() -> None:
     assert [type(piece).__name__ for piece in path.path] == ["Segment"]
 
 
+def test_two_places_of_one_arc_may_be_joined_across_its_ends() -> None:
+    """A walk that begins on an arc, and one that comes to its end, are two: the longer one is not dropped."""
+    mouth = xa.Outline([(1, 0, xa.Around((0, 0))), (0, -1), (0, 0)])
+    half_known = PartlyKnown(xa.Scene([CIRCLE]), {0: [(0, EAST, SOUTH)]})
+    a, b = xa.Point("3/5", "4/5"), xa.Point("-3/5", "-4/5")
+    for ground in (xa.Scene([mouth]), half_known):
+        for start, goal in ((a, b), (b, a)):
+            path = found(ground, start, goal)
+            assert (str(path.length), path.count) == ("sqrt(2) + pi/2", 1)
+            assert sorted(map(str, path.points[1:-1])) == ["(0, -1)", "(1, 0)"]
+
+
 def test_the_end_of_a_view_on_an_arc() -> None:
     """What a robot sees of a circle ends where its tangents touch; a path beyond turns there."""
     robot = xa.Robot(xa.Scene([xa.Circle((5, 0), 2)], start=(0, 0), radius=20))

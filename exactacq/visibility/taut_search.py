@@ -31,6 +31,8 @@ from exactacq.visibility.pegs import Peg
 from exactacq.visibility.tangents import ROUNDINGS, Tangents
 
 BITS = 64
+WALKED, FROM_START = -1, -2
+"""Tails of labels to which no tangent leads: a walk comes to an arc at its end, or begins within it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,8 +47,10 @@ class TautWay:
 class Label:
     """A shortest way to a contact of an entry; ``ways`` are all that are equally short.
 
-    ``turn`` is the angle from the start of an arc to the contact, off by ``slack``. A path that starts on an
-    arc leaves it ``beyond`` the contact, or else from the place itself. ``ball`` holds the length.
+    ``tail`` is the entry that the tangent there comes from, or one of `WALKED` and `FROM_START`: labels of
+    one arc with the same tail have the same contact. ``turn`` is the angle from the start of an arc to the
+    contact, off by ``slack``. A path that starts on an arc leaves it ``beyond`` the contact, or else from the
+    place itself. ``ball`` holds the length.
     """
 
     entry: int
@@ -221,7 +225,8 @@ class PathSearch:
             u, v = (peg.arc.start - peg.arc.center).xy
             turn = float(np.arctan2(u * y - v * x, u * x + v * y)) % (2 * pi)
             slack = margin(ROUNDINGS)
-        self._go(label, pieces, entry, contact, -1, turn, slack, beyond)
+        tail = FROM_START if beyond else WALKED
+        self._go(label, pieces, entry, contact, tail, turn, slack, beyond)
 
     def _along(
         self, label: Label, point: Point, turn: float, slack: float, beyond: bool = False
