@@ -200,6 +200,21 @@ def test_two_places_of_one_arc_may_be_joined_across_its_ends() -> None:
             assert sorted(map(str, path.points[1:-1])) == ["(0, -1)", "(1, 0)"]
 
 
+def test_the_end_of_a_chain_is_not_computed_to_lie_on_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ends of views from irrational places have numbers too long to decide that."""
+    end = xa.Point("3/5", "4/5")
+    chart = PartlyKnown(xa.Scene([CIRCLE]), {0: [(0, end, WEST)]})
+    passes = xa.Arc.passes
+
+    def short(arc: xa.Arc, point: xa.Point) -> bool:
+        assert point is not end
+        return passes(arc, point)
+
+    monkeypatch.setattr(xa.Arc, "passes", short)
+    assert told(chart, (0, 0), end) == ("1", 1, [])
+    assert told(chart, (0, 2), end) == told(chart, (0, 2), xa.Point("3/5", "4/5"))
+
+
 def test_the_end_of_a_view_on_an_arc() -> None:
     """What a robot sees of a circle ends where its tangents touch; a path beyond turns there."""
     robot = xa.Robot(xa.Scene([xa.Circle((5, 0), 2)], start=(0, 0), radius=20))

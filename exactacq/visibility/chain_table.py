@@ -124,6 +124,15 @@ class ChainTable(EdgeTable):
         """The direction of travel on an edge of a chain at a point of it."""
         return raw(self.piece(e).direction(point))
 
+    def edges_at(self, point: Point) -> tuple[int, ...]:
+        """The edges through a point. That a chain's own end lies on it is known, and not computed."""
+        for chain, (first, last) in zip(self.chains, self.ends, strict=True):
+            if chain.opens[0] and self.curves[first].start is point:
+                return (first,)
+            if chain.opens[1] and self.curves[last].end is point:
+                return (last,)
+        return super().edges_at(point)
+
     def tip_at(self, edges: Sequence[int], point: Point) -> tuple[int, int] | None:
         """Both sides of the edge at the end of a chain, if a point, on these edges, is one to turn around."""
         if len(edges) != 1 or edges[0] < self.solids:
