@@ -93,20 +93,6 @@ class ChainTable(EdgeTable):
             self.previous.tolist(),
         )
 
-    def edges_at(self, point: Point) -> tuple[int, ...]:
-        """The edges of the scene, or forward edges, through a point; an end of a chain is told by identity.
-
-        Such ends may be long numbers: that one lies on its own circle would take long to prove.
-        """
-        e = self._at_ends.get(id(point))
-        return super().edges_at(point) if e is None else (e,)
-
-    @cached_property
-    def _at_ends(self) -> dict[int, int]:
-        """The edges at the ends of chains by the ends' identities, which the curves keep."""
-        ends = {id(self.curves[first].start): first for first, _ in self.ends}
-        return ends | {id(self.curves[last].end): last for _, last in self.ends}
-
     # -- the two sides of chains -----------------------------------------------------------------------
 
     def twin(self, e: int) -> int:
@@ -125,7 +111,10 @@ class ChainTable(EdgeTable):
         return raw(self.piece(e).direction(point))
 
     def edges_at(self, point: Point) -> tuple[int, ...]:
-        """The edges through a point. That a chain's own end lies on it is known, and not computed."""
+        """The edges of the scene, or forward edges, through a point.
+
+        That a chain's own end lies on it is known: it may be a long number, for which a proof takes long.
+        """
         for chain, (first, last) in zip(self.chains, self.ends, strict=True):
             if chain.opens[0] and self.curves[first].start is point:
                 return (first,)
