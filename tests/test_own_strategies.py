@@ -217,6 +217,8 @@ class TestNames:
     def test_of_one_that_takes_no_link(self) -> None:
         with pytest.raises(xa.MoveError, match=r"a link is what robot\.links .* gives, not None"):
             xa.explore(CIRCLES, lambda robot: robot.take(None))
+        with pytest.raises(xa.MoveError, match=r"a way is what robot\.take has returned, not None"):
+            xa.explore(CIRCLES, lambda robot: robot.go_back(None))
 
     def test_are_told_to_the_decorator(self) -> None:
         with pytest.raises(xa.StrategyError, match=r'write @xa.strategy\("NAME"\)'):

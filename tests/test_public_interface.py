@@ -278,6 +278,18 @@ class TestErrorsWhereTheMistakeIs:
         assert "\n" not in str(caught.value)
 
 
+@pytest.mark.parametrize(
+    "use",
+    [
+        xa.explore, xa.sightseer, xa.seed_spreader, xa.Robot, xa.visibility_graph, xa.figure,
+        lambda scene: xa.isovist(scene, (0, 0), 3), lambda scene: xa.shortest_path(scene, (0, 0), (1, 1)),
+    ],
+)  # fmt: skip
+def test_the_name_of_a_scene_is_no_scene(use: object) -> None:
+    with pytest.raises(xa.FormatError, match=r"a scene .*not 'circles'"):
+        use("circles")  # type: ignore[operator]
+
+
 def documented() -> list[ModuleType]:
     """The modules with examples in docstrings."""
     paths = [path for path in ROOT.rglob("*.py") if ">>> " in path.read_text(encoding="utf-8")]

@@ -231,12 +231,20 @@ def radius_of(scene: Scene, radius: object, place: Point | None) -> fmpq:
     return reach
 
 
+def as_scene(value: Scene) -> Scene:
+    """A scene as it is; `FormatError` for anything else, such as the name of one."""
+    if not isinstance(value, Scene):
+        raise FormatError(f"a scene is needed, not {shown(value)}; `load` makes one of a file or a name")
+    return value
+
+
 def start_of(scene: Scene, start: Point | Sequence[object] | None = None) -> Point:
     """The start that is given, or else the scene's own.
 
     Raises `InvalidScene` if there is none, if it has irrational coordinates, or if it is too far out, and
-    `FormatError` if it is no point.
+    `FormatError` if it is no point, or the scene none.
     """
+    as_scene(scene)
     with about("start"):
         place = scene.start if start is None else Point.of(start)
     if place is None or place.rational is None:

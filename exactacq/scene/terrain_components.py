@@ -28,7 +28,7 @@ from exactacq.numbers.between import rational_between
 from exactacq.numbers.length import Length
 from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import Real
-from exactacq.scene.scene import Obstacle, Scene
+from exactacq.scene.scene import Obstacle, Scene, as_scene
 from exactacq.scene.shapes import Terrain
 
 
@@ -149,8 +149,9 @@ def ground_of(scene: Scene) -> Ground:
     """The components that a scene's terrain leaves of its obstacles.
 
     Raises `InvalidScene` if there is no terrain or an enclosure, if the SW corner is not free, or if an
-    obstacle lies outside the terrain.
+    obstacle lies outside the terrain, and `FormatError` for what is no scene.
     """
+    as_scene(scene)
     flaws: list[str] = []
     if scene.enclosure is not None:
         flaws.append(

@@ -323,6 +323,8 @@ class Robot(Observer):
         >>> robot.position, robot.at
         (Point(0, 0), None)
         """
+        if not isinstance(way, Way):
+            raise MoveError(f"a way is what robot.take has returned, not {shown(way)}")
         walker = self._walker
         self._check(way._of, way.target, "way ends")
         decided = self._decided(reason)

@@ -29,7 +29,7 @@ from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import STRAIGHT, EdgeTable, Floats, Ints, quotient
-from exactacq.scene.scene import Scene, radius_of
+from exactacq.scene.scene import Scene, as_scene, radius_of
 from exactacq.visibility.chords import Chord, chord_at, critical
 from exactacq.visibility.fans import fan
 from exactacq.visibility.features import Feature, leaving
@@ -99,7 +99,7 @@ class Links:
     """
 
     def __init__(self, scene: Scene, radius: object) -> None:
-        self.scene, self.radius = scene, radius_of(scene, radius, scene.start)
+        self.scene, self.radius = as_scene(scene), radius_of(scene, radius, scene.start)
         self.reach, self.limit = Range(self.radius).above, Real(self.radius)
         self.table = EdgeTable(scene.obstacles)
         self._between: dict[tuple[int, int], Link | None] = {}

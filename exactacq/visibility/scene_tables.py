@@ -11,7 +11,7 @@ import numpy as np
 from exactacq.errors import InvalidScene, about
 from exactacq.geometry.points import Location, Point
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.scene.scene import Obstacle, Scene
+from exactacq.scene.scene import Obstacle, Scene, as_scene
 from exactacq.visibility.pegs import Pegs, is_within
 from exactacq.visibility.tangents import Tangents
 
@@ -27,8 +27,8 @@ class SceneTables:
 
     @classmethod
     def of(cls, scene: Scene) -> SceneTables:
-        """The tables of a scene, made at the first call."""
-        known = cls._known.get(scene)
+        """The tables of a scene, made at the first call; `FormatError` for what is none."""
+        known = cls._known.get(as_scene(scene))
         if known is None:
             known = cls._known[scene] = cls(scene)
         return known

@@ -18,7 +18,7 @@ from exactacq.output.figures.layout import in_axes, inches, on_page
 from exactacq.output.figures.way_figure import way_figure
 from exactacq.output.vocabulary import Labels
 from exactacq.progress import Meter, Progress
-from exactacq.scene.scene import Scene
+from exactacq.scene.scene import Scene, as_scene
 from exactacq.sensing.event import Event
 from exactacq.strategies.run import Run
 from exactacq.visibility.shortest_path import ShortestPath
@@ -50,8 +50,8 @@ def figure(
     with its title and legend, and without the bar of colours. *progress* is told how many of how many steps
     are done.
 
-    ValueError for a length without an algebraic place (see `Run.near`); `FormatError` for other *labels*, and
-    for a scene that is 10^-9 times its distance from the origin or less.
+    ValueError for a length without an algebraic place (see `Run.near`); `FormatError` for other *labels* or
+    subjects, and for a scene that is 10^-9 times its distance from the origin or less.
 
     >>> import exactacq as xa
     >>> [text.get_text() for text in figure(xa.sightseer(xa.load("circles"))).axes[0].texts]
@@ -59,6 +59,8 @@ def figure(
     """
     if isinstance(subject, ShortestPath):
         return way_figure(subject)
+    if not isinstance(subject, Run):
+        as_scene(subject)
     choice, meter = Labels(labels), Meter(progress, steps(subject))
     if ax is None:
         return on_page([Canvas(subject, at, meter)], choice)

@@ -8,7 +8,7 @@ from typing import Any
 from exactacq.errors import Undecided
 from exactacq.progress import Meter, Progress
 from exactacq.scene.bounding import rectangular_room
-from exactacq.scene.scene import Scene
+from exactacq.scene.scene import Scene, as_scene
 from exactacq.sensing.event import Ending, Event, EventKind
 from exactacq.strategies.bounds import with_bounds
 from exactacq.strategies.gc_pause import uncollected
@@ -53,7 +53,7 @@ def seed_spreader(
     6*pi + 36 (0, 1)
     """
     choice = TargetChoice(target)
-    room = rectangular_room(scene)
+    room = rectangular_room(as_scene(scene))
     if room is not None and scene.terrain in (None, room):
         scene = scene.replace(terrain=room, enclosure=None)
     robot = Robot(scene, radius=radius, confined=True)
