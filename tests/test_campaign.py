@@ -162,6 +162,7 @@ class TestFailures:
             assert [task.seed for task, *_ in unfinished(store)] == [0]
             assert "ZeroDivisionError: planted (in doubt)" in faults(store)[0][2]
 
+    @by_night
     def test_a_scene_that_hangs_is_a_timeout(self) -> None:
         settings = replace(QUICK, claims="planted_claims:HANGING", scenes=3, timeout=3)
         with opened(settings) as store:

@@ -16,7 +16,7 @@ FEW = 100
 """Objects that belong to others: the libraries below, and the tests themselves."""
 RUNS: dict[str, Callable[[xa.Scene], xa.Run]] = {
     "circles": xa.sightseer,
-    "m20-3": xa.seed_spreader,
+    "m15": xa.seed_spreader,
     **({"m11": xa.sightseer, "plate": xa.sightseer, "relay": xa.seed_spreader} if NIGHTLY else {}),
 }
 

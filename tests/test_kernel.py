@@ -439,7 +439,7 @@ IMPORT = "from exactacq import kernel; print(kernel.DESCRIPTION, kernel.COMPILED
 
 
 def test_it_is_told_without_an_import_of_its_own() -> None:
-    told = asked("", "import exactacq as xa; print(xa.kernel.DESCRIPTION)")
+    told = asked(os.environ.get(kernel.SWITCH, ""), "import exactacq as xa; print(xa.kernel.DESCRIPTION)")
     assert told.stdout == f"{kernel.DESCRIPTION}\n"
 
 

@@ -194,6 +194,7 @@ def test_the_referee_says_why_it_drops_a_draft() -> None:
         assert referee.faults[0].reason == "fault: AssertionError: planted"
 
 
+@by_night
 def test_the_child_process_judges_alike_and_is_ended_when_slow() -> None:
     with Referee(is_short, limit=60) as child, Referee(is_short) as here:
         for draft in (two_boxes(), Draft((box(0, 0),), fmpq(1), start=(fmpq(0), fmpq(0)))):

@@ -16,7 +16,7 @@ from urllib.parse import urlsplit
 
 import pytest
 from hostile_requests import SCENE, Attack, attack
-from nightly import NIGHTLY
+from nightly import NIGHTLY, by_night
 from servers import Served, served
 
 httpx = pytest.importorskip("httpx", reason="httpx is not installed")
@@ -133,6 +133,7 @@ def saved(server: Served, client: Any, number: int) -> None:
         assert found.status_code in (200, 422) and b"internal error" not in found.content, found.text[:500]
 
 
+@by_night
 def test_half_a_character_is_refused(watched: tuple[Served, Path], client: Any) -> None:
     """It was drawn, but no figure of the run could be."""
     disc = {"name": "\ud800", "circle": {"center": [5, 0], "radius": 2}}

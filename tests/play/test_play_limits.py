@@ -13,6 +13,7 @@ from urllib.parse import urlsplit
 
 import pytest
 from hostile_requests import SCENE
+from nightly import by_night
 from servers import Served, served
 
 httpx = pytest.importorskip("httpx", reason="httpx is not installed")
@@ -69,6 +70,7 @@ def has_ipv6() -> bool:
     return True
 
 
+@by_night
 @pytest.mark.skipif(not has_ipv6(), reason="this machine has no IPv6")
 def test_ipv6_is_served_on_the_loopback_interface_alone() -> None:
     with served("--ipv6", place="[::1]") as server:
@@ -111,6 +113,7 @@ def listens_at(server: Served, places: set[str]) -> None:
     assert {place for place, port in local if int(port, 16) == server.port} == places
 
 
+@by_night
 @pytest.mark.skipif(sys.platform != "linux", reason="memory is limited on Linux only")
 def test_a_process_gets_no_more_memory_than_it_may(address: str) -> None:
     kind = {"content-type": "application/json"}

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from board_page import SHAPES, WATCHES, click, key, show, square
 from chromium import Chromium
+from nightly import by_night
 
 from exactacq.play.scenes import STRATEGIES
 
@@ -90,6 +91,7 @@ def test_every_strategy_is_offered_with_what_it_does(page: Chromium) -> None:
     assert len(told) == len(offered) and "" not in told
 
 
+@by_night
 def test_a_run_without_bounds_says_so_and_tells_its_reasons(page: Chromium) -> None:
     page.run("document.querySelector('[data-example=circles]').click()")
     page.until(f"{SHAPES} === 2", 30)

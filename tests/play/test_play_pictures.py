@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from chromium import Chromium
 from draw_pictures import PICTURES, SIZE, draw
+from nightly import by_night
 from servers import ROOT
 
 PIL = pytest.importorskip("PIL.Image", reason="the extra images is not installed")
@@ -22,6 +23,7 @@ def test_the_documentation_shows_all_of_them() -> None:
     assert set(re.findall(r"\(images/([\w.]+)\)", text)) == set(PICTURES)
 
 
+@by_night
 def test_they_are_as_the_page_is_now(browser: Chromium, address: str, tmp_path: Path) -> None:
     draw(browser, address, tmp_path)
     for name in PICTURES:
