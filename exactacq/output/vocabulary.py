@@ -32,7 +32,7 @@ DARK = {
     "MISSED": "#e08a68", "MISSED_FILL": "#43302a", "VIEW": "#6ba4f5", "HIT": "#ff6b78", "TREE": "#f6b64b",
     "AWAY": "#ff8a4c", "AWAY_AGAIN": "#8a5334",
 }  # fmt: skip
-"""The same on dark ground, for those who want it."""
+"""The colours on dark ground, by the names of those on light ground."""
 
 
 class Word(StrEnum):
