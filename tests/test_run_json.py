@@ -156,6 +156,15 @@ def test_integers_longer_than_python_prints_come_back() -> None:
     ] * 4
 
 
+def test_numbers_of_sixty_digits_come_back() -> None:
+    """A round room, a hair off its place, around a lens: the reader refused what the run had written."""
+    x, hair = Fraction(2887, 676), Fraction(1, 10**60)
+    room = Outline([(x + 14 + hair, Fraction(9498, 845), 1), (x - 14 + hair, Fraction(9498, 845), 1)])
+    lens = Outline([(0, 0, Fraction(-1, 10**9)), (Fraction(18, 5), Fraction(24, 5), Fraction(-1, 2))])
+    run = sightseer(Scene([lens], enclosure=room, start=(Fraction(-831, 676), Fraction(-1, 2)), radius=60))
+    assert load_run(run.to_json()).length == run.length
+
+
 def test_decimals_stand_beside() -> None:
     document = gallery_run("circles").to_json()
     assert document["length"]["closed"] == "5 + 12*pi"

@@ -191,6 +191,60 @@ def test_chords_past_two_mirrored_corners_are_equal(x: int, y: int, parts: bool)
     assert one.length == other.length
 
 
+def two_hidden(wall: bool, image: str, turn: tuple[int, int], off: Fraction) -> Scene:
+    """A disc or a wall, and two bars that each hide a disc: the second pair is an image of the first."""
+    x, y = turn
+    size = math.isqrt(x * x + y * y)
+    c, s = Fraction(x, size), Fraction(y, size)
+
+    def copied(u: Fraction, v: Fraction, second: bool) -> tuple[Fraction, Fraction]:
+        if second:
+            u, v = {"mirrored": (-u, v), "turned": (-u, -v - 10), "shifted": (u + 20, v)}[image]
+            u += off
+        return c * u - s * v + Fraction(1, 3), s * u + c * v + 2
+
+    def bar(second: bool) -> Polygon:
+        corners = [copied(Fraction(u), Fraction(v, 2), second) for u, v in ((2, 2), (7, 2), (7, 3), (2, 3))]
+        return Polygon(corners[::-1] if second and image == "mirrored" else corners)
+
+    def disc(second: bool) -> Circle:
+        return Circle(copied(Fraction(5), Fraction(5), second), Fraction(1, 2))
+
+    ground = Circle(copied(Fraction(0), Fraction(-5), second=False), 4)
+    if wall or image == "shifted":
+        low, high = (-7, -3) if image == "turned" else (-2, -1)
+        corners = ((-50, low), (50, low), (50, high), (-50, high))
+        ground = Polygon([copied(Fraction(u), Fraction(v), second=False) for u, v in corners])
+    return Scene([ground, bar(False), disc(False), bar(True), disc(True)])
+
+
+@pytest.mark.parametrize("wall", [False, True], ids=["from a disc", "from a wall"])
+@pytest.mark.parametrize("image", ["mirrored", "turned", "shifted"])
+@pytest.mark.parametrize("turn", [(1, 0), (4, 3)], ids=["upright", "slanted"])
+def test_ways_to_copies_are_equal(wall: bool, image: str, turn: tuple[int, int]) -> None:
+    """To each of two discs behind equal bars: their lengths are roots of different polynomials of degree 10.
+
+    Comparing them was undecided. A copy that is a hair away has another length, but along a wall.
+    """
+    links = Links(two_hidden(wall, image, turn, Fraction(0)), 30)
+    one, other = links.between(0, 2), links.between(0, 4)
+    assert one is not None and other is not None
+    assert one.length == other.length
+    for link in (one, other):
+        (chord,) = link.shortest
+        ends = [(float(p.x), float(p.y)) for p in (chord.start, chord.end)]
+        assert math.dist(*ends) == pytest.approx(float(link.length), rel=1e-12)
+        disc = links.table.curves[links.table.edges_of(link.target)[0]]
+        assert math.dist(ends[1], (float(disc.center.x), float(disc.center.y))) == pytest.approx(0.5)
+        assert is_free(links.table, chord.start, chord.end)
+    if not wall and image != "shifted":
+        for hair in (TINY, -TINY):
+            moved = Links(two_hidden(wall, image, turn, hair), 30)
+            near, far = moved.between(0, 2), moved.between(0, 4)
+            assert near is not None and far is not None
+            assert near.length != far.length
+
+
 def test_a_way_from_afar_is_cut_at_the_corner_that_it_touches() -> None:
     """A margin for coordinates of the scene's size is too small where a way begins 10^11 sizes away."""
     corner, far = (Fraction(1, 7), Fraction(3, 7)), Fraction(10**12, 7)

@@ -28,12 +28,15 @@ MAX_DEGREE = 200
 """Largest degree of a polynomial that is read: chords reach 24, and isolating roots must stay cheap."""
 MAX_DEPTH = 64
 """Most levels of expressions within expressions that are read; runs have two or three."""
-MAX_HEIGHT = 1 << 22
-"""Largest height, in bits, of a number that is read: squares of squares double it at every step."""
+MAX_HEIGHT = 1 << 28
+"""Largest height, in bits, of a number that is read: squares of squares double it at every step.
+
+Runs with coordinates of sixty digits have numbers of 2^25 bits.
+"""
 MAX_TOTAL = 1 << 30
 """Largest sum of all heights of a document, which bounds the memory that its numbers take."""
-MAX_LENGTH = MAX_HEIGHT // 3
-"""Longest text of a rational: a decimal digit takes more than three bits."""
+MAX_LENGTH = 1_400_000
+"""Longest text of a rational."""
 FRACTION = re.compile(r"(-?\d+)(?:/(\d+))?", re.ASCII)
 KINDS = {Sqrt: "sqrt", Product: "product", Inverse: "inverse"}
 

@@ -31,12 +31,12 @@ from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import STRAIGHT, EdgeTable, Floats, Ints, quotient
 from exactacq.scene.scene import Scene, as_scene, radius_of
 from exactacq.visibility.chords import Chord, chord_at, critical
+from exactacq.visibility.congruent_chords import CongruentChords
 from exactacq.visibility.fans import fan
 from exactacq.visibility.features import Feature, leaving
 from exactacq.visibility.features import features as scene_features
 from exactacq.visibility.free_segment import is_free, walk_line
 from exactacq.visibility.free_translates import free_pieces
-from exactacq.visibility.mirrors import Mirrors
 from exactacq.visibility.rotational_sweep import Cell, Pencil, pencil
 from exactacq.visibility.sensor_range import Range
 
@@ -106,6 +106,7 @@ class Links:
         self._pencils: dict[int, dict[tuple[int, int], list[tuple[Pencil, Cell]]]] = {}
         self._pinch_table: dict[int, list[tuple[Chord, tuple[int, int]]]] = {}
         self._from_start: tuple[Point, dict[int, Link]] | None = None
+        self._congruent = CongruentChords()
 
     @cached_property
     def features(self) -> list[Feature]:
@@ -231,7 +232,6 @@ class Links:
         bounds = box_gaps(centers, self.table.hulls[i], sizes) + box_gaps(centers, self.table.hulls[j], sizes)
         order = count()
         heap: list[tuple[float, int, tuple[Pencil, Cell, bool]]] = []
-        mirrors: dict[tuple[int, ...], Mirrors] = {}
         close = np.flatnonzero(bounds <= best.guess)
         # A chord lies in the convex hull of what it joins, and with it the place where a feature holds it.
         margins = sizes[close] + 4 * self.table.roundoff
@@ -250,9 +250,7 @@ class Links:
                     best.offer(chord.length, chord if ends == (i, j) else chord.reversed())
         while heap and heap[0][0] <= best.guess:
             _, _, (sweep, cell, flip) = heappop(heap)
-            circles = (self.table.circles.get(e, e) for e in (cell.behind, cell.ahead) if e is not None)
-            kept = mirrors.setdefault(tuple(sorted(circles)), Mirrors())
-            for chord in self._cell_chords(sweep, cell, kept):
+            for chord in self._cell_chords(sweep, cell):
                 best.offer(chord.length, chord.reversed() if flip else chord)
 
     def _cells(self, k: int) -> dict[tuple[int, int], list[tuple[Pencil, Cell]]]:
@@ -308,8 +306,8 @@ class Links:
         gap = self.table.distance_bounds(float(x), float(y), np.array((e,)))[0]
         return _at_least(float(max(gap**2 - size**2 * (1 + 1e-12), 0.0) ** 0.5))
 
-    def _cell_chords(self, sweep: Pencil, cell: Cell, mirrors: Mirrors | None = None) -> Iterator[Chord]:
-        """The chords of a closed cell among which its shortest are; *mirrors* recognises equal ones."""
+    def _cell_chords(self, sweep: Pencil, cell: Cell) -> Iterator[Chord]:
+        """The chords of a closed cell among which its shortest are."""
         behind = None if cell.behind is None else self.table.curves[cell.behind]
         assert cell.ahead is not None
         ahead = self.table.curves[cell.ahead]
@@ -320,9 +318,8 @@ class Links:
         for t in stationary:
             if t.compare(cell.low) > 0 and t.compare(cell.high) < 0:
                 chord = chord_at(sweep.sector, t, behind, ahead)
-                if mirrors is not None and behind is not None:
-                    ends = behind, ahead
-                    chord = mirrors.chord(sweep.sector, t, stationary, chord, ends)
+                if behind is not None:
+                    chord = self._congruent.chord(sweep.sector, t, stationary, chord, (behind, ahead))
                 yield chord
 
     # -- from the start ----------------------------------------------------------------------------
