@@ -1,10 +1,11 @@
 """Congruent chords: equal lengths recognised by an isometry, where comparing them would take long.
 
-A stationary chord belongs to a figure: the centre and radius of the feature that holds it, and the circles or
-lines of the two edges that it joins. An isometry that maps one figure to another maps the stationary chords of
-the one to those of the other: the image's parameter is a root of the polynomial of the sector it falls in. If
-balls leave exactly one of that polynomial's roots there, it is that root. The chord is then built as the
-image of the one met first, so that lengths, and coordinates along an axis, are equal term by term.
+A stationary chord belongs to a figure: the centre and radius of the feature that holds it, and the circles
+or lines of the two edges that it joins. An isometry that maps one figure to another maps the stationary
+chords of the one to those of the other: the image's parameter is a root of the polynomial of the sector it
+falls in. If balls leave exactly one of that polynomial's roots there, it is that root. The chord is then
+built as the image of the one met first, so that lengths, and coordinates along an axis, are equal term by
+term.
 """
 
 from __future__ import annotations
