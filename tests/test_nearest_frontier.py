@@ -37,6 +37,10 @@ class TestRuns:
         assert (run.strategy, run.title) == ("nearest-frontier", "Strategy nearest-frontier")
         assert run.complete and run.ending.value == "finished"
 
+    def test_the_range_is_the_gap_of_two_circles_about_one_centre(self) -> None:
+        """It rests at a place of the inner one that is no algebraic number: names tell where it is, and how far off."""
+        assert explored(random_scene(Subject.SIGHTSEER, 243)).ending.value == "finished"
+
     @pytest.mark.parametrize("name", some([name for name in gallery.names() if name not in SLOW], 14))
     def test_the_gallery(self, name: str) -> None:
         scene = gallery.scene(name)

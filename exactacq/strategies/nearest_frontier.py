@@ -156,8 +156,10 @@ def _rest(robot: Robot) -> None:
     if here.rational is not None or at not in robot.map.acquired:
         return
     assert at is not None, "what is acquired is an obstacle"
-    for part in robot.map.known(at):
-        if part.curve is not None and part.curve.passes(here):
-            places = [part.curve.point(Real(k) / PARTS) for k in range(PARTS + 1)]
-            robot.walk_to(min(places, key=lambda place: _away(here, place)))
-            return
+    curves = [part.curve for part in robot.map.known(at) if part.curve is not None]
+    near = [curve for curve in curves if curve.may_pass(here, 64)]
+    # All of the boundary is known, and the robot is on it: one that is left alone needs no proof.
+    for curve in near if len(near) == 1 else (curve for curve in near if curve.passes(here)):
+        places = [curve.point(Real(k) / PARTS) for k in range(PARTS + 1)]
+        robot.walk_to(min(places, key=lambda place: _away(here, place)))
+        return

@@ -263,14 +263,21 @@ class FrontFaces:
 
     def _reaches(self, arc: Arc) -> int:
         """1, 0 or -1 as an arc's circle comes nearer than the range, as near, or not."""
-        w = minus(raw(arc.center), self.origin)
-        gap = square_root(dot(w, w)) - arc.radius
+        gap = square_root(self._distance_sq(arc)) - arc.radius
         return -abs(gap).compare(self.range.radius)
 
     def _is_outside(self, arc: Arc) -> int:
         """1, 0 or -1 as the point is outside an arc's circle, on it, or inside."""
+        return sign(self._distance_sq(arc) - arc.radius_sq)
+
+    def _distance_sq(self, arc: Arc) -> Any:
+        """The squared distance of the point from an arc's centre: known without arithmetic on a concentric arc."""
+        for e in self.own:
+            own = self.table.curves[e]
+            if isinstance(own, Arc) and own.center == arc.center:
+                return own.radius_sq
         w = minus(raw(arc.center), self.origin)
-        return sign(dot(w, w) - arc.radius_sq)
+        return dot(w, w)
 
     def _facing(self, arc: Arc, w: Vector, end: Point) -> bool:
         """Whether the boundary near an end of the arc, on the arc, turns its free side to the point."""
