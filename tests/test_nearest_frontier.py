@@ -38,7 +38,7 @@ class TestRuns:
         assert run.complete and run.ending.value == "finished"
 
     def test_the_range_is_the_gap_of_two_circles_about_one_centre(self) -> None:
-        """It rests at a place of the inner one that is no algebraic number: names tell where it is, and how far off."""
+        """It rests on the inner one, at a place that is no algebraic number: names tell the outer one."""
         assert explored(random_scene(Subject.SIGHTSEER, 243)).ending.value == "finished"
 
     @pytest.mark.parametrize("name", some([name for name in gallery.names() if name not in SLOW], 14))

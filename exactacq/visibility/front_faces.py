@@ -271,7 +271,7 @@ class FrontFaces:
         return sign(self._distance_sq(arc) - arc.radius_sq)
 
     def _distance_sq(self, arc: Arc) -> Any:
-        """The squared distance of the point from an arc's centre: known without arithmetic on a concentric arc."""
+        """The squared distance of the point from an arc's centre: by name if it is on a concentric arc."""
         for e in self.own:
             own = self.table.curves[e]
             if isinstance(own, Arc) and own.center == arc.center:
