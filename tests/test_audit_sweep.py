@@ -528,6 +528,15 @@ def test_moments_that_once_had_no_answer(seed: int) -> None:
     audit(xa.seed_spreader(scene), samples=8, seed=seed)
 
 
+def test_a_sight_between_corners_a_billionth_apart() -> None:
+    """A sight that begins in the post that it touches: the audit divided a series by what may be 0."""
+    hook = Polygon([(0, 0), (4, 0), (4, 3), (3, 3), (3, 1), (1, 1), (1, 3), (0, 3)])
+    near = 1 + Q(1, 10**9)
+    box = Polygon([(near, near), ("5/2", near), ("5/2", "5/2"), (near, "5/2")])
+    run = xa.seed_spreader(Scene([hook, box], terrain=Terrain(6, 5, origin=(-1, -1)), radius=5))
+    audit(run, samples=2)
+
+
 def test_an_aim_that_became_known_on_the_way_is_passed_around() -> None:
     """Around the hook all of the triangle comes in sight; its aim is then reached past its near side."""
     hook = Polygon(

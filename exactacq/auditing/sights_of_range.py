@@ -264,7 +264,10 @@ class SightsOfRange:
 
     def _values(self, family: _TouchingSights, u: arb) -> tuple[arb, arb, arb]:
         """G, G' and G'' at all parameters of a ball; no numbers where g may be 0."""
-        series = self._gain(family, arb_series([u, 1], prec=3))
+        try:
+            series = self._gain(family, arb_series([u, 1], prec=3))
+        except ValueError:  # Series are not divided by what may be 0.
+            return arb("nan"), arb("nan"), arb("nan")
         return series[0], series[1], 2 * series[2]
 
     def _gain(self, family: _TouchingSights, u: Any) -> Any:

@@ -58,6 +58,7 @@ HALVINGS = 40
 """How often a stretch of the walk is halved to prove that lines about a feature are too long."""
 
 
+@np.errstate(over="ignore")  # A bound that overflows is infinite, and decides nothing.
 def sees_later(
     x: fmpq,
     start: Real,
