@@ -23,10 +23,13 @@ RUNS: dict[str, Callable[[xa.Scene], xa.Run]] = {
 
 @pytest.fixture
 def unsearched() -> Iterator[None]:
-    """No search meanwhile but by the test."""
+    """No search meanwhile but by the test, and none of what other tests have left in this process."""
+    gc.collect()
+    gc.freeze()
     gc.disable()
     yield
     gc.enable()
+    gc.unfreeze()
 
 
 @pytest.mark.usefixtures("unsearched")
