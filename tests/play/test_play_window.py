@@ -96,8 +96,8 @@ def test_what_is_pointed_at_or_selected_has_its_label(page: Chromium) -> None:
 
 
 def test_a_narrower_window_cuts_nothing_off(page: Chromium) -> None:
-    page.run("document.querySelector('[data-example=plate]').click()")
-    page.until(f"{SHAPES} > 10", 30)
+    page.run("document.querySelector('[data-example=figure2]').click()")
+    page.until(f"{SHAPES} > 4", 30)
     wide = page.run(WIDEST)
     for width, height in ((900, 800), (600, 500), (360, 740), (1280, 800)):
         page.resize(width, height)
