@@ -184,6 +184,14 @@ def test_closed_form_has_the_same_value(recipe: Recipe) -> None:
     assert str(value) == str(value.sympy())
 
 
+def test_a_radicand_that_sympy_cannot_factor_has_a_closed_form() -> None:
+    """Its largest factor is taken for a prime by sympy 1.14, which then refuses it."""
+    n = 10**60 - 9
+    found = Length(Real(n).sqrt() / 3)
+    assert str(found) == f"sqrt({n})/3"
+    assert abs(found.sympy().evalf(80) - mpmath.mpf(10) ** 30 / 3) < 1e-20
+
+
 @settings(max_examples=25, deadline=None)
 @given(recipes)
 def test_copies_and_pickles_are_equal(recipe: Recipe) -> None:

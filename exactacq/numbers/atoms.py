@@ -241,9 +241,14 @@ def atom_generators(atom: Atom) -> Generators:
 
 def atom_sympy(atom: Atom) -> sympy.Expr:
     """Closed form of an atom."""
-    from sympy import Integer, sqrt
+    from sympy import Integer, UnevaluatedExpr, sqrt
 
-    return sqrt(Integer(atom)) if isinstance(atom, int) else atom.sympy()
+    if not isinstance(atom, int):
+        return atom.sympy()
+    try:
+        return sqrt(Integer(atom))
+    except ValueError:  # Some long radicands are too much for sympy's cache of factors.
+        return sqrt(UnevaluatedExpr(Integer(atom)))
 
 
 WHOLLY_FACTORED = 62
