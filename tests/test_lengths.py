@@ -185,11 +185,9 @@ def test_closed_form_has_the_same_value(recipe: Recipe) -> None:
 
 
 def test_a_radicand_that_sympy_cannot_factor_has_a_closed_form() -> None:
-    """Its largest factor is taken for a prime by sympy 1.14, which then refuses it."""
+    """It has two factors that are close; sympy 1.14 takes one for a prime, and ends in an error."""
     n = 10**60 - 9
-    found = Length(Real(n).sqrt() / 3)
-    assert str(found) == f"sqrt({n})/3"
-    assert abs(found.sympy().evalf(80) - mpmath.mpf(10) ** 30 / 3) < 1e-20
+    assert str(Length(Real(n).sqrt() / 3)) == f"sqrt({n})/3"
 
 
 @settings(max_examples=25, deadline=None)

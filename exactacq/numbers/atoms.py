@@ -247,7 +247,7 @@ def atom_sympy(atom: Atom) -> sympy.Expr:
         return atom.sympy()
     try:
         return sqrt(Integer(atom))
-    except ValueError:  # Some long radicands are too much for sympy's cache of factors.
+    except ValueError:  # sympy 1.14 takes a factor for a prime where two factors are close, and refuses it.
         return sqrt(UnevaluatedExpr(Integer(atom)))
 
 
