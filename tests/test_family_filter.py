@@ -23,6 +23,7 @@ from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing import family_filter, visibility_complex
 from exactacq.sensing.complex_edges import FamilySweeper
 from exactacq.sensing.end_names import Seen
+from exactacq.sensing.event import Reason
 from exactacq.sensing.free_way import WayViews
 from exactacq.sensing.legs import Leg, legs_of
 from exactacq.sensing.line_family import SingleLine, family_of
@@ -268,6 +269,20 @@ def test_most_families_are_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(family_filter.FamilyFilter, "choose", counted)
     xa.sightseer(random_octagons(8, 1))
     assert asked > 500 and kept < asked / 4
+
+
+def test_a_family_narrower_than_floats_is_no_single_line() -> None:
+    """A line runs past the tip of a sliver, which a wall's lowest point and the other tip nearly touch.
+
+    The tip stays in sight. The lines through it between these two points meet the walk within 10^-31: their
+    family was taken for one line, the last one of the next family, and the obstacle for lost there.
+    """
+    hair = fmpq(1, 10**30)
+    wall = xa.Outline([(0, 0, 1), (8, 0, 0)])
+    sliver = xa.Outline([("1/2", -4 - hair, 2), ("9/2", -4 - hair, "-1.999998")])
+    terrain = xa.Terrain(10, 10 + hair, origin=(-1, -9 - hair))
+    run = xa.seed_spreader(xa.Scene([wall, sliver], terrain=terrain, radius="5/3"))
+    assert all(event.reason is not Reason.OCCLUSION for event in run.events if event.obstacle == 1)
 
 
 def test_normals_at_the_end_of_a_way() -> None:

@@ -73,7 +73,7 @@ def mattering(
     told = _extreme_views(extents)
     for n in range(len(extents)):
         one = extents[n]
-        if one.surely[0] > one.surely[1] and one.first_keys and _is_told(one, told):
+        if _is_single(one) and _is_told(one, told):
             continue
         concerned = [owner for owner in owners.get(one.edge, NOBODY) if owner[0] in obstacles]
         if not concerned:
@@ -120,7 +120,7 @@ def _extreme_views(extents: list[Extent]) -> set[tuple[int, int]]:
 
     Only those of single lines are asked for; where there are none, none is told.
     """
-    lone = {key for one in extents if one.surely[0] > one.surely[1] for key in one.first_keys}
+    lone = {key for one in extents if _is_single(one) for key in one.first_keys}
     found: set[tuple[int, int]] = set()
     if lone:
         for one in extents:
@@ -132,6 +132,11 @@ def _extreme_views(extents: list[Extent]) -> set[tuple[int, int]]:
                     if key in lone:
                         found.add((key, one.edge))
     return found
+
+
+def _is_single(one: Extent) -> bool:
+    """Whether a view is along one line that has a key: other families may be as narrow in floats."""
+    return one.surely[0] > one.surely[1] and bool(one.first_keys) and one.first_keys == one.last_keys
 
 
 def _is_told(one: Extent, told: set[tuple[int, int]]) -> bool:
