@@ -6,18 +6,52 @@ rule must then keep Theorem 1's bound too. Everything else is the Sightseer's ow
 
 from __future__ import annotations
 
+from collections.abc import Set
+
+from exactacq.geometry.points import Point
 from exactacq.scene.scene import Scene
+from exactacq.sensing.memory import Memory, Report
+from exactacq.sensing.path import Piece
 from exactacq.strategies.moves import KnownLink
 from exactacq.strategies.robot import Robot
 from exactacq.strategies.run import SightseerRun
 from exactacq.strategies.sightseer.strategy import explored_by
+from exactacq.strategies.walker import Walker
+
+
+class _Unsensed(Memory):
+    """A memory that takes in nothing, and calls all boundaries known: the rule goes by links alone.
+
+    These tell all of a visited boundary's neighbours. What else is seen on the way decides nothing where all
+    obstacles are linked, and costs more than the rest of the run.
+    """
+
+    def begin(self, start: Point) -> list[Report]:
+        return []
+
+    def walk(self, piece: Piece) -> list[Report]:
+        return []
+
+    @property
+    def acquired(self) -> Set[int]:
+        return set(range(len(self.bodies)))
+
+    @property
+    def seen(self) -> set[int]:
+        return set(range(len(self.bodies)))
 
 
 class _FarSighted(Robot):
     """A scout that names the farthest unvisited obstacle where it is asked for the nearest."""
 
+    def __init__(self, scene: Scene, radius: object = None) -> None:
+        super().__init__(scene, radius=radius)
+        self._walker = Walker(self.start, _Unsensed(scene, self.radius, self._table))
+
     def nearest_unvisited(self, source: int | None) -> KnownLink | None:
         """The longest link (then the first one) from a visited node to an unvisited obstacle it sees."""
+        for seen in self._known_links().of(self._node(source)):
+            self._numbering.add(seen.target)
         links = self.links(source)
         if source is None:
             # A start on an obstacle is no node of its own: that obstacle comes first, by either rule.
@@ -32,7 +66,7 @@ class _FarSighted(Robot):
 def farthest_first(scene: Scene, radius: object = None) -> SightseerRun:
     """Explore a scene from its start, always going to the farthest obstacle in sight.
 
-    *radius* defaults to the scene's own. Raises `InvalidScene` if the scene has no rational start. Cost: all
-    links within the radius.
+    *radius* defaults to the scene's own. The run tells path, visits and bounds; its map is empty. Raises
+    `InvalidScene` if the scene has no rational start. Cost: all links within the radius.
     """
     return explored_by(_FarSighted(scene, radius=radius), scene)
