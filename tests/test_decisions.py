@@ -25,7 +25,7 @@ from exactacq.sensing.decision import Candidate, Decision, Rule
 from exactacq.sensing.event import Event, Reason
 from exactacq.strategies.known_links import KnownLinks
 from exactacq.strategies.seed_spreader.reasons import nearest_loss
-from exactacq.study.claims.farthest import farthest_first
+from exactacq.study.claims.model import Case
 from exactacq.study.random_scenes import Subject, random_scene
 from exactacq.visibility.links import START
 
@@ -108,7 +108,7 @@ class TestSightseer:
         assert start.why().startswith("obstacle 0 and obstacle 1 are equally near")
 
     def test_another_rule_of_choice_is_not_called_nearest(self) -> None:
-        run = farthest_first(TIED)
+        run = Case(TIED).farthest
         assert {e.decision.rule for e in decided(run)} <= {Rule.BACK}
 
     def test_others_that_cannot_be_put_in_order(self, monkeypatch: pytest.MonkeyPatch) -> None:

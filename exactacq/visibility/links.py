@@ -408,10 +408,14 @@ def visibility_graph(scene: Scene, radius: object = None) -> nx.Graph:
     >>> sorted(graph.nodes)
     ['S', 0, 1]
     """
-    links = Links(scene, radius)
-    graph = nx.Graph()
-    graph.add_nodes_from(range(len(scene.obstacles)))
-    for i in range(len(scene.obstacles)):
+    return graph_of(Links(scene, radius))
+
+
+def graph_of(links: Links) -> nx.Graph:
+    """The obstacle visibility graph of links, as `visibility_graph` gives it."""
+    scene, graph = links.scene, nx.Graph()
+    graph.add_nodes_from(range(links.count))
+    for i in range(links.count):
         for j in links.neighbours(i):
             if j > i and (link := links.between(i, j)) is not None:
                 _add_edge(graph, link)

@@ -9,14 +9,15 @@ from __future__ import annotations
 from collections.abc import Set
 
 from exactacq.geometry.points import Point
-from exactacq.scene.scene import Scene
 from exactacq.sensing.memory import Memory, Report
 from exactacq.sensing.path import Piece
+from exactacq.strategies.known_links import KnownLinks
 from exactacq.strategies.moves import KnownLink
 from exactacq.strategies.robot import Robot
 from exactacq.strategies.run import SightseerRun
 from exactacq.strategies.sightseer.strategy import explored_by
 from exactacq.strategies.walker import Walker
+from exactacq.visibility.links import Links
 
 
 class _Unsensed(Memory):
@@ -44,9 +45,10 @@ class _Unsensed(Memory):
 class _FarSighted(Robot):
     """A scout that names the farthest unvisited obstacle where it is asked for the nearest."""
 
-    def __init__(self, scene: Scene, radius: object = None) -> None:
-        super().__init__(scene, radius=radius)
-        self._walker = Walker(self.start, _Unsensed(scene, self.radius, self._table))
+    def __init__(self, links: Links) -> None:
+        super().__init__(links.scene, radius=links.radius)
+        self._walker = Walker(self.start, _Unsensed(links.scene, links.radius, links.table))
+        self._links = KnownLinks(links, self.start)
 
     def nearest_unvisited(self, source: int | None) -> KnownLink | None:
         """The longest link (then the first one) from a visited node to an unvisited obstacle it sees."""
@@ -63,10 +65,10 @@ class _FarSighted(Robot):
         return best
 
 
-def farthest_first(scene: Scene, radius: object = None) -> SightseerRun:
-    """Explore a scene from its start, always going to the farthest obstacle in sight.
+def farthest_first(links: Links) -> SightseerRun:
+    """Explore the scene of some links from its start, always going to the farthest obstacle in sight.
 
-    *radius* defaults to the scene's own. The run tells path, visits and bounds; its map is empty. Raises
-    `InvalidScene` if the scene has no rational start. Cost: all links within the radius.
+    The run tells path, visits and bounds; its map is empty. Raises `InvalidScene` if there is no rational
+    start. Cost: all links within the radius.
     """
-    return explored_by(_FarSighted(scene, radius=radius), scene)
+    return explored_by(_FarSighted(links), links.scene)

@@ -20,7 +20,7 @@ from exactacq.strategies.seed_spreader.strategy import seed_spreader
 from exactacq.strategies.sightseer.strategy import sightseer
 from exactacq.study.claims.farthest import farthest_first
 from exactacq.study.claims.formulas import spoken
-from exactacq.visibility.links import START, visibility_graph
+from exactacq.visibility.links import START, Links, graph_of
 
 Made = TypeVar("Made")
 
@@ -70,7 +70,7 @@ class Case:
     @cached_property
     def farthest(self) -> SightseerRun:
         """The Sightseer's run if it goes to the farthest visible obstacle in place of the nearest."""
-        return farthest_first(self.scene, self.radius)
+        return farthest_first(self.links)
 
     @property
     def spreader(self) -> SeedSpreaderRun:
@@ -85,9 +85,14 @@ class Case:
         return self._sweeps[key]
 
     @cached_property
+    def links(self) -> Links:
+        """The links between obstacles, made apart from those of the runs."""
+        return Links(self.scene, self.radius)
+
+    @cached_property
     def graph(self) -> nx.Graph:
         """The obstacle visibility graph, the start included."""
-        return visibility_graph(self.scene, self.radius)
+        return graph_of(self.links)
 
     @property
     def is_mutually_visible(self) -> bool:
