@@ -11,10 +11,12 @@ from sweeps import rectangle, swept_scene
 
 from exactacq import Circle, Outline, Point, Polygon, Real, Scene, Terrain
 from exactacq.geometry.curves import Segment
+from exactacq.geometry.intersections import contacts
 from exactacq.numbers.rationals import rational
 from exactacq.scene.edge_table import EdgeTable
+from exactacq.scene.shapes import shape_edges
 from exactacq.scene.terrain_components import Component, Ground, ground_of
-from exactacq.strategies.seed_spreader.blocked import Blocking
+from exactacq.strategies.seed_spreader.blocked import Blocking, _met
 from exactacq.strategies.seed_spreader.mline import MLine
 
 
@@ -174,3 +176,17 @@ def test_ways_between_boundary_points() -> None:
     (gap,) = blocking.gaps(Segment(Point(2, 2), Point(4, 4)))
     assert (gap.begin.u.rational, gap.end.u.rational) == (0, 1)
     assert not blocking.gaps(Segment(Point(0, 4), Point(2, 2)))
+
+
+@pytest.mark.parametrize("bulge", ["1/3", "-1/3", "2", "-2"])
+@pytest.mark.parametrize("share", ["1/7", "1/2", "5/6"])
+def test_ways_that_end_on_an_arc_meet_it_where_any_way_does(bulge: str, share: str) -> None:
+    """What is told from the end on the circle is what the circle's equation tells."""
+    (arc, _) = shape_edges(Outline([(0, 0, bulge), (4, 1)]))
+    end = arc.point(share)
+    for start in (Point(x, y) for x in range(-9, 13, 3) for y in range(-8, 9, 4)):
+        way = Segment(start, end)
+        told = _met(way, arc, arc)
+        found = [contact.start for contact in contacts(way, arc)]
+        assert len(told) == len(found)
+        assert all(any(p == q for q in found) for p in told)

@@ -276,6 +276,17 @@ def test_a_line_through_an_algebraic_point_of_an_arc_finds_it(arc, fraction, x, 
     assert any(parameter == 1 for parameter in found)
 
 
+@given(cells, cells, cells, cells)
+def test_a_rational_segment_shows_where_it_is_crossed(ax, ay, bx, by):
+    """By its form the crossing point is on the line: no number needs to be compared with 0."""
+    assume((ax, ay) != (bx, by))
+    root, wall = Real(2).sqrt() + Real(3).sqrt(), Segment(Point(ax, ay), Point(bx, by))
+    for end in (Point(7 + root, 5), Point(-root, -9)):
+        for met in contacts(Segment(Point(root / 9, root / 7), end), wall):
+            offset = met.start - wall.start
+            assert offset.cross(wall.direction).rational == 0
+
+
 def test_a_line_keeps_ends_rational():
     """One end of the arc on the line: the other root is rational too, and no square root is taken."""
     found = line_contacts(Point(0, 0), Point(2, 1), bulged(0, 0, 1, 1, 3))

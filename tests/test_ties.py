@@ -87,3 +87,12 @@ def test_the_view_is_told_whatever_edge_is_asked_for_first(seed: int) -> None:
     for event in run.events:
         if event.kind == "lose" and event.note == "range":
             assert all(run.map_at(event).known(k) is not None for k in range(len(run.obstacles)))
+
+
+def test_a_diversion_around_a_wall_to_an_end_of_what_is_known() -> None:
+    """The end was seen from where a view became as long as the range: on its arc by name, and not by numbers.
+
+    Whether the way there meets that arc first elsewhere, and a wall on its way, was `Undecided`.
+    """
+    run = xa.seed_spreader(random_scene(Subject.SEED_SPREADER, 2000031))
+    assert run.complete and run.diversions

@@ -219,7 +219,8 @@ def _at(kind: ContactKind, point: Point) -> Contact:
 def _segments(a: Segment, b: Segment) -> list[Contact]:
     p, q, u, v = raw(a.start), raw(a.end), raw(b.start), raw(b.end)
     along, across = minus(q, p), minus(v, u)
-    u_side, v_side = sign(cross(along, minus(u, p))), sign(cross(along, minus(v, p)))
+    first, last = cross(along, minus(u, p)), cross(along, minus(v, p))
+    u_side, v_side = sign(first), sign(last)
     if u_side * v_side > 0:
         return []
     start, end = cross(across, minus(p, u)), cross(across, minus(q, u))
@@ -231,6 +232,9 @@ def _segments(a: Segment, b: Segment) -> list[Contact]:
     for side, point in ((p_side, a.start), (q_side, a.end), (u_side, b.start), (v_side, b.end)):
         if side == 0:
             return [_at(ContactKind.TOUCHING, point)]
+    if all(isinstance(c, fmpq) for c in (*u, *v)):
+        # On a rational line the point shows that it is on it: both coordinates are made of one number.
+        return [_at(ContactKind.CROSSING, advance(u, across, first / (first - last)))]
     return [_at(ContactKind.CROSSING, advance(p, along, start / (start - end)))]
 
 

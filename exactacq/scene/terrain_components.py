@@ -8,7 +8,7 @@ divide a component: free space is closed. Boundary that runs along the border be
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
@@ -90,9 +90,10 @@ class Component:
         """Length of the shore."""
         return Length.sum(curve.length for curve in self.edges)
 
-    def is_bounded_by(self, point: Point) -> bool:
-        """Whether a point of the obstacle's boundary lies on this component's, hidden or not."""
-        return any(part.curve.passes(point) for shore in (self.shore, *self.hidden) for part in shore)
+    def is_bounded_by(self, point: Point, edges: Container[int]) -> bool:
+        """Whether a point lies on this component's boundary, hidden or not; *edges* are all that pass it."""
+        parts = (part for shore in (self.shore, *self.hidden) for part in shore)
+        return any(p.edge in edges and (p.is_whole or p.curve.contains(point)) for p in parts)
 
 
 class Ground:

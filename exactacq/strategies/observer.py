@@ -71,8 +71,8 @@ class Observer:
         self._sightings: list[Sighting] = []
         self._in_sight: set[int] = set()
         self._incomplete: set[int] = set()
-        # The last point of a boundary that the robot told, and whose it is.
-        self._told: tuple[Point, int] | None = None
+        # The last point of a boundary that the robot told, on which piece of it this lies, and whose it is.
+        self._told: tuple[Point, Curve | None, int] | None = None
         self._lap: Lap | None = None
         # What paths have to respect after so many pieces of the way.
         self._charted: tuple[int, KnownGround] | None = None
@@ -208,15 +208,14 @@ class Observer:
         0 (3, 0)
         """
         here, chart = self.position, self.map
-        found = [(self._nearest(i, chart, visible), self._seen(i)) for i in obstacles]
+        found = [(*self._nearest(i, chart, visible), self._seen(i)) for i in obstacles]
         if not found:
             raise ValueError("of no obstacles none is the nearest")
 
-        def order(a: tuple[Point, int], b: tuple[Point, int]) -> int:
-            return distance_sq(a[0], here).compare(distance_sq(b[0], here)) or a[1] - b[1]
+        def order(a: tuple[Point, Curve | None, int], b: tuple[Point, Curve | None, int]) -> int:
+            return distance_sq(a[0], here).compare(distance_sq(b[0], here)) or a[2] - b[2]
 
-        self._told = min(found, key=cmp_to_key(order))
-        point, k = self._told
+        self._told = point, _, k = min(found, key=cmp_to_key(order))
         return self._own[k], point
 
     def news(self, route: Route | None = None) -> frozenset[int]:
@@ -256,7 +255,8 @@ class Observer:
         for place in places[1:]:
             self._check_border(place)
         pieces = [Segment(p, q) for p, q in pairwise([here, *places[1:]]) if p != q]
-        return Route(pieces, self._walker, here, self._blocking.crossings(pieces))
+        end_on = self._told[1] if self._told is not None and self._told[0] is places[-1] else None
+        return Route(pieces, self._walker, here, self._blocking.crossings(pieces, end_on))
 
     def way_back(self, route: Route) -> Route:
         """The way back along a route, from the robot's place on it to where it was laid.
@@ -416,17 +416,21 @@ class Observer:
             raise MoveError("a robot that is confined to a terrain knows no links: use routes")
         return self._links
 
-    def _nearest(self, i: int, chart: KnownMap, visible: bool) -> Point:
-        """The point of an obstacle that is nearest to the robot, of those in sight if there are any."""
-        parts = self.look(i) if visible else ()
+    def _nearest(self, i: int, chart: KnownMap, visible: bool) -> tuple[Point, Curve | None]:
+        """The point of an obstacle that is nearest to the robot, of those in sight if there are any.
+
+        With the piece of boundary on which it lies; None for a single point.
+        """
+        parts, here = self.look(i) if visible else (), self.position
         curves = [(part.start, part.curve) for part in parts or chart.known(i)]
-        here = self.position
-        return nearest_of([start if c is None else nearest_point(c, here) for start, c in curves], here)
+        points = [start if curve is None else nearest_point(curve, here) for start, curve in curves]
+        nearest = nearest_of(points, here)
+        return nearest, next(c for p, (_, c) in zip(points, curves, strict=True) if p is nearest)
 
     def _node_at(self, place: Point) -> Node:
         """The obstacle on whose boundary a place lies, if there is one."""
         if self._told is not None and self._told[0] is place:
-            return self._told[1]
+            return self._told[2]
         k = obstacle_at(self._table, place)
         if k is None or self._ground is None:
             return START if k is None else k
