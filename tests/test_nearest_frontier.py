@@ -39,7 +39,9 @@ class TestRuns:
 
     def test_the_range_is_the_gap_of_two_circles_about_one_centre(self) -> None:
         """It rests on the inner one, at a place that is no algebraic number: names tell the outer one."""
-        assert explored(random_scene(Subject.SIGHTSEER, 243)).ending.value == "finished"
+        run = explored(random_scene(Subject.SIGHTSEER, 243))
+        assert run.ending.value == "finished"
+        xa.audit(run, samples=4)
 
     @pytest.mark.parametrize("name", some([name for name in gallery.names() if name not in SLOW], 14))
     def test_the_gallery(self, name: str) -> None:

@@ -7,13 +7,15 @@ from __future__ import annotations
 
 import mpmath
 import pytest
-from flint import fmpq, fmpq_poly
+from flint import arb, fmpq, fmpq_poly
 from hypothesis import given
 from hypothesis import strategies as st
 
+from exactacq.geometry.points import Point
 from exactacq.numbers.number_field import NumberField
 from exactacq.numbers.real import Real, roots
-from exactacq.numbers.tower import Tower, vanishes
+from exactacq.numbers.tower import Tower, vanishes, vanishes_about
+from exactacq.numbers.transcendental import generic_in, sign_at, transcendental
 
 HAIR = Real(fmpq(1, 10**400))
 SMALL = st.integers(-9, 9)
@@ -142,3 +144,56 @@ def test_independent_radicals_without_end_are_left_open() -> None:
         product = product * value + 1
     assert vanishes(product) is None
     assert product > 0
+
+
+# -- numbers of which nothing is known ---------------------------------------------------------------
+
+
+def anything() -> Real:
+    """A number that satisfies no equation: what is 0 here is 0 whatever the number."""
+    return transcendental(Real, lambda bits: arb.pi())
+
+
+def is_identity(value: Real) -> bool:
+    tau = generic_in(value)
+    assert tau is not None
+    return vanishes_about(value, tau)
+
+
+@given(SMALL, SMALL, st.integers(1, 9), st.tuples(SMALL, SMALL))
+def test_a_point_of_a_circle_is_on_it_whatever_its_place_is_made_of(
+    x: int, y: int, radius: int, seen_from: tuple[int, int]
+) -> None:
+    """Where a line from (tau, a) through a corner leaves a circle, told from a circle a hair larger."""
+    tau = anything()
+    p = Point(tau + 20, Real(seen_from[0]))
+    d = Point(Real(x), Real(y)) - p
+    size, along = d.norm_sq(), (p - Point(x, y)).dot(d)
+    place = p + d * ((-along + (size * radius * radius).sqrt()) / size)
+    gap = (place - Point(x, y)).norm_sq() - radius * radius
+    assert gap.rational == 0 or is_identity(gap)
+    assert not is_identity(gap + HAIR + 0 * tau) if gap.rational is None else True
+
+
+@given(st.lists(st.tuples(SMALL, SMALL), min_size=1, max_size=2), st.integers(0, 3))
+def test_identities_are_those_that_trials_tell(parts: list[tuple[int, int]], kind: int) -> None:
+    """At a transcendental number nothing else vanishes: `sign_at` looks at many places beside it."""
+    x = anything()
+    for a, b in parts:
+        x = a + b * (x * x + 1).sqrt()
+    y = (x * x).sqrt() if kind % 2 else ((x + 3) * (x + 3)).sqrt() - 3
+    value = y - x if kind < 2 else y + x
+    if value.rational is None and (tau := generic_in(value)) is not None:
+        assert is_identity(value) == (sign_at(value, tau) == 0)
+
+
+def test_what_vanishes_by_chance_is_no_identity() -> None:
+    """The zero of a function may satisfy an equation of which its name says nothing."""
+    tau = transcendental(Real, lambda bits: arb(2).sqrt())
+    node = generic_in(tau)
+    assert node is not None
+    assert not vanishes_about(tau * tau - 2, node)
+    assert not vanishes_about((tau * tau + 7).sqrt() - 3, node)
+    assert vanishes_about((tau * tau).sqrt() - tau, node)
+    assert not vanishes_about((tau * tau).sqrt() + tau, node)
+    assert vanishes_about(((1 - tau) * (1 - tau)).sqrt() + 1 - tau, node), "1 - tau is negative"

@@ -1,6 +1,9 @@
-"""The field of one root of an irreducible integer polynomial: its elements are polynomials in the root.
+"""First fields of towers of square roots: that of one root of a polynomial, and that of any number.
 
-The rationals are the field of the root 0 of x.
+Elements of the field of a root of an irreducible integer polynomial are polynomials in the root; the
+rationals are the field of the root 0 of x. Those of the field of any number are its rational functions: what
+is equal there is equal whatever number it is, which itself comes in only where its ball tells which of two
+square roots is meant.
 """
 
 from __future__ import annotations
@@ -8,9 +11,9 @@ from __future__ import annotations
 from functools import cached_property
 from itertools import product
 
-from flint import acb, arb, fmpq_poly, fmpz, fmpz_poly
+from flint import acb, arb, fmpq, fmpq_poly, fmpz, fmpz_poly
 
-from exactacq.numbers.atoms import Node, Root
+from exactacq.numbers.atoms import Atom, Node, Root
 from exactacq.numbers.precision import workprec
 
 MOST_DEGREE = 8
@@ -19,6 +22,8 @@ BITS = 128
 """Working bits beyond those of an element's coefficients that are tried first for its roots."""
 WIDE = 0.25
 """Balls with a smaller radius hold at most one integer."""
+
+UNIT, X = fmpq_poly([1]), fmpq_poly([0, 1])
 
 
 class NumberField:
@@ -36,6 +41,18 @@ class NumberField:
         self.modulus = fmpq_poly(self.polynomial)
         self.degree = self.polynomial.degree()
         self._root: Node | None = Root.make(coefficients, index, 1) if self.degree > 1 else None
+
+    def constant(self, value: fmpq | int) -> fmpq_poly:
+        """A rational as an element."""
+        return fmpq_poly([value])
+
+    def of_atom(self, atom: Atom) -> fmpq_poly | None:
+        """A power of the root; None for what is not in the field."""
+        return fmpq_poly([*[0] * atom.args[2], 1]) if isinstance(atom, Root) else None
+
+    def size(self, a: fmpq_poly) -> int:
+        """Machine words of an element."""
+        return len(a) * int(a.numer().height_bits() + a.denom().bit_length())
 
     def times(self, a: fmpq_poly, b: fmpq_poly) -> fmpq_poly:
         """The product of two elements."""
@@ -132,3 +149,97 @@ class NumberField:
         for coefficient in reversed(c.numer().coeffs()):
             total = total * root + coefficient
         return total / c.denom()
+
+
+class RationalFunction:
+    """A rational function over Q."""
+
+    __slots__ = ("bottom", "top")
+
+    def __init__(self, top: fmpq_poly, bottom: fmpq_poly = UNIT) -> None:
+        # In lowest terms, monic below: equal ones are equal term by term.
+        if bottom.degree() > 0:
+            common = top.gcd(bottom)
+            if common.degree() > 0:
+                top, bottom = top // common, bottom // common
+        lead = bottom.leading_coefficient()
+        self.top, self.bottom = (top, bottom) if lead == 1 else (top / lead, bottom / lead)
+
+    def __bool__(self) -> bool:
+        return not self.top.is_zero()
+
+    def __neg__(self) -> RationalFunction:
+        return RationalFunction(-self.top, self.bottom)
+
+    def __add__(self, other: RationalFunction) -> RationalFunction:
+        if self.bottom == other.bottom:
+            return RationalFunction(self.top + other.top, self.bottom)
+        return RationalFunction(self.top * other.bottom + other.top * self.bottom, self.bottom * other.bottom)
+
+    def __mul__(self, other: RationalFunction | fmpq | int) -> RationalFunction:
+        if isinstance(other, RationalFunction):
+            return RationalFunction(self.top * other.top, self.bottom * other.bottom)
+        return RationalFunction(self.top * other, self.bottom)
+
+    __rmul__ = __mul__
+
+
+class RationalFunctions:
+    """The field over Q of a number *tau*, of which nothing is known but balls.
+
+    >>> from exactacq.numbers.atoms import Root
+    >>> atom = Root.make((-2, 0, 0, 1), 0, 1)
+    >>> field = RationalFunctions(atom)
+    >>> tau = field.of_atom(atom)
+    >>> field.square_root(tau * tau + 2 * tau + field.constant(1)).top, field.square_root(tau)
+    (x + 1, None)
+    """
+
+    degree = 1
+
+    def __init__(self, tau: Node) -> None:
+        self.tau = tau
+
+    def constant(self, value: fmpq | int) -> RationalFunction:
+        """A rational as an element."""
+        return RationalFunction(fmpq_poly([value]))
+
+    def of_atom(self, atom: Atom) -> RationalFunction | None:
+        """The number itself; None for others, which are not in the field."""
+        return RationalFunction(X) if atom is self.tau else None
+
+    def times(self, a: RationalFunction, b: RationalFunction) -> RationalFunction:
+        """The product of two elements."""
+        return a * b
+
+    def inverse(self, a: RationalFunction) -> RationalFunction:
+        """1 over an element that is not 0."""
+        return RationalFunction(a.bottom, a.top)
+
+    def square_root(self, a: RationalFunction) -> RationalFunction | None:
+        """A square root of an element if the field holds one, else None."""
+        content, factors = (a.top * a.bottom).factor()
+        content = fmpq(content)
+        if content < 0 or not (content.p * content.q).is_square() or any(e % 2 for _, e in factors):
+            return None
+        root = fmpq_poly([fmpq((content.p * content.q).isqrt(), content.q)])
+        for factor, exponent in factors:
+            root *= fmpq_poly(factor) ** (exponent // 2)
+        return RationalFunction(root, a.bottom)
+
+    def size(self, a: RationalFunction) -> int:
+        """Machine words of an element, roughly."""
+        parts = (a.top, a.bottom)
+        return sum(len(p) * int(p.numer().height_bits() + p.denom().bit_length()) for p in parts) >> 6
+
+    def ball(self, a: RationalFunction, bits: int) -> arb:
+        """An enclosure of an element, with *bits* working bits that the caller has set."""
+        tau = self.tau.ball(bits)
+        return _at(a.top, tau) / _at(a.bottom, tau)
+
+
+def _at(polynomial: fmpq_poly, place: arb) -> arb:
+    total = arb(0)
+    for coefficient in reversed(polynomial.coeffs()):
+        total = total * place + arb(coefficient)
+    return total

@@ -8,9 +8,10 @@ from typing import Any
 from flint import arb
 
 from exactacq.errors import Undecided
+from exactacq.numbers.atoms import Node, Sqrt
 from exactacq.numbers.linear_forms import field_of, is_surd, merged
 from exactacq.numbers.rationals import ball_sign, decimal_string
-from exactacq.numbers.tower import vanishes
+from exactacq.numbers.tower import vanishes, vanishes_about
 from exactacq.numbers.transcendental import generic_in, sign_at
 
 FILTER_BITS = (64, 128, 256)
@@ -48,6 +49,8 @@ def decided_sign(value: Any) -> int:
             if ball.abs_upper() < arb(2) ** -limit:
                 return 0
             if limit > ZERO_TEST_BITS and bits >= TRIAL_BITS:
+                if (zero_of := _zero_in(value)) is not None and vanishes_about(value, zero_of):
+                    return 0
                 raise Undecided(
                     f"sign of {decimal_string(value.ball, 20)}...: excluding 0 would take {limit} bits, "
                     f"more than {ZERO_TEST_BITS}"
@@ -57,6 +60,12 @@ def decided_sign(value: Any) -> int:
     while not (sign := ball_sign(value.ball(bits))):
         bits *= 2
     return sign
+
+
+def _zero_in(value: Any) -> Node | None:
+    """The zero of a function (see `exactacq.numbers.function_zeros`) that a real is made of, if it is one."""
+    found = [key for key, _ in value.generators() if isinstance(key, Node) and not isinstance(key, Sqrt)]
+    return found[0] if len(found) == 1 else None
 
 
 def _separation_bits(value: Any) -> int:

@@ -15,16 +15,17 @@ The root of A + B t is x + y t only if the norm A^2 - B^2 t^2 is a square n^2 an
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from math import inf
+from typing import Any, TypeAlias
 
-from flint import arb, fmpq, fmpq_poly
+from flint import arb, fmpq
 
-from exactacq.numbers.atoms import Atom, Form, Inverse, Product, Sqrt, atom_ball
-from exactacq.numbers.number_field import NumberField
+from exactacq.numbers.atoms import Atom, Form, Inverse, Node, Product, Sqrt, atom_ball
+from exactacq.numbers.number_field import NumberField, RationalFunctions
 from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import ball_sign
 
-Element: TypeAlias = "dict[int, fmpq_poly]"
+Element: TypeAlias = "dict[int, Any]"
 """Coefficients in the first field, none of them 0, by monomial: bit i of the key stands for radical i."""
 
 MOST_RADICALS = 12
@@ -48,14 +49,24 @@ def vanishes(value: Form) -> bool | None:
         return None
 
 
+def vanishes_about(value: Form, tau: Node) -> bool:
+    """Whether a real that is made of *tau* is surely 0 whatever number near it *tau* is; then it is 0."""
+    try:
+        return not FormalTower(value, tau).element(value)
+    except _TooLong:
+        return False
+
+
 class Tower:
     """The field of a real and what it is made of, as far as `element` has come across it."""
 
-    def __init__(self, value: Form) -> None:
-        self.field = _first_field(value)
+    most_terms, most_bits = MOST_TERMS, inf
+
+    def __init__(self, value: Form, field: NumberField | RationalFunctions | None = None) -> None:
+        self.field: Any = _first_field(value) if field is None else field
         self.squares: list[Element] = []
         self.radicals: list[Atom] = []
-        self.known: dict[Atom, Element] = {1: {0: fmpq_poly([1])}}
+        self.known: dict[Atom, Element] = {1: {0: self.field.constant(1)}}
         self.work = 0
 
     def element(self, value: Form) -> Element:
@@ -68,15 +79,17 @@ class Tower:
     def _of_atom(self, atom: Atom) -> Element:
         if atom not in self.known:
             if isinstance(atom, int):
-                self.known[atom] = self._radical(atom, {0: fmpq_poly([atom])})
+                self.known[atom] = self._radical(atom, {0: self.field.constant(atom)})
             elif isinstance(atom, Sqrt):
                 self.known[atom] = self._radical(atom, self.element(atom.args[0]))
             elif isinstance(atom, Product):
                 self.known[atom] = self.times(*(self.element(factor) for factor in atom.args))
             elif isinstance(atom, Inverse):
                 self.known[atom] = self.inverse(self.element(atom.args[0]))
+            elif (own := self.field.of_atom(atom)) is not None:
+                self.known[atom] = {0: own}
             else:
-                self.known[atom] = {0: fmpq_poly([*[0] * atom.args[2], 1])}
+                raise _TooLong
         return self.known[atom]
 
     def _radical(self, atom: Atom, square: Element) -> Element:
@@ -88,15 +101,15 @@ class Tower:
             raise _TooLong
         self.squares.append(square)
         self.radicals.append(atom)
-        return {1 << (len(self.squares) - 1): fmpq_poly([1])}
+        return {1 << (len(self.squares) - 1): self.field.constant(1)}
 
     # -- arithmetic --------------------------------------------------------------------------------
 
     def times(self, a: Element, b: Element) -> Element:
         """The product, with squares of radicals replaced."""
         self.work += len(a) * len(b) * self.field.degree**2
-        self.work += (len(b) * _words(a) + len(a) * _words(b)) // WORDS
-        if self.work > MOST_TERMS:
+        self.work += (len(b) * self._words(a) + len(a) * self._words(b)) // WORDS
+        if self.work > self.most_terms:
             raise _TooLong
         plain: dict[int, Element] = {}
         for m, p in a.items():
@@ -111,6 +124,11 @@ class Tower:
                     part = self.times(part, self.squares[i])
             result = _sum(result, part)
         return result
+
+    def _words(self, a: Element) -> int:
+        """Machine words of all coefficients."""
+        words: int = sum(map(self.field.size, a.values())) >> 6
+        return words
 
     def inverse(self, a: Element) -> Element:
         """1 over an element that is not 0: (A - B t) / (A^2 - B^2 t^2) for A + B t."""
@@ -162,7 +180,7 @@ class Tower:
         if not high:
             x = self.square_root(low, last)
             if x is None and (y := self.square_root(self.times(low, square), last)) is not None:
-                x = self.times(self.times(y, self.inverse(square)), {t: fmpq_poly([1])})
+                x = self.times(self.times(y, self.inverse(square)), {t: self.field.constant(1)})
             return x
         norm = _sum(self.times(low, low), self.times(self.times(high, high), square), -1)
         n = self.square_root(norm, last)
@@ -182,6 +200,8 @@ class Tower:
         bits = BITS
         while not (sign := ball_sign(self._ball(a, bits))):
             bits *= 2
+            if bits > self.most_bits:
+                raise _TooLong
         return sign
 
     def _ball(self, a: Element, bits: int) -> arb:
@@ -194,6 +214,22 @@ class Tower:
                         term *= atom_ball(atom, bits)
                 total += term
             return total
+
+
+class FormalTower(Tower):
+    """A tower over the rational functions of a number: an element without terms is 0 whatever the number.
+
+    One with terms may be 0 as well, by chance. Nothing is asked of it but the signs of square roots.
+    """
+
+    most_terms, most_bits = 1 << 12, 1 << 14
+
+    def __init__(self, value: Form, tau: Node) -> None:
+        super().__init__(value, RationalFunctions(tau))
+
+    def is_zero(self, a: Element) -> bool:
+        """Whether an element has no terms."""
+        return not a
 
 
 def _scaled(a: Element, factor: fmpq | int) -> Element:
@@ -210,11 +246,6 @@ def _sum(a: Element, b: Element, factor: fmpq | int = 1) -> Element:
         else:
             result.pop(m, None)
     return result
-
-
-def _words(a: Element) -> int:
-    """Machine words of all coefficients."""
-    return sum(len(c) * int(c.numer().height_bits() + c.denom().bit_length()) for c in a.values()) >> 6
 
 
 def _first_field(value: Form) -> NumberField:
