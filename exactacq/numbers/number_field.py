@@ -51,7 +51,7 @@ class NumberField:
         return fmpq_poly([*[0] * atom.args[2], 1]) if isinstance(atom, Root) else None
 
     def size(self, a: fmpq_poly) -> int:
-        """Machine words of an element."""
+        """Bits of an element, roughly."""
         return len(a) * int(a.numer().height_bits() + a.denom().bit_length())
 
     def times(self, a: fmpq_poly, b: fmpq_poly) -> fmpq_poly:
@@ -228,9 +228,9 @@ class RationalFunctions:
         return RationalFunction(root, a.bottom)
 
     def size(self, a: RationalFunction) -> int:
-        """Machine words of an element, roughly."""
+        """Bits of an element, roughly."""
         parts = (a.top, a.bottom)
-        return sum(len(p) * int(p.numer().height_bits() + p.denom().bit_length()) for p in parts) >> 6
+        return sum(len(p) * int(p.numer().height_bits() + p.denom().bit_length()) for p in parts)
 
     def ball(self, a: RationalFunction, bits: int) -> arb:
         """An enclosure of an element, with *bits* working bits that the caller has set."""
