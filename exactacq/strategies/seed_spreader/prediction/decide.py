@@ -16,6 +16,7 @@ there the lengths are bounded between neighbouring lines through two features, w
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from itertools import chain, pairwise
 
@@ -54,8 +55,8 @@ GRID = 8
 """Places of the walk, and points of each target, that are tried first, less one."""
 TRIES = 6
 """Lines of sight of the grid that are tried exactly."""
-HALVINGS = 40
-"""How often a stretch of the walk is halved to prove that lines about a feature are too long."""
+STRETCHES = 2000
+"""Into how many stretches a part of the walk is divided to prove that lines about a feature are too long."""
 
 
 @np.errstate(over="ignore")  # A bound that overflows is infinite, and decides nothing.
@@ -460,41 +461,36 @@ class _LineBatch:
             ends = [self._order(cell, z) for z in (low, high)]
             if -1 in ends:
                 return True
-            in_range = self._is_in_range_between(cell, low, high, None not in ends, HALVINGS)
+            in_range = self._is_in_range_between(cell, low, high, None not in ends)
             if in_range:
                 return True
             answer = answer if in_range is False else None
         return answer
 
-    def _is_in_range_between(
-        self, cell: LineCell, low: Real, high: Real, is_tested: bool, halvings: int
-    ) -> bool | None:
+    def _is_in_range_between(self, cell: LineCell, low: Real, high: Real, is_tested: bool) -> bool | None:
         """Whether a line of a cell between two ordinates is as short as the range; None if that is open.
 
         *is_tested* if the lines at both are known to be no shorter than the range.
         """
-        y = Real(rational_between(low, high))
-        sight = self._about(cell, y)
-        if sight is None:
-            return None
-        square = distance_sq(*sight)
-        if square.compare(self.walk.radius**2) <= 0:
-            return True
-        length, rate = growth(
-            Real(self.walk.x),
-            (low, high),
-            self._shape(cell.touch),
-            self.search.known[cell.target],
-            square.sqrt(),
-        )
-        if length > arb(self.walk.radius) or (is_tested and (rate > 0 or rate < 0)):
-            return False
-        if not halvings:
-            return None
-        answers = [
-            self._is_in_range_between(cell, *part, is_tested, halvings - 1) for part in ((low, y), (y, high))
-        ]
-        return True if True in answers else None if None in answers else False
+        radius, shape = self.walk.radius, self._shape(cell.touch)
+        target = self.search.known[cell.target]
+        open_ones, is_bounded = deque([(low, high)]), True
+        for _ in range(STRETCHES):
+            if not open_ones:
+                return False if is_bounded else None
+            low, high = open_ones.popleft()
+            y = Real(rational_between(low, high))
+            sight = self._about(cell, y)
+            if sight is None:
+                is_bounded = False
+                continue
+            square = distance_sq(*sight)
+            if square.compare(radius**2) <= 0:
+                return True
+            length, rate = growth(Real(self.walk.x), (low, high), shape, target, square.sqrt())
+            if not (length > arb(radius) or (is_tested and (rate > 0 or rate < 0))):
+                open_ones += [(low, y), (y, high)]
+        return None
 
     def _order(self, cell: LineCell, y: Real) -> int | None:
         """-1, 0 or 1 as a line of a cell is shorter than the range, as long, or longer; None without one."""

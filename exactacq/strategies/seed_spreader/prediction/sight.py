@@ -180,6 +180,9 @@ def _growth(x: arb, y: arb, shape: tuple[Point, Real], target: Curve, near: arb)
     dx, dy, k = _ball(center.x) - x, _ball(center.y) - y, _ball(turn)
     square = dx * dx + dy * dy
     before = (square - k * k).nonnegative_part().sqrt()
+    if isinstance(target, Arc) and center == target.center and turn * turn == target.radius_sq:
+        # The tangent of the target's own circle ends where it touches it.
+        return before, -dy / before
     # d = e (before - i turn), as complex numbers.
     ex, ey = (dx * before - dy * k) / square, (dy * before + dx * k) / square
     if isinstance(target, Arc):
@@ -187,8 +190,8 @@ def _growth(x: arb, y: arb, shape: tuple[Point, Real], target: Curve, near: arb)
         foot = mx * ex + my * ey
         rest = foot * foot - mx * mx - my * my + _ball(Real(target.radius_sq))
         half = rest.nonnegative_part().sqrt()
-        ends = [end for end in (foot - half, foot + half) if end.overlaps(near)]
-        along = ends[0] if len(ends) == 1 else arb.nan()
+        back, front = foot - half, foot + half
+        along = back if not front.overlaps(near) else front if not back.overlaps(near) else back.union(front)
         fx, fy = -(ey * along - my), ex * along - mx
     else:
         ax, ay = _ball(target.start.x) - x, _ball(target.start.y) - y
