@@ -6,7 +6,9 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+import stress_floats
 from nightly import NIGHTLY, some
+from stress_floats import told
 
 import exactacq as xa
 from exactacq import kernel
@@ -15,22 +17,6 @@ from exactacq.kernel.images import EdgeImages
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.study.claims.model import Subject
 from exactacq.study.random_scenes import random_scene
-
-
-def told(run: xa.Run) -> list[object]:
-    """All that is reported of a run, in 40 digits."""
-    events = [
-        [e.kind, e.obstacle, e.after, e.inside, e.occasion, e.reason, e.ending, e.other]
-        + [number.decimal(40) for number in (e.point.x, e.point.y, e.at)]
-        for e in run.events
-    ]
-    known = [
-        (i, k.edge, k.whole, *(v.decimal(40) for p in (k.start, k.end) for v in (p.x, p.y)))
-        for i in run.map.seen
-        for k in run.map.known(i)
-    ]
-    bounds = [(b.name, b.value.decimal(40), b.holds) for b in run.bounds]
-    return [events, known, bounds, run.length.decimal(40), run.visits, run.unseen, run.unvisited]
 
 
 def sightseer(name: str) -> Callable[[], xa.Run]:
@@ -113,3 +99,16 @@ def test_a_known_corner_is_told_once(exact: bool, monkeypatch: pytest.MonkeyPatc
             alone = {part.start for part in parts if part.curve is None}
             assert len(alone) == sum(part.curve is None for part in parts)
             assert not alone & {end for part in parts if part.curve for end in (part.start, part.end)}
+
+
+def test_scenes_that_differ_are_counted(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """`stress_floats` finds none among honest runs, and a run that the switch has changed."""
+    monkeypatch.setattr(kernel, "EXACT_ONLY", False)  # It is set back when the test ends.
+    assert stress_floats.main(["sightseer", "1", "1"]) == 0
+    wrong = xa.sightseer(random_scene(Subject.SIGHTSEER, 2))
+    honest = stress_floats.run
+    monkeypatch.setattr(stress_floats, "run", lambda *of: wrong if kernel.EXACT_ONLY else honest(*of))
+    assert stress_floats.main(["sightseer", "1", "2"]) == 1
+    assert "sightseer:1\nsightseer: 2 scenes, 1 differ, 0 end in an error" in capsys.readouterr().out
