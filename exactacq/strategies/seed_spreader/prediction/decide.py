@@ -422,16 +422,14 @@ class _LineBatch:
 
     def _sees_in(self, cell: LineCell, lines: Lines) -> bool | None:
         """Whether a line of sight of a cell is free; None if that is not decided."""
-        if not cell.above:
-            return self._sees_in_run(cell, lines)
-        y = (cell.low + cell.high) / 2 if cell.sample is None else cell.sample
-        sight = self._about(cell, Real(rational(y)))
-        if sight is None or not self.search.sights.is_free(*sight):
-            return False
-        if cell.sample is not None:
-            return True if self.search._is_seen(*sight) else None
-        answers = [self._is_in_range(cell, part, lines) for part in cell.tight]
-        return True if True in answers else None if None in answers else False
+        if cell.above:
+            y = (cell.low + cell.high) / 2 if cell.sample is None else cell.sample
+            sight = self._about(cell, Real(rational(y)))
+            if sight is None or not self.search.sights.is_free(*sight):
+                return False
+            if cell.sample is not None and self.search._is_seen(*sight):
+                return True
+        return self._sees_between_bounds(cell, lines)
 
     def _about(self, cell: LineCell, y: Real) -> tuple[Point, Point] | None:
         """The line of sight of a cell from an ordinate; None for the walk's own line.
@@ -448,37 +446,44 @@ class _LineBatch:
         t = found[-1] if cell.branch or len(found) == 1 else found[0]
         return p, p + way * t
 
-    def _sees_in_run(self, cell: LineCell, lines: Lines) -> bool | None:
-        """Like `_sees_in`, for a run of cells whose ordinates floats cannot separate."""
+    def _sees_between_bounds(self, cell: LineCell, lines: Lines) -> bool | None:
+        """Like `_sees_in`, by exact ordinates: those that bound the cell, or that floats cannot separate."""
+        below, above = self._ordinates(cell.below, lines), self._ordinates(cell.above, lines)
+        if cell.above and not (below and above):
+            return None
+        # Beyond these ordinates, which floats are cut to, nothing is in reach.
+        search, slack = self.search, self.search.pieces.slack
+        first, last = (Real(rational(y)) for y in (search.low - slack, search.high + slack))
         answer: bool | None = False
-        for low, high in pairwise(sorted(self._ordinates(cell.below, lines))):
+        for low, high in pairwise(sorted(min(max(y, first), last) for y in below + above)):
             if low.compare(high) == 0:
                 continue
             y = Real(rational_between(low, high))
             sight = self._about(cell, y)
             if sight is None or not self.walk.passes(y) or not self.search.sights.is_free(*sight):
                 continue
-            ends = [self._order(cell, z) for z in (low, high)]
-            if -1 in ends:
+            ends = [(z, self._order(cell, z)) for z in (low, high)]
+            if any(order == -1 for _, order in ends):
                 return True
-            in_range = self._is_in_range_between(cell, low, high, None not in ends)
+            in_range = self._is_in_range_between(cell, *((z, order is not None) for z, order in ends))
             if in_range:
                 return True
             answer = answer if in_range is False else None
         return answer
 
-    def _is_in_range_between(self, cell: LineCell, low: Real, high: Real, is_tested: bool) -> bool | None:
+    def _is_in_range_between(self, cell: LineCell, *ends: tuple[Real, bool]) -> bool | None:
         """Whether a line of a cell between two ordinates is as short as the range; None if that is open.
 
-        *is_tested* if the lines at both are known to be no shorter than the range.
+        The ends are the lower and the upper ordinate, each with whether its line is known to be no shorter
+        than the range: if lines grow from there on, all of them are longer.
         """
         radius, shape = self.walk.radius, self._shape(cell.touch)
         target = self.search.known[cell.target]
-        open_ones, is_bounded = deque([(low, high)]), True
+        open_ones, is_bounded = deque([ends]), True
         for _ in range(STRETCHES):
             if not open_ones:
                 return False if is_bounded else None
-            low, high = open_ones.popleft()
+            (low, is_low_tested), (high, is_high_tested) = ends = open_ones.popleft()
             y = Real(rational_between(low, high))
             sight = self._about(cell, y)
             if sight is None:
@@ -488,8 +493,9 @@ class _LineBatch:
             if square.compare(radius**2) <= 0:
                 return True
             length, rate = growth(Real(self.walk.x), (low, high), shape, target, square.sqrt())
-            if not (length > arb(radius) or (is_tested and (rate > 0 or rate < 0))):
-                open_ones += [(low, y), (y, high)]
+            is_longer = length > arb(radius) or (rate > 0 and is_low_tested) or (rate < 0 and is_high_tested)
+            if not is_longer:
+                open_ones += [(ends[0], (y, True)), ((y, True), ends[1])]
         return None
 
     def _order(self, cell: LineCell, y: Real) -> int | None:
@@ -506,22 +512,3 @@ class _LineBatch:
             return self.fixed[-1 - mark]
         line = self._line(int(lines.i[mark]), int(lines.j[mark]), int(lines.piece[mark]))
         return None if line is None else line[0].y
-
-    def _is_in_range(self, cell: LineCell, part: tuple[float, float], lines: Lines) -> bool | None:
-        """Whether free lines of a cell, near one of its bounds, are as short as the range; None: undecided.
-
-        If at the bound itself the line is shorter, so are some in the cell. If it is as long or longer there,
-        and the lines grow from there on, the others are longer.
-        """
-        inward = 1 if part[0] - cell.low < cell.high - part[1] else -1
-        begin, marks = (cell.low, cell.below) if inward > 0 else (cell.high, cell.above)
-        bound = (max if inward > 0 else min)(self._ordinates(marks, lines), default=None)
-        if bound is None or (sight := self._about(cell, bound)) is None:
-            return None
-        if distance_sq(*sight).compare(self.walk.radius**2) < 0:
-            return True
-        far = Real(rational(max(part, key=lambda end: abs(end - begin))))
-        target = self.search.known[cell.target]
-        length, shape = distance_sq(*sight).sqrt(), self._shape(cell.touch)
-        _, rate = growth(Real(self.walk.x), (bound, far), shape, target, length)
-        return False if rate * inward > 0 else None

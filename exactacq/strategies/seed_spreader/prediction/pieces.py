@@ -244,8 +244,7 @@ class LineCell:
 
     Marks stand for ordinates of other lines: a number of a line, or -1 - k for the k-th fixed ordinate. The
     cell lies between ``below`` and ``above``; if nothing is above, it is a run of cells between ordinates
-    that floats cannot part. ``sample`` is an ordinate with a line certainly within range, ``tight`` tells
-    where the range is not decided.
+    that floats cannot part. ``sample`` is an ordinate with a line that is within range as far as floats tell.
     """
 
     touch: int
@@ -256,7 +255,6 @@ class LineCell:
     below: tuple[int, ...]
     above: tuple[int, ...]
     sample: float | None = None
-    tight: tuple[tuple[float, float], ...] = ()
 
 
 class Gaps:

@@ -412,7 +412,10 @@ class Proposals:
         return np.asarray(np.sqrt(np.maximum(before, 0.0)) + np.sqrt(np.maximum(after, 0.0)))
 
     def _by_range(self, cells: list[LineCell]) -> list[LineCell]:
-        """Halve the cells until each part is out of range or some line within range is found."""
+        """The cells with lines that may be within range.
+
+        They are halved until each part is out of range, a line within it is found, or floats tell no more.
+        """
         if not cells:
             return []
         touch, target, branch = (
@@ -421,7 +424,7 @@ class Proposals:
         low, high = np.array([c.low for c in cells]), np.array([c.high for c in cells])
         parent = np.arange(len(cells))
         samples: dict[int, float] = {}
-        tight: dict[int, list[tuple[float, float]]] = {}
+        close: set[int] = set()
         while len(parent):
             keep = self._least(touch[parent], low, high, target[parent], branch[parent]) <= (
                 self.radius + self.slack
@@ -436,16 +439,13 @@ class Proposals:
             ):
                 samples.setdefault(int(k), float(y))
             small = high - low < 1e4 * self.slack
-            for k, a, b in zip(parent[small], low[small], high[small], strict=True):
-                tight.setdefault(int(k), []).append((float(a), float(b)))
-            go = ~small & ~np.isin(parent, list(samples))
+            close.update(parent[small].tolist())
+            go = ~small & ~np.isin(parent, [*samples, *close])
             low, middle, high, parent = low[go], middle[go], high[go], parent[go]
             low, high = np.concatenate((low, middle)), np.concatenate((middle, high))
             parent = np.concatenate((parent, parent))
         return [
-            replace(cell, sample=samples.get(k), tight=tuple(tight.get(k, ())))
-            for k, cell in enumerate(cells)
-            if k in samples or k in tight
+            replace(cell, sample=samples.get(k)) for k, cell in enumerate(cells) if k in samples or k in close
         ]
 
     def _lengths(self, touch: Ints, y: Floats, target: Ints, branch: Ints) -> Floats:
