@@ -96,3 +96,11 @@ def test_a_diversion_around_a_wall_to_an_end_of_what_is_known() -> None:
     """
     run = xa.seed_spreader(random_scene(Subject.SEED_SPREADER, 2000031))
     assert run.complete and run.diversions
+
+
+def test_a_diversion_between_two_roots_of_quartics() -> None:
+    """It begins where a view became as long as the range, and ends where another one did, on an edge.
+
+    That its last view is from its end, along the edge, was `Undecided`, for numbers of two roots.
+    """
+    assert xa.seed_spreader(random_scene(Subject.SEED_SPREADER, 96000186)).complete

@@ -1,4 +1,4 @@
-"""The field of a real: numbers in towers of square roots, over the rationals or the field of one root.
+"""The field of a real: numbers in towers of square roots, over the rationals or the field of roots.
 
 Ties are planted: a number is taken apart and put together in another way, and told from itself plus a hair.
 """
@@ -132,8 +132,42 @@ def test_nested_roots_over_the_field_of_a_root(coefficients: tuple[int, ...]) ->
 # -- limits ----------------------------------------------------------------------------------------
 
 
-def test_roots_of_several_polynomials_are_left_open() -> None:
-    assert vanishes(first_root((-2, 0, 0, 1)) - first_root((-3, 0, 0, 1)) * 2) is None
+PAIRS = {
+    "of a cubic and a sextic": (FIELDS["x^3 - 2"], FIELDS["3x^6 - x - 5"]),
+    "of two quartics": (FIELDS["x^4 - 10x^2 + 1, which holds sqrt(2)"], (-7, 3, 0, 0, 2)),
+    "of one polynomial": (FIELDS["2x^3 - 4x + 1, three real roots"],) * 2,
+}
+
+
+@pytest.mark.parametrize("pair", PAIRS.values(), ids=PAIRS)
+@given(st.tuples(SMALL, SMALL, SMALL), st.integers(1, 9))
+def test_the_field_of_two_roots(
+    pair: tuple[tuple[int, ...], tuple[int, ...]], numbers: tuple[int, int, int], n: int
+) -> None:
+    """Fractions and nested roots of two roots, in two forms; where lines meet is on both of them."""
+    (x, y), (a, b, c) = (roots(one)[k] for one, k in zip(pair, (0, -1), strict=True)), numbers
+    below = y * y + n
+    assert is_tie((x + a * y) / below - (b + c * x * x) / below, (x + a * y - b - c * x * x) / below)
+    assert is_tie((x * x + y * y + n).sqrt() ** 4, (x * x + y * y + n) ** 2)
+    p, q, way = Point(x, y), Point(a, b), Point(1 + x * x, c - y)
+    turn = way.cross(Point(n, 1))
+    if turn.sign():
+        met = p + way * ((q - p).cross(Point(n, 1)) / turn)
+        assert is_tie((met - q).cross(Point(n, 1)), Real(0))
+        assert is_tie((met - p).cross(way), Real(0))
+
+
+def test_two_roots_of_which_one_is_in_the_field_of_the_other() -> None:
+    """cbrt(16) = 2 cbrt(2): the field of both has the degree 3."""
+    x, y = (first_root((-n, 0, 0, 1)) for n in (2, 16))
+    assert is_tie(y, 2 * x)
+    assert is_tie(1 / (y + x), x * x / 6)
+
+
+def test_roots_of_many_polynomials_are_left_open() -> None:
+    x, y, z = (first_root((-n, 0, 0, 1)) for n in (2, 3, 5))
+    assert vanishes((x + y + z) ** 2 - x * (x + 2 * y + 2 * z) - (y + z) ** 2 - HAIR) is None
+    assert vanishes(first_root(HIGH) - first_root((-2, *[0] * 6, 1))) is None
 
 
 def test_independent_radicals_without_end_are_left_open() -> None:

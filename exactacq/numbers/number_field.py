@@ -1,17 +1,18 @@
-"""First fields of towers of square roots: that of one root of a polynomial, and that of any number.
+"""First fields of towers of square roots: those of one and of two roots of polynomials, and of any number.
 
 Elements of the field of a root of an irreducible integer polynomial are polynomials in the root; the
-rationals are the field of the root 0 of x. Those of the field of any number are its rational functions: what
-is equal there is equal whatever number it is, which itself comes in only where its ball tells which of two
-square roots is meant.
+rationals are the field of the root 0 of x. Two roots are polynomials in one number, a sum of them. The
+elements of the field of any number are its rational functions: what is equal there is equal whatever number
+it is, which itself comes in only where its ball tells which of two square roots is meant.
 """
 
 from __future__ import annotations
 
-from functools import cached_property
-from itertools import product
+from functools import cached_property, lru_cache
+from itertools import count, product
+from typing import TypeAlias
 
-from flint import acb, arb, fmpq, fmpq_poly, fmpz, fmpz_poly
+from flint import acb, arb, fmpq, fmpq_mat, fmpq_poly, fmpz, fmpz_poly
 
 from exactacq.numbers.atoms import Atom, Node, Root
 from exactacq.numbers.precision import workprec
@@ -20,8 +21,13 @@ MOST_DEGREE = 8
 """Square roots are not looked for in fields of a higher degree: signs of all conjugates are tried."""
 BITS = 128
 """Working bits beyond those of an element's coefficients that are tried first for its roots."""
+ROOT_BITS = 256
+"""Precision that tells most roots of different polynomials apart."""
 WIDE = 0.25
 """Balls with a smaller radius hold at most one integer."""
+
+RootKey: TypeAlias = "tuple[tuple[int, ...], int]"
+"""Ascending coefficients of an irreducible integer polynomial, and which of its real roots is meant."""
 
 UNIT, X = fmpq_poly([1]), fmpq_poly([0, 1])
 
@@ -40,7 +46,7 @@ class NumberField:
         self.polynomial = fmpz_poly(list(coefficients))
         self.modulus = fmpq_poly(self.polynomial)
         self.degree = self.polynomial.degree()
-        self._root: Node | None = Root.make(coefficients, index, 1) if self.degree > 1 else None
+        self._index = index
 
     def constant(self, value: fmpq | int) -> fmpq_poly:
         """A rational as an element."""
@@ -141,14 +147,104 @@ class NumberField:
                 shares.append(share[::-1])
         return shares
 
+    def _root_ball(self, bits: int) -> arb:
+        return Root.make(tuple(map(int, self.polynomial.coeffs())), self._index, 1).ball(bits)
+
     def ball(self, c: fmpq_poly, bits: int) -> arb:
         """An enclosure of an element, with *bits* working bits that the caller has set."""
-        if self._root is None or c.degree() <= 0:
+        if c.degree() <= 0:
             return arb(c[0])
-        root, total = self._root.ball(bits), arb(0)
+        root, total = self._root_ball(bits), arb(0)
         for coefficient in reversed(c.numer().coeffs()):
             total = total * root + coefficient
         return total / c.denom()
+
+
+class JoinedRoots(NumberField):
+    """The field of two roots x and y, that of z = x + k y with an integer k.
+
+    Numbers x^i y^j, with exponents below the degrees, span all polynomials in x and y. To multiply by z is a
+    matrix T there, and z a zero of the characteristic polynomial of T. If that has no factor twice, the
+    powers of z span the same. An irreducible factor of it is the polynomial of z.
+
+    >>> field = JoinedRoots(((-2, 0, 0, 1), 0), ((-3, 0, 0, 1), 0))
+    >>> x, y = (field.of_atom(Root.make((-n, 0, 0, 1), 0, 1)) for n in (2, 3))
+    >>> field.degree, field.times(x, field.times(x, x)), field.times(y, field.times(y, y))
+    (9, 2, 3)
+    """
+
+    def __init__(self, one: RootKey, other: RootKey) -> None:
+        self._roots = Root.make(*one, 1), Root.make(*other, 1)
+        first, second = (fmpq_poly(list(coefficients)) for coefficients, _ in (one, other))
+        for k in count(1):
+            matrix = _multiplication(first, second, k)
+            characteristic = matrix.charpoly()
+            if characteristic.gcd(characteristic.derivative()).degree() == 0:
+                break
+        self._k = k
+        super().__init__(tuple(int(c) for c in self._own_factor(characteristic).coeffs()))
+        x = self._in_powers(matrix, second.degree())
+        self._images = dict(zip((one, other), (x, (fmpq_poly([0, 1]) - x) / k), strict=True))
+
+    def of_atom(self, atom: Atom) -> fmpq_poly | None:
+        """A power of a root; None for what is not in the field."""
+        if not isinstance(atom, Root) or (image := self._images.get(atom.args[:2])) is None:
+            return None
+        power = image
+        for _ in range(atom.args[2] - 1):
+            power = self.times(power, image)
+        return power
+
+    def _root_ball(self, bits: int) -> arb:
+        one, other = self._roots
+        return one.ball(bits) + self._k * other.ball(bits)
+
+    def _own_factor(self, polynomial: fmpq_poly) -> fmpz_poly:
+        """The irreducible factor of which z is a root."""
+        factors = [factor for factor, _ in polynomial.numer().factor()[1]]
+        bits = ROOT_BITS
+        while len(factors) > 1:
+            with workprec(bits):
+                z = self._root_ball(bits)
+                factors = [factor for factor in factors if factor(z).contains(0)]
+            bits *= 2
+        return factors[0]
+
+    def _in_powers(self, matrix: fmpq_mat, degree: int) -> fmpq_poly:
+        """x as a polynomial in z, by its coefficients in the powers of z; *degree* is that of y."""
+        n = matrix.nrows()
+        power, x = (fmpq_mat(n, 1, [fmpq(row == place) for row in range(n)]) for place in (0, degree))
+        columns = []
+        for _ in range(n):
+            columns.append([power[row, 0] for row in range(n)])
+            power = matrix * power
+        found = fmpq_mat([list(row) for row in zip(*columns, strict=True)]).solve(x)
+        return fmpq_poly([found[row, 0] for row in range(n)]) % self.modulus
+
+
+@lru_cache(maxsize=64)
+def joined_roots(one: RootKey, other: RootKey) -> JoinedRoots:
+    """The field of two roots, which is made once."""
+    return JoinedRoots(one, other)
+
+
+def _multiplication(first: fmpq_poly, second: fmpq_poly, k: int) -> fmpq_mat:
+    """What multiplying by x + k y does with x^i y^j, which has number i * degree(second) + j."""
+    d, e = first.degree(), second.degree()
+    matrix = fmpq_mat(d * e, d * e)
+    for i in range(d):
+        for j in range(e):
+            images = [(i2 * e + j, c) for i2, c in _next(first, i)]
+            images += [(i * e + j2, k * c) for j2, c in _next(second, j)]
+            for row, c in images:
+                matrix[row, i * e + j] += c
+    return matrix
+
+
+def _next(polynomial: fmpq_poly, i: int) -> list[tuple[int, fmpq]]:
+    """The power after x^i of a root, by exponents and coefficients."""
+    degree, lead = polynomial.degree(), polynomial.leading_coefficient()
+    return [(i + 1, fmpq(1))] if i + 1 < degree else [(m, -polynomial[m] / lead) for m in range(degree)]
 
 
 class RationalFunction:

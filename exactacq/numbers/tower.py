@@ -1,9 +1,9 @@
 """Zero test in towers of square roots: the field of a real, in which every number has one form.
 
-A real made of rationals, nested square roots and perhaps one root of a polynomial lies in a field that is
-made in steps. It begins with the rationals, or the root's field, and each square root t of an element that
-has none in the field so far makes the field of all A + B t. A square root of an element that has one is that
-or its negative, as balls tell: most radicals of a tie are of this kind, where a line meets a circle in a
+A real made of rationals, nested square roots and one or two roots of polynomials lies in a field that is
+made in steps. It begins with the rationals, or the field of the roots, and each square root t of an element
+that has none in the field so far makes the field of all A + B t. A square root of an element that has one is
+that or its negative, as balls tell: most radicals of a tie are of this kind, where a line meets a circle in a
 point known before. So a number has one form, a sum of products of radicals with coefficients in lowest
 terms, and is 0 only if it has no terms. Degrees and sizes are those of the number itself, not those of the
 expression that made it, which are all that the height bound knows. Over roots of a high degree no square
@@ -15,19 +15,21 @@ The root of A + B t is x + y t only if the norm A^2 - B^2 t^2 is a square n^2 an
 
 from __future__ import annotations
 
-from math import inf
+from math import inf, prod
 from typing import Any, TypeAlias
 
 from flint import arb, fmpq
 
 from exactacq.numbers.atoms import Atom, Form, Inverse, Node, Product, Sqrt, atom_ball
-from exactacq.numbers.number_field import NumberField, RationalFunctions
+from exactacq.numbers.number_field import NumberField, RationalFunctions, RootKey, joined_roots
 from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import ball_sign
 
 Element: TypeAlias = "dict[int, Any]"
 """Coefficients in the first field, none of them 0, by monomial: bit i of the key stands for radical i."""
 
+MOST_DEGREE = 36
+"""Highest degree of the field of two roots."""
 MOST_RADICALS = 12
 MOST_TERMS = 1 << 18
 """Products of terms after which a test gives up: a few seconds of work at most."""
@@ -41,7 +43,7 @@ class _TooLong(Exception):
 
 
 def vanishes(value: Form) -> bool | None:
-    """Whether a real is 0; None if it holds several roots of polynomials, or the test would take too long."""
+    """Whether a real is 0; None if it holds more than two roots of polynomials, or would take too long."""
     try:
         tower = Tower(value)
         return tower.is_zero(tower.element(value))
@@ -249,11 +251,13 @@ def _sum(a: Element, b: Element, factor: fmpq | int = 1) -> Element:
 
 
 def _first_field(value: Form) -> NumberField:
-    """The field of the one root of higher degree that a real is made of; the rationals if there is none."""
-    found = {key for key, _ in value.generators() if not isinstance(key, int | Sqrt)}
-    if not found:
-        return NumberField()
-    key = found.pop()
-    if found or not isinstance(key, tuple):
+    """The field of the roots of higher degree, two at most, that a real is made of; else the rationals."""
+    generators = [(key, degree) for key, degree in value.generators() if not isinstance(key, int | Sqrt)]
+    keys: list[RootKey] = sorted(key for key, _ in generators if isinstance(key, tuple))
+    if len(keys) < len(generators) or len(keys) > 2:
         raise _TooLong
-    return NumberField(*key)
+    if len(keys) < 2:
+        return NumberField(*keys[0]) if keys else NumberField()
+    if prod(degree for _, degree in generators) > MOST_DEGREE:
+        raise _TooLong
+    return joined_roots(*keys)

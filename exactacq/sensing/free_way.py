@@ -14,12 +14,10 @@ import numpy as np
 
 from exactacq.geometry.box_index import box
 from exactacq.geometry.intersections import line_contacts
-from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
 from exactacq.kernel.extents import Extent
 from exactacq.kernel.family_images import FamilyImage
 from exactacq.kernel.single_lines import crossing_lines
-from exactacq.numbers.real import Real
 from exactacq.sensing.complex_edges import EdgeFamilies
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.legs import Leg
@@ -111,15 +109,7 @@ class WayViews:
         for place in line_contacts(single.place, direction, self.way.piece):
             if place.sign() < 0 or place.compare(1) > 0:
                 continue
-            pin = self._crossing(single.place, direction, place)
+            point = single.place + direction * place
+            pin = point, self.way.rail.parameter(point)
             for first, last in self.way.clipper.along(pin, single.run, single.shown):
                 yield ViewFamily((self.way.number, single.shown), first, last)
-
-    def _crossing(self, origin: Point, direction: Point, at: Real) -> Pin:
-        """Where a line crosses the way: at an end that lies on it, as one at an edge may, or between."""
-        if direction.cross(self.way.piece.direction).sign():
-            for end in self.way.ends:
-                if direction.cross(end[0] - origin).sign() == 0:
-                    return end
-        point = origin + direction * at
-        return point, self.way.rail.parameter(point)
