@@ -35,6 +35,9 @@ RUNS: dict[str, Callable[[], xa.Run]] = {
         for seed in some(range(10), 2)
     },
     **({"spreader figure4": spreader("figure4")} if NIGHTLY else {"spreader case2": spreader("case2")}),
+    "a look ahead that is cut to what is in reach": lambda: xa.seed_spreader(
+        random_scene(Subject.SEED_SPREADER, 96000022)
+    ),
     "spreader m25, what is visible": spreader("m25", target="visible"),
     "spreader m25, without looking ahead": spreader("m25", lookahead=False),
     **{

@@ -158,6 +158,13 @@ class _Candidates:
         a, b, error = np.array([[x, y]]), np.array([[u, v]]), np.array([slack])
         return not self.pieces.block(a, b, error)[0]
 
+    def cut(self, y: Real) -> Real:
+        """An ordinate, or the nearest one from which something may be in reach."""
+        low, high = self.low - self.pieces.slack, self.high + self.pieces.slack
+        if y.compare(low) < 0:
+            return Real(rational(low))
+        return Real(rational(high)) if y.compare(high) > 0 else y
+
     def _stands(self) -> list[KnownFeature] | None:
         """The end of the walk and its contacts with known pieces; None if one is a target's point."""
         walk, pieces = self.walk, self.pieces
@@ -451,11 +458,8 @@ class _LineBatch:
         below, above = self._ordinates(cell.below, lines), self._ordinates(cell.above, lines)
         if cell.above and not (below and above):
             return None
-        # Beyond these ordinates, which floats are cut to, nothing is in reach.
-        search, slack = self.search, self.search.pieces.slack
-        first, last = (Real(rational(y)) for y in (search.low - slack, search.high + slack))
         answer: bool | None = False
-        for low, high in pairwise(sorted(min(max(y, first), last) for y in below + above)):
+        for low, high in pairwise(sorted(map(self.search.cut, below + above))):
             if low.compare(high) == 0:
                 continue
             y = Real(rational_between(low, high))
