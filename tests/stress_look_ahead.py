@@ -2,7 +2,7 @@
 
 ``python tests/stress_look_ahead.py FIRST COUNT`` asks both about the maps of COUNT seeds from FIRST on, each
 along two lines. It prints a line for each contradiction and one with counts: the strategy may be
-`Undecided`, the audit may leave an answer open. Fifty thousand maps take three minutes.
+`Undecided`, the audit may leave an answer open. Ten thousand maps take two minutes.
 """
 
 from __future__ import annotations
