@@ -152,12 +152,7 @@ class NumberField:
 
     def ball(self, c: fmpq_poly, bits: int) -> arb:
         """An enclosure of an element, with *bits* working bits that the caller has set."""
-        if c.degree() <= 0:
-            return arb(c[0])
-        root, total = self._root_ball(bits), arb(0)
-        for coefficient in reversed(c.numer().coeffs()):
-            total = total * root + coefficient
-        return total / c.denom()
+        return arb(c[0]) if c.degree() <= 0 else _at(c, self._root_ball(bits))
 
 
 class JoinedRoots(NumberField):
@@ -184,7 +179,7 @@ class JoinedRoots(NumberField):
         self._k = k
         super().__init__(tuple(int(c) for c in self._own_factor(characteristic).coeffs()))
         x = self._in_powers(matrix, second.degree())
-        self._images = dict(zip((one, other), (x, (fmpq_poly([0, 1]) - x) / k), strict=True))
+        self._images = dict(zip((one, other), (x, (X - x) / k), strict=True))
 
     def of_atom(self, atom: Atom) -> fmpq_poly | None:
         """A power of a root; None for what is not in the field."""
@@ -336,6 +331,6 @@ class RationalFunctions:
 
 def _at(polynomial: fmpq_poly, place: arb) -> arb:
     total = arb(0)
-    for coefficient in reversed(polynomial.coeffs()):
-        total = total * place + arb(coefficient)
-    return total
+    for coefficient in reversed(polynomial.numer().coeffs()):
+        total = total * place + coefficient
+    return total / polynomial.denom()

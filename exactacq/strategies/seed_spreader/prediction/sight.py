@@ -180,7 +180,7 @@ def _growth(x: arb, y: arb, shape: tuple[Point, Real], target: Curve, near: arb)
     dx, dy, k = _ball(center.x) - x, _ball(center.y) - y, _ball(turn)
     square = dx * dx + dy * dy
     before = (square - k * k).nonnegative_part().sqrt()
-    if isinstance(target, Arc) and center == target.center and turn * turn == target.radius_sq:
+    if isinstance(target, Arc) and turn * turn == target.radius_sq and center == target.center:
         # The tangent of the target's own circle ends where it touches it.
         return before, -dy / before
     # d = e (before - i turn), as complex numbers.
