@@ -34,12 +34,12 @@ def outcome(seed: int, x: int) -> str:
     return "left open by the audit" if theirs.is_open else "equal" if own is theirs.sees else "contradictions"
 
 
-def main() -> int:
+def main(arguments: list[str] | None = None) -> int:
     """Compare, and tell what differs."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("first", type=int)
     parser.add_argument("count", type=int)
-    asked = parser.parse_args()
+    asked = parser.parse_args(arguments)
     counts: Counter[str] = Counter()
     for seed in range(asked.first, asked.first + asked.count):
         for x in (0, 1):
