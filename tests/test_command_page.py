@@ -21,6 +21,7 @@ from exactacq.output.animation import frames
 
 DOCS = Path(__file__).parent.parent / "docs"
 LONG = ("verify --scenes", "verify --family", "search")
+FIGURES = ("explore part.dxf", "compare figure2", "compare figure3")
 
 
 @pytest.fixture(scope="module")
@@ -33,8 +34,10 @@ def extension() -> Iterator[ModuleType]:
 
 
 def quickly(run: Callable[[Example], tuple[int, str]], example: Example) -> tuple[int, str]:
-    """What an example prints; nothing for those that start processes, which the build of the pages runs."""
-    return (0, "") if example.line.startswith(LONG) else run(example)
+    """What an example prints; nothing for those that start processes or draw most: the build of the pages
+    runs them.
+    """
+    return (0, "") if example.line.startswith((*LONG, *FIGURES)) else run(example)
 
 
 @pytest.fixture(scope="module")

@@ -96,13 +96,14 @@ def test_what_is_pointed_at_or_selected_has_its_label(page: Chromium) -> None:
 
 
 def test_a_narrower_window_cuts_nothing_off(page: Chromium) -> None:
-    page.run("document.querySelector('[data-example=figure2]').click()")
-    page.until(f"{SHAPES} > 4", 30)
+    drawn(page, crowd(5, 2), 10)
     wide = page.run(WIDEST)
     for width, height in ((900, 800), (600, 500), (360, 740), (1280, 800)):
         page.resize(width, height)
         page.until(SHOWN)
     page.until(f"Math.abs({WIDEST} - {wide}) < 1")
+    page.run("document.querySelector('[data-example=circles]').click()")
+    page.until(f"{SHAPES} === 2", 30)
     page.click("#mode")
     page.until(WATCHES, 90)
     page.resize(700, 600)
