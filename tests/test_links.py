@@ -39,7 +39,7 @@ from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.features import features
-from exactacq.visibility.links import near_hull
+from exactacq.visibility.links import Links, near_hull
 
 Q = Fraction
 LAW_EXAMPLES = examples(3, 60)
@@ -438,3 +438,14 @@ def test_features_are_made_once_for_a_table() -> None:
     table = EdgeTable(random_octagons(3, 1).obstacles)
     assert features(table) is features(table)
     assert features(EdgeTable(random_octagons(3, 1).obstacles)) is not features(table)
+
+
+def test_a_wall_around_others_is_asked_for_the_near_ones_first() -> None:
+    """A box around the wall would be around all posts; boxes around its edges tell which are far."""
+    wall = xa.Polygon([(0, 0), (40, 0), (40, 10), (0, 10), (0, 9), (39, 9), (39, 1), (0, 1)])
+    posts = [xa.Circle((x, 4 + Fraction(x, 40)), 1) for x in range(3, 37, 3)]
+    links = Links(xa.Scene([wall, *posts], start=(-1, -1), radius=9), 9)
+    bounds = links.lower_bounds(0)
+    for k in range(1, links.count):
+        link = links.between(0, k)
+        assert link is not None and 0.9 * float(link.length) < bounds[k] <= float(link.length)

@@ -57,6 +57,12 @@ def comb(n: int) -> xa.Scene:
     return xa.Scene([xa.Polygon(p) for p in ([*outline, (1, 4), (0, 4)], *crumbs)], (0, -1), radius=3)
 
 
+def stairs(n: int) -> xa.Scene:
+    """One obstacle with n steps, of which the robot sees a few at a time."""
+    steps = [corner for k in range(n) for corner in ((k + 1, k), (k + 1, k + 1))]
+    return xa.Scene([xa.Polygon([(0, 0), *steps, (0, n)])], start=(-1, -1), radius=5)
+
+
 def calls(action: Callable[[], object]) -> Counter[str]:
     """Calls of functions, and what their generators yield, by the files of the package."""
     found: Counter[str] = Counter()
@@ -96,6 +102,12 @@ def test_a_tour_is_not_quadratic() -> None:
         "strategies/walker.py",
         "sensing/memory.py",
     )
+
+
+def test_a_walk_around_is_not_quadratic() -> None:
+    """At every edge it is asked whether the obstacle is known all around: what was missing is asked first."""
+    small, large = (calls(lambda n=n: xa.sightseer(stairs(n))) for n in (30, 60))
+    assert is_linear(small, large, "sensing/targets.py", "geometry/interval_union.py")
 
 
 def test_places_in_order_are_not_quadratic() -> None:

@@ -59,6 +59,31 @@ def rational_view(rng: random.Random) -> tuple[Sector, Curve, Curve]:
     return sector, behind, ahead
 
 
+class BesidePole:
+    """-1 + e / (p - t): its zero is e before its pole p, and 1 - e/p of all the way from 0."""
+
+    key, degree, height = "beside a pole", 1, 999.0
+
+    def __init__(self, pole: fmpq, before: fmpq) -> None:
+        self.pole, self.before = pole, before
+
+    def __call__(self, t: object) -> object:
+        if isinstance(t, Real):
+            return Real(self.before) / (self.pole - t) - 1
+        return arb(self.before) / (arb(self.pole) - t) - 1
+
+
+def test_a_family_narrower_than_a_cell_of_the_search() -> None:
+    """Where an edge leaves a rounded corner at an angle of a, lines that roll on it see all of it within a^2.
+
+    A drawing with angles of 10^-15 at its joints has such families (`mousebites.dxf`).
+    """
+    wide, before = fmpq(1, 2**101), fmpq(1, 2**212)
+    (zero,) = zeros_between(BesidePole(wide + before / 8, before), Real(0), Real(wide))
+    assert zero.enclosure(400)[0] <= wide - before * 7 / 8 <= zero.enclosure(400)[1]
+    assert zeros_between(BesidePole(wide + before * 2, before), Real(0), Real(wide)) == []
+
+
 class TestOracles:
     @pytest.mark.parametrize("seed", range(60))
     def test_the_eliminated_polynomial_has_the_same_roots(self, seed: int) -> None:

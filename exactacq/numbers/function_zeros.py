@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterator
 from typing import TYPE_CHECKING, Any, Protocol
 
-from flint import arb, arb_series, fmpq, fmpz
+from flint import arb, arb_series, fmpq
 
 from exactacq.errors import Undecided
 from exactacq.numbers.atoms import Generators, Node
@@ -25,8 +25,9 @@ if TYPE_CHECKING:
 
 BITS = 256
 """Working precision of the search, and the least with which a zero is refined."""
-NARROWEST = fmpq(1, fmpz(2) ** 100)
-"""Cells of this width that show neither a sign nor a slope hold a double zero, or are taken to."""
+FINENESS = 100
+"""A cell of 2^-100 that shows neither a sign nor a slope holds a double zero, or is taken to. Of what is w < 1
+wide, cells are searched down to 2^-100 w^3."""
 SHOWN_DIGITS = 30
 """Decimals that stand for a zero where a closed form is asked for."""
 
@@ -104,13 +105,18 @@ def zeros_between(
     and no comparison of numbers of large degree.
     """
     begin, end = low.enclosure(BITS)[0], high.enclosure(BITS)[1]
+    # A family of lines may be 10^-31 wide, where one of them nearly touches the circle that they roll on.
+    extent = end - begin
+    deepest = FINENESS + 3 * max(0, extent.q.bit_length() - extent.p.bit_length())
     cells = [(fmpq(n), fmpq(n + 1)) for n in range(int(begin.floor()), int(end.ceil()))][::-1]
     found: list[Real] = []
     while cells:
         left, right = cells.pop()
         if right < begin or left > end:
             continue
-        with workprec(BITS):
+        depth = (right - left).q.bit_length() - 1
+        # The precision is the cell's own, for the same reason as its ends.
+        with workprec(BITS + 2 * max(0, depth - FINENESS)):
             cell = _cell(left, right)
             slope = _slope(function, cell)
             if _excludes_zero(function, cell, slope):
@@ -118,7 +124,7 @@ def zeros_between(
             steady = slope.abs_upper() < 2 * slope.abs_lower()
         if steady:
             found += _zero_in(function, left, right, low, high, sign_at)
-        elif right - left < NARROWEST:
+        elif depth > deepest:
             raise Undecided(
                 f"{function} is stationary, or begins or ends, about at 0 near {float(left):.15g}"
             )

@@ -7,8 +7,10 @@ sides and shows what no neighbouring line does.
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Iterator, Sequence
 from functools import cached_property, partial
+from math import inf
 from typing import TypeAlias
 
 from flint import fmpq
@@ -215,9 +217,14 @@ class FamilySweeper:
         line = self.follower.follow(at)
         shown = list(self._runs(line))
         ends = {end.place for end in map(line.end, (Role.BEHIND, Role.AHEAD)) if end is not None}
-        featured = {met.place for met in line.met if self._is_featured(met)} - ends - {0}
+        featured = sorted({met.place for met in line.met if self._is_featured(met)} - ends - {0})
+        gap = bisect_left(featured, 0)
+        low, high = featured[gap - 1] if gap else -inf, featured[gap] if gap < len(featured) else inf
+        # From a place with a feature, features tell of all but what is beyond place 0 and before the next.
+        inner = [run for run in shown if any(low < met.place < high for met in run)]
+        told = set(featured)
         for here in line.met:
-            for first, last in shown:
+            for first, last in inner if here.place in told else shown:
                 near, far = (first, last) if here.place <= first.place else (last, first)
                 if here.edge == first.edge or here.place == near.place:
                     continue
@@ -276,11 +283,12 @@ def _continues(a: Vector, b: Vector) -> bool:
     return bool(cross(a, b) == 0 and dot(a, b) > 0)
 
 
-def _is_told_by_others(here: int, near: int, featured: set[int]) -> bool:
+def _is_told_by_others(here: int, near: int, featured: list[int]) -> bool:
     """Whether a view from a place to another is told by features between them, not by that in place 0.
 
-    The one that is nearest to what is seen tells of it.
+    The one that is nearest to what is seen tells of it. The places of features are sorted.
     """
     is_between = min(here, near) <= 0 <= max(here, near)
-    start = 0 if is_between else here
-    return any(min(start, near) <= place <= max(start, near) for place in featured)
+    low, high = sorted((0 if is_between else here, near))
+    first = bisect_left(featured, low)
+    return first < len(featured) and featured[first] <= high

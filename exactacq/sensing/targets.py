@@ -58,6 +58,7 @@ class Targets:
             for target in targets:
                 self._on.setdefault(target.edge, []).append((k, target))
         self._owners = {e: tuple({k for k, _ in found}) for e, found in self._on.items()}
+        self._missing: dict[int, int] = {}
 
     def whole_covers(self, k: int) -> Iterator[tuple[int, Cover]]:
         """The edges that count for an obstacle with all they are, covered all over."""
@@ -128,5 +129,14 @@ class Targets:
                             yield k, (e, part)
 
     def is_whole(self, k: int, covers: Mapping[int, Cover]) -> bool:
-        """Whether covers of the edges contain all of an obstacle."""
-        return all(target.is_in(covers.get(target.edge, EMPTY)) for target in self.of[k])
+        """Whether covers of the edges contain all of an obstacle.
+
+        The one that was missing when last asked is asked first: a walk around asks once for every edge.
+        """
+        targets = self.of[k]
+        first = self._missing.get(k, 0)
+        for at in chain(range(first, len(targets)), range(first)):
+            if not targets[at].is_in(covers.get(targets[at].edge, EMPTY)):
+                self._missing[k] = at
+                return False
+        return True

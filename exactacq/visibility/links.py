@@ -11,9 +11,9 @@ the next one cannot be shorter.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property, cmp_to_key
+from functools import cached_property, cmp_to_key, partial
 from heapq import heapify, heappop, heappush
 from itertools import count
 from typing import TypeAlias
@@ -135,10 +135,16 @@ class Links:
         return link if link is None or link.source == i else link.reversed()
 
     def lower_bounds(self, i: int) -> Floats:
-        """Lower bounds of v(i, j) for every j: the gaps between bounding boxes."""
-        return self.gaps(self.table.hulls[i])
+        """Lower bounds of v(i, j) for every j: the gaps between boxes of edges of i and the box of j.
 
-    def gaps(self, box: Floats) -> Floats:
+        A box around all of i would be around all that i encloses.
+        """
+        found = np.full(self.count, np.inf)
+        for e in self.table.edges_of(i):
+            found = np.minimum(found, self._gaps(self.table.boxes[e]))
+        return found
+
+    def _gaps(self, box: Floats) -> Floats:
         hulls = self.table.hulls
         apart = np.maximum(np.maximum(hulls[:, :2] - box[2:], box[:2] - hulls[:, 2:]), 0.0)
         gaps: Floats = np.hypot(apart[:, 0], apart[:, 1]) * (1 - 1e-14) - self.table.roundoff
@@ -225,33 +231,48 @@ class Links:
             yield Chord(item.start, item.end, length)
 
     def _pivoting(self, i: int, j: int, best: _Best) -> None:
-        """Offer the chords from i to j that features of third obstacles hold."""
+        """Offer the chords from i to j that features of third obstacles hold.
+
+        What may be or hold the least is looked at first: features, bounded by boxes and then by edges, and
+        their cells.
+        """
         centers, sizes = self.spots
         if not len(centers):
             return
         bounds = box_gaps(centers, self.table.hulls[i], sizes) + box_gaps(centers, self.table.hulls[j], sizes)
         order = count()
-        heap: list[tuple[float, int, tuple[Pencil, Cell, bool]]] = []
+        heap: list[tuple[float, int, Callable[[], None]]] = []
+
+        def push(bound: float, step: Callable[[], None]) -> None:
+            if bound <= best.guess:
+                heappush(heap, (bound, next(order), step))
+
+        def bound_by_edges(k: int) -> None:
+            push(self.clearance(k, edges[0]) + self.clearance(k, edges[1]), partial(look_into, k))
+
+        def look_into(k: int) -> None:
+            for ends in ((i, j), (j, i)):
+                for sweep, cell in self._cells(k).get(ends, ()):
+                    push(self._cell_bound(k, cell), partial(offer, sweep, cell, ends))
+            for chord, ends in self._pinches(k):
+                if ends in ((i, j), (j, i)):
+                    best.offer(chord.length, chord if ends == (i, j) else chord.reversed())
+
+        def offer(sweep: Pencil, cell: Cell, ends: tuple[int, int]) -> None:
+            for chord in self._cell_chords(sweep, cell):
+                best.offer(chord.length, chord if ends == (i, j) else chord.reversed())
+
+        edges = [np.array(self.table.edges_of(one), dtype=np.intp) for one in (i, j)]
         close = np.flatnonzero(bounds <= best.guess)
         # A chord lies in the convex hull of what it joins, and with it the place where a feature holds it.
         margins = sizes[close] + 4 * self.table.roundoff
         between = near_hull(centers[close], _corners(self.table.hulls[[i, j]]), margins)
-        for k in close[between]:
-            owner = self.features[k].owner
-            if owner in (i, j):
-                continue
-            for flip, key in ((False, (i, j)), (True, (j, i))):
-                for sweep, cell in self._cells(int(k)).get(key, ()):
-                    bound = self._cell_bound(int(k), cell)
-                    if bound <= best.guess:
-                        heappush(heap, (bound, next(order), (sweep, cell, flip)))
-            for chord, ends in self._pinches(int(k)):
-                if ends in ((i, j), (j, i)):
-                    best.offer(chord.length, chord if ends == (i, j) else chord.reversed())
+        for k in close[between].tolist():
+            if self.features[k].owner not in (i, j):
+                push(float(bounds[k]), partial(bound_by_edges, k))
         while heap and heap[0][0] <= best.guess:
-            _, _, (sweep, cell, flip) = heappop(heap)
-            for chord in self._cell_chords(sweep, cell):
-                best.offer(chord.length, chord.reversed() if flip else chord)
+            _, _, step = heappop(heap)
+            step()
 
     def _cells(self, k: int) -> dict[tuple[int, int], list[tuple[Pencil, Cell]]]:
         """Cells of feature k by the obstacles behind and ahead."""
@@ -298,12 +319,12 @@ class Links:
         """Lower bound of the chords of a cell: the ways from the feature to the two edges."""
         assert cell.behind is not None
         assert cell.ahead is not None
-        return self.clearance(k, cell.behind) + self.clearance(k, cell.ahead)
+        return sum(self.clearance(k, np.array((e,))) for e in (cell.behind, cell.ahead))
 
-    def clearance(self, k: int, e: int) -> float:
-        """Lower bound of the way along a tangent of a feature from the contact to an edge."""
+    def clearance(self, k: int, edges: Ints) -> float:
+        """Lower bound of the way along a tangent of a feature from its contact to the first of some edges."""
         (x, y), size = self.spots[0][k], self.spots[1][k]
-        gap = self.table.distance_bounds(float(x), float(y), np.array((e,)))[0]
+        gap = self.table.distance_bounds(float(x), float(y), edges).min()
         return _at_least(float(max(gap**2 - size**2 * (1 + 1e-12), 0.0) ** 0.5))
 
     def _cell_chords(self, sweep: Pencil, cell: Cell) -> Iterator[Chord]:

@@ -388,7 +388,10 @@ class _Value:
 
     def compare(self, other: _Value) -> int:
         """-1, 0 or 1 as it is less than another one, equal to it or greater."""
-        return 0 if self._equals(other) else Real(self.number).compare(other.number)
+        one, two = self.number, other.number
+        if isinstance(one, fmpq) and isinstance(two, fmpq):
+            return int(one > two) - int(one < two)
+        return 0 if self._equals(other) else Real(one).compare(two)
 
     def _equals(self, other: _Value) -> bool:
         """Whether they are seen to be equal."""
