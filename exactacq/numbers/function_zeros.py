@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 BITS = 256
 """Working precision of the search, and the least with which a zero is refined."""
 FINENESS = 100
-"""A cell of 2^-100 that shows neither a sign nor a slope holds a double zero, or is taken to. Of what is w < 1
-wide, cells are searched down to 2^-100 w^3."""
+"""A cell of 2^-100 that shows neither a sign nor a slope holds a double zero, or is taken to. In a range of
+width w < 1 cells are searched down to 2^-100 w^3."""
 SHOWN_DIGITS = 30
 """Decimals that stand for a zero where a closed form is asked for."""
 
