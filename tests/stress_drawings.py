@@ -55,7 +55,7 @@ def starts(found: xa.Inspection, random: int = 4) -> Iterator[Start]:
 
 def outcome(scene: xa.Scene, start: Start, radius: Fraction) -> str:
     """What becomes of a run: "passed", "not free", or a fault in one line."""
-    signal.signal(signal.SIGALRM, _stop)
+    before = signal.signal(signal.SIGALRM, _stop)
     signal.alarm(SECONDS)
     try:
         xa.audit(xa.sightseer(scene, radius, start=start), samples=8)
@@ -67,6 +67,7 @@ def outcome(scene: xa.Scene, start: Start, radius: Fraction) -> str:
         return f"{type(error).__name__}: {error}"
     finally:
         signal.alarm(0)
+        signal.signal(signal.SIGALRM, before)
     return "passed"
 
 
