@@ -105,3 +105,13 @@ def test_only_an_obstacle_of_which_more_is_known_is_asked_whether_it_is_whole(
     run = xa.sightseer(random_octagons(30, seed=1), 10)
     assert len(run.memory.acquired) == 30
     assert len(asked) < sum(near) / 2
+
+
+def test_what_is_missing_is_found_before_and_after_what_was_missing_last() -> None:
+    scene = xa.Scene([xa.Polygon([(0, 0), (1, 0), (1, 1), (0, 1)])], start=(-1, -1), radius=5)
+    table = EdgeTable(scene.obstacles)
+    targets = Targets.whole(table, [Rail(curve) for curve in table.curves])
+    everything = dict(targets.whole_covers(0))
+    for missing in (3, 0, 2, 1, 3):
+        assert not targets.is_whole(0, {e: cover for e, cover in everything.items() if e != missing})
+    assert targets.is_whole(0, everything)
