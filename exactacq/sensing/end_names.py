@@ -23,6 +23,7 @@ from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.view_families import End, FreeViews, ViewFamily
+from exactacq.visibility.alignments import Alignment
 from exactacq.visibility.sensor_range import Range
 from exactacq.visibility.visible_boundary import BoundaryView, Hold
 
@@ -70,7 +71,10 @@ class SeenSpans(Mapping[int, "list[Interval]"]):
 
 
 class Seen:
-    """What is seen from a place; *own* are the edges through the place, if known."""
+    """What is seen from a place.
+
+    *own* are the edges through the place, if known, *aligned* rays from it that are known to touch something.
+    """
 
     def __init__(
         self,
@@ -79,9 +83,10 @@ class Seen:
         place: Point,
         range_: Range,
         own: tuple[int, ...] | None,
+        aligned: Collection[Alignment] = (),
     ) -> None:
         self.table, self.place = table, place
-        self._view = BoundaryView(table, place, range_, own)
+        self._view = BoundaryView(table, place, range_, own, aligned)
         self._rails = rails
         self._held: dict[int, dict[Hold, Pin]] = {}
 

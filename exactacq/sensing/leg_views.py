@@ -74,7 +74,7 @@ class Shares:
         targets: Targets,
         leg: Leg,
         obstacles: Collection[int],
-        view: Callable[[Point, tuple[int, ...] | None], Seen],
+        view: Callable[..., Seen],
         known: Mapping[int, Sequence[Span]] | None = None,
         of: dict[int, list[Share]] | None = None,
         ends: dict[int, list[tuple[CutEnd, Interval]]] | None = None,

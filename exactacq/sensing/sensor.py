@@ -27,6 +27,7 @@ from exactacq.sensing.legs import Leg
 from exactacq.sensing.targets import Targets
 from exactacq.sensing.underway import LegNews, Underway
 from exactacq.sensing.visibility_complex import VisibilityComplex
+from exactacq.visibility.alignments import Alignment
 from exactacq.visibility.sensor_range import Range
 
 VIEWS_KEPT = 64
@@ -177,11 +178,13 @@ class Sensor:
         edges = self.table.near((x, y), (right, top), self.range.above)
         return self.targets.near(edges.tolist())
 
-    def _view(self, place: Point, own: tuple[int, ...] | None = None) -> Seen:
+    def _view(
+        self, place: Point, own: tuple[int, ...] | None = None, aligned: Collection[Alignment] = ()
+    ) -> Seen:
         """What is seen from a place on edges *own*, if known; the last are kept, for legs share ends."""
         kept = next((seen for seen in self._views if seen.place is place), None)
         if kept is None:
-            kept = Seen(self.table, self.rails, place, self.range, own)
+            kept = Seen(self.table, self.rails, place, self.range, own, aligned)
             self._views.appendleft(kept)
         return kept
 

@@ -91,6 +91,13 @@ class FreeViews:
     anchor: int | None = None
     in_range: bool = False
 
+    def touched(self, t: Real, numbers: LineNumbers) -> list[int]:
+        """The features that the first or the last line touches, by their numbers; none for a normal."""
+        for bound, passed in zip((self.low, self.high), self.passed, strict=True):
+            if t is bound and self.anchor is not None:
+                return [self.anchor, *(numbers.feature(number, side != 0) for number, side, _ in passed)]
+        return []
+
 
 @dataclass(slots=True)
 class ViewFamily:

@@ -13,7 +13,7 @@ points that are no vertices (tangent points, the point itself). Floats decide wh
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -31,6 +31,7 @@ from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
+from exactacq.visibility.alignments import Alignment, Touched
 from exactacq.visibility.features import is_spike, parallel
 from exactacq.visibility.line_families import BITS, held
 from exactacq.visibility.sensor_range import Range
@@ -77,13 +78,16 @@ class _Touch:
     """Where the left (1) or right (-1) tangent from a point touches a circle; w leads to the centre.
 
     With h^2 the squared length of the tangent and g = h r the direction is h^2 w +- g left(w), which is |w|^2
-    times as long as the way.
+    times as long as the way. Where the tangent is a known *ray*, it gives direction and point.
     """
 
-    __slots__ = ("_vector", "arc", "around", "origin", "side")
+    __slots__ = ("_vector", "arc", "around", "circle", "origin", "ray", "side")
 
-    def __init__(self, origin: Vector, around: Balls, arc: Arc, side: int) -> None:
+    def __init__(
+        self, origin: Vector, around: Balls, arc: Arc, side: int, circle: int, ray: Alignment | None
+    ) -> None:
         self.origin, self.around, self.arc, self.side = origin, around, arc, side
+        self.circle, self.ray = circle, ray
         self._vector: Vector | None = None
 
     @property
@@ -92,6 +96,8 @@ class _Touch:
 
     def vector(self) -> Vector:
         """The exact direction."""
+        if self.ray is not None:
+            return self.ray.direction
         if self._vector is None:
             w, radius_sq = self._w, self.arc.radius_sq
             excess = dot(w, w) - radius_sq
@@ -108,6 +114,8 @@ class _Touch:
         return late_point((x + u / square, y + v / square), self._point), (u, v)
 
     def _point(self) -> Point:
+        if self.ray is not None:
+            return self.ray.touch(self.circle, self.arc.center)
         w = self._w
         return advance(self.origin, self.vector(), 1 / dot(w, w))
 
@@ -133,11 +141,20 @@ class FrontFaces:
     ``edges``, ``ends_low`` and ``ends_high``: edge number and events of each face; it covers the directions
     counterclockwise from low to high, and runs from high to low. ``own`` are the edges through the point, at
     a vertex the incoming one first, found if not given; ``on_ray`` the other straight edges that the point
-    sees edge-on; ``floats`` are the faces as the sweep takes them.
+    sees edge-on; ``floats`` are the faces as the sweep takes them. *aligned* are rays from the point that are
+    known to touch something.
     """
 
-    def __init__(self, table: EdgeTable, point: Point, range_: Range, own: tuple[int, ...] | None) -> None:
+    def __init__(
+        self,
+        table: EdgeTable,
+        point: Point,
+        range_: Range,
+        own: tuple[int, ...] | None,
+        aligned: Collection[Alignment] = (),
+    ) -> None:
         self.table, self.point, self.range = table, point, range_
+        self._rays = {touched: ray for ray in aligned for touched in ray.touched}
         self.origin, self.around = raw(point), balls(point)
         self.marks: list[SweepEnd] = []
         self.on_ray: list[int] = []
@@ -199,10 +216,12 @@ class FrontFaces:
         known = self._offsets.get(event)
         if known is None:
             vertices = self.table.vertices
-            if event < len(vertices):
-                known = minus(vertices[event], self.origin)
-            else:
+            if event >= len(vertices):
                 known = self.marks[event - len(vertices)].vector()
+            elif (ray := self._rays.get((event, 0))) is not None:
+                known = ray.direction
+            else:
+                known = minus(vertices[event], self.origin)
             self._offsets[event] = known
         return known
 
@@ -217,6 +236,21 @@ class FrontFaces:
             return (x - self.around[0], y - self.around[1]), partial(minus, vertices[event], self.origin)
         mark = self.marks[event - len(vertices)]
         return mark.around, mark.vector
+
+    def ray(self, events: Iterable[int]) -> Alignment | None:
+        """The known ray that touches one of some events, or None."""
+        if not self._rays:
+            return None
+        found = (self._rays.get(self._touched(event)) for event in events)
+        return next((ray for ray in found if ray is not None), None)
+
+    def _touched(self, event: int) -> Touched:
+        """What a ray to an event touches."""
+        count = len(self.table.vertices)
+        if event < count:
+            return event, 0
+        mark = self.marks[event - count]
+        return self.table.line_numbers.feature(mark.edge, True), mark.side
 
     def place(self, event: int) -> Point:
         """The point where an event lies."""
@@ -304,7 +338,8 @@ class FrontFaces:
         """The event of the left (1) or right (-1) tangent from the point to the circle of an arc."""
         arc = self.table.curves[e]
         assert isinstance(arc, Arc)
-        touch = _Touch(self.origin, self.around, arc, side)
+        circle = self.table.line_numbers.feature(e, True)
+        touch = _Touch(self.origin, self.around, arc, side, circle, self._rays.get((circle, -side)))
         return self._mark(SweepEnd(touch.found, touch.vector, e, -side), self.floats.tangent(e, side))
 
     # -- the point's own edges ---------------------------------------------------------------------

@@ -8,7 +8,7 @@ the first face of every cell (`exactacq.kernel.radial_sweep`); what they leave o
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from functools import partial
 from itertools import groupby
 from operator import itemgetter
@@ -26,6 +26,7 @@ from exactacq.kernel.view_parts import ViewParts
 from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
+from exactacq.visibility.alignments import Alignment
 from exactacq.visibility.chords import meet
 from exactacq.visibility.features import enters, leaving
 from exactacq.visibility.front_faces import NOWHERE, FrontFaces
@@ -45,13 +46,21 @@ The face may be NOTHING or BLOCKED. All around if the ranks are equal; without e
 class RadialSweep:
     """The sights of a free point, counterclockwise, and the exact points where they begin and end.
 
-    *own* are the edges through the point, None if they are not known (see `FrontFaces`). Faces beyond the
-    range are left out, and what lies beyond it may be reported wrongly or as NOTHING.
+    *own* are the edges through the point, None if they are not known, and *aligned* rays from it that are
+    known to touch something (see `FrontFaces`). Faces beyond the range are left out, and what lies beyond it
+    may be reported wrongly or as NOTHING.
     """
 
-    def __init__(self, table: EdgeTable, point: Point, range_: Range, own: tuple[int, ...] | None) -> None:
+    def __init__(
+        self,
+        table: EdgeTable,
+        point: Point,
+        range_: Range,
+        own: tuple[int, ...] | None,
+        aligned: Collection[Alignment] = (),
+    ) -> None:
         self.table = table
-        self.faces = faces = FrontFaces(table, point, range_, own)
+        self.faces = faces = FrontFaces(table, point, range_, own, aligned)
         self.edges, self.ends_low, self.ends_high = faces.edges, faces.ends_low, faces.ends_high
         """The edge of every face, and the events that end it."""
         count = len(table.vertices)
@@ -116,6 +125,8 @@ class RadialSweep:
         group = self.events(rank)
         if len(group) == 1:
             return self.faces.offset(group[0])
+        if (ray := self.faces.ray(group)) is not None:
+            return ray.direction
         vectors = [self.faces.offset(event) for event in group]
         return next((v for v in vectors if isinstance(v[0], fmpq) and isinstance(v[1], fmpq)), vectors[0])
 
@@ -196,18 +207,21 @@ class RadialSweep:
         event = (self.ends_low if is_low else self.ends_high)[face]
         return self.table.curves[self.edges[face]].start if event == NOWHERE else self.faces.place(event)
 
-    def hit(self, face: int, vector: Vector) -> Point:
-        """The point of a face in a direction that it covers."""
-        e = self.edges[face]
-        return _hit(self.table.curves[e], self.faces.point, e in self.faces.own, vector)
+    def hit(self, face: int, rank: int) -> Point:
+        """The point of a face in the direction of a rank that it covers."""
+        faces, e = self.faces, self.edges[face]
+        curve = self.table.curves[e]
+        if (ray := faces.ray(self.events(rank))) is not None:
+            return _hit(curve, ray.contact, False, ray.direction)
+        return _hit(curve, faces.point, e in faces.own, self.direction(rank))
 
     def late_hit(self, face: int, rank: int) -> Point:
         """The point of a face in the direction of a rank that it covers, made when it is looked into."""
         faces, e = self.faces, self.edges[face]
         curve, own = self.table.curves[e], e in faces.own
         group = self.events(rank)
-        if len(group) > 1:
-            return self.hit(face, self.direction(rank))
+        if len(group) > 1 or faces.ray(group) is not None:
+            return self.hit(face, rank)
         vector, make = faces.late_offset(group[0])
         around = _ball_hit(curve, faces.around, own, vector)
         return late_point(around, partial(_made_hit, curve, faces.point, own, make))

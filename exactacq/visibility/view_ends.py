@@ -41,7 +41,7 @@ class ViewEnds:
         else:
             kind, face, rank = parts.made[end - parts.base]
             if kind == HIT:
-                point = sweep.hit(face, sweep.direction(rank)) if read else sweep.late_hit(face, rank)
+                point = sweep.hit(face, rank) if read else sweep.late_hit(face, rank)
             else:
                 assert kind == CROSSING, "points that were given are known"
                 line = sweep.table.curves[sweep.edges[face]]

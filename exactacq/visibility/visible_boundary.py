@@ -8,6 +8,7 @@ through the point itself, and corners touched on the way.
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from functools import cached_property, cmp_to_key
 from math import inf
@@ -18,6 +19,7 @@ from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.points import Point
 from exactacq.kernel.view_parts import Part, ViewParts
 from exactacq.scene.edge_table import CONCAVE, EdgeTable
+from exactacq.visibility.alignments import Alignment
 from exactacq.visibility.features import enters
 from exactacq.visibility.radial_sweep import BLOCKED, NOTHING, RadialSweep
 from exactacq.visibility.range_clip import Disc, Span, of_circle, within
@@ -64,10 +66,15 @@ class BoundaryView:
     """The sweep of a point, cut off at a rational radius."""
 
     def __init__(
-        self, table: EdgeTable, point: Point, range_: Range, own: tuple[int, ...] | None = None
+        self,
+        table: EdgeTable,
+        point: Point,
+        range_: Range,
+        own: tuple[int, ...] | None = None,
+        aligned: Collection[Alignment] = (),
     ) -> None:
         self.table, self.point, self.range = table, point, range_
-        self.sweep = RadialSweep(table, point, range_, own)
+        self.sweep = RadialSweep(table, point, range_, own, aligned)
         self.own = self.sweep.faces.own
         self.origin = self.sweep.faces.origin
         self._at_range: dict[int, Point] = {}
@@ -233,7 +240,7 @@ class BoundaryView:
         if ray.blocker is not None:
             return self.sweep.faces.place(ray.blocker)
         if ray.face is not None:
-            return self.sweep.hit(ray.face, self.sweep.direction(ray.rank))
+            return self.sweep.hit(ray.face, ray.rank)
         return self.at_range(ray.rank)
 
     def _is_beyond(self, ray: SingleRay) -> bool:
@@ -273,7 +280,7 @@ class BoundaryView:
                 break
         face = None
         if blocker is None and struck != NOTHING:
-            place = None if inside else sweep.hit(struck, sweep.direction(rank))
+            place = None if inside else sweep.hit(struck, rank)
             if inside > 0 or (place is not None and self.disc.excess(place) <= 0):
                 face = struck
         along = tuple(e for e in (*sweep.faces.on_ray, *self.own) if self._runs_along(e, rank, met, blocker))

@@ -1,0 +1,85 @@
+"""Rays from a place that are known to touch something, since the place lies on a line that does.
+
+Where something comes into sight or goes out of it, the robot often stands on a line through two features. Its
+place may be a number from which arithmetic cannot tell that both are in one direction. How the place was
+found tells, and the line has simpler numbers than the way from the place to what it touches.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TypeAlias
+
+from exactacq.geometry.coordinates import Vector, cross, dot, raw
+from exactacq.geometry.curves import Arc
+from exactacq.geometry.late import BITS, Balls, balls, from_to
+from exactacq.geometry.points import Point
+from exactacq.numbers.rationals import ball_sign
+from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.visibility.line_balls import line
+from exactacq.visibility.line_families import Sector
+
+Touched: TypeAlias = "tuple[int, int]"
+"""The number of a feature (see `exactacq.kernel.line_keys`), and 1 or -1 if it is a circle to the left or to
+the right of the ray that touches it, 0 if it is a corner."""
+
+
+@dataclass(frozen=True, eq=False)
+class Alignment:
+    """A ray from a place along the line of a sector at *t*, in its direction or (*sense* -1) against it.
+
+    ``anchor`` is the number of the feature whose tangents the sector's lines are.
+    """
+
+    sector: Sector
+    t: Real
+    sense: int
+    anchor: int
+    touched: frozenset[Touched]
+
+    @cached_property
+    def _line(self) -> tuple[Point, Point]:
+        return self.sector.touch(self.t)
+
+    @property
+    def contact(self) -> Point:
+        """A point of the line, on the ray or behind the place."""
+        return self._line[0]
+
+    @cached_property
+    def direction(self) -> Vector:
+        """The ray's direction."""
+        return raw(self._line[1] * self.sense)
+
+    def touch(self, circle: int, center: Point) -> Point:
+        """Where the ray touches a circle, given as a feature, about a centre."""
+        if circle == self.anchor:
+            return self.contact
+        along = self._line[1]
+        return self.contact + along * ((center - self.contact).dot(along) / along.norm_sq())
+
+
+def alignments(
+    table: EdgeTable, place: Balls, sector: Sector, t: Real, features: Sequence[int]
+) -> Iterator[Alignment]:
+    """The two rays from a place on the line of a sector at *t*, which touches *features*, its own the first.
+
+    What is too near to the place for balls to tell on which ray it lies is left out.
+    """
+    *_, u, v = line(sector, t.ball(BITS))
+    rays: dict[int, set[Touched]] = {1: set(), -1: set()}
+    for feature in features:
+        is_round = table.line_numbers.is_circle(feature)
+        curve = table.curves[table.line_numbers.first_arc(feature) if is_round else feature]
+        # The line touches a circle in the foot of its centre, so that both lie on one ray.
+        way = from_to(place, balls(curve.center if is_round and isinstance(curve, Arc) else curve.start))
+        ahead = ball_sign(dot(way, (u, v)))
+        side = ball_sign(cross((u, v), way)) * ahead if is_round else 0
+        if ahead and bool(side) == is_round:
+            rays[ahead].add((feature, side))
+    for sense, touched in rays.items():
+        if touched:
+            yield Alignment(sector, t, sense, features[0], frozenset(touched))
