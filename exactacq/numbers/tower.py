@@ -35,6 +35,9 @@ MOST_TERMS = 1 << 18
 """Products of terms after which a test gives up: a few seconds of work at most."""
 WORDS = 512
 """Machine words of a factor that take as long as one product of short terms."""
+INVERSE = 3500
+"""An inverse in the first field costs its degree squared times its words to the power 1.5, over this: so one
+that takes more than ten seconds is not begun."""
 BITS = 256
 
 
@@ -69,7 +72,7 @@ class Tower:
         self.squares: list[Element] = []
         self.radicals: list[Atom] = []
         self.known: dict[Atom, Element] = {1: {0: self.field.constant(1)}}
-        self.work = 0
+        self.work = 0.0
 
     def element(self, value: Form) -> Element:
         """The element that a real is."""
@@ -109,10 +112,8 @@ class Tower:
 
     def times(self, a: Element, b: Element) -> Element:
         """The product, with squares of radicals replaced."""
-        self.work += len(a) * len(b) * self.field.degree**2
-        self.work += (len(b) * self._words(a) + len(a) * self._words(b)) // WORDS
-        if self.work > self.most_terms:
-            raise _TooLong
+        self._spend(len(a) * len(b) * self.field.degree**2)
+        self._spend((len(b) * self._words(a) + len(a) * self._words(b)) // WORDS)
         plain: dict[int, Element] = {}
         for m, p in a.items():
             for n, q in b.items():
@@ -127,6 +128,12 @@ class Tower:
             result = _sum(result, part)
         return result
 
+    def _spend(self, work: float) -> None:
+        """Count some work, and give up where it is too much."""
+        self.work += work
+        if self.work > self.most_terms:
+            raise _TooLong
+
     def _words(self, a: Element) -> int:
         """Machine words of all coefficients."""
         words: int = sum(map(self.field.size, a.values())) >> 6
@@ -135,6 +142,7 @@ class Tower:
     def inverse(self, a: Element) -> Element:
         """1 over an element that is not 0: (A - B t) / (A^2 - B^2 t^2) for A + B t."""
         if set(a) == {0}:
+            self._spend(self.field.degree**2 * self._words(a) ** 1.5 / INVERSE)
             return {0: self.field.inverse(a[0])}
         last = max(a).bit_length() - 1
         conjugate = {m: -c if m >> last & 1 else c for m, c in a.items()}
