@@ -23,9 +23,9 @@ from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.view_families import End, FreeViews, ViewFamily
-from exactacq.visibility.alignments import Alignment
+from exactacq.visibility.place_facts import NOTHING_KNOWN, Hold, PlaceFacts
 from exactacq.visibility.sensor_range import Range
-from exactacq.visibility.visible_boundary import BoundaryView, Hold
+from exactacq.visibility.visible_boundary import BoundaryView
 
 RANGE = -1
 """In place of a feature's number."""
@@ -73,7 +73,7 @@ class SeenSpans(Mapping[int, "list[Interval]"]):
 class Seen:
     """What is seen from a place.
 
-    *own* are the edges through the place, if known, *aligned* rays from it that are known to touch something.
+    *own* are the edges through the place, if known, and *facts* what else is known of it.
     """
 
     def __init__(
@@ -83,10 +83,10 @@ class Seen:
         place: Point,
         range_: Range,
         own: tuple[int, ...] | None,
-        aligned: Collection[Alignment] = (),
+        facts: PlaceFacts = NOTHING_KNOWN,
     ) -> None:
         self.table, self.place = table, place
-        self._view = BoundaryView(table, place, range_, own, aligned)
+        self._view = BoundaryView(table, place, range_, own, facts)
         self._rails = rails
         self._held: dict[int, dict[Hold, Pin]] = {}
 
@@ -133,11 +133,6 @@ class Seen:
                 return End(end.t, (p, q), (u, v), end.tight)
         return end
 
-    def tell(self, end: End, family: ViewFamily, side: int) -> None:
-        """Take from a family that its view from this place is as long as the range, while nothing is made."""
-        e, point = family.edges[1 - side], end.points[1 - side]
-        self._view.at_rim.update(self._holds(e, point, False, family.free_views))
-
     def held(self, e: int) -> dict[Hold, Pin]:
         """The ends of what is seen of an edge, by what holds them."""
         if e not in self._held:
@@ -160,31 +155,39 @@ class Seen:
     def _holds(self, e: int, point: Point, tight: bool, free_views: FreeViews | None) -> Iterator[Hold]:
         if tight:
             yield e, RANGE, self._onward(e, point)
-        if free_views is None or free_views.anchor is None:
-            return
-        numbers, feature = self.table.line_numbers, free_views.anchor
-        if numbers.is_circle(feature):
-            yield e, feature, self._turn(numbers.first_arc(feature), point)
-        elif not any(one.fixed for one in free_views.sides):
-            # Only past the corner: from there the lines of the family show different points.
-            yield e, feature, 0
+        if free_views is not None:
+            yield from holds(self.table, self.place, e, point, free_views)
 
     def _onward(self, e: int, point: Point) -> int:
         """1 or -1 as a point of an edge lies to one side or the other from here; 0 if balls do not tell."""
         curve = self.table.curves[e]
         if isinstance(curve, Arc):
-            return self._turn(e, point)
+            return _turn(self.place, curve, point)
         (x, y), (a, b), (u, v) = balls(point), balls(self.place), balls(curve.direction)
         clear = ball_sign((x - a) * u + (y - b) * v)
         return clear or (point - self.place).dot(curve.direction).clear_sign(BITS)
 
-    def _turn(self, arc: int, point: Point) -> int:
-        """1 or -1 as an arc's centre is to the left or right of the line from here to a point; as above."""
-        curve = self.table.curves[arc]
-        assert isinstance(curve, Arc)
-        (x, y), (a, b), (u, v) = balls(point), balls(self.place), balls(curve.center)
-        clear = ball_sign((x - a) * (v - b) - (y - b) * (u - a))
-        return clear or (point - self.place).cross(curve.center - self.place).clear_sign(BITS)
+
+def holds(table: EdgeTable, place: Point, e: int, point: Point, free_views: FreeViews) -> Iterator[Hold]:
+    """What holds a point of an edge that a family sees from a place along one of its lines."""
+    numbers, feature = table.line_numbers, free_views.anchor
+    if feature is None:
+        return
+    if numbers.is_circle(feature):
+        arc = table.curves[numbers.first_arc(feature)]
+        assert isinstance(arc, Arc)
+        yield e, feature, _turn(place, arc, point)
+    elif not any(one.fixed for one in free_views.sides):
+        # Only past the corner: from there the lines of the family show different points.
+        yield e, feature, 0
+
+
+def _turn(place: Point, arc: Arc, point: Point) -> int:
+    """1 or -1 as an arc's centre is to the left or right of the line from a place to a point; 0 if balls do
+    not tell."""
+    (x, y), (a, b), (u, v) = balls(point), balls(place), balls(arc.center)
+    clear = ball_sign((x - a) * (v - b) - (y - b) * (u - a))
+    return clear or (point - place).cross(arc.center - place).clear_sign(BITS)
 
 
 def _is_in(bracket: Span, spans: Iterable[Span]) -> bool:

@@ -27,7 +27,7 @@ from exactacq.sensing.legs import Leg
 from exactacq.sensing.targets import Targets
 from exactacq.sensing.underway import LegNews, Underway
 from exactacq.sensing.visibility_complex import VisibilityComplex
-from exactacq.visibility.alignments import Alignment
+from exactacq.visibility.place_facts import NOTHING_KNOWN, PlaceFacts
 from exactacq.visibility.sensor_range import Range
 
 VIEWS_KEPT = 64
@@ -179,12 +179,12 @@ class Sensor:
         return self.targets.near(edges.tolist())
 
     def _view(
-        self, place: Point, own: tuple[int, ...] | None = None, aligned: Collection[Alignment] = ()
+        self, place: Point, own: tuple[int, ...] | None = None, facts: PlaceFacts = NOTHING_KNOWN
     ) -> Seen:
         """What is seen from a place on edges *own*, if known; the last are kept, for legs share ends."""
         kept = next((seen for seen in self._views if seen.place is place), None)
         if kept is None:
-            kept = Seen(self.table, self.rails, place, self.range, own, aligned)
+            kept = Seen(self.table, self.rails, place, self.range, own, facts)
             self._views.appendleft(kept)
         return kept
 

@@ -9,16 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
 from functools import cached_property
-from itertools import chain
 
 from exactacq.geometry.interval_union import Cover
-from exactacq.geometry.late import balls
 from exactacq.geometry.points import Point
 from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real
+from exactacq.sensing.leg_facts import LegFacts
 from exactacq.sensing.leg_views import Covers, Share, Shares
-from exactacq.sensing.view_families import End, FreeViews
-from exactacq.visibility.alignments import Alignment, alignments
+from exactacq.visibility.place_facts import NOTHING_KNOWN, PlaceFacts
 
 
 class LegNews:
@@ -26,6 +24,7 @@ class LegNews:
 
     def __init__(self, shares: Shares, covers: Covers) -> None:
         self.shares, self.covers = shares, covers
+        self.facts = LegFacts(shares)
         self._on: dict[int, EdgeNews] = {}
 
     def upto(self, u: Real, place: Point, acquired: Collection[int] = ()) -> Underway:
@@ -53,46 +52,6 @@ class LegNews:
             )
             self._on[edge] = EdgeNews(edge, some, self.covers)
         return self._on[edge]
-
-    def as_long_as_range(self, u: Real) -> list[tuple[End, Share]]:
-        """The views from a place of the leg known to be as long as the range, as ends of families."""
-        return [
-            (end, share)
-            for end, share in self._longest
-            if (v := end.places[share.side]) is u or v.compare(u) == 0
-        ]
-
-    def aligned(self, u: Real, place: Point) -> list[Alignment]:
-        """The rays from a place of the leg that touch something, as known from views that end there.
-
-        Only numbers of one form count as equal: to prove more may take longer than it saves.
-        """
-        shares, around = self.shares, balls(place)
-        table, found = shares.complex.table, list[Alignment]()
-        for end, views, v in self._extremes:
-            if v is u or (v.overlaps(u) and v.key == u.key):
-                features = views.touched(end.t, table.line_numbers)
-                found += alignments(table, around, views.sector, end.t, features)
-        return found
-
-    @cached_property
-    def _extremes(self) -> list[tuple[End, FreeViews, Real]]:
-        """The extreme views that are not as long as the range, where the leg meets them."""
-        shares = chain.from_iterable(self.shares.of.values())
-        return [
-            (end, views, end.places[share.side])
-            for share in shares
-            if (views := share.family.free_views) is not None
-            for end in (share.family.first, share.family.last)
-            if not end.tight
-        ]
-
-    @cached_property
-    def _longest(self) -> list[tuple[End, Share]]:
-        shares = chain.from_iterable(self.shares.of.values())
-        return [
-            (end, share) for share in shares for end in (share.family.first, share.family.last) if end.tight
-        ]
 
     @cached_property
     def _by_edge(self) -> dict[int, list[tuple[int, Share]]]:
@@ -166,18 +125,14 @@ class Underway(Mapping[int, Cover]):
         return self._found[edge]
 
     def _tell_view(self) -> None:
-        """Tell the view from the place what its numbers may not: rays that touch several things, and ends
-        that are as far away as the range."""
-        shares, (aligned, at_range) = self._news.shares, self._known
-        if aligned or at_range:
-            view = shares.view(self._place, shares.leg.own(self._u), aligned)
-            for end, share in at_range:
-                view.tell(end, share.family, share.side)
+        """Tell the view from the place what is known of it, as it is made: its numbers may not."""
+        shares, facts = self._news.shares, self._facts
+        if facts is not NOTHING_KNOWN:
+            shares.view(self._place, shares.leg.own(self._u), facts)
 
     @cached_property
-    def _known(self) -> tuple[list[Alignment], list[tuple[End, Share]]]:
-        news, u = self._news, self._u
-        return news.aligned(u, self._place), news.as_long_as_range(u)
+    def _facts(self) -> PlaceFacts:
+        return self._news.facts.at(self._u, self._place)
 
     def __getitem__(self, edge: int) -> Cover:
         found = self._cover(edge)

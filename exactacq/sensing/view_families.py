@@ -91,6 +91,11 @@ class FreeViews:
     anchor: int | None = None
     in_range: bool = False
 
+    @property
+    def is_normal(self) -> bool:
+        """Whether the lines are normals of an edge."""
+        return isinstance(self.sector, Sliding | Spokes)
+
     def touched(self, t: Real, numbers: LineNumbers) -> list[int]:
         """The features that the first or the last line touches, by their numbers; none for a normal."""
         for bound, passed in zip((self.low, self.high), self.passed, strict=True):

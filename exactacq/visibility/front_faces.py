@@ -13,7 +13,7 @@ points that are no vertices (tangent points, the point itself). Floats decide wh
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -31,9 +31,9 @@ from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.visibility.alignments import Alignment, Touched
 from exactacq.visibility.features import is_spike, parallel
 from exactacq.visibility.line_families import BITS, held
+from exactacq.visibility.place_facts import NOTHING_KNOWN, Alignment, PlaceFacts, Touched
 from exactacq.visibility.sensor_range import Range
 
 NOWHERE = -1
@@ -141,8 +141,8 @@ class FrontFaces:
     ``edges``, ``ends_low`` and ``ends_high``: edge number and events of each face; it covers the directions
     counterclockwise from low to high, and runs from high to low. ``own`` are the edges through the point, at
     a vertex the incoming one first, found if not given; ``on_ray`` the other straight edges that the point
-    sees edge-on; ``floats`` are the faces as the sweep takes them. *aligned* are rays from the point that are
-    known to touch something.
+    sees edge-on; ``floats`` are the faces as the sweep takes them. *facts* are what is known of the
+    point beforehand.
     """
 
     def __init__(
@@ -151,10 +151,10 @@ class FrontFaces:
         point: Point,
         range_: Range,
         own: tuple[int, ...] | None,
-        aligned: Collection[Alignment] = (),
+        facts: PlaceFacts = NOTHING_KNOWN,
     ) -> None:
-        self.table, self.point, self.range = table, point, range_
-        self._rays = {touched: ray for ray in aligned for touched in ray.touched}
+        self.table, self.point, self.range, self.facts = table, point, range_, facts
+        self._rays = {touched: ray for ray in facts.rays for touched in ray.touched}
         self.origin, self.around = raw(point), balls(point)
         self.marks: list[SweepEnd] = []
         self.on_ray: list[int] = []
@@ -269,7 +269,7 @@ class FrontFaces:
         """The faces (edge, low, high) of an arc that does not pass through the point, in its direction."""
         table, arc = self.table, self.table.curves[e]
         assert isinstance(arc, Arc)
-        if (self.floats.reaches(e) or self._reaches(arc)) < 0:
+        if e not in self.facts.tangent and (self.floats.reaches(e) or self._reaches(arc)) < 0:
             return []
         end = int(table.next[e])
         # If an own edge is another arc of the same circle, the point is on it.

@@ -8,7 +8,7 @@ the first face of every cell (`exactacq.kernel.radial_sweep`); what they leave o
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Iterable
 from functools import partial
 from itertools import groupby
 from operator import itemgetter
@@ -26,10 +26,10 @@ from exactacq.kernel.view_parts import ViewParts
 from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.visibility.alignments import Alignment
 from exactacq.visibility.chords import meet
 from exactacq.visibility.features import enters, leaving
 from exactacq.visibility.front_faces import NOWHERE, FrontFaces
+from exactacq.visibility.place_facts import NOTHING_KNOWN, PlaceFacts
 from exactacq.visibility.sensor_range import Range
 
 NOTHING, BLOCKED = floats.NOTHING, floats.BLOCKED
@@ -46,9 +46,9 @@ The face may be NOTHING or BLOCKED. All around if the ranks are equal; without e
 class RadialSweep:
     """The sights of a free point, counterclockwise, and the exact points where they begin and end.
 
-    *own* are the edges through the point, None if they are not known, and *aligned* rays from it that are
-    known to touch something (see `FrontFaces`). Faces beyond the range are left out, and what lies beyond it
-    may be reported wrongly or as NOTHING.
+    *own* are the edges through the point, None if they are not known, and *facts* what is known of it (see
+    `FrontFaces`). Faces beyond the range are left out, and what lies beyond it may be reported wrongly or as
+    NOTHING.
     """
 
     def __init__(
@@ -57,10 +57,10 @@ class RadialSweep:
         point: Point,
         range_: Range,
         own: tuple[int, ...] | None,
-        aligned: Collection[Alignment] = (),
+        facts: PlaceFacts = NOTHING_KNOWN,
     ) -> None:
         self.table = table
-        self.faces = faces = FrontFaces(table, point, range_, own, aligned)
+        self.faces = faces = FrontFaces(table, point, range_, own, facts)
         self.edges, self.ends_low, self.ends_high = faces.edges, faces.ends_low, faces.ends_high
         """The edge of every face, and the events that end it."""
         count = len(table.vertices)

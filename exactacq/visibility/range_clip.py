@@ -7,6 +7,7 @@ Balls decide what they can, and the roots are late points: made when they are lo
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 from typing import Any, TypeAlias
 
@@ -24,12 +25,15 @@ Span: TypeAlias = "tuple[Point, Point]"
 
 
 class Disc:
-    """The closed disc about a point with a rational squared radius, and balls around these numbers."""
+    """The closed disc about a point with a rational squared radius, and balls around these numbers.
 
-    __slots__ = ("around", "center", "square", "square_ball")
+    The points *on_rim*, told apart as objects, are known to lie on its circle.
+    """
 
-    def __init__(self, point: Point, square: fmpq) -> None:
-        self.center, self.square = raw(point), square
+    __slots__ = ("around", "center", "on_rim", "square", "square_ball")
+
+    def __init__(self, point: Point, square: fmpq, on_rim: Sequence[Point] = ()) -> None:
+        self.center, self.square, self.on_rim = raw(point), square, on_rim
         self.around, self.square_ball = balls(point), arb(square)
 
     def excess(self, point: Point) -> int:
@@ -38,25 +42,33 @@ class Disc:
         x, y = x - cx, y - cy
         if clear := ball_sign(x * x + y * y - self.square_ball):
             return clear
+        if any(point is known for known in self.on_rim):
+            return 0
         offset = minus(raw(point), self.center)
         return sign(dot(offset, offset) - self.square)
 
 
 def within(
-    curve: Curve, start: Point, end: Point, disc: Disc, on_rim: tuple[bool, bool] = (False, False)
+    curve: Curve,
+    start: Point,
+    end: Point,
+    disc: Disc,
+    on_rim: tuple[bool, bool] = (False, False),
+    touch: Point | None = None,
 ) -> list[Span]:
     """The parts of the piece of a curve from *start* to *end* in a disc, in order.
 
     At most two parts, each perhaps a single point. *start* and *end* may be one point of a segment, but on an
-    arc they are distinct. Those that are known to lie *on_rim* are not compared with the radius.
+    arc they are distinct. Those that are known to lie *on_rim* are not compared with the radius. *touch* is
+    where the curve is known to touch the disc's circle, not at its own ends.
     """
     excess = 0 if on_rim[0] else disc.excess(start), 0 if on_rim[1] else disc.excess(end)
     if isinstance(curve, Segment):
-        return _of_segment(curve, (start, end), excess, disc)
+        return _of_segment(curve, (start, end), excess, disc, touch)
     ends, flipped = ((start, end), excess), not curve.ccw
     if flipped:
         ends = (end, start), excess[::-1]
-    parts = _of_arc(curve, *ends, disc)
+    parts = _of_arc(curve, *ends, disc, touch)
     return [(b, a) for a, b in reversed(parts)] if flipped else parts
 
 
@@ -82,13 +94,22 @@ def crossing(line: Segment, disc: Disc, side: int) -> Point:
     return _Secant(line, disc).crossing(side)
 
 
+def _touched(ends: Span, excess: tuple[int, ...], inside: list[Span]) -> list[Span]:
+    """What is within range of a piece of a curve that has one point there: an end, or a point *inside*."""
+    return next(([(end, end)] for end, far in zip(ends, excess, strict=True) if far <= 0), inside)
+
+
 # -- segments --------------------------------------------------------------------------------------
 
 
-def _of_segment(line: Segment, ends: Span, excess: tuple[int, ...], disc: Disc) -> list[Span]:
+def _of_segment(
+    line: Segment, ends: Span, excess: tuple[int, ...], disc: Disc, touch: Point | None
+) -> list[Span]:
     if max(excess) <= 0:
         return [ends]
     chord = _Secant(line, disc)
+    if touch is not None:
+        return _touched(ends, excess, [(touch, touch)] if chord.has_foot_between(*ends) else [])
     if min(excess) > 0:
         if chord.misses(*ends):
             return []
@@ -123,13 +144,18 @@ class _Secant:
         """Whether a piece of the line, both of whose ends are outside the disc, does not meet it."""
         if ball_sign(self.rest) < 0 or self._forward(start) < 0 or self._forward(end) > 0:
             return True
-        if ball_sign(self.rest) > 0 and self._forward(start) > 0 and self._forward(end) < 0:
-            return False
-        along, center = raw(self.line.direction), self.disc.center
-        before, after = (minus(center, raw(p)) for p in (start, end))
-        if sign(dot(before, along)) <= 0 or sign(dot(after, along)) >= 0:
+        if not self.has_foot_between(start, end):
             return True
-        return sign(_foot(self.line, center, self.disc.square)[2]) < 0
+        if ball_sign(self.rest) > 0:
+            return False
+        return sign(_foot(self.line, self.disc.center, self.disc.square)[2]) < 0
+
+    def has_foot_between(self, start: Point, end: Point) -> bool:
+        """Whether the foot of the centre lies between two points of the line."""
+        along, center = raw(self.line.direction), self.disc.center
+        before = self._forward(start) or sign(dot(minus(center, raw(start)), along))
+        after = self._forward(end) or sign(dot(minus(center, raw(end)), along))
+        return before > 0 > after
 
     def _forward(self, point: Point) -> int:
         """1 or -1 as the foot of the centre is clearly ahead of a point of the line or behind it, or 0."""
@@ -207,11 +233,16 @@ class _CircleCut:
         return excess == 0 and sign(cross(self.w, minus(raw(point), raw(self.arc.center)))) in (0, side)
 
 
-def _of_arc(arc: Arc, ends: Span, excess: tuple[int, ...], disc: Disc) -> list[Span]:
+def _of_arc(arc: Arc, ends: Span, excess: tuple[int, ...], disc: Disc, touch: Point | None) -> list[Span]:
     """Of the counterclockwise piece between two points of the circle."""
     first, last = ends
     at = _CircleCut(arc, disc)
     w = at.w
+    if touch is not None:
+        if max(excess) <= 0:
+            # The disc contains the circle.
+            return [ends]
+        return _touched(ends, excess, [(touch, touch)] if _passes(arc, ends, (-w[0], -w[1])) else [])
     if max(excess) <= 0:
         if not (sign(w[0]) or sign(w[1])) or not _passes(arc, ends, w) or at.rest() <= 0:
             return [ends]

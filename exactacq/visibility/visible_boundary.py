@@ -8,7 +8,6 @@ through the point itself, and corners touched on the way.
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from dataclasses import dataclass
 from functools import cached_property, cmp_to_key
 from math import inf
@@ -19,16 +18,14 @@ from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.points import Point
 from exactacq.kernel.view_parts import Part, ViewParts
 from exactacq.scene.edge_table import CONCAVE, EdgeTable
-from exactacq.visibility.alignments import Alignment
 from exactacq.visibility.features import enters
+from exactacq.visibility.place_facts import NOTHING_KNOWN, Hold, PlaceFacts
 from exactacq.visibility.radial_sweep import BLOCKED, NOTHING, RadialSweep
 from exactacq.visibility.range_clip import Disc, Span, of_circle, within
 from exactacq.visibility.sensor_range import Range
 from exactacq.visibility.view_ends import AT_RANGE, ViewEnds
 
 LAST = 1 << 60
-Hold: TypeAlias = "tuple[int, int, int]"
-"""An edge, the number of what the line to its point touches (see `line_keys`) or of the range, and a side."""
 Placed: TypeAlias = "tuple[int, int, Part]"
 """A part with its face and the position on it."""
 
@@ -71,20 +68,19 @@ class BoundaryView:
         point: Point,
         range_: Range,
         own: tuple[int, ...] | None = None,
-        aligned: Collection[Alignment] = (),
+        facts: PlaceFacts = NOTHING_KNOWN,
     ) -> None:
         self.table, self.point, self.range = table, point, range_
-        self.sweep = RadialSweep(table, point, range_, own, aligned)
+        self.sweep = RadialSweep(table, point, range_, own, facts)
         self.own = self.sweep.faces.own
         self.origin = self.sweep.faces.origin
         self._at_range: dict[int, Point] = {}
-        self.at_rim: set[Hold] = set()
-        """What holds the ends of sights that are known, by who asks, to be as far away as the range."""
+        self._facts = facts
 
     @cached_property
     def disc(self) -> Disc:
         """What is within range."""
-        return Disc(self.point, self.range.square)
+        return Disc(self.point, self.range.square, self._facts.corners)
 
     @cached_property
     def parts(self) -> ViewParts:
@@ -212,17 +208,18 @@ class BoundaryView:
 
     def _is_at_rim(self, e: int, rank: int | None) -> bool:
         """Whether the end of a sight, made on the ray of a rank, is known to be as far away as the range."""
-        return rank is not None and bool(self.at_rim) and not self.at_rim.isdisjoint(self._holds(e, rank))
+        holds = self._facts.holds
+        return rank is not None and bool(holds) and any(hold in holds for hold in self._holds(e, rank))
 
     def _clipped(self, e: int, ends: Span, on_rim: tuple[bool, bool]) -> list[Span]:
         """The parts within range of what a sight sees; ends within range stay the same objects."""
-        curve, (start, end) = self.table.curves[e], ends
+        curve, (start, end), touch = self.table.curves[e], ends, self._facts.tangent.get(e)
         if start is end:
             # All of a full circle that passes through the point itself: the ends of other faces are distinct.
             assert isinstance(curve, Arc)
             opposite = curve.center + (curve.center - start)
             return within(curve, start, opposite, self.disc) + within(curve, opposite, end, self.disc)
-        return within(curve, start, end, self.disc, on_rim)
+        return within(curve, start, end, self.disc, on_rim, touch)
 
     # -- single rays -------------------------------------------------------------------------------
 

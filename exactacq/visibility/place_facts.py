@@ -1,14 +1,14 @@
-"""Rays from a place that are known to touch something, since the place lies on a line that does.
+"""What is known of the view from a place because of how the place was found.
 
-Where something comes into sight or goes out of it, the robot often stands on a line through two features. Its
-place may be a number from which arithmetic cannot tell that both are in one direction. How the place was
-found tells, and the line has simpler numbers than the way from the place to what it touches.
+Where something comes into sight or goes out of it, the robot often stands on a line through two features, or
+as far from something as the range. Its place may have numbers from which arithmetic cannot tell that. How it
+was found does, and a line through features has simpler numbers than the way from the place to them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TypeAlias
 
@@ -25,6 +25,8 @@ from exactacq.visibility.line_families import Sector
 Touched: TypeAlias = "tuple[int, int]"
 """The number of a feature (see `exactacq.kernel.line_keys`), and 1 or -1 if it is a circle to the left or to
 the right of the ray that touches it, 0 if it is a corner."""
+Hold: TypeAlias = "tuple[int, int, int]"
+"""An edge, the number of what the line to its point touches (see `line_keys`) or of the range, and a side."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,6 +62,24 @@ class Alignment:
             return self.contact
         along = self._line[1]
         return self.contact + along * ((center - self.contact).dot(along) / along.norm_sq())
+
+
+@dataclass(frozen=True, slots=True)
+class PlaceFacts:
+    """Facts about the view from one place.
+
+    ``rays`` from it touch something. Exactly as far away as the range are the ends of sights that are held by
+    one of ``holds``, and the vertices ``corners``, told apart as objects. ``tangent`` has the edges whose
+    line or circle touches the circle of the range in a point of theirs, with that point.
+    """
+
+    rays: Sequence[Alignment] = ()
+    holds: Collection[Hold] = frozenset()
+    corners: Sequence[Point] = ()
+    tangent: Mapping[int, Point] = field(default_factory=dict)
+
+
+NOTHING_KNOWN = PlaceFacts()
 
 
 def alignments(

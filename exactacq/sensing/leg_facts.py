@@ -1,0 +1,67 @@
+"""What the families of a leg tell of the views from its places, where their numbers may not.
+
+A family ends where its views touch something else, or become as long as the range. From that place this is
+known, however complicated its coordinates are.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from itertools import chain
+
+from exactacq.geometry.late import balls
+from exactacq.geometry.points import Point
+from exactacq.numbers.real import Real
+from exactacq.sensing.end_names import holds
+from exactacq.sensing.leg_views import Share, Shares
+from exactacq.sensing.line_points import Role
+from exactacq.sensing.view_families import End
+from exactacq.visibility.place_facts import NOTHING_KNOWN, Alignment, Hold, PlaceFacts, alignments
+
+
+class LegFacts:
+    """Facts about the places of a leg, by what it shows."""
+
+    def __init__(self, shares: Shares) -> None:
+        self._shares = shares
+
+    def at(self, u: Real, place: Point) -> PlaceFacts:
+        """What is known of a place, with parameter *u*; `NOTHING_KNOWN` if no family ends there."""
+        table, around = self._shares.complex.table, balls(place)
+        rays, held = list[Alignment](), set[Hold]()
+        corners, tangent = list[Point](), dict[int, Point]()
+        for end, share in self._ends:
+            v, views = end.places[share.side], share.family.free_views
+            if views is None or not _is_at(v, u, end.tight):
+                continue
+            if not end.tight:
+                features = views.touched(end.t, table.line_numbers)
+                rays += alignments(table, around, views.sector, end.t, features)
+                continue
+            e, point, curve = share.edge, end.points[1 - share.side], table.curves[share.edge]
+            if point is curve.start or point is curve.end:
+                corners.append(point)
+            elif views.sides[1 - share.side].role is Role.CONTACT and views.is_normal:
+                tangent[e] = point
+            else:
+                held.update(holds(table, place, e, point, views))
+        if not (rays or held or corners or tangent):
+            return NOTHING_KNOWN
+        return PlaceFacts(rays, held, corners, tangent)
+
+    @cached_property
+    def _ends(self) -> list[tuple[End, Share]]:
+        """The extreme views."""
+        shares = chain.from_iterable(self._shares.of.values())
+        return [(end, share) for share in shares for end in (share.family.first, share.family.last)]
+
+
+def _is_at(v: Real, u: Real, tight: bool) -> bool:
+    """Whether two parameters are one.
+
+    Where a family ends by the range that is proved; elsewhere numbers of another form do not count as equal,
+    since the proof may take longer than it saves.
+    """
+    if v is u or not v.overlaps(u):
+        return v is u
+    return v.compare(u) == 0 if tight else v.key == u.key

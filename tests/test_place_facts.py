@@ -1,0 +1,114 @@
+"""What is known of the view from a place because of how the place was found."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+from random import Random
+
+import pytest
+from nightly import NIGHTLY
+from strategies import arc_terrain, degenerate_terrain, random_terrain
+
+import exactacq as xa
+from exactacq import Point, Scene
+from exactacq.geometry.curves import Arc, Curve
+from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.sensing.leg_facts import LegFacts
+from exactacq.strategies.run import Run
+from exactacq.visibility.place_facts import NOTHING_KNOWN, Alignment, PlaceFacts
+from exactacq.visibility.sensor_range import Range
+from exactacq.visibility.visible_boundary import BoundaryView
+
+DATA = Path(__file__).parent / "data"
+
+
+Told = list[tuple[Point, PlaceFacts]]
+
+
+@pytest.fixture
+def told(monkeypatch: pytest.MonkeyPatch) -> Told:
+    """The facts that are told to views, with their places."""
+    found: Told = []
+    plain = LegFacts.at
+
+    def at(self: LegFacts, u: Real, place: Point) -> PlaceFacts:
+        facts = plain(self, u, place)
+        found.append((place, facts))
+        return facts
+
+    monkeypatch.setattr(LegFacts, "at", at)
+    return found
+
+
+def read_maps(run: Run) -> None:
+    """Read what is known of all obstacles at all events."""
+    for chart in map(run.map_at, run.events):
+        for i in range(len(run.scene.obstacles)):
+            chart.known(i)
+
+
+def check_ray(ray: Alignment, table: EdgeTable, place: Point) -> None:
+    direction = Point(*ray.direction)
+    assert (place - ray.contact).cross(direction) == 0
+    for feature, side in ray.touched:
+        if side == 0:
+            way = table.curves[feature].start - place
+        else:
+            arc = table.curves[table.line_numbers.first_arc(feature)]
+            assert isinstance(arc, Arc)
+            touch = ray.touch(feature, arc.center)
+            way, spoke = touch - place, arc.center - touch
+            assert spoke.dot(direction) == 0 and spoke.norm_sq() == arc.radius_sq
+            assert direction.cross(spoke).sign() == side
+        assert way.cross(direction) == 0 and way.dot(direction) > 0
+
+
+def check_tangent(curve: Curve, way: Point, touch: Point) -> None:
+    """A way leads along a normal of a curve to a point of it."""
+    assert curve.passes(touch)
+    if isinstance(curve, Arc):
+        assert way.cross(curve.center - touch) == 0
+    else:
+        assert way.dot(curve.direction) == 0
+
+
+@pytest.mark.parametrize("terrain", [random_terrain, degenerate_terrain, arc_terrain])
+def test_facts_are_true(terrain: object, told: Told) -> None:
+    """Exactly, one by one; and a view that is told of them sees the same as one that is not."""
+    counts: Counter[str] = Counter()
+    for seed in range(16 if NIGHTLY else 12):
+        some = terrain(Random(seed))  # type: ignore[operator]
+        scene = some.scene()
+        run = xa.sightseer(Scene(scene.shapes, some.start, enclosure=scene.enclosure, radius=some.radius))
+        read_maps(run)
+        table, range_ = EdgeTable(run.scene.obstacles), Range(run.radius)
+        for place, facts in told:
+            for ray in facts.rays:
+                check_ray(ray, table, place)
+                counts["one" if len(ray.touched) == 1 else "several"] += 1
+            for corner in facts.corners:
+                assert (corner - place).norm_sq() == range_.square
+            for e, touch in facts.tangent.items():
+                assert (touch - place).norm_sq() == range_.square
+                check_tangent(table.curves[e], touch - place, touch)
+            counts.update(corner=len(facts.corners), tangent=len(facts.tangent), holds=len(facts.holds))
+            if facts is not NOTHING_KNOWN:
+                views = (BoundaryView(table, place, range_, None, some) for some in (facts, NOTHING_KNOWN))
+                some, plain = (view.seen() for view in views)
+                assert some == plain
+        told.clear()
+    assert all(counts[kind] > 2 for kind in ("one", "several", "corner", "tangent", "holds")), counts
+
+
+def test_a_place_whose_numbers_do_not_tell_that_two_arcs_are_in_line() -> None:
+    """Within a straight leg of this drawing an arc comes into sight behind another one.
+
+    The place is a number of degree 640. That both arcs touch one ray from there would take a proof with
+    650 billion bits, but the place was found on the line that touches both.
+    """
+    run = xa.sightseer(xa.inspect(DATA / "issue39.dxf").scene, "48/5", start=("5825/2", 3184))
+    event = run.events[212]
+    assert event.kind == "regain" and event.obstacle == 0
+    assert run.map_at(event).known(0)
