@@ -13,9 +13,9 @@ from strategies import arc_terrain, degenerate_terrain, random_terrain
 import exactacq as xa
 from exactacq import Point, Scene
 from exactacq.geometry.curves import Arc, Curve
-from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.leg_facts import LegFacts
+from exactacq.sensing.leg_views import Shares
 from exactacq.strategies.run import Run
 from exactacq.visibility.place_facts import NOTHING_KNOWN, Alignment, PlaceFacts
 from exactacq.visibility.sensor_range import Range
@@ -24,21 +24,17 @@ from exactacq.visibility.visible_boundary import BoundaryView
 DATA = Path(__file__).parent / "data"
 
 
-Told = list[tuple[Point, PlaceFacts]]
-
-
 @pytest.fixture
-def told(monkeypatch: pytest.MonkeyPatch) -> Told:
-    """The facts that are told to views, with their places."""
-    found: Told = []
-    plain = LegFacts.at
+def legs(monkeypatch: pytest.MonkeyPatch) -> list[LegFacts]:
+    """What legs tell of their places, of those that a map is read within."""
+    found: list[LegFacts] = []
+    plain = LegFacts.__init__
 
-    def at(self: LegFacts, u: Real, place: Point) -> PlaceFacts:
-        facts = plain(self, u, place)
-        found.append((place, facts))
-        return facts
+    def init(self: LegFacts, shares: Shares) -> None:
+        plain(self, shares)
+        found.append(self)
 
-    monkeypatch.setattr(LegFacts, "at", at)
+    monkeypatch.setattr(LegFacts, "__init__", init)
     return found
 
 
@@ -74,32 +70,40 @@ def check_tangent(curve: Curve, way: Point, touch: Point) -> None:
         assert way.dot(curve.direction) == 0
 
 
+def check(facts: PlaceFacts, table: EdgeTable, place: Point, range_: Range) -> None:
+    """All facts are true, and a view that is told of them sees the same as one that is not."""
+    for ray in facts.rays:
+        check_ray(ray, table, place)
+    for corner in facts.corners:
+        assert (corner - place).norm_sq() == range_.square
+    for e, touch in facts.tangent.items():
+        assert (touch - place).norm_sq() == range_.square
+        check_tangent(table.curves[e], touch - place, touch)
+    told, plain = (BoundaryView(table, place, range_, None, some).seen() for some in (facts, NOTHING_KNOWN))
+    assert told == plain
+
+
 @pytest.mark.parametrize("terrain", [random_terrain, degenerate_terrain, arc_terrain])
-def test_facts_are_true(terrain: object, told: Told) -> None:
-    """Exactly, one by one; and a view that is told of them sees the same as one that is not."""
+def test_facts_are_true(terrain: object, legs: list[LegFacts]) -> None:
+    """Exactly, one by one, where families end: at some places of every leg with an event within."""
     counts: Counter[str] = Counter()
-    for seed in range(16 if NIGHTLY else 12):
+    for seed in range(24 if NIGHTLY else 8):
         some = terrain(Random(seed))  # type: ignore[operator]
         scene = some.scene()
         run = xa.sightseer(Scene(scene.shapes, some.start, enclosure=scene.enclosure, radius=some.radius))
         read_maps(run)
-        table, range_ = EdgeTable(run.scene.obstacles), Range(run.radius)
-        for place, facts in told:
-            for ray in facts.rays:
-                check_ray(ray, table, place)
-                counts["one" if len(ray.touched) == 1 else "several"] += 1
-            for corner in facts.corners:
-                assert (corner - place).norm_sq() == range_.square
-            for e, touch in facts.tangent.items():
-                assert (touch - place).norm_sq() == range_.square
-                check_tangent(table.curves[e], touch - place, touch)
-            counts.update(corner=len(facts.corners), tangent=len(facts.tangent), holds=len(facts.holds))
-            if facts is not NOTHING_KNOWN:
-                views = (BoundaryView(table, place, range_, None, some) for some in (facts, NOTHING_KNOWN))
-                some, plain = (view.seen() for view in views)
-                assert some == plain
-        told.clear()
-    assert all(counts[kind] > 2 for kind in ("one", "several", "corner", "tangent", "holds")), counts
+        table, range_, rng = EdgeTable(run.scene.obstacles), Range(run.radius), Random(seed)
+        for leg in legs:
+            ends = rng.sample(leg._ends, len(leg._ends))
+            longest = [pair for pair in ends if pair[0].tight]
+            for end, share in longest[:6] + ends[:2]:
+                place = end.points[share.side]
+                facts = leg.at(end.places[share.side], place)
+                check(facts, table, place, range_)
+                counts.update("alone" if len(ray.touched) == 1 else "aligned" for ray in facts.rays)
+                counts.update(corner=len(facts.corners), tangent=len(facts.tangent), holds=len(facts.holds))
+        legs.clear()
+    assert all(counts[kind] > 2 for kind in ("alone", "aligned", "corner", "tangent", "holds")), counts
 
 
 def test_a_place_whose_numbers_do_not_tell_that_two_arcs_are_in_line() -> None:
