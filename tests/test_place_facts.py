@@ -7,17 +7,19 @@ from pathlib import Path
 from random import Random
 
 import pytest
+from flint import fmpq
 from nightly import NIGHTLY
 from strategies import arc_terrain, degenerate_terrain, random_terrain
 
 import exactacq as xa
 from exactacq import Point, Scene
-from exactacq.geometry.curves import Arc, Curve
+from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.leg_facts import LegFacts
 from exactacq.sensing.leg_views import Shares
 from exactacq.strategies.run import Run
 from exactacq.visibility.place_facts import NOTHING_KNOWN, Alignment, PlaceFacts
+from exactacq.visibility.range_clip import Disc, within
 from exactacq.visibility.sensor_range import Range
 from exactacq.visibility.visible_boundary import BoundaryView
 
@@ -104,6 +106,38 @@ def test_facts_are_true(terrain: object, legs: list[LegFacts]) -> None:
                 counts.update(corner=len(facts.corners), tangent=len(facts.tangent), holds=len(facts.holds))
         legs.clear()
     assert all(counts[kind] for kind in ("alone", "aligned", "corner", "tangent", "holds")), counts
+
+
+def arc(y: int, radius: int, ccw: bool, start: tuple[int, int], end: tuple[int, int]) -> Arc:
+    """An arc about (0, y) between two directions from there, each of a Pythagorean triple with hypotenuse 5."""
+    points = (Point(fmpq(u * radius, 5), y + fmpq(v * radius, 5)) for u, v in (start, end))
+    return Arc(*points, Point(0, y), fmpq(radius) ** 2, ccw=ccw)
+
+
+LEFT, UP, RIGHT, DOWN, NEAR_LEFT, NEAR_RIGHT = (-5, 0), (0, 5), (5, 0), (0, -5), (-3, -4), (3, -4)
+
+
+@pytest.mark.parametrize(
+    "curve",
+    [
+        *(
+            Segment(Point(a, 5), Point(b, 5))
+            for a, b in ((-3, 3), (3, -3), (1, 3), (-3, -1), (0, 3), (-3, 0))
+        ),
+        *(arc(8, 3, True, LEFT, end) for end in (RIGHT, DOWN, NEAR_LEFT, NEAR_RIGHT)),
+        *(arc(8, 3, True, start, RIGHT) for start in (DOWN, NEAR_RIGHT, UP)),
+        arc(8, 3, False, RIGHT, LEFT),
+        arc(-2, 7, False, LEFT, RIGHT),
+        arc(-2, 7, False, UP, RIGHT),
+        arc(-2, 7, False, RIGHT, DOWN),
+        arc(2, 3, True, RIGHT, LEFT),
+    ],
+)
+def test_what_touches_the_range_is_cut_as_if_nobody_had_told(curve: Curve) -> None:
+    """The disc has radius 5, and all curves, or their lines or circles, touch its circle in (0, 5)."""
+    disc, touch = Disc(Point(0, 0), fmpq(25)), Point(0, 5)
+    told, plain = (within(curve, curve.start, curve.end, disc, touch=some) for some in (touch, None))
+    assert told == plain
 
 
 def test_a_place_whose_numbers_do_not_tell_that_two_arcs_are_in_line() -> None:
