@@ -109,7 +109,7 @@ def test_facts_are_true(terrain: object, legs: list[LegFacts]) -> None:
 
 
 def arc(y: int, radius: int, ccw: bool, start: tuple[int, int], end: tuple[int, int]) -> Arc:
-    """An arc about (0, y) between two directions from there, each of a Pythagorean triple with hypotenuse 5."""
+    """An arc about (0, y) between two directions, each with whole numbers and of length 5."""
     points = (Point(fmpq(u * radius, 5), y + fmpq(v * radius, 5)) for u, v in (start, end))
     return Arc(*points, Point(0, y), fmpq(radius) ** 2, ccw=ccw)
 
