@@ -12,12 +12,13 @@ from nightly import NIGHTLY
 from strategies import arc_terrain, degenerate_terrain, random_terrain
 
 import exactacq as xa
-from exactacq import Point, Scene
+from exactacq import Outline, Point, Scene
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.leg_facts import LegFacts
 from exactacq.sensing.leg_views import Shares
 from exactacq.strategies.run import Run
+from exactacq.visibility.front_faces import FrontFaces
 from exactacq.visibility.place_facts import NOTHING_KNOWN, Alignment, PlaceFacts
 from exactacq.visibility.range_clip import Disc, within
 from exactacq.visibility.sensor_range import Range
@@ -64,12 +65,12 @@ def check_ray(ray: Alignment, table: EdgeTable, place: Point) -> None:
 
 
 def check_tangent(curve: Curve, way: Point, touch: Point) -> None:
-    """A way leads along a normal of a curve to a point of it."""
-    assert curve.passes(touch)
+    """A way leads along a normal of a curve to a point of its line or circle."""
     if isinstance(curve, Arc):
-        assert way.cross(curve.center - touch) == 0
+        spoke = curve.center - touch
+        assert spoke.norm_sq() == curve.radius_sq and way.cross(spoke) == 0
     else:
-        assert way.dot(curve.direction) == 0
+        assert curve.passes(touch) and way.dot(curve.direction) == 0
 
 
 def check(facts: PlaceFacts, table: EdgeTable, place: Point, range_: Range) -> None:
@@ -138,6 +139,25 @@ def test_what_touches_the_range_is_cut_as_if_nobody_had_told(curve: Curve) -> No
     disc, touch = Disc(Point(0, 0), fmpq(25)), Point(0, 5)
     told, plain = (within(curve, curve.start, curve.end, disc, touch=some) for some in (touch, None))
     assert told == plain
+
+
+def test_a_circle_in_arcs_is_known_to_touch_the_range_by_each_of_them(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A disc of radius 3 in three arcs, the range's circle touching it in the middle of one of them."""
+    ends = (3, 8), (fmpq(-9, 5), fmpq(52, 5)), (-3, 8)
+    disc = Outline([(x, y, xa.Around((0, 8))) for x, y in ends])
+    table, here, range_ = EdgeTable(Scene([disc]).obstacles), Point(0, 0), Range(fmpq(5))
+    assert len({table.line_numbers.circles[e] for e in range(3)}) == 1
+    plain = BoundaryView(table, here, range_).seen()
+    assert plain == {2: [(Point(0, 5), Point(0, 5))]}
+
+    def asked(self: FrontFaces, arc: Arc) -> int:
+        raise AssertionError
+
+    monkeypatch.setattr(FrontFaces, "_reaches", asked)
+    facts = PlaceFacts(tangent={table.line_numbers.circles[0]: Point(0, 5)})
+    assert BoundaryView(table, here, range_, None, facts).seen() == plain
 
 
 def test_a_place_whose_numbers_do_not_tell_that_two_arcs_are_in_line() -> None:

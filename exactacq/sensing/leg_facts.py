@@ -42,7 +42,7 @@ class LegFacts:
             if point is curve.start or point is curve.end:
                 corners.append(point)
             elif views.sides[1 - share.side].role is Role.CONTACT and views.is_normal:
-                tangent[e] = point
+                tangent[table.line_numbers.circles[e]] = point
             else:
                 held.update(holds(table, place, e, point, views))
         if not (rays or held or corners or tangent):

@@ -269,7 +269,8 @@ class FrontFaces:
         """The faces (edge, low, high) of an arc that does not pass through the point, in its direction."""
         table, arc = self.table, self.table.curves[e]
         assert isinstance(arc, Arc)
-        if e not in self.facts.tangent and (self.floats.reaches(e) or self._reaches(arc)) < 0:
+        is_tangent = table.line_numbers.circles[e] in self.facts.tangent
+        if not is_tangent and (self.floats.reaches(e) or self._reaches(arc)) < 0:
             return []
         end = int(table.next[e])
         # If an own edge is another arc of the same circle, the point is on it.

@@ -69,8 +69,9 @@ class PlaceFacts:
     """Facts about the view from one place.
 
     ``rays`` from it touch something. Exactly as far away as the range are the ends of sights that are held by
-    one of ``holds``, and the vertices ``corners``, told apart as objects. ``tangent`` has the edges whose
-    line or circle touches the circle of the range in a point of theirs, with that point.
+    one of ``holds``, and the vertices ``corners``, told apart as objects. ``tangent`` has the point in
+    which the line of a straight edge, or the circle of some arcs, touches the circle of the range: by the
+    edge, or the first of the arcs.
     """
 
     rays: Sequence[Alignment] = ()

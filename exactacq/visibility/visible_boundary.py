@@ -213,7 +213,8 @@ class BoundaryView:
 
     def _clipped(self, e: int, ends: Span, on_rim: tuple[bool, bool]) -> list[Span]:
         """The parts within range of what a sight sees; ends within range stay the same objects."""
-        curve, (start, end), touch = self.table.curves[e], ends, self._facts.tangent.get(e)
+        curve, (start, end) = self.table.curves[e], ends
+        touch = self._facts.tangent.get(self.table.line_numbers.circles[e])
         if start is end:
             # All of a full circle that passes through the point itself: the ends of other faces are distinct.
             assert isinstance(curve, Arc)
