@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from itertools import chain
 from pathlib import Path
 from random import Random
 
@@ -14,6 +15,7 @@ from strategies import arc_terrain, degenerate_terrain, random_terrain
 import exactacq as xa
 from exactacq import Outline, Point, Scene
 from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.leg_facts import LegFacts
 from exactacq.sensing.leg_views import Shares
@@ -86,6 +88,20 @@ def check(facts: PlaceFacts, table: EdgeTable, place: Point, range_: Range) -> N
     assert told == plain
 
 
+def check_single(shares: Shares, u: Real, place: Point) -> int:
+    """What a family shows from one place inside a leg is one object; how many of these there are."""
+    if u in (shares.leg.first, shares.leg.last):
+        return 0
+    parts = shares.cut(shares.leg.upto(u, place)).of.values()
+    single = [
+        share.shown
+        for share in chain.from_iterable(parts)
+        if share.family.free_views is not None and share.source.low.key == share.source.high.key
+    ]
+    assert all(shown.low is shown.high for shown in single)
+    return len(single)
+
+
 @pytest.mark.parametrize("terrain", [random_terrain, degenerate_terrain, arc_terrain])
 def test_facts_are_true(terrain: object, legs: list[LegFacts]) -> None:
     """Exactly, one by one, where families end: at some places of every leg with an event within."""
@@ -103,10 +119,11 @@ def test_facts_are_true(terrain: object, legs: list[LegFacts]) -> None:
                 place = end.points[share.side]
                 facts = leg.at(end.places[share.side], place)
                 check(facts, table, place, range_)
+                counts["single"] += check_single(leg._shares, end.places[share.side], place)
                 counts.update("alone" if len(ray.touched) == 1 else "aligned" for ray in facts.rays)
                 counts.update(corner=len(facts.corners), tangent=len(facts.tangent), holds=len(facts.holds))
         legs.clear()
-    assert all(counts[kind] for kind in ("alone", "aligned", "corner", "tangent", "holds")), counts
+    assert all(counts[kind] for kind in ("single", "alone", "aligned", "corner", "tangent", "holds")), counts
 
 
 def arc(y: int, radius: int, ccw: bool, start: tuple[int, int], end: tuple[int, int]) -> Arc:

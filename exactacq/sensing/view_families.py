@@ -375,7 +375,7 @@ class FamilyClipper:
             return end
         place, point = (span.low, span.start) if at_low < 0 else (span.high, span.end)
         if place.compare(other.places[side]) == 0:
-            return other
+            return _shared(other, side, point, place)
         if family.free_views is None:
             points = (point, end.points[1]) if side == 0 else (end.points[0], point)
             return _placed(End(end.t, points, end.places), side, place)
