@@ -1,10 +1,11 @@
-"""Explores drawings from many starts, at several ranges: ``python tests/stress_drawings.py [FILE ...]``.
+"""Explores and sweeps drawings in many ways: ``python tests/stress_drawings.py [FILE ...]``.
 
 Without files, all that `tests/data` holds of at most `MOST` edges. Symmetric drawings tie from starts on
 their axes, so most starts lie there: the one that ``exactacq check`` proposes, the middle of the drawing,
 places level with both, and random ones. The ranges are what is proposed, twice that, and a third of the
-drawing. Every run is audited. A line is printed for each run that is undecided, late or wrong, and one with
-the counts; the exit status is 1 if there is any.
+drawing. Drawings without a wall around them are swept too, with and without look ahead, in a rectangle a
+tenth larger than they are on each side. Every run is audited. A line is printed for each run that is
+undecided, late or wrong, and one with the counts; the exit status is 1 if there is any.
 """
 
 from __future__ import annotations
@@ -12,8 +13,9 @@ from __future__ import annotations
 import signal
 import sys
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from fractions import Fraction
+from functools import partial
 from itertools import product
 from pathlib import Path
 from random import Random
@@ -53,12 +55,12 @@ def starts(found: xa.Inspection, random: int = 4) -> Iterator[Start]:
         yield [(some_x, some_y), (some_x, middle_y), (middle_x, some_y)][k % 3]
 
 
-def outcome(scene: xa.Scene, start: Start, radius: Fraction) -> str:
-    """What becomes of a run: "passed", "not free", or a fault in one line."""
+def outcome(run: Callable[[], xa.Run]) -> str:
+    """What becomes of a run and its audit: "passed", "not free", or a fault in one line."""
     before = signal.signal(signal.SIGALRM, _stop)
     signal.alarm(SECONDS)
     try:
-        xa.audit(xa.sightseer(scene, radius, start=start), samples=8)
+        xa.audit(run(), samples=8)
     except xa.InvalidScene:
         return "not free"
     except LateError:
@@ -71,8 +73,9 @@ def outcome(scene: xa.Scene, start: Start, radius: Fraction) -> str:
     return "passed"
 
 
-def tried(path: Path, random: int = 4) -> Iterator[tuple[Start, Fraction, str]]:
-    """All runs on a drawing; none if it is no legal scene, or has too many edges."""
+def tried(path: Path, random: int = 4) -> Iterator[tuple[str, str]]:
+    """All runs on a drawing, by the options that make them; none if it is no legal scene or has too many
+    edges."""
     try:
         found = xa.inspect(path)
     except xa.ExactacqError:
@@ -81,21 +84,30 @@ def tried(path: Path, random: int = 4) -> Iterator[tuple[Start, Fraction, str]]:
         return
     if sum(len(obstacle.edges) for obstacle in found.scene.obstacles) > MOST:
         return
-    (left, bottom), (right, top) = found.extent
-    proposed = Fraction(str(found.radius))
-    third = Fraction(max(1, round(max(right - left, top - bottom) / 3)))
-    for start, radius in product(starts(found, random), (proposed, 2 * proposed, third)):
-        yield start, radius, outcome(found.scene, start, radius)
+    (left, bottom), (right, top) = ((Fraction(c) for c in corner) for corner in found.extent)
+    size, proposed = max(right - left, top - bottom), Fraction(str(found.radius))
+    ranges = proposed, 2 * proposed, Fraction(max(1, round(size / 3)))
+    for (x, y), radius in product(starts(found, random), ranges):
+        run = partial(xa.sightseer, found.scene, radius, start=(x, y))
+        yield f"--start {x},{y} --radius {radius}", outcome(run)
+    if found.scene.enclosure is not None:
+        return
+    margin = Fraction(max(1, round(size * 8 / 10)), 8)
+    room = found.scene.replace(start=None)
+    room = room.replace(terrain=xa.terrain_around(room, margin))
+    for radius, ahead in product(ranges, ("", "no-")):
+        run = partial(xa.seed_spreader, room, radius, lookahead=not ahead)
+        yield f"--terrain bbox:{margin} --radius {radius} --{ahead}lookahead", outcome(run)
 
 
 def main(names: list[str]) -> int:
     paths = [Path(name) for name in names] or [p for p in sorted(DATA.rglob("*")) if p.suffix in SUFFIXES]
     counts: Counter[str] = Counter()
     for path in paths:
-        for (x, y), radius, what in tried(path):
+        for options, what in tried(path):
             counts[what if what in ("passed", "not free") else "faults"] += 1
             if what not in ("passed", "not free"):
-                print(f"{path} --start {x},{y} --radius {radius}: {what}", flush=True)
+                print(f"{path} {options}: {what}", flush=True)
     print(f"{len(paths)} files: {counts['passed']} runs passed, {counts['faults']} did not")
     return int(counts["faults"] > 0)
 
