@@ -8,6 +8,8 @@ only is told by the module `nightly`.
 from __future__ import annotations
 
 import os
+from compileall import compile_dir
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -37,6 +39,14 @@ settings.register_profile(
     suppress_health_check=SLOW_SCENES,
 )
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "everyday"))
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Compile the package once: where nothing compiled may be written, each program that tests start would do
+    it again."""
+    package = find_spec("exactacq")
+    if not hasattr(config, "workerinput") and package is not None and package.origin is not None:
+        compile_dir(Path(package.origin).parent, quiet=1)
 
 
 @pytest.hookimpl(optionalhook=True)

@@ -106,7 +106,7 @@ def check_single(shares: Shares, u: Real, place: Point) -> int:
 def test_facts_are_true(terrain: object, legs: list[LegFacts]) -> None:
     """Exactly, one by one, where families end: at some places of every leg with an event within."""
     counts: Counter[str] = Counter()
-    for seed in range(24 if NIGHTLY else 8):
+    for seed in range(24 if NIGHTLY else 5):
         some = terrain(Random(seed))  # type: ignore[operator]
         scene = some.scene()
         run = xa.sightseer(Scene(scene.shapes, some.start, enclosure=scene.enclosure, radius=some.radius))
