@@ -5,12 +5,14 @@ from __future__ import annotations
 import gc
 import weakref
 from collections.abc import Callable, Iterator
+from itertools import pairwise
 
 import pytest
 from nightly import NIGHTLY
 
 import exactacq as xa
-from exactacq.strategies.gc_pause import MOST, uncollected
+from exactacq.strategies import gc_pause
+from exactacq.strategies.gc_pause import SHARE, uncollected
 
 FEW = 100
 """Objects that belong to others: the libraries below, and the tests themselves."""
@@ -110,17 +112,35 @@ def test_what_others_froze_stays_frozen() -> None:
         gc.unfreeze()
 
 
-def test_cycles_around_many_runs_do_not_pile_up() -> None:
+@pytest.mark.parametrize("took", [0.5, 2.0])
+def test_full_searches_take_a_hundredth_of_the_time(monkeypatch: pytest.MonkeyPatch, took: float) -> None:
+    """Cycles around many runs do not pile up: here a run takes a second, and a search as long as is told."""
+    now, searches = [0.0], []
+
+    def search() -> None:
+        searches.append(now[0])
+        now[0] += took
+
+    monkeypatch.setattr(gc_pause, "_last", gc_pause._FullSearch(0.0))
+    monkeypatch.setattr(gc_pause, "perf_counter", lambda: now[0])
+    monkeypatch.setattr(gc_pause.gc, "collect", search)
+    for _ in range(1000):
+        with uncollected():
+            now[0] += 1
+    gaps = [b - a - took for a, b in pairwise(searches)]
+    assert searches[0] <= SHARE
+    assert gaps and set(gaps) == {SHARE * took}
+
+
+def test_a_full_search_frees_cycles_around_runs(monkeypatch: pytest.MonkeyPatch) -> None:
     class Ring:
         """A user's object that refers to itself."""
 
-    alive = weakref.WeakSet()
-    most = 0
-    for _ in range(2 * MOST):
-        ring = Ring()
-        ring.self = ring
-        alive.add(ring)
-        with uncollected():
-            pass
-        most = max(most, len(alive))
-    assert most <= MOST + 1
+    monkeypatch.setattr(gc_pause, "_last", gc_pause._FullSearch(0.0, 0.0))
+    ring = Ring()
+    ring.self = ring  # type: ignore[attr-defined]
+    alive = weakref.ref(ring)
+    del ring
+    with uncollected():
+        pass
+    assert alive() is None

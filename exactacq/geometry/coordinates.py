@@ -10,6 +10,7 @@ from typing import Any, TypeAlias
 from flint import fmpq
 
 from exactacq.geometry.points import Point
+from exactacq.numbers.rationals import rational_sign
 from exactacq.numbers.real import Real
 
 Vector: TypeAlias = "tuple[Any, Any]"
@@ -24,7 +25,7 @@ def raw(point: Point) -> Vector:
 
 def sign(value: Any) -> int:
     """-1, 0 or 1, exactly."""
-    return value.sign() if isinstance(value, Real) else int(value > 0) - int(value < 0)
+    return value.sign() if isinstance(value, Real) else rational_sign(value)
 
 
 def minus(a: Vector, b: Vector) -> Vector:

@@ -22,15 +22,16 @@ Field: TypeAlias = tuple[tuple[int, ...], int]
 ZERO, ONE = fmpq(0), fmpq(1)
 
 
-def plus(a: Terms, b: Terms, factor: fmpq) -> dict[Atom, fmpq]:
-    """a + factor * b."""
-    terms = dict(a)
-    for atom, c in b.items():
-        total = terms.get(atom, ZERO) + c * factor
-        if total:
+def add_to(terms: dict[Atom, fmpq], other: Terms, factor: fmpq = ONE) -> dict[Atom, fmpq]:
+    """Add factor * other to *terms*, and return these; the factor is not 0."""
+    for atom, c in other.items():
+        before = terms.get(atom)
+        if before is None:
+            terms[atom] = c * factor
+        elif total := before + c * factor:
             terms[atom] = total
         else:
-            terms.pop(atom, None)
+            del terms[atom]
     return terms
 
 
@@ -69,7 +70,7 @@ def denested(terms: Terms) -> dict[Atom, fmpq] | None:
     norm = rational_sqrt(p * p - q * q * d)
     if norm is None or p < 0:
         return None
-    return plus(square_root((p + norm) / 2), square_root((p - norm) / 2), ONE if q > 0 else -ONE)
+    return add_to(square_root((p + norm) / 2), square_root((p - norm) / 2), ONE if q > 0 else -ONE)
 
 
 def merged(surds: Terms) -> dict[Atom, fmpq]:

