@@ -44,15 +44,19 @@ def files() -> dict[str, Path]:
 
 
 @cache
-def nodes(text: str) -> list[ast.AST]:
-    """All that a source says."""
-    return list(ast.walk(ast.parse(text)))
+def statements(text: str) -> list[ast.AST]:
+    """The statements of a source, wherever they stand; expressions have none."""
+    found: list[ast.AST] = [ast.parse(text)]
+    for node in found:
+        inner = ast.iter_child_nodes(node)
+        found += [one for one in inner if isinstance(one, ast.stmt | ast.excepthandler | ast.match_case)]
+    return found
 
 
 def imports(text: str, known: set[str]) -> set[str]:
     """What a file imports of the package, wherever the statement stands: in functions and for types too."""
     found = set()
-    for node in nodes(text):
+    for node in statements(text):
         if isinstance(node, ast.ImportFrom):
             assert node.level == 0, "imports are absolute"
         if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "exactacq":
@@ -122,7 +126,7 @@ TOLD = ("robot", "routes", "moves", "known_map", "options", "seed_spreader/")
 
 def peeks(text: str) -> list[str]:
     """Private names that a file reads and does not define."""
-    found = nodes(text)
+    found = list(ast.walk(ast.parse(text)))
     private = [node for node in found if isinstance(node, ast.Attribute) and re.match("_(?!_)", node.attr)]
     own = {node.name for node in found if isinstance(node, ast.FunctionDef)}
     own |= {node.attr for node in private if isinstance(node.ctx, ast.Store)}
@@ -155,7 +159,7 @@ def test_no_class_name_is_used_twice() -> None:
     """Nor with an underscore: a name has one meaning in the whole package."""
     homes: dict[str, list[str]] = {}
     for name, path in files().items():
-        for node in nodes(path.read_text(encoding="utf-8")):
+        for node in statements(path.read_text(encoding="utf-8")):
             if isinstance(node, ast.ClassDef):
                 homes.setdefault(node.name.lstrip("_"), []).append(name)
     assert {name: where for name, where in homes.items() if len(where) > 1} == {}

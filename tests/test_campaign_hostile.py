@@ -118,6 +118,7 @@ class TestFileSystems:
         (line,) = [line for line in told.read_text().splitlines() if not line.startswith("verify:")]
         return line
 
+    @by_night
     @pytest.mark.skipif(bool(cannot_mount()), reason=f"nothing can be mounted: {cannot_mount()}")
     def test_a_full_one_keeps_what_is_judged(self, half: Path, plain: list[Record]) -> None:
         """Room for the file, its index of 32 KB and what the opening writes; then for all."""

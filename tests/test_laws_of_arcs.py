@@ -28,7 +28,7 @@ from exactacq.study.claims.model import Subject
 from exactacq.study.random_scenes import arc_scene
 
 Q = Fraction
-EXAMPLES = examples(6, 120)
+EXAMPLES = examples(4, 120)
 DIGITS = 25
 
 terrains = st.randoms(use_true_random=False).map(arc_terrain).filter(is_valid)

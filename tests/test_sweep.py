@@ -155,7 +155,7 @@ def test_every_cell_has_the_views_of_isovists(make: object, seed: int) -> None:
 
 
 @pytest.mark.parametrize("make", [random_terrain, degenerate_terrain])
-@pytest.mark.parametrize("seed", some(range(4), 2))
+@pytest.mark.parametrize("seed", some(range(4), 1))
 def test_cells_together_teach_what_the_piece_teaches(make: object, seed: int) -> None:
     for scene, radius, piece in pieces(make(Random(seed)), 8):
         memory = Memory(scene, xa.Scene([], radius=radius).radius)
