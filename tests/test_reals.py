@@ -7,19 +7,22 @@ import gc
 import pickle
 import random
 import time
+from collections.abc import Iterator
 from decimal import Decimal
 from fractions import Fraction
 from functools import reduce
+from math import inf, nextafter
 
 import mpmath
 import pytest
-from flint import fmpq
+from flint import arb, fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from exactacq.errors import FormatError, Undecided
 from exactacq.numbers import sign
-from exactacq.numbers.rationals import rational
+from exactacq.numbers.precision import workprec
+from exactacq.numbers.rationals import rational, round_to_float
 from exactacq.numbers.real import Real, roots
 
 ORACLE_BITS = 4400
@@ -273,6 +276,31 @@ def test_float_at_a_midpoint_goes_to_even() -> None:
     assert float(middle - tiny) == 1.0
     hidden = ((sqrt(2) + sqrt(7)) ** 2 * (sqrt(3) + 1)).sqrt() - (sqrt(2) + sqrt(7)) * (sqrt(3) + 1).sqrt()
     assert hidden.rational is None and float(middle + hidden) == 1.0
+
+
+def gaps(near: float) -> Iterator[tuple[float, Fraction]]:
+    """The neighbours of a float, and half the way there."""
+    for other in (nextafter(near, inf), nextafter(near, -inf)):
+        yield other, (Fraction(other) - Fraction(near)) / 2
+
+
+@pytest.mark.parametrize("near", [1.0, -1.0, 2.0**-300, 2.0**511, 1.5, 0.1, -1e-17, 5e-324, 2.0**-1022, 0.0])
+@pytest.mark.parametrize("bits", [60, 62, 70, 130, 400])
+def test_floats_are_nearest_however_wide_balls_are(near: float, bits: int) -> None:
+    """Close to half the way to a neighbour, from balls that hold the number anywhere within."""
+    for other, half in gaps(near):
+        for side in (-1, 1):
+            value = Fraction(near) + half * (1 + side * Fraction(1, 2**bits))
+            for place in (-1, 0, 1):
+
+                def ball(working: int, value: Fraction = value, place: int = place) -> arb:
+                    radius = abs(value) / 2**working
+                    middle = value + place * radius * Fraction(99, 100)
+                    with workprec(working + 200):
+                        return arb(fmpq(*middle.as_integer_ratio()), arb(fmpq(*radius.as_integer_ratio())))
+
+                found = round_to_float(ball, lambda middle: False)
+                assert found == (near if side < 0 else other)
 
 
 # -- ties ------------------------------------------------------------------------------------------
