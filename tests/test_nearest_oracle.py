@@ -127,7 +127,7 @@ ONE_START = (
 """Arcs that begin in one direction: stretched to one radius, their starts differ by 10^-1002 in digits."""
 
 
-@examples(120)
+@examples(60, 2400)
 @given(pairs())
 @example(ONE_START)
 def test_nearest_points_are_the_oracles(pair: tuple[Drawn, Drawn]) -> None:

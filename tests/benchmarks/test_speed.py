@@ -16,11 +16,11 @@ SEED = 1
 
 def skip_unless_timed(benchmark: object, n: int) -> None:
     """Large workloads are for timing only."""
-    if n > 30 and benchmark.disabled:
+    if n > 10 and benchmark.disabled:
         pytest.skip(f"n = {n} takes too long for the everyday suite: run with --benchmark-enable")
 
 
-@pytest.mark.parametrize("n", [30, 100, 1000])
+@pytest.mark.parametrize("n", [10, 30, 100, 1000])
 def test_visibility_graph(benchmark: object, n: int) -> None:
     skip_unless_timed(benchmark, n)
     scene = random_octagons(n, SEED)
@@ -28,7 +28,7 @@ def test_visibility_graph(benchmark: object, n: int) -> None:
     assert graph.number_of_nodes() == n + 1
 
 
-@pytest.mark.parametrize("n", [30, 100, 1000])
+@pytest.mark.parametrize("n", [10, 30, 100, 1000])
 def test_sightseer(benchmark: object, n: int) -> None:
     skip_unless_timed(benchmark, n)
     scene = random_octagons(n, SEED)
@@ -36,7 +36,7 @@ def test_sightseer(benchmark: object, n: int) -> None:
     assert run.complete
 
 
-@pytest.mark.parametrize("n", [30, 100, 1000])
+@pytest.mark.parametrize("n", [10, 30, 100, 1000])
 def test_length_of_a_run(benchmark: object, n: int) -> None:
     """The sum of all pieces, and its first 50 digits."""
     skip_unless_timed(benchmark, n)
@@ -47,7 +47,7 @@ def test_length_of_a_run(benchmark: object, n: int) -> None:
 
 def test_one_link_with_a_free_closest_pair(benchmark: object) -> None:
     """v of an obstacle and its nearest neighbour, which nothing stands between; another pair each round."""
-    scene = random_octagons(30 if benchmark.disabled else 100, SEED)
+    scene = random_octagons(10 if benchmark.disabled else 100, SEED)
     pairs = iter(nearest_pairs(Links(scene, scene.radius)))
     links = Links(scene, scene.radius)
     links.between(*next(pairs))  # the spatial index is built once a scene

@@ -143,7 +143,7 @@ def test_a_run_gets_no_more_time_than_it_may() -> None:
 
 
 def test_nothing_is_left_of_a_file_that_was_being_opened(tmp_path: Path) -> None:
-    rings = ",".join(f"(({k} 0, {k + 0.5} 0, {k} 1, {k} 0))" for k in range(80_000))
+    rings = ",".join(f"(({k} 0, {k + 0.5} 0, {k} 1, {k} 0))" for k in range(40_000))
     found: list[Path] = []
 
     def send(address: str) -> None:
