@@ -52,8 +52,13 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def pytest_collection_finish() -> None:
-    """Search for garbage again."""
+    """Search for garbage again, but seldom among all objects.
+
+    What tests share stays to the end, and to search it takes seconds. Runs do so from time to time
+    (`strategies.gc_pause`).
+    """
     gc.enable()
+    gc.set_threshold(*gc.get_threshold()[:2], 1000)
 
 
 @pytest.hookimpl(optionalhook=True)

@@ -26,7 +26,6 @@ RUNS: dict[str, Callable[[xa.Scene], xa.Run]] = {
 @pytest.fixture
 def unsearched() -> Iterator[None]:
     """No search meanwhile but by the test, and none of what other tests have left in this process."""
-    gc.collect()
     gc.freeze()
     gc.disable()
     yield
