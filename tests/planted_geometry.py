@@ -13,7 +13,7 @@ from moebius import Bow, Spot, Straight
 from planting import Fault, Law, Planted
 from test_locate_oracle import LOOPS, STILL, Corner, Loop, corners
 
-from exactacq.geometry import boundary_index, coordinates, curves, intersections
+from exactacq.geometry import boundary_index, coordinates, curves, intersections, loops, nearest_points
 
 Place = tuple[int, int]
 
@@ -172,7 +172,7 @@ CONTACT_FAULTS = [
         "a start that two arcs share counts twice",
         CONTACTS,
         (bow((0, 0), (1, 0), (0, 1)), bow((0, 0), (1, 0), (-1, 0))),
-        Fault(intersections, "_common", "if not same_direction(a_start, b_start) and", "if"),
+        Fault(intersections, "common_angles", "if not same_direction(a_start, b_start) and", "if"),
     ),
     Planted(
         "of two arcs of one circle that meet at both ends one piece is found",
@@ -180,7 +180,7 @@ CONTACT_FAULTS = [
         (bow((0, 0), (1, 0), (0, -1)), bow((0, 0), (-1, 0), (0, 1))),
         Fault(
             intersections,
-            "_common",
+            "common_angles",
             "starts.append((b.start, b_start))",
             "starts = starts or [(b.start, b_start)]",
         ),
@@ -189,7 +189,7 @@ CONTACT_FAULTS = [
         "arcs of one circle are compared as if both ran one way",
         CONTACTS,
         (bow((0, 0), (1, 0), (0, 1)), bow((0, 0), (0, 1), (1, 0), ccw=False)),
-        Fault(intersections, "_common", "b = b.reversed()", "pass"),
+        Fault(intersections, "common_angles", "b = b.reversed()", "pass"),
     ),
     Planted(
         "circles about one centre are one",
@@ -228,43 +228,43 @@ LOCATION_FAULTS = [
         "an edge that ends level with the point crosses the ray",
         WINDING,
         asked("leaf", -1, 0),
-        Fault(intersections, "winding", "int(to_height > 0)", "int(to_height >= 0)"),
+        Fault(loops, "winding", "int(to_height > 0)", "int(to_height >= 0)"),
     ),
     Planted(
         "a vertical chord has no side",
         WINDING,
         asked(VERTICAL_CHORD, 0, 2),
-        Fault(intersections, "winding", "sign(chord[0]) or -sign(chord[1])", "sign(chord[0])"),
+        Fault(loops, "winding", "sign(chord[0]) or -sign(chord[1])", "sign(chord[0])"),
     ),
     Planted(
         "a level chord has no side",
         WINDING,
         asked("disc of two halves", 0, 0),
-        Fault(intersections, "winding", "sign(chord[0]) or -sign(chord[1])", "-sign(chord[1])"),
+        Fault(loops, "winding", "sign(chord[0]) or -sign(chord[1])", "-sign(chord[1])"),
     ),
     Planted(
         "what lies between chord and arc is on the other side",
         WINDING,
         asked("disc of two halves", 0, -1),
-        Fault(intersections, "winding", "turns -= side if", "turns += side if"),
+        Fault(loops, "winding", "turns -= side if", "turns += side if"),
     ),
     Planted(
         "a point of an arc is within it",
         WINDING,
         asked("disc of two halves", 0, -2),
-        Fault(intersections, "winding", "if inside == 0:", "if False:"),
+        Fault(loops, "winding", "if inside == 0:", "if False:"),
     ),
     Planted(
         "the ends of a segment do not belong to it",
         WINDING,
         asked("square", 4, 4),
-        Fault(intersections, "_meets_origin", "sign(dot(start, end)) <= 0", "sign(dot(start, end)) < 0"),
+        Fault(loops, "_meets_origin", "sign(dot(start, end)) <= 0", "sign(dot(start, end)) < 0"),
     ),
     Planted(
         "the far side of a room is free",
         LOCATE,
         asked("square", 9, 9),
-        Fault(intersections, "locate", "Location.OUTSIDE if ccw else Location.INSIDE", "Location.OUTSIDE"),
+        Fault(loops, "locate", "Location.OUTSIDE if ccw else Location.INSIDE", "Location.OUTSIDE"),
     ),
     Planted(
         "edges to the west are left out by their boxes, those to the east are not",
@@ -285,55 +285,55 @@ NEAREST_FAULTS = [
         "an end whose curve leaves along the other is no minimum",
         NEAREST,
         (AXIS, bow((0, 2), (0, 1), (1, 2))),
-        Fault(intersections, "_from_end", "sign(dot(rise, into)) >= 0", "sign(dot(rise, into)) > 0"),
+        Fault(nearest_points, "_from_end", "sign(dot(rise, into)) >= 0", "sign(dot(rise, into)) > 0"),
     ),
     Planted(
         "an end whose curve leaves along a circle is no minimum",
         NEAREST,
         (segment((0, 2), (2, 2)), UNIT),
-        Fault(intersections, "_from_end", "sign(dot(ray, into)) < 0", "sign(dot(ray, into)) <= 0"),
+        Fault(nearest_points, "_from_end", "sign(dot(ray, into)) < 0", "sign(dot(ray, into)) <= 0"),
     ),
     Planted(
         "an end above the end of a segment has a foot there",
         NEAREST,
         (segment((0, 0), (2, 0)), segment((2, 1), (3, 2))),
-        Fault(intersections, "_from_end", "sign(square - t) <= 0", "sign(square - t) < 0"),
+        Fault(nearest_points, "_from_end", "sign(square - t) <= 0", "sign(square - t) < 0"),
     ),
     Planted(
         "the smaller circle's far side is taken for the near one",
         NEAREST,
         (UNIT, bow((1, 0), (4, 0))),
-        Fault(intersections, "_inner_pairs", "-1 if apart or a.radius_sq < b.radius_sq", "-1 if apart"),
+        Fault(nearest_points, "_inner_pairs", "-1 if apart or a.radius_sq < b.radius_sq", "-1 if apart"),
     ),
     Planted(
         "circles that cross have a nearest pair",
         NEAREST,
         (UNIT, bow((1, 0), (2, 0))),
-        Fault(intersections, "_inner_pairs", "4 * a.radius_sq * b.radius_sq) < 0", "4 * a.radius_sq) < -99"),
+        Fault(nearest_points, "_inner_pairs", "4 * a.radius_sq * b.radius_sq) < 0", "4 * a.radius_sq) < -99"),
     ),
     Planted(
         "clockwise arcs lead the other way from their ends",
         NEAREST,
         (segment((2, 1), (3, 1)), bow((0, 0), (1, 0), (0, -1), ccw=False)),
-        Fault(intersections, "_ends", "1 if curve.ccw else -1", "1"),
+        Fault(nearest_points, "_ends", "1 if curve.ccw else -1", "1"),
     ),
     Planted(
         "the far side of a circle counts as near a line",
         NEAREST,
         (segment((-2, 3), (2, 3)), UNIT),
-        Fault(intersections, "_segment_to_arc", "- arc.radius_sq) < 0", "- arc.radius_sq) > 0"),
+        Fault(nearest_points, "_segment_to_arc", "- arc.radius_sq) < 0", "- arc.radius_sq) > 0"),
     ),
     Planted(
         "segments that face each other in a point only have a common piece",
         NEAREST,
         (segment((1, 0), (2, 0)), segment((0, 1), (1, 1))),
-        Fault(intersections, "_parallel", "ahead(a.start, last) <= 0", "ahead(a.start, last) < 0"),
+        Fault(nearest_points, "_parallel", "ahead(a.start, last) <= 0", "ahead(a.start, last) < 0"),
     ),
     Planted(
         "a piece of parallel segments begins at the earlier start",
         NEAREST,
         (segment((0, 0), (3, 0)), segment((1, 1), (4, 1))),
-        Fault(intersections, "_parallel", "if side < 0:", "if side > 0:"),
+        Fault(nearest_points, "_parallel", "if side < 0:", "if side > 0:"),
     ),
     Planted(
         "the slope of a steep direction is that of a flat one",
@@ -343,7 +343,7 @@ NEAREST_FAULTS = [
             Straight(root_spot(0, 0, 2, 2, 0), root_spot(0, 0, 2, 3, 3)),
         ),
         Fault(
-            intersections,
+            nearest_points,
             "_heading",
             "(slope * unit, unit) if steep else (unit, slope * unit)",
             "(unit, slope * unit)",
@@ -353,18 +353,18 @@ NEAREST_FAULTS = [
         "a family of arcs runs against its first",
         NEAREST,
         (bow((0, 0), (1, 0), (0, 1)), bow((0, 0), (0, 2), (2, 0), ccw=False)),
-        Fault(intersections, "_concentric", "arc if arc.ccw == a.ccw else arc.reversed()", "arc"),
+        Fault(nearest_points, "_concentric", "arc if arc.ccw == a.ccw else arc.reversed()", "arc"),
     ),
     Planted(
         "arcs about one centre that share one direction have a common piece",
         NEAREST,
         (bow((0, 0), (1, 0), (0, 1)), bow((0, 0), (0, 2), (-2, 0))),
-        Fault(intersections, "_concentric", "if start is end and", "if False and"),
+        Fault(nearest_points, "_concentric", "if start is end and", "if False and"),
     ),
     Planted(
         "an end at a circle's centre has one nearest point",
         NEAREST,
         (segment((0, 0), (3, 0)), bow((0, 0), (0, 1), (-1, 0))),
-        Fault(intersections, "_from_end", "if sign(square) == 0:", "if sign(square) < 0:"),
+        Fault(nearest_points, "_from_end", "if sign(square) == 0:", "if sign(square) < 0:"),
     ),
 ]

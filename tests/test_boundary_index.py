@@ -10,7 +10,8 @@ from flint import fmpq
 import exactacq as xa
 from exactacq import kernel
 from exactacq.geometry.boundary_index import BoundaryIndex
-from exactacq.geometry.intersections import line_contacts, locate
+from exactacq.geometry.intersections import line_contacts
+from exactacq.geometry.loops import locate
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
 

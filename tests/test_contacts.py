@@ -15,18 +15,9 @@ from shapely import Point as ShapelyPoint
 from shapely import Polygon as ShapelyPolygon
 
 from exactacq.geometry.curves import Arc, Curve, Segment
-from exactacq.geometry.intersections import (
-    ContactKind,
-    NearestFamily,
-    NearestFamilyKind,
-    contacts,
-    line_contacts,
-    locate,
-    nearest_points,
-    signed_area,
-    spans,
-    winding,
-)
+from exactacq.geometry.intersections import ContactKind, contacts, line_contacts, spans
+from exactacq.geometry.loops import locate, signed_area, winding
+from exactacq.geometry.nearest_points import NearestFamily, NearestFamilyKind, nearest_points
 from exactacq.geometry.points import Location, Point
 from exactacq.numbers.real import Real, rational
 from exactacq.scene.shapes import Circle, Outline, Polygon, shape_edges

@@ -14,7 +14,7 @@ from nightly import some
 import exactacq as xa
 from exactacq.files.scene_json import scene_to_json
 from exactacq.geometry.curves import Arc, Curve
-from exactacq.geometry.intersections import signed_area
+from exactacq.geometry.loops import signed_area
 from exactacq.geometry.points import Location, Point
 from exactacq.scene.scene import Obstacle, Scene
 from exactacq.scene.shapes import Shape, shape_edges

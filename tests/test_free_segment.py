@@ -11,7 +11,8 @@ from strategies import build, circle_grid, square_grid
 
 import exactacq as xa
 from exactacq.files.octagons import random_octagons
-from exactacq.geometry.intersections import line_contacts, locate
+from exactacq.geometry.intersections import line_contacts
+from exactacq.geometry.loops import locate
 from exactacq.geometry.points import Location, Point
 from exactacq.numbers.real import Real, fmpq
 from exactacq.scene.edge_table import EdgeTable

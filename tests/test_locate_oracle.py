@@ -21,7 +21,7 @@ from nightly import examples
 
 from exactacq import Outline, Scene
 from exactacq.geometry.curves import Arc, Curve, Segment
-from exactacq.geometry.intersections import locate, winding
+from exactacq.geometry.loops import locate, winding
 from exactacq.geometry.points import Location, Point
 from exactacq.scene.scene import Obstacle
 

@@ -22,7 +22,7 @@ from nightly import examples
 from test_contact_oracle import digits, seen
 
 from exactacq.geometry.curves import Arc, Segment
-from exactacq.geometry.intersections import Nearest, NearestFamily, nearest_points
+from exactacq.geometry.nearest_points import Nearest, NearestFamily, nearest_points
 from exactacq.geometry.points import Point
 
 

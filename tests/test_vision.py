@@ -11,7 +11,7 @@ from flint import fmpq
 
 from exactacq import Circle, Outline, Point, Polygon, Scene, visibility_graph
 from exactacq.geometry.curves import Segment
-from exactacq.geometry.intersections import NearestFamily, nearest_points
+from exactacq.geometry.nearest_points import NearestFamily, nearest_points
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable

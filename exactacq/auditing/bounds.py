@@ -14,7 +14,7 @@ from exactacq.auditing.visibility import World
 from exactacq.errors import AuditError
 from exactacq.geometry.box_index import united
 from exactacq.geometry.curves import Segment
-from exactacq.geometry.intersections import nearest_points
+from exactacq.geometry.nearest_points import nearest_points
 from exactacq.numbers.length import Length
 from exactacq.numbers.precision import workprec
 from exactacq.numbers.real import Real

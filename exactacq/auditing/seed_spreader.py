@@ -33,7 +33,8 @@ from exactacq.auditing.rest_of_line import KnownPieces, Rest
 from exactacq.auditing.visibility import Viewpoints, visible
 from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Curve, Segment
-from exactacq.geometry.intersections import contacts, nearest_points
+from exactacq.geometry.intersections import contacts
+from exactacq.geometry.nearest_points import nearest_points
 from exactacq.geometry.points import Point
 from exactacq.numbers.precision import workprec
 from exactacq.numbers.real import Real

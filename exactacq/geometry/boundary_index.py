@@ -43,7 +43,7 @@ class BoundaryIndex:
         """The numbers of the edges that the ray from a point to the east may meet.
 
         All others lie on one side of the ray's line, or west of the point. They add nothing to the number of
-        turns that `geometry.intersections.winding` counts, and do not pass the point.
+        turns that `geometry.loops.winding` counts, and do not pass the point.
         """
         return self._meeting(point, inf)
 

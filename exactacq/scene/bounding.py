@@ -10,7 +10,8 @@ from flint import fmpq
 from exactacq.errors import FormatError, InvalidScene, about
 from exactacq.geometry.box_index import DIRECTIONS
 from exactacq.geometry.curves import Arc, Curve
-from exactacq.geometry.intersections import signed_area, spans
+from exactacq.geometry.intersections import spans
+from exactacq.geometry.loops import signed_area
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.numbers.rationals import rational

@@ -13,7 +13,8 @@ from exactacq.geometry.boundary_index import BoundaryIndex
 from exactacq.geometry.box_index import DIRECTIONS
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.geo import Geo, collection, feature
-from exactacq.geometry.intersections import locate, signed_area, spans
+from exactacq.geometry.intersections import spans
+from exactacq.geometry.loops import locate, signed_area
 from exactacq.geometry.points import Location, Point
 from exactacq.numbers.length import Length
 from exactacq.numbers.rationals import rational

@@ -15,7 +15,7 @@ from flint import fmpq
 from exactacq.errors import FormatError, about, shown
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.geo import Geo, polygon
-from exactacq.geometry.intersections import signed_area
+from exactacq.geometry.loops import signed_area
 from exactacq.geometry.points import Point
 from exactacq.numbers.rationals import rational
 from exactacq.scene.bends import Around, Bend, Via, bend, entries, opposite, rational_pair

@@ -21,8 +21,9 @@ from exactacq.geometry.boundary_index import BoundaryIndex
 from exactacq.geometry.box_index import box
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Curve, Segment
-from exactacq.geometry.intersections import contacts, winding
+from exactacq.geometry.intersections import contacts
 from exactacq.geometry.interval_union import Interval
+from exactacq.geometry.loops import winding
 from exactacq.geometry.points import Location, Point
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.length import Length

@@ -26,7 +26,8 @@ from flint import fmpq
 from exactacq.errors import InvalidScene
 from exactacq.geometry.box_index import BoxIndex, Separator, bounds, united
 from exactacq.geometry.curves import Arc, Curve, Segment
-from exactacq.geometry.intersections import Contact, ContactKind, contacts, winding
+from exactacq.geometry.intersections import Contact, ContactKind, contacts
+from exactacq.geometry.loops import winding
 from exactacq.geometry.points import Point
 from exactacq.numbers.rationals import plain
 from exactacq.numbers.real import Real

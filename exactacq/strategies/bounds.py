@@ -11,7 +11,7 @@ import numpy as np
 from flint import fmpq
 
 from exactacq.errors import StrategyError, shown
-from exactacq.geometry.intersections import nearest_points
+from exactacq.geometry.nearest_points import nearest_points
 from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real

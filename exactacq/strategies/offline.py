@@ -17,7 +17,8 @@ from networkx.utils import UnionFind
 
 from exactacq.geometry.coordinates import raw
 from exactacq.geometry.curves import Curve, Segment
-from exactacq.geometry.intersections import nearest_points, spans
+from exactacq.geometry.intersections import spans
+from exactacq.geometry.nearest_points import nearest_points
 from exactacq.geometry.points import Point
 from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.length import Length

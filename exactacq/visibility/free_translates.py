@@ -12,7 +12,7 @@ from flint import fmpq
 
 from exactacq.geometry.box_index import box
 from exactacq.geometry.curves import Arc, Curve, Segment
-from exactacq.geometry.intersections import NearestFamily, NearestFamilyKind
+from exactacq.geometry.nearest_points import NearestFamily, NearestFamilyKind
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable

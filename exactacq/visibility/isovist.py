@@ -15,7 +15,7 @@ from exactacq.errors import InvalidScene, about
 from exactacq.geometry.coordinates import raw
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.geo import Geo, polygon
-from exactacq.geometry.intersections import signed_area
+from exactacq.geometry.loops import signed_area
 from exactacq.geometry.points import Location, Point
 from exactacq.numbers.length import Length
 from exactacq.numbers.rationals import plain

@@ -2,7 +2,7 @@
 
 v(i, j) is the least length of a free segment between the boundaries of obstacles i and j. There are three
 kinds of shortest segments. One touches no feature: it is a local minimum of the distance, from
-`exactacq.geometry.intersections`. One touches one feature and is stationary when it turns about it. One
+`exactacq.geometry.nearest_points`. One touches one feature and is stationary when it turns about it. One
 touches two or more features and cannot turn at all. The last two kinds come from the tangent families of
 features of third obstacles (`rotational_sweep`, `chords`): a shortest segment meets i and j at its ends
 only, so their own features play no part. Candidates are visited in the order of proven lower bounds until
@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exactacq.geometry.curves import Arc, Curve
-from exactacq.geometry.intersections import Nearest, NearestFamily, NearestFamilyKind, nearest_points
+from exactacq.geometry.nearest_points import Nearest, NearestFamily, NearestFamilyKind, nearest_points
 from exactacq.geometry.points import Point
 from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.length import Length

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from exactacq.errors import FormatError
 from exactacq.geometry.box_index import BoxIndex, bounds, box, united
 from exactacq.geometry.curves import Segment
-from exactacq.geometry.intersections import contacts, winding
+from exactacq.geometry.intersections import contacts
+from exactacq.geometry.loops import winding
 from exactacq.geometry.points import Point
 from exactacq.scene.shapes import Shape, shape_edges
 

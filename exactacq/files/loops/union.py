@@ -16,7 +16,7 @@ from exactacq.errors import FormatError
 from exactacq.files.loops.chains import ZERO, scientific_above
 from exactacq.files.loops.nesting import Loops
 from exactacq.files.repairs.overlay import overlay
-from exactacq.geometry.intersections import winding
+from exactacq.geometry.loops import winding
 from exactacq.geometry.points import Point
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Shape, shape_edges

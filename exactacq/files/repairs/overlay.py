@@ -28,7 +28,8 @@ from exactacq.files.loops.rational_arcs import arc_around, simplest_between
 from exactacq.geometry.box_index import BoxIndex, bounds, united
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve, Segment
-from exactacq.geometry.intersections import contacts, signed_area, winding
+from exactacq.geometry.intersections import contacts
+from exactacq.geometry.loops import signed_area, winding
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
 from exactacq.scene.shapes import Circle, Shape, shape_edges
