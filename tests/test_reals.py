@@ -303,6 +303,21 @@ def test_floats_are_nearest_however_wide_balls_are(near: float, bits: int) -> No
                 assert found == (near if side < 0 else other)
 
 
+@pytest.mark.parametrize(
+    "size", [Fraction(0), Fraction(1, 2**1090), Fraction(3, 2**1076), Fraction(5, 2**1074)]
+)
+@pytest.mark.parametrize("sign", [1, -1])
+def test_floats_of_what_is_hardly_more_than_0_need_no_proof(size: Fraction, sign: int) -> None:
+    """Balls around 0, as those of a number that is 0 but not proved to be: they shrink below any float."""
+    value = fmpq(*(sign * size).as_integer_ratio())
+
+    def ball(bits: int) -> arb:
+        with workprec(bits + 2200):
+            return arb(value + fmpq(1, 3 * 2**bits), arb(fmpq(1, 2**bits)))
+
+    assert round_to_float(ball, lambda middle: pytest.fail("asked for a proof")) == float(sign * size)
+
+
 # -- ties ------------------------------------------------------------------------------------------
 
 

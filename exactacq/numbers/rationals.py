@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterable
 from decimal import Decimal
 from fractions import Fraction
-from math import frexp, isfinite, ulp
+from math import isfinite, nextafter, ulp
 from numbers import Rational
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -132,17 +132,20 @@ def round_to_float(ball: Enclosing, equals: Callable[[fmpq], bool]) -> float:
 
     Balls of up to 512 bits decide unless they contain the midpoint of two floats; then ``equals(q)``, an
     exact comparison of the value with that midpoint, tells a tie from a value that refinement settles.
+    While they contain 0 they go on to 4096 bits: a value less than half of the least float is rounded to 0,
+    and whether it is 0 need not be proved.
     """
     bits = 64
     while True:
         value = ball(bits)
         if value.is_finite():  # not so while an inverse cannot exclude 0
             near = float(value.mid())
-            # Half the way to the next float, which below a power of two is half as far away.
-            half = ulp(near) / (4 if abs(frexp(near)[0]) == 0.5 else 2)
+            # Half the way to the next float towards 0, which may be half as far away as the other one. As a
+            # ball: half of the least float is no float.
+            half = arb(ulp(nextafter(near, 0.0))) / 2
             if isfinite(near) and abs(value - near) < half:
                 return near
-            if bits >= 512:
+            if bits >= (4096 if value.contains(0) else 512):
                 break
         bits *= 2
     low, high = ends(value)
