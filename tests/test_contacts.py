@@ -15,7 +15,7 @@ from shapely import Point as ShapelyPoint
 from shapely import Polygon as ShapelyPolygon
 
 from exactacq.geometry.curves import Arc, Curve, Segment
-from exactacq.geometry.intersections import ContactKind, contacts, line_contacts, spans
+from exactacq.geometry.intersections import ContactKind, contacts, line_contacts, line_points, spans
 from exactacq.geometry.loops import locate, signed_area, winding
 from exactacq.geometry.nearest_points import NearestFamily, NearestFamilyKind, nearest_points
 from exactacq.geometry.points import Location, Point
@@ -88,6 +88,10 @@ def on(curve: Curve, point: Point) -> bool:
     if isinstance(curve, Segment):
         return curve.direction.cross(point - curve.start).sign() == 0 and curve.contains(point)
     return (point - curve.center).norm_sq() == curve.radius_sq and curve.contains(point)
+
+
+def is_circle(curve: Curve) -> bool:
+    return isinstance(curve, Arc) and curve.full
 
 
 def samples(curve: Curve, count: int) -> np.ndarray:
@@ -276,6 +280,27 @@ def test_a_rational_segment_shows_where_it_is_crossed(ax, ay, bx, by):
         for met in contacts(Segment(Point(root / 9, root / 7), end), wall):
             offset = met.start - wall.start
             assert offset.cross(wall.direction).rational == 0
+
+
+@given(st.one_of(segments(), arcs()), *[st.integers(-9, 9)] * 2)
+def test_a_line_that_is_known_to_touch_an_end_meets_the_same_points(curve, x, y):
+    """Ends of the curve are copied, be they known to lie on the line or found to. A circle has none."""
+    origin = Point(x, y)
+    assume(curve.end != origin)
+    found = line_points(origin, curve.end - origin, curve)
+    told = line_points(origin, curve.end - origin, curve, on=(curve.end,))
+    assert len(told) == len(found) and all(p in found for p in told)
+    for points in (told, found):
+        assert any(p is curve.end for p in points) or is_circle(curve)
+
+
+@given(arcs(), st.fractions(0, 1, max_denominator=7))
+def test_a_line_that_is_known_to_touch_an_arc_meets_it_once(arc, fraction):
+    touch = arc.point(fraction)
+    way = arc.tangent(touch)
+    (told,) = line_points(touch - way, way, arc, on=(arc,))
+    (found,) = line_points(touch - way, way, arc)
+    assert told == found == touch
 
 
 def test_a_line_keeps_ends_rational():

@@ -10,9 +10,10 @@ or ``full``.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
-from typing import Any
+from typing import Any, TypeAlias
 
 from flint import fmpq
 
@@ -32,6 +33,11 @@ from exactacq.geometry.coordinates import (
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
+
+Touched: TypeAlias = "Sequence[Point | Arc]"
+"""What a line is known to touch by construction: points on it, and arcs whose circles it touches.
+
+These objects themselves are recognised in a curve and its ends, without arithmetic; equal ones are not."""
 
 
 class ContactKind(Enum):
@@ -88,20 +94,40 @@ def line_contacts(origin: Point, direction: Point, curve: Curve) -> list[Real]:
     A tangency counts once; a segment on the line gives both its ends. The direction is not 0. Whether an end
     of the curve lies on the line is decided before any root is taken, and then gives the root rationally.
     """
-    hits = _line_hits(raw(origin), raw(direction), curve)
+    hits = _line_hits(raw(origin), raw(direction), curve, ())
     return sorted(Real(hit.parameter) for hit in hits)
 
 
-def _line_hits(origin: Vector, direction: Vector, curve: Curve) -> list[_LineHit]:
+def line_points(origin: Point, direction: Point, curve: Curve, on: Touched = ()) -> list[Point]:
+    """The points that a line and a closed curve share, as `line_contacts` finds them, in no order.
+
+    Ends of the curve are copied, never recomputed; *on* is what the line is known to touch.
+    """
+    start, way = raw(origin), raw(direction)
+    hits = _line_hits(start, way, curve, on)
+    return [advance(start, way, hit.parameter) if hit.end is None else hit.end for hit in hits]
+
+
+def _line_hits(origin: Vector, direction: Vector, curve: Curve, on: Touched) -> list[_LineHit]:
     if isinstance(curve, Segment):
-        return _line_segment(origin, direction, curve)
-    return _line_arc(origin, direction, curve)
+        return _line_segment(origin, direction, curve, on)
+    return _line_arc(origin, direction, curve, on)
 
 
-def _line_segment(origin: Vector, direction: Vector, segment: Segment) -> list[_LineHit]:
+def _touches(on: Touched, thing: Point | Arc) -> bool:
+    """Whether an object is one of those that a line is known to touch: equal ones are not asked for."""
+    return any(thing is other for other in on)
+
+
+def _side(point: Point, product: Any, on: Touched) -> int:
+    """The side of a line that a point is on: the sign of a vector product, 0 if it is known to be on it."""
+    return 0 if _touches(on, point) else sign(product)
+
+
+def _line_segment(origin: Vector, direction: Vector, segment: Segment, on: Touched) -> list[_LineHit]:
     start, end = minus(raw(segment.start), origin), minus(raw(segment.end), origin)
     s, e = cross(direction, start), cross(direction, end)
-    before, after = sign(s), sign(e)
+    before, after = _side(segment.start, s, on), _side(segment.end, e, on)
     if before * after > 0:
         return []
     if before and after:
@@ -110,7 +136,7 @@ def _line_segment(origin: Vector, direction: Vector, segment: Segment) -> list[_
     return hits if after else [*hits, _LineHit(ratio(end, direction), segment.end)]
 
 
-def _line_arc(origin: Vector, direction: Vector, arc: Arc) -> list[_LineHit]:
+def _line_arc(origin: Vector, direction: Vector, arc: Arc, on: Touched) -> list[_LineHit]:
     """Roots of A l^2 + 2 B l + C with A = |d|^2, B = w.d, where w = origin - centre.
 
     The discriminant is A r^2 - (d x w)^2. If an end of the arc lies on the line it is one root and -2B/A
@@ -121,12 +147,12 @@ def _line_arc(origin: Vector, direction: Vector, arc: Arc) -> list[_LineHit]:
     height = cross(direction, w)
     square = dot(direction, direction)
     discriminant = square * arc.radius_sq - height * height
-    count = sign(discriminant) + 1
+    count = 1 if _touches(on, arc) else sign(discriminant) + 1
     if count == 0:
         return []
     middle = -dot(w, direction) / square
     ends = [] if arc.full else [(p, minus(raw(p), origin)) for p in (arc.start, arc.end)]
-    on_line = [(p, v) for p, v in ends if sign(cross(direction, v)) == 0]
+    on_line = [(p, v) for p, v in ends if _side(p, cross(direction, v), on) == 0]
     if len(on_line) == 2 and count == 2:
         return [_LineHit(ratio(v, direction), p) for p, v in on_line]
     if on_line:
@@ -154,15 +180,17 @@ def _spans_at(arc: Arc, w: Vector, direction: Vector, parameter: Any) -> bool:
 # -- contacts of two curves ------------------------------------------------------------------------
 
 
-def contacts(a: Curve, b: Curve) -> list[Contact]:
+def contacts(a: Curve, b: Curve, on: Touched = ()) -> list[Contact]:
     """Every component of the intersection of two closed curves, in no particular order.
 
-    Rational curves that do not meet are told apart without square roots.
+    Rational curves that do not meet are told apart without square roots. *on* is what the line of a segment
+    *a* is known to touch; its own ends need not be among that.
     """
     if isinstance(a, Segment):
-        return _segments(a, b) if isinstance(b, Segment) else _segment_arc(a, b)
+        on = (a.start, a.end, *on)
+        return _segments(a, b, on) if isinstance(b, Segment) else _segment_arc(a, b, on)
     if isinstance(b, Segment):
-        return _segment_arc(b, a)
+        return _segment_arc(b, a, (b.start, b.end))
     if compare(raw(a.center), raw(b.center)) == 0:
         return _same_circle(a, b) if a.radius_sq == b.radius_sq else []
     return _arcs(a, b)
@@ -172,15 +200,16 @@ def _at(kind: ContactKind, point: Point) -> Contact:
     return Contact(kind, point, point)
 
 
-def _segments(a: Segment, b: Segment) -> list[Contact]:
+def _segments(a: Segment, b: Segment, on: Touched) -> list[Contact]:
     p, q, u, v = raw(a.start), raw(a.end), raw(b.start), raw(b.end)
     along, across = minus(q, p), minus(v, u)
     first, last = cross(along, minus(u, p)), cross(along, minus(v, p))
-    u_side, v_side = sign(first), sign(last)
+    u_side, v_side = _side(b.start, first, on), _side(b.end, last, on)
     if u_side * v_side > 0:
         return []
     start, end = cross(across, minus(p, u)), cross(across, minus(q, u))
-    p_side, q_side = sign(start), sign(end)
+    ends = (b.start, b.end)
+    p_side, q_side = _side(a.start, start, ends), _side(a.end, end, ends)
     if p_side * q_side > 0:
         return []
     if not (u_side or v_side):
@@ -205,12 +234,13 @@ def _collinear(a: Segment, b: Segment) -> list[Contact]:
     return [Contact(ContactKind.OVERLAP, start, end)] if order == forward else []
 
 
-def _segment_arc(segment: Segment, arc: Arc) -> list[Contact]:
+def _segment_arc(segment: Segment, arc: Arc, on: Touched) -> list[Contact]:
     origin = raw(segment.start)
     direction = minus(raw(segment.end), origin)
     found = []
-    for hit in _line_hits(origin, direction, arc):
-        after, before = sign(hit.parameter), sign(1 - hit.parameter)
+    for hit in _line_arc(origin, direction, arc, on):
+        after = 0 if hit.end is segment.start else sign(hit.parameter)
+        before = 0 if hit.end is segment.end else sign(1 - hit.parameter)
         if after < 0 or before < 0:
             continue
         end = segment.start if after == 0 else segment.end if before == 0 else hit.end

@@ -26,7 +26,7 @@ from flint import arb, fmpq
 from exactacq.errors import Undecided
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve, Segment
-from exactacq.geometry.intersections import contacts, line_contacts
+from exactacq.geometry.intersections import Touched, contacts, line_contacts, line_points
 from exactacq.geometry.points import Point, distance_sq
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real, rational
@@ -144,12 +144,15 @@ class _Candidates:
         )
         return _LineBatch(self, proposals, fixed).see()
 
-    def _is_seen(self, p: Point, q: Point) -> bool:
-        """Whether a point of the obstacle can be seen from a place, and this belongs to the walk."""
+    def _is_seen(self, p: Point, q: Point, on: Touched = ()) -> bool:
+        """Whether a point of the obstacle can be seen from a place, and this belongs to the walk.
+
+        *on* is what the line through the two is known to touch.
+        """
         if not self._may_be_seen(p, q):
             return False
         near = distance_sq(p, q).compare(self.walk.radius * self.walk.radius) <= 0
-        return near and self.walk.passes(p.y) and self.sights.is_free(p, q)
+        return near and self.walk.passes(p.y) and self.sights.is_free(p, q, on)
 
     def _may_be_seen(self, p: Point, q: Point) -> bool:
         slack, (x, y), (u, v) = self.pieces.slack, p.xy, q.xy
@@ -349,6 +352,21 @@ class _LineBatch:
             return shape, Real(0)
         return shape.center, shape.radius * (1 if proposals.turn[g] > 0 else -1)
 
+    def _touched(self, i: int, j: int, piece: int) -> Touched:
+        """What a line is known to touch by what it is made of."""
+        known, proposals = self.search.known, self.proposals
+        found: list[Point | Arc] = []
+        for g in (i, j) if j >= 0 else (i,):
+            feature = proposals.features[proposals.feature[g]]
+            found.append(feature.shape)
+            if len(feature.on) == 2:
+                before, after = feature.on
+                found += [known[before].end, known[after].start]
+        if j < 0:
+            curve = known[piece]
+            found += [curve] if isinstance(curve, Arc) else [curve.start, curve.end]
+        return found
+
     def _line(self, i: int, j: int, piece: int) -> tuple[Point, Point] | None:
         """Where a line meets the walk, and its direction; None if it does not exist or is parallel."""
         a, turn = self._shape(i)
@@ -370,16 +388,17 @@ class _LineBatch:
         if line is None or not self.walk.passes(line[0].y):
             return False
         p, way = line
+        on = self._touched(i, j, piece)
         if target >= 0:
-            found = line_contacts(p, way, self.search.known[target])
-            return any(self.search._is_seen(p, p + way * t) for t in found)
+            found = line_points(p, way, self.search.known[target], on)
+            return any(self.search._is_seen(p, q, on) for q in found)
         center, turn = self._shape(goal)
         if turn.sign():
             center = p + way * ((center - p).dot(way) / way.norm_sq())
             arc = self.proposals.features[self.proposals.feature[goal]].shape
             if isinstance(arc, Arc) and not arc.contains(center):
                 return False
-        return self.search._is_seen(p, center)
+        return self.search._is_seen(p, center, on)
 
     def _sees_close(self, i: int, j: int) -> bool:
         """Two features that floats cannot part, or a line that seems to run along the walk."""

@@ -10,7 +10,7 @@ import numpy as np
 from flint import arb, fmpq
 
 from exactacq.geometry.curves import Arc, Curve, Segment
-from exactacq.geometry.intersections import ContactKind, contacts
+from exactacq.geometry.intersections import ContactKind, Touched, contacts
 from exactacq.geometry.points import Point
 from exactacq.numbers.precision import workprec
 from exactacq.numbers.real import Real
@@ -111,16 +111,19 @@ class Sights:
     def __init__(self, pieces: Pieces) -> None:
         self.pieces = pieces
 
-    def is_free(self, p: Point, q: Point) -> bool:
-        """Whether the segment from a place p to a point q of a boundary nowhere enters the blocked side."""
+    def is_free(self, p: Point, q: Point, on: Touched = ()) -> bool:
+        """Whether the segment from a place p to a point q of a boundary nowhere enters the blocked side.
+
+        *on* is what its line is known to touch.
+        """
         if p == q:
             return True
         sight = Segment(p, q)
         near = self.pieces.possible(np.array(p.xy), np.array(q.xy))
-        return all(self._passes(sight, int(k)) for k in near)
+        return all(self._passes(sight, int(k), on) for k in near)
 
-    def _passes(self, sight: Segment, k: int) -> bool:
-        found = contacts(sight, self.pieces.curves[k])
+    def _passes(self, sight: Segment, k: int, on: Touched) -> bool:
+        found = contacts(sight, self.pieces.curves[k], on)
         if any(contact.kind is ContactKind.CROSSING for contact in found):
             return False
         places = (z for c in found for z in ((c.start,) if c.start is c.end else (c.start, c.end)))
