@@ -22,6 +22,7 @@ from exactacq.auditing.comparisons import (
     ball_to,
     is_close,
     is_part,
+    passes,
     place_text,
     refined,
     same,
@@ -29,8 +30,9 @@ from exactacq.auditing.comparisons import (
 from exactacq.auditing.visibility import World, between
 from exactacq.errors import AuditError
 from exactacq.geometry.box_index import bounds
+from exactacq.geometry.coordinates import minus, ratio, raw
 from exactacq.geometry.curves import Arc, Curve, Segment
-from exactacq.geometry.intersections import line_contacts
+from exactacq.geometry.intersections import contacts, line_contacts
 from exactacq.geometry.points import Location, Point
 from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import rational
@@ -47,6 +49,10 @@ class Stretch(NamedTuple):
     high: Real
     begin: Point
     end: Point
+
+    def reversed(self) -> Stretch:
+        """The same stretch of the way in the other direction."""
+        return Stretch(self.obstacle, 1 - self.high, 1 - self.low, self.end, self.begin)
 
 
 class CrossingPoint(NamedTuple):
@@ -167,27 +173,30 @@ class Field:
         found: list[Stretch] = []
         for k in sorted({self.world.owner[e] for e in near}):
             edges = (self.world.edges[e] for e in near if self.world.owner[e] == k)
-            contacts = (t for edge in edges for t in line_contacts(way.start, way.direction, edge))
-            cuts = sorted([Real(0), Real(1), *(t for t in contacts if 0 < t < 1)])
-            cuts = [t for n, t in enumerate(cuts) if n == 0 or cuts[n - 1] != t]
+            cuts = [(Real(0), way.start), *(cut for edge in edges for cut in _inner_contacts(way, edge))]
+            cuts = sorted([*cuts, (Real(1), way.end)], key=lambda cut: cut[0])
+            cuts = [cut for n, cut in enumerate(cuts) if n == 0 or cuts[n - 1][0] != cut[0]]
             found += self._blocked(way, self.world.obstacles[k], cuts)
         return sorted(found, key=lambda stretch: stretch.low)
 
-    def _blocked(self, way: Segment, obstacle: Obstacle, cuts: Sequence[Real]) -> Iterator[Stretch]:
+    def _blocked(
+        self, way: Segment, obstacle: Obstacle, cuts: Sequence[tuple[Real, Point]]
+    ) -> Iterator[Stretch]:
         """What one obstacle blocks of a way, cut where it meets the obstacle's edges."""
-        places = [way.start, *(way.start + way.direction * t for t in cuts[1:-1]), way.end]
+        shares, places = zip(*cuts, strict=True)
         begin = 0
         for n in range(1, len(cuts)):
-            middle = way.start + way.direction * between(cuts[n - 1], cuts[n])
+            middle = way.start + way.direction * between(shares[n - 1], shares[n])
             if not self._is_blocked(way, obstacle, middle):
                 begin = n
                 continue
-            going_on = n + 1 < len(cuts) and self._is_sealed(obstacle, places[n])
+            # A cut between the ends lies on the obstacle's boundary: that need not be found out.
+            going_on = n + 1 < len(cuts) and self._is_sealed_on_boundary(obstacle, places[n])
             if going_on:
-                after = way.start + way.direction * between(cuts[n], cuts[n + 1])
+                after = way.start + way.direction * between(shares[n], shares[n + 1])
                 going_on = self._is_blocked(way, obstacle, after)
             if not going_on:
-                yield Stretch(obstacle.index, cuts[begin], cuts[n], places[begin], places[n])
+                yield Stretch(obstacle.index, shares[begin], shares[n], places[begin], places[n])
                 begin = n
 
     def _is_blocked(self, way: Segment, obstacle: Obstacle, place: Point) -> bool:
@@ -219,11 +228,16 @@ class Field:
 
     def _is_sealed(self, obstacle: Obstacle, point: Point) -> bool:
         """Whether a point beside a blocked stretch is blocked: no boundary runs from it into the terrain."""
-        if obstacle.locate(point) is Location.BOUNDARY:
-            inward = self.inward(point)
-            edges = [edge for edge in obstacle.edges if edge.passes(point)]
-            return bool(inward) and not any(_runs_into(edge, point, inward) for edge in edges)
-        return obstacle.locate(point) is Location.INSIDE
+        location = obstacle.locate(point)
+        if location is Location.BOUNDARY:
+            return self._is_sealed_on_boundary(obstacle, point)
+        return location is Location.INSIDE
+
+    def _is_sealed_on_boundary(self, obstacle: Obstacle, point: Point) -> bool:
+        """The same for a point of the obstacle's boundary."""
+        inward = self.inward(point)
+        edges = (edge for edge in obstacle.edges if edge.passes(point))
+        return bool(inward) and not any(_runs_into(edge, point, inward) for edge in edges)
 
     def contains(self, point: Point) -> bool:
         """Whether a point lies in the closed terrain."""
@@ -270,6 +284,25 @@ class Field:
         way = Segment(start, end)
         middle = start + way.direction / 2
         return any(self._is_blocked(way, obstacle, middle) for obstacle in self.world.obstacles)
+
+
+def _inner_contacts(way: Segment, edge: Curve) -> Iterator[tuple[Real, Point]]:
+    """Where an edge meets a way between its ends: shares of the way, and the places.
+
+    A place on a straight edge is made from the edge, so that its form shows that it lies on it. Whether a
+    contact with an arc is an end of the way is not compared if that end lies on the arc, as an aim does.
+    """
+    if isinstance(edge, Segment):
+        for contact in contacts(way, edge):
+            for place in (contact.start,) if contact.start is contact.end else (contact.start, contact.end):
+                if place is not way.start and place is not way.end:
+                    yield Real(ratio(minus(raw(place), raw(way.start)), raw(way.direction))), place
+        return
+    for share in line_contacts(way.start, way.direction, edge):
+        ends = ((Real(0), way.start), (Real(1), way.end))
+        is_end = any(share.overlaps(other) and passes(edge, end) for other, end in ends)
+        if not is_end and 0 < share < 1:
+            yield share, way.start + way.direction * share
 
 
 def _runs_into(edge: Curve, point: Point, inward: Sequence[Point]) -> bool:
@@ -463,22 +496,22 @@ def _west_of(field: Field, parts: Sequence[_EdgePart], obstacle: Obstacle) -> Ha
             west = Point(edge.center.x - edge.radius, edge.center.y)
             points += [west] if edge.contains(west) else []
     point = min(points, key=lambda p: p.x)
-    met: int | None = None
+    met: list[int] = []
     far: Real = point.x - field.west
     for e, edge in enumerate(field.world.edges):
         for t in line_contacts(point, Point(-1, 0), edge):
-            if 0 < t < far:
-                met, far = e, t
+            if 0 < t <= far:
+                met, far = [*met, e] if t == far else [e], t
     place = Point(point.x - far, point.y)
-    if met is None:
+    if place.x == field.west:
         for k, (a, b) in enumerate(pairwise([*field.stops, field.stops[0]])):
-            # Of the two intervals at a stop one may be blocked.
+            # At a stop one of the two intervals may be blocked, or both where a bay ends at the border.
             if Segment(a, b).passes(place) and not field.is_border_blocked(a, b):
                 return "border", k
-    else:
-        at = _length_to(field.world.edges[met], place)
+    for e in met:
+        at = _length_to(field.world.edges[e], place)
         for n, part in enumerate(parts):
-            if part.edge == met and not (at < part.low or at > part.high):
+            if part.edge == e and not (at < part.low or at > part.high):
                 return n
     # The westernmost point of a loop in the terrain is free to its west. The first edge there bounds the free
     # region, so it is the part of some shore; without one the ray ends at a free stretch of the border.

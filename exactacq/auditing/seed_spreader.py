@@ -274,21 +274,27 @@ class Replay:
         self._check_reason(event, chart, leap)
         aim = self._aim(event, told, chart)
         self._check_told(event, chart)
-        self._go(Segment(leave, aim), i)
+        out = self._stretches(leave, aim)
+        self._go(out, aim, i)
         if not same(told.hit, self.here):
             raise AuditError(f"diversion {self.diverted} did not reach {place_text(told.hit)}")
         self._circumnavigate(i, event)
         self._walk(i, told.hit, self.upcoming)
         self._take(EventKind.LEAVE, i)
-        self._go(Segment(told.hit, leave), None)
+        # The way back is the way out: its places, made anew from the other end, would have other forms.
+        way_back = [s.reversed() for s in reversed(out)]
+        self._go(way_back if aim is told.hit else self._stretches(told.hit, leave), leave, None)
         back = self._take(EventKind.RETURN, i)
         if (told.last, told.reason) != (back.after, back.reason):
             raise AuditError(f"{self.name(back)} is not the end of diversion {self.diverted}")
         self.diverted += 1
 
-    def _go(self, way: Segment, aimed: int | None) -> None:
-        """Go straight along a way, around what is in it, to its end, or to the obstacle aimed at."""
-        stretches = [] if same(way.start, way.end) else self.field.stretches(way)
+    def _stretches(self, start: Point, end: Point) -> list[Stretch]:
+        """The blocked stretches of the straight way between two places, which may be one."""
+        return [] if same(start, end) else self.field.stretches(Segment(start, end))
+
+    def _go(self, stretches: Sequence[Stretch], goal: Point, aimed: int | None) -> None:
+        """Go straight, around what blocks stretches of the way, to its end, or to the obstacle aimed at."""
         done = Real(0)
         while stretch := next((s for s in stretches if s.low >= done), None):
             self._step(stretch.begin)
@@ -308,7 +314,7 @@ class Replay:
             self._walk(k, ends[-1].end, self.upcoming)
             self._take(EventKind.LEAVE, k)
             done = ends[-1].high
-        self._step(way.end)
+        self._step(goal)
         if aimed is not None:
             self._take(EventKind.HIT, aimed)
             self.encounters.append(aimed)
