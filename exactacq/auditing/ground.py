@@ -51,7 +51,7 @@ class Stretch(NamedTuple):
     end: Point
 
     def reversed(self) -> Stretch:
-        """The same stretch of the way in the other direction."""
+        """The stretch as it lies on the way in the other direction."""
         return Stretch(self.obstacle, 1 - self.high, 1 - self.low, self.end, self.begin)
 
 
@@ -234,7 +234,7 @@ class Field:
         return location is Location.INSIDE
 
     def _is_sealed_on_boundary(self, obstacle: Obstacle, point: Point) -> bool:
-        """The same for a point of the obstacle's boundary."""
+        """Whether a point of the boundary beside a blocked stretch is blocked, as `_is_sealed` asks it."""
         inward = self.inward(point)
         edges = (edge for edge in obstacle.edges if edge.passes(point))
         return bool(inward) and not any(_runs_into(edge, point, inward) for edge in edges)
