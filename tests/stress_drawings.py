@@ -58,7 +58,8 @@ def starts(found: xa.Inspection, random: int = 4) -> Iterator[Start]:
 def outcome(run: Callable[[], xa.Run]) -> str:
     """What becomes of a run and its audit: "passed", "not free", or a fault in one line."""
     before = signal.signal(signal.SIGALRM, _stop)
-    signal.alarm(SECONDS)
+    # More than once: what is raised in a callback of a weak reference is lost.
+    signal.setitimer(signal.ITIMER_REAL, SECONDS, SECONDS)
     try:
         xa.audit(run(), samples=8)
     except xa.InvalidScene:
@@ -68,7 +69,7 @@ def outcome(run: Callable[[], xa.Run]) -> str:
     except Exception as error:
         return f"{type(error).__name__}: {error}"
     finally:
-        signal.alarm(0)
+        signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, before)
     return "passed"
 

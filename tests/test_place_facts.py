@@ -9,7 +9,7 @@ from random import Random
 
 import pytest
 from flint import fmpq
-from nightly import NIGHTLY
+from nightly import NIGHTLY, by_night
 from strategies import arc_terrain, degenerate_terrain, random_terrain
 
 import exactacq as xa
@@ -177,6 +177,7 @@ def test_a_circle_in_arcs_is_known_to_touch_the_range_by_each_of_them(
     assert BoundaryView(table, here, range_, None, facts).seen() == plain
 
 
+@by_night
 def test_a_place_whose_numbers_do_not_tell_that_two_arcs_are_in_line() -> None:
     """Within a straight leg of this drawing an arc comes into sight behind another one.
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 from gallery_runs import gallery_run
-from nightly import some
+from nightly import by_night, some
 
 from exactacq import (
     Circle,
@@ -202,7 +202,10 @@ def damaged(change):
         lambda d: d.update(numbers=[[["1", ["logarithm", "2"]]]]),
         lambda d: d.update(numbers=[[["1/2x", ["radical", "2"]]]]),
         lambda d: d.update(numbers=[[["1", ["radical", "1/2"]]]]),
-        lambda d: d.update(numbers=[ONE_PLUS_ROOT, *([["1", ["product", k, k]]] for k in range(99))]),
+        pytest.param(
+            lambda d: d.update(numbers=[ONE_PLUS_ROOT, *([["1", ["product", k, k]]] for k in range(99))]),
+            marks=by_night,
+        ),
         lambda d: d.update(numbers=[ONE_PLUS_ROOT, *(nested(k) for k in range(99))]),
         lambda d: d.update(numbers={}),
         lambda d: d.update(start=["0"]),
