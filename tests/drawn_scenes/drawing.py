@@ -11,7 +11,20 @@ from oracles import Room
 from strategies import ONE, ZERO, Pair, Similarity, Terrain, arcs_of_circle, split_point
 
 from drawn_scenes.placing import Ground, Step, pick
-from drawn_scenes.plane import Box, box, edges, has_root, lines, minus, plus, root, rounds, square, vertices
+from drawn_scenes.plane import (
+    Box,
+    box,
+    edges,
+    extremes,
+    has_root,
+    lines,
+    minus,
+    plus,
+    root,
+    rounds,
+    square,
+    vertices,
+)
 from exactacq.errors import InvalidScene
 from exactacq.scene.terrain_components import ground_of
 
@@ -142,8 +155,9 @@ def room(draft: Draft, ground: Ground) -> list[Room]:
 
 
 def borders(draft: Draft, shapes: Sequence[object], around: Box) -> Box:
-    """For each side: 1 or 2 apart from the obstacles, touching, through a vertex or between, a hair off."""
-    places = [p for shape in shapes for p in vertices(shape)]
+    """For each side: 1 or 2 apart from the obstacles, touching, a hair off; through a vertex or the farthest
+    point of an arc, as of a bay, or between two of these."""
+    places = [p for shape in shapes for p in extremes(shape)]
     found = []
     for side, way in enumerate(draft.border):
         out = -1 if side < 2 else 1

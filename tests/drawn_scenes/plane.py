@@ -129,23 +129,28 @@ def vertices(shape: object) -> list[Pair]:
     return [p for p, _, _ in edges(shape)]
 
 
+def extremes(shape: object) -> Iterator[Pair]:
+    """The vertices, and where arcs reach farthest east, north, west and south.
+
+    Where a radius is irrational, these lie a little outside.
+    """
+    for p, q, bulge in edges(shape):
+        yield p
+        if not bulge:
+            continue
+        (cx, cy), chord = center(p, q, bulge), minus(q, p)
+        radius = root(square(minus(p, (cx, cy))))
+        for dx, dy in ((1, 0), (0, 1), (-1, 0), (0, -1)):
+            place = cx + dx * radius, cy + dy * radius
+            far = minus(place, p)
+            side = (chord[0] * far[1] - chord[1] * far[0]) * bulge
+            if side <= square(chord) * abs(bulge) / 10**30:
+                yield place
+
+
 def box(shapes: Iterable[object]) -> Box:
     """A box that holds the shapes; the least one where radii are rational."""
-    xs: list[Fraction] = []
-    ys: list[Fraction] = []
-    for shape in shapes:
-        for p, q, bulge in edges(shape):
-            xs.append(p[0])
-            ys.append(p[1])
-            if bulge:
-                (cx, cy), chord = center(p, q, bulge), minus(q, p)
-                radius = root(square(minus(p, (cx, cy))))
-                for dx, dy in ((1, 0), (0, 1), (-1, 0), (0, -1)):
-                    far = minus((cx + dx * radius, cy + dy * radius), p)
-                    side = (chord[0] * far[1] - chord[1] * far[0]) * bulge
-                    if side <= square(chord) * abs(bulge) / 10**30:
-                        xs.append(cx + dx * radius)
-                        ys.append(cy + dy * radius)
+    xs, ys = zip(*(place for shape in shapes for place in extremes(shape)), strict=True)
     return Box(min(xs), min(ys), max(xs), max(ys))
 
 
