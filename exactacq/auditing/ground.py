@@ -300,9 +300,14 @@ def _inner_contacts(way: Segment, edge: Curve) -> Iterator[tuple[Real, Point]]:
         return
     for share in line_contacts(way.start, way.direction, edge):
         ends = ((Real(0), way.start), (Real(1), way.end))
-        is_end = any(share.overlaps(other) and passes(edge, end) for other, end in ends)
+        is_end = any(_may_equal(share, other) and passes(edge, end) for other, end in ends)
         if not is_end and 0 < share < 1:
             yield share, way.start + way.direction * share
+
+
+def _may_equal(a: Real, b: Real) -> bool:
+    """Whether two numbers are equal: exactly if they are rational, else to `DIGITS` digits at least."""
+    return a.overlaps(b) and is_close(a.ball(BITS), b.ball(BITS))
 
 
 def _runs_into(edge: Curve, point: Point, inward: Sequence[Point]) -> bool:
