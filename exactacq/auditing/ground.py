@@ -294,7 +294,7 @@ def _inner_contacts(way: Segment, edge: Curve) -> Iterator[tuple[Real, Point]]:
     """
     if isinstance(edge, Segment):
         for contact in contacts(way, edge):
-            for place in (contact.start,) if contact.start is contact.end else (contact.start, contact.end):
+            for place in contact.places:
                 if place is not way.start and place is not way.end:
                     yield Real(ratio(minus(raw(place), raw(way.start)), raw(way.direction))), place
         return

@@ -63,6 +63,11 @@ class Contact:
     start: Point
     end: Point
 
+    @property
+    def places(self) -> tuple[Point, ...]:
+        """The point, or the two ends of an overlap."""
+        return (self.start,) if self.start is self.end else (self.start, self.end)
+
 
 def spans(arc: Arc, direction: Vector, strict: bool = False) -> bool:
     """Whether the ray from the arc's centre in a direction (not 0) meets the arc, or its interior if strict.

@@ -126,8 +126,7 @@ class Sights:
         found = contacts(sight, self.pieces.curves[k], on)
         if any(contact.kind is ContactKind.CROSSING for contact in found):
             return False
-        places = (z for c in found for z in ((c.start,) if c.start is c.end else (c.start, c.end)))
-        return all(self._may_pass(sight, k, z) for z in places)
+        return all(self._may_pass(sight, k, z) for contact in found for z in contact.places)
 
     def _may_pass(self, sight: Segment, k: int, z: Point) -> bool:
         """Whether a sight that touches a piece at a point does not enter the blocked side there."""
