@@ -178,6 +178,17 @@ def test_other_strategies_are_not_audited() -> None:
         audit(Run(**common))
 
 
+def test_a_sight_just_after_the_start_of_a_circle() -> None:
+    """The corner is out of range by 10^-18: a place shortly before its sight is one before the start."""
+    near = 2 + fmpq(1, 10**9)
+    corner = xa.Polygon([(near, 7), (5, 7), (5, 8), (near, 8)])
+    scene = xa.Scene([xa.Circle(("3/2", "11/2"), "1/2"), corner], start=(2, "11/2"))
+    run = xa.sightseer(scene, radius="3/2")
+    sight = next(event for event in run.events if event.kind is EventKind.SIGHT and event.obstacle == 1)
+    assert sight.inside and 0 < sight.at < fmpq(1, 10**17)
+    audit(run, samples=100)
+
+
 GALLERY = ("figure1", "figure2", "circles", "squares", "m4", "m8", "m11")
 EXAMPLES = examples(3, 100)
 

@@ -21,6 +21,7 @@ from exactacq.geometry.nearest_points import NearestFamily, NearestFamilyKind, n
 from exactacq.geometry.points import Location, Point
 from exactacq.numbers.real import Real, rational
 from exactacq.scene.shapes import Circle, Outline, Polygon, shape_edges
+from exactacq.strategies.seed_spreader.range_thresholds import nearest_point
 
 HAIR = Fraction(1, 10**60)
 BULGES = tuple(map(Fraction, ("1/2", "-1/2", "1", "-1", "2", "-2", "1/3", "-3")))
@@ -292,6 +293,41 @@ def test_a_line_that_is_known_to_touch_an_end_meets_the_same_points(curve, x, y)
     assert len(told) == len(found) and all(p in found for p in told)
     for points in (told, found):
         assert any(p is curve.end for p in points) or is_circle(curve)
+
+
+@given(segments(), st.lists(st.integers(0, 6), min_size=2, max_size=2, unique=True), curves, cells, cells)
+def test_parts_meet_the_same_points_as_segments_with_their_ends(whole, sixths, curve, x, y):
+    """A part computes from the ends of the whole; what its own ends are still counts."""
+    start, end = (whole.point(Fraction(n, 6)) for n in sorted(sixths))
+    part, alone = whole.part(start, end), Segment(start, end)
+    assert part == alone and part.whole is whole and alone.whole is alone
+
+    for other in (curve, alone, whole):
+        for swap in (False, True):
+            found, expected = (
+                contacts(other, piece) if swap else contacts(piece, other) for piece in (part, alone)
+            )
+            assert len(found) == len(expected)
+            assert all(any((c.kind, c.places) == (d.kind, d.places) for d in expected) for c in found)
+    origin = Point(x, y)
+    for place in (origin, Point(x + Real(2).sqrt(), y)):
+        assert part.passes(place) == alone.passes(place)
+        assert nearest_point(part, place) == nearest_point(alone, place)
+    for way in (part.direction, part.direction.left(), Point(1, 2)):
+        assert line_points(origin, way, part) == line_points(origin, way, alone)
+        assert line_contacts(origin, way, part) == line_contacts(origin, way, alone)
+
+
+def test_a_part_is_met_in_numbers_of_its_whole():
+    """Whoever knows a part of a wall knows its line: where the wall was cut does not show in what is met."""
+    wall = segment(0, 0, 6, 3)
+    root = Real(2).sqrt() + Real(3).sqrt()
+    part = wall.part(Point(root / 2, root / 4), Point(root, root / 2))
+    assert nearest_point(part, Point(2, 2)).rational
+    (meeting,) = line_points(Point(0, 5), Point(1, -2), part)
+    assert meeting.rational
+    (crossing,) = contacts(part, segment(2, 0, 2, 3))
+    assert crossing.start.rational == (2, 1)
 
 
 @given(arcs(), st.fractions(0, 1, max_denominator=7))

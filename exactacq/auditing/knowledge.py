@@ -170,9 +170,8 @@ class Knowledge:
             return curve.part(curve.start, point).point(1 - ASIDE)
         assert track is not None
         place = point_near(self.world.edges[track.edge], point, -ASIDE if track.forward else ASIDE)
-        if place is None or not curve.contains(place):
-            return None
-        return place if curve.full or curve.part(curve.start, point).contains(place) else None
+        # Shortly before a point close to the start of a full circle is its end.
+        return place if place is not None and curve.part(curve.start, point).contains(place) else None
 
     def _is_seen(self, target: Point, first: int | None, after: int, inside: Point | None) -> bool:
         """Whether the path sees a target in its first pieces, or on the next one up to a place inside it.

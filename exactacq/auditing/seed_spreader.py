@@ -559,10 +559,9 @@ def _near_points(curve: Curve | Point, place: Point) -> list[Point]:
     if isinstance(curve, Point):
         return [curve]
     if isinstance(curve, Segment):
-        along = curve.direction
-        share = (place - curve.start).dot(along) / along.norm_sq()
-        inner = [curve.start + along * share] if 0 < share < 1 else []
-        return [curve.start, curve.end, *inner]
+        origin, along = curve.whole.start, curve.whole.direction
+        foot = origin + along * ((place - origin).dot(along) / along.norm_sq())
+        return [curve.start, curve.end, *([foot] if curve.contains(foot) else [])]
     ray = place - curve.center
     size = ray.norm_sq()
     foot = curve.center + ray * (curve.radius / size.sqrt()) if size.sign() else curve.start

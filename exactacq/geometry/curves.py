@@ -34,9 +34,19 @@ class Segment:
     {'type': 'LineString', 'coordinates': ((0.0, 0.0), (1.0, 0.5))}
     """
 
+    _whole: Segment | None = None
+
     def __init__(self, start: Point | Sequence[object], end: Point | Sequence[object]) -> None:
         self.start: Point = start if type(start) is Point else Point.of(start)
         self.end: Point = end if type(end) is Point else Point.of(end)
+
+    @property
+    def whole(self) -> Segment:
+        """The segment with rational ends of which this one is a `part`, else itself.
+
+        Both have one direction and one line, which the ends of the whole tell in simpler numbers.
+        """
+        return self._whole or self
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Segment):
@@ -84,9 +94,8 @@ class Segment:
         >>> Segment(Point(0, 0), Point(3, 4)).contains(Point(6, 8))
         False
         """
-        along = self.direction
-        offset = (point - self.start).dot(along)
-        return offset.sign() >= 0 and offset.compare(along.norm_sq()) <= 0
+        along = self.whole.direction
+        return (point - self.start).dot(along).sign() >= 0 >= (point - self.end).dot(along).sign()
 
     def passes(self, point: Point) -> bool:
         """Whether the closed segment contains the point.
@@ -94,23 +103,25 @@ class Segment:
         >>> Segment(Point(0, 0), Point(3, 4)).passes(Point("3/2", 2))
         True
         """
-        return self.direction.cross(point - self.start).sign() == 0 and self.contains(point)
+        whole = self.whole
+        return whole.direction.cross(point - whole.start).sign() == 0 and self.contains(point)
 
     def may_pass(self, point: Point, bits: int) -> bool:
         """False only if balls of that precision prove that the closed segment does not contain the point."""
         offset, along = point - self.start, self.direction
         if along.cross(offset).clear_sign(bits):
             return False
-        forward = offset.dot(along)
-        return forward.clear_sign(bits) >= 0 and (forward - along.norm_sq()).clear_sign(bits) <= 0
+        return offset.dot(along).clear_sign(bits) >= 0 >= (point - self.end).dot(along).clear_sign(bits)
 
     def part(self, start: Point, end: Point) -> Segment:
-        """The piece between two of its points, from the first to the second; not checked.
+        """The piece between two of its points, the second not before the first; not checked.
 
         >>> Segment(Point(0, 0), Point(3, 4)).part(Point(0, 0), Point("3/2", 2))
         Segment(Point(0, 0), Point(3/2, 2))
         """
-        return Segment(start, end)
+        piece = Segment(start, end)
+        piece._whole = self._whole or (self if _is_known_rational(self) else None)
+        return piece
 
     def reversed(self) -> Segment:
         """The segment from ``end`` to ``start``.
@@ -135,6 +146,11 @@ class Segment:
 
     def __repr__(self) -> str:
         return f"Segment({self.start!r}, {self.end!r})"
+
+
+def _is_known_rational(segment: Segment) -> bool:
+    """Whether the ends are rational; those that are only balls so far are not made for this."""
+    return all(not end.is_late and end.rational is not None for end in (segment.start, segment.end))
 
 
 class Arc:

@@ -130,15 +130,23 @@ def _side(point: Point, product: Any, on: Touched) -> int:
 
 
 def _line_segment(origin: Vector, direction: Vector, segment: Segment, on: Touched) -> list[_LineHit]:
-    start, end = minus(raw(segment.start), origin), minus(raw(segment.end), origin)
-    s, e = cross(direction, start), cross(direction, end)
-    before, after = _side(segment.start, s, on), _side(segment.end, e, on)
-    if before * after > 0:
+    ends = segment.start, segment.end
+    ways = [minus(raw(end), origin) for end in ends]
+    sides = [_side(end, cross(direction, way), on) for end, way in zip(ends, ways, strict=True)]
+    if sides[0] * sides[1] > 0:
         return []
-    if before and after:
-        return [_LineHit(cross(start, end) / (e - s))]
-    hits = [] if before else [_LineHit(ratio(start, direction), segment.start)]
-    return hits if after else [*hits, _LineHit(ratio(end, direction), segment.end)]
+    met = [k for k in (0, 1) if sides[k] == 0]
+    if len(met) == 2 or (met and segment.whole is segment):
+        return [_LineHit(ratio(ways[k], direction), ends[k]) for k in met]
+    start, along = _line(segment)
+    parameter = cross(minus(start, origin), along) / cross(direction, along)
+    return [_LineHit(parameter, ends[met[0]] if met else None)]
+
+
+def _line(segment: Segment) -> tuple[Vector, Vector]:
+    """A point of a segment's line and its direction: those of the whole, if the segment is a part."""
+    start = raw(segment.whole.start)
+    return start, minus(raw(segment.whole.end), start)
 
 
 def _line_arc(origin: Vector, direction: Vector, arc: Arc, on: Touched) -> list[_LineHit]:
@@ -206,13 +214,12 @@ def _at(kind: ContactKind, point: Point) -> Contact:
 
 
 def _segments(a: Segment, b: Segment, on: Touched) -> list[Contact]:
-    p, q, u, v = raw(a.start), raw(a.end), raw(b.start), raw(b.end)
-    along, across = minus(q, p), minus(v, u)
-    first, last = cross(along, minus(u, p)), cross(along, minus(v, p))
+    (p, along), (u, across) = _line(a), _line(b)
+    first, last = (cross(along, minus(raw(end), p)) for end in (b.start, b.end))
     u_side, v_side = _side(b.start, first, on), _side(b.end, last, on)
     if u_side * v_side > 0:
         return []
-    start, end = cross(across, minus(p, u)), cross(across, minus(q, u))
+    start, end = (cross(across, minus(raw(end), u)) for end in (a.start, a.end))
     ends = (b.start, b.end)
     p_side, q_side = _side(a.start, start, ends), _side(a.end, end, ends)
     if p_side * q_side > 0:
@@ -222,10 +229,12 @@ def _segments(a: Segment, b: Segment, on: Touched) -> list[Contact]:
     for side, point in ((p_side, a.start), (q_side, a.end), (u_side, b.start), (v_side, b.end)):
         if side == 0:
             return [_at(ContactKind.TOUCHING, point)]
-    if all(isinstance(c, fmpq) for c in (*u, *v)):
+    if all(isinstance(c, fmpq) for c in (*u, *across)):
         # On a rational line the point shows that it is on it: both coordinates are made of one number.
-        return [_at(ContactKind.CROSSING, advance(u, across, first / (first - last)))]
-    return [_at(ContactKind.CROSSING, advance(p, along, start / (start - end)))]
+        point = advance(u, across, cross(along, minus(p, u)) / cross(along, across))
+    else:
+        point = advance(p, along, cross(across, minus(u, p)) / cross(across, along))
+    return [_at(ContactKind.CROSSING, point)]
 
 
 def _collinear(a: Segment, b: Segment) -> list[Contact]:

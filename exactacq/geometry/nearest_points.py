@@ -158,7 +158,7 @@ def _parallel(a: Segment, b: Segment) -> NearestFamily | None:
         else:
             ends.append((advance(raw(q), offset, -1) if side else p, q))
     (p, first), (q, last) = ends
-    return NearestFamily(NearestFamilyKind.PARALLEL, a.part(p, q), b.part(first, last))
+    return NearestFamily(NearestFamilyKind.PARALLEL, a.part(p, q), Segment(first, last))
 
 
 def _heading(vector: Vector) -> Vector:

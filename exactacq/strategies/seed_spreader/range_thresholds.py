@@ -23,11 +23,13 @@ def nearest_point(curve: Curve, place: Point) -> Point:
             return curve.center + ray * (curve.radius / ray.norm_sq().sqrt())
         nearer = distance_sq(curve.start, place).compare(distance_sq(curve.end, place)) <= 0
         return curve.start if nearer else curve.end
-    along = curve.direction
-    way, size = (place - curve.start).dot(along), along.norm_sq()
-    if way.sign() <= 0:
+    along = curve.whole.direction
+    if (place - curve.start).dot(along).sign() <= 0:
         return curve.start
-    return curve.start + along * (way / size) if way.compare(size) < 0 else curve.end
+    if (place - curve.end).dot(along).sign() >= 0:
+        return curve.end
+    origin = curve.whole.start
+    return origin + along * ((place - origin).dot(along) / along.norm_sq())
 
 
 def nearest_of(points: Sequence[Point], place: Point) -> Point:
@@ -62,14 +64,13 @@ def thresholds(x: fmpq, curve: Curve, radius: fmpq) -> Iterator[Real]:
                     if spans(curve, ray):
                         yield y
         return
-    dx, dy = curve.direction
-    if dx.sign():
-        size = curve.direction.norm_sq()
-        rise = Real(radius) * size.sqrt() / dx
-        middle = curve.start.y + dy * ((x - curve.start.x) / dx)
+    origin, along = curve.whole.start, curve.whole.direction
+    if along.x.sign():
+        rise = Real(radius) * along.norm_sq().sqrt() / along.x
+        middle = origin.y + along.y * ((x - origin.x) / along.x)
         for y in (middle - rise, middle + rise):
-            way = (Point(x, y) - curve.start).dot(curve.direction)
-            if way.sign() > 0 and way.compare(size) < 0:
+            after, before = ((Point(x, y) - end).dot(along).sign() for end in (curve.start, curve.end))
+            if after > 0 and before < 0:
                 yield y
 
 

@@ -373,7 +373,7 @@ class _LineBatch:
         way: Point | None
         if j < 0:
             curve = self.search.known[piece]
-            way = curve.tangent(a) if isinstance(curve, Arc) else curve.direction
+            way = curve.tangent(a) if isinstance(curve, Arc) else curve.whole.direction
         else:
             way = _way(a, turn, *self._shape(j))
         if way is None or way.x.sign() == 0:

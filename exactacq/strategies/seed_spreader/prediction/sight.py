@@ -97,7 +97,7 @@ def _turn(a: _Germ, b: _Germ) -> int:
 def _germ(curve: Curve, at: Point) -> _Germ:
     """A curve as it runs on from one of its points."""
     if isinstance(curve, Segment):
-        return _Germ(curve.direction, fmpq(0))
+        return _Germ(curve.whole.direction, fmpq(0))
     return _Germ(curve.tangent(at), (1 if curve.ccw else -1) / curve.radius_sq)
 
 
