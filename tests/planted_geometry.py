@@ -84,7 +84,7 @@ CONTACT_FAULTS = [
         "a line through a segment's end misses it",
         LINES,
         (AXIS, segment((1, 0), (2, 2))),
-        Fault(intersections, "_line_segment", "before * after > 0", "before * after >= 0"),
+        Fault(intersections, "_line_segment", "sides[0] * sides[1] > 0", "sides[0] * sides[1] >= 0"),
     ),
     Planted(
         "a ray through an arc's end meets its interior",
