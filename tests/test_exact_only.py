@@ -42,7 +42,7 @@ RUNS: dict[str, Callable[[], xa.Run]] = {
     "spreader m25, without looking ahead": spreader("m25", lookahead=False),
     **{
         f"random spreader {seed}": (lambda s=seed: xa.seed_spreader(random_scene(Subject.SEED_SPREADER, s)))
-        for seed in some(range(10), 3)
+        for seed in some(range(10), 2)
     },
 }
 

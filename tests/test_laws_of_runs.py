@@ -15,6 +15,7 @@ from drawn_scenes import CURVED, terrains
 from drawn_scenes.kinds import PINNED, ROUND
 from hypothesis import given
 from hypothesis import strategies as st
+from nightly import examples
 from oracles import Disc, Room, free, world
 from strategies import Similarity, Terrain, box, circle_grid, square_grid
 from test_laws import (
@@ -148,7 +149,7 @@ def _center(shape: object) -> tuple[Fraction, Fraction]:
 
 
 class TestLaws:
-    @EXAMPLES
+    @examples(2, 150)
     @given(terrains(kinds=CURVED, moved=False), st.randoms(use_true_random=False))
     def test_description_of_round_scenes(self, terrain: Terrain, rng: Random) -> None:
         law_of_description(terrain, rng)

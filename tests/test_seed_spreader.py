@@ -141,7 +141,7 @@ class TestMoves:
 
 
 class TestLaws:
-    @pytest.mark.parametrize("seed", [*some(range(70), 18), 114, 154, 157, 182, 187, 196, 219, 229])
+    @pytest.mark.parametrize("seed", [*some(range(70), 12), 114, 154, 157, 182, 187, 196, 219, 229])
     def test_random_scenes(self, seed: int) -> None:
         rng = Random(seed)
         scene = swept_scene(rng, arcs=seed % 2 == 1, clear=seed % 5 == 0)
