@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import gc
 import os
+from collections.abc import Iterator
 from compileall import compile_dir
 from importlib.util import find_spec
 from pathlib import Path
@@ -59,6 +60,19 @@ def pytest_collection_finish() -> None:
     """
     gc.enable()
     gc.set_threshold(*gc.get_threshold()[:2], 1000)
+
+
+def pytest_sessionfinish() -> None:
+    """End soon: pytest and the interpreter would search all that tests share for ten seconds."""
+    gc.freeze()
+
+
+@pytest.fixture
+def others_frozen() -> Iterator[None]:
+    """Searches for garbage leave out what other tests have left in this process, which takes seconds."""
+    gc.freeze()
+    yield
+    gc.unfreeze()
 
 
 @pytest.hookimpl(optionalhook=True)

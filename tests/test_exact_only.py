@@ -28,7 +28,7 @@ def spreader(name: str, **options: object) -> Callable[[], xa.Run]:
 
 
 RUNS: dict[str, Callable[[], xa.Run]] = {
-    **{f"sightseer {name}": sightseer(name) for name in some(("circles", "m11", "figure1", "m8"), 2)},
+    **{f"sightseer {name}": sightseer(name) for name in some(("m11", "circles", "figure1", "m8"), 1)},
     "octagons": lambda: xa.sightseer(random_octagons(5, 1), 5),
     **{
         f"random sightseer {seed}": (lambda s=seed: xa.sightseer(random_scene(Subject.SIGHTSEER, s)))

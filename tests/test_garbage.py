@@ -24,13 +24,11 @@ RUNS: dict[str, Callable[[xa.Scene], xa.Run]] = {
 
 
 @pytest.fixture
-def unsearched() -> Iterator[None]:
-    """No search meanwhile but by the test, and none of what other tests have left in this process."""
-    gc.freeze()
+def unsearched(others_frozen: None) -> Iterator[None]:
+    """No search meanwhile but by the test."""
     gc.disable()
     yield
     gc.enable()
-    gc.unfreeze()
 
 
 @pytest.mark.usefixtures("unsearched")
@@ -131,6 +129,7 @@ def test_full_searches_take_a_hundredth_of_the_time(monkeypatch: pytest.MonkeyPa
     assert gaps and set(gaps) == {SHARE * took}
 
 
+@pytest.mark.usefixtures("others_frozen")
 def test_a_full_search_frees_cycles_around_runs(monkeypatch: pytest.MonkeyPatch) -> None:
     class Ring:
         """A user's object that refers to itself."""

@@ -137,6 +137,7 @@ def test_copies_and_pickles_keep_value_and_structure(tree: Tree) -> None:
         assert twin.key == value.key and twin == value and str(twin) == str(value)
 
 
+@pytest.mark.usefixtures("others_frozen")
 def test_a_pickle_loads_where_its_atoms_are_gone() -> None:
     value = 1 / (sqrt(2) + sqrt(3) + sqrt(5) - (sqrt(2) + sqrt(3) + sqrt(5)).enclosure(700)[0])
     expected, data = value.decimal(30), pickle.dumps(value)

@@ -13,7 +13,7 @@ from drawn_scenes.placing import cut
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from map_oracle import Answer, Spot, known, spots
-from nightly import examples
+from nightly import examples, some
 from oracles import Room
 from strategies import ONE, ZERO, Similarity, Terrain, box
 from test_exact_only import told
@@ -147,14 +147,17 @@ def is_known(run: xa.Run, spot: Spot) -> bool:
 # -- under hypothesis ------------------------------------------------------------------------------
 
 Law = Callable[[xa.Scene], None]
-LAWS: tuple[Law, ...] = (law_of_the_audit, law_of_floats, law_of_files)
+LAWS: tuple[Law, ...] = (law_of_the_audit, law_of_files, law_of_floats)
 
 
-@pytest.mark.parametrize("law", LAWS, ids=lambda law: law.__name__.removeprefix("law_of_"))
-@pytest.mark.parametrize("subject", list(Subject), ids=lambda subject: subject.value)
+@pytest.mark.parametrize(
+    "law, subject",
+    some(((law, subject) for law in LAWS for subject in Subject), 5),
+    ids=lambda it: it.value if isinstance(it, Subject) else it.__name__.removeprefix("law_of_"),
+)
 @EXAMPLES
 @given(st.data())
-def test_law(subject: Subject, law: Law, data: st.DataObject) -> None:
+def test_law(law: Law, subject: Subject, data: st.DataObject) -> None:
     law(data.draw(scenes(subject)))
 
 

@@ -17,20 +17,21 @@ from nightly import by_night
 from servers import Served, served
 
 httpx = pytest.importorskip("httpx", reason="httpx is not installed")
-
+HTTP = httpx.Client(verify=False, limits=httpx.Limits(max_keepalive_connections=0))
+"""To read certificates, which nothing needs here, takes longer than a request."""
 EMPTY_LISTS = b'{"scene": {"obstacles": [' + b"[]," * 7_000_000 + b"[]]}}"
 """A drawing that takes some 600 MB when it is read."""
 
 
 def asked(address: str, path: str, value: Any) -> Any:
-    return httpx.post(address + path, json=value, timeout=60).json()
+    return HTTP.post(address + path, json=value, timeout=60).json()
 
 
 def ended(address: str, number: int) -> dict[str, Any]:
     """What is told of a run when it is over."""
     end = time.monotonic() + 60
     while time.monotonic() < end:
-        told: dict[str, Any] = httpx.get(address + f"api/run?number={number}", timeout=60).json()
+        told: dict[str, Any] = HTTP.get(address + f"api/run?number={number}", timeout=60).json()
         if told["state"] != "running":
             return told
         time.sleep(0.05)
@@ -75,9 +76,9 @@ def has_ipv6() -> bool:
 def test_ipv6_is_served_on_the_loopback_interface_alone() -> None:
     with served("--ipv6", place="[::1]") as server:
         host = f"[::1]:{server.port}"
-        assert httpx.get(server.address).status_code == 200
+        assert HTTP.get(server.address).status_code == 200
         own = {"origin": f"http://{host}"}
-        assert httpx.post(
+        assert HTTP.post(
             server.address + "api/check", json={"scene": SCENE}, headers=own, timeout=60
         ).json() == {"flaws": []}
         for headers, status in (
@@ -86,7 +87,7 @@ def test_ipv6_is_served_on_the_loopback_interface_alone() -> None:
             ({"origin": f"http://127.0.0.1:{server.port}"}, 403),
             ({"host": f"localhost:{server.port}"}, 200),
         ):
-            assert httpx.get(server.address, headers=headers).status_code == status
+            assert HTTP.get(server.address, headers=headers).status_code == status
         assert reached("::1", server.port)
         for other in ("127.0.0.1", *own_addresses()):
             assert not reached(other, server.port), other
@@ -117,17 +118,17 @@ def listens_at(server: Served, places: set[str]) -> None:
 @pytest.mark.skipif(sys.platform != "linux", reason="memory is limited on Linux only")
 def test_a_process_gets_no_more_memory_than_it_may(address: str) -> None:
     kind = {"content-type": "application/json"}
-    enough = httpx.post(address + "api/check", content=EMPTY_LISTS, headers=kind, timeout=60)
+    enough = HTTP.post(address + "api/check", content=EMPTY_LISTS, headers=kind, timeout=60)
     assert enough.status_code == 422 and "memory" not in enough.json()["error"]
     with served("--memory", "512") as server:
-        less = httpx.post(server.address + "api/check", content=EMPTY_LISTS, headers=kind, timeout=60)
+        less = HTTP.post(server.address + "api/check", content=EMPTY_LISTS, headers=kind, timeout=60)
         assert less.status_code == 422 and "--memory" in less.json()["error"]
         assert asked(server.address, "api/check", {"scene": SCENE}) == {"flaws": []}
 
 
 def test_a_run_gets_no_more_time_than_it_may() -> None:
     with served("--seconds", "1") as server:
-        scene = httpx.get(server.address + "api/gallery/plate", timeout=60).json()["scene"]
+        scene = HTTP.get(server.address + "api/gallery/plate", timeout=60).json()["scene"]
         before = server.processes() if sys.platform == "linux" else []
         number = asked(server.address, "api/run", {"scene": scene})["number"]
         told = ended(server.address, number)
@@ -150,7 +151,7 @@ def test_nothing_is_left_of_a_file_that_was_being_opened(tmp_path: Path) -> None
         kind = {"content-type": "application/octet-stream"}
         content = f"MULTIPOLYGON ({rings})".encode()
         with suppress(httpx.HTTPError):
-            httpx.post(address + "api/open?suffix=.wkt", content=content, headers=kind, timeout=60)
+            HTTP.post(address + "api/open?suffix=.wkt", content=content, headers=kind, timeout=60)
 
     with served(TMPDIR=str(tmp_path)) as server:
         sender = Thread(target=send, args=(server.address,))

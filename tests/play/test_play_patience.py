@@ -12,6 +12,7 @@ from threading import Thread
 from typing import Any
 
 import pytest
+from nightly import some
 
 from exactacq.play import guard
 from exactacq.play.guard import Guard
@@ -70,9 +71,10 @@ def ended(plain: socket.socket) -> bool:
     return True
 
 
-@pytest.mark.parametrize(
-    "sent", [b"", b"G", HEAD, HEAD + b"\r\n" + HEAD], ids=["none", "letter", "head", "second"]
-)
+SENT = {"none": b"", "letter": b"G", "second": HEAD + b"\r\n" + HEAD, "head": HEAD}
+
+
+@pytest.mark.parametrize("sent", some(SENT.values(), 2), ids=some(SENT, 2))
 def test_a_connection_without_a_request_is_ended(sent: bytes) -> None:
     with listening() as port, socket.create_connection(("127.0.0.1", port), 20) as plain:
         plain.sendall(sent)
@@ -95,6 +97,7 @@ def test_idle_connections_keep_nobody_out(sent: bytes) -> None:
 
 
 def test_requests_at_work_are_not_ended_for_others() -> None:
+    """Nor because their answers take long."""
     with listening(limit_concurrency=4) as port, ThreadPoolExecutor() as threads:
         late = [threads.submit(answered, port, "/late") for _ in range(3)]
         time.sleep(SECONDS)
@@ -111,11 +114,6 @@ def test_what_makes_no_sense_is_refused_quietly(method: bytes, caplog: pytest.Lo
         assert plain.recv(100).startswith(b"HTTP/1.1 400")
         assert ended(plain)
     assert not caplog.records
-
-
-def test_an_answer_that_takes_long_comes() -> None:
-    with listening() as port:
-        assert answered(port, "/late") == 200
 
 
 def test_an_answer_that_is_not_taken_is_given_up() -> None:

@@ -15,7 +15,8 @@ from exactacq import explore, load, load_run, sightseer
 from exactacq.output.vocabulary import DARK, colours
 
 httpx = pytest.importorskip("httpx", reason="httpx is not installed")
-
+HTTP = httpx.Client(verify=False, limits=httpx.Limits(max_keepalive_connections=0))
+"""To read certificates, which nothing needs here, takes longer than a request."""
 DISCS = [{"circle": {"center": [x, "0"], "radius": r}} for x, r in (("5", "2"), ("12", "3"))]
 ROOM = [[x, y] for x, y in (("-30", "-30"), ("30", "-30"), ("30", "30"), ("-30", "30"))]
 SCENE = {"start": ["0", "0"], "radius": "20", "obstacles": DISCS}
@@ -25,12 +26,12 @@ FILE = {"content-type": "application/octet-stream"}
 
 def post(address: str, path: str, value: Any, **options: Any) -> Any:
     body = value if isinstance(value, bytes) else json.dumps(value).encode()
-    return httpx.post(address + path, content=body, headers=JSON, timeout=60, **options)
+    return HTTP.post(address + path, content=body, headers=JSON, timeout=60, **options)
 
 
 def finished(address: str, number: int) -> dict[str, Any]:
     for _ in range(600):
-        told: dict[str, Any] = httpx.get(address + f"api/run?number={number}").json()
+        told: dict[str, Any] = HTTP.get(address + f"api/run?number={number}").json()
         if told["state"] != "running":
             return told
         time.sleep(0.05)
@@ -38,12 +39,12 @@ def finished(address: str, number: int) -> dict[str, Any]:
 
 
 def test_the_page_has_all_it_needs_and_asks_for_nothing_else(address: str) -> None:
-    page = httpx.get(address)
+    page = HTTP.get(address)
     assert page.status_code == 200
     assert "default-src 'none'" in page.headers["content-security-policy"]
     assert "$" not in page.text and " style=" not in page.text and " onclick=" not in page.text
     for name in ("main.js", "player/player.js", "play.css", "colours.css", "scales.json", "icon.svg"):
-        answer = httpx.get(address + name)
+        answer = HTTP.get(address + name)
         assert answer.status_code == 200 and answer.headers["x-content-type-options"] == "nosniff"
     assert set(colours(dark=True)) == set(colours()) == set(DARK)
 
@@ -52,19 +53,19 @@ def test_a_run_is_told_and_saved_exactly(address: str) -> None:
     number = post(address, "api/run", {"scene": SCENE}).json()["number"]
     told = finished(address, number)
     assert told["state"] == "finished" and told["parts"] == 2
-    data = httpx.get(address + f"api/data?number={number}").json()
+    data = HTTP.get(address + f"api/data?number={number}").json()
     assert data["report"]["length"][0] == "5 + 12*pi"
     assert data["report"]["bounds"][0]["closed"] == "4 + 15*pi"
     trace = post(address, "api/save?kind=trace", None, params={"kind": "trace"}).json()
     assert trace["length"] == sightseer(load("circles")).to_json()["length"]
     assert b"<svg" in post(address, "api/save?kind=figure&at=2", None).content
-    assert httpx.get(address + "api/run?number=0").status_code == 410
+    assert HTTP.get(address + "api/run?number=0").status_code == 410
 
 
 def test_a_baseline_is_run_and_saved_like_the_others(address: str) -> None:
     number = post(address, "api/run", {"scene": SCENE, "strategy": "nearest-frontier"}).json()["number"]
     assert finished(address, number)["state"] == "finished"
-    data = httpx.get(address + f"api/data?number={number}").json()
+    data = HTTP.get(address + f"api/data?number={number}").json()
     own = explore(load("circles"), "nearest-frontier")
     assert data["report"]["length"] == [f"≈ {own.length.decimal(20)}"]
     assert data["report"]["bounds"] == [] and data["report"]["done"] == ["acquired", 2, 2]
@@ -90,7 +91,7 @@ def test_broken_rules_are_told_with_their_places(address: str) -> None:
 
 
 def test_a_run_can_be_stopped(address: str) -> None:
-    scene = httpx.get(address + "api/gallery/plate", timeout=60).json()["scene"]
+    scene = HTTP.get(address + "api/gallery/plate", timeout=60).json()["scene"]
     number = post(address, "api/run", {"scene": scene}).json()["number"]
     time.sleep(0.3)
     assert post(address, "api/stop", {}).status_code == 200
@@ -100,10 +101,10 @@ def test_a_run_can_be_stopped(address: str) -> None:
 
 def test_files_are_opened_by_their_content(address: str) -> None:
     wkt = b"POLYGON ((2 2, 4 2, 4 4, 2 2))"
-    found = httpx.post(address + "api/open?suffix=.wkt&start=0,0", content=wkt, headers=FILE, timeout=60)
+    found = HTTP.post(address + "api/open?suffix=.wkt&start=0,0", content=wkt, headers=FILE, timeout=60)
     assert len(found.json()["scene"]["obstacles"]) == 1
     for suffix in (".yaml", ".csv", ".exe", "", "/../x", "." * 500):
-        answer = httpx.post(
+        answer = HTTP.post(
             address + "api/open", params={"suffix": suffix}, content=wkt, headers=FILE, timeout=60
         )
         assert answer.status_code == 422 and answer.json()["error"]
@@ -118,15 +119,15 @@ def test_other_pages_and_names_are_refused(address: str) -> None:
         ({"origin": f"https://127.0.0.1:{port}"}, 403), ({"sec-fetch-site": "cross-site"}, 403),
     ]  # fmt: skip
     for headers, status in foreign:
-        assert httpx.get(address, headers=headers).status_code == status
-        answer = httpx.post(address + "api/run", content=b"{}", headers={**JSON, **headers})
+        assert HTTP.get(address, headers=headers).status_code == status
+        answer = HTTP.post(address + "api/run", content=b"{}", headers={**JSON, **headers})
         assert answer.status_code == status and answer.json()["error"]
     root = f"http://127.0.0.1:{port}"
     for path in ("/", "/api/run", "/x/api/run", "/" + "a" * 32 + "/"):
-        assert httpx.get(root + path).status_code == 404
-    assert httpx.post(address + "api/run", content=b"{}", headers=FILE).status_code == 415
+        assert HTTP.get(root + path).status_code == 404
+    assert HTTP.post(address + "api/run", content=b"{}", headers=FILE).status_code == 415
     for method in ("PUT", "DELETE", "PATCH", "OPTIONS", "BREW"):
-        assert httpx.request(method, address).status_code == 405
+        assert HTTP.request(method, address).status_code == 405
 
 
 def test_no_path_leads_out_of_the_page(address: str) -> None:
@@ -172,7 +173,7 @@ def test_hostile_bodies_end_in_one_error(address: str, body: bytes) -> None:
 
 
 def test_bodies_that_are_too_large_are_refused(address: str) -> None:
-    answer = httpx.post(address + "api/check", content=b" " * (25 << 20), headers=JSON, timeout=60)
+    answer = HTTP.post(address + "api/check", content=b" " * (25 << 20), headers=JSON, timeout=60)
     assert answer.status_code == 413
 
 
