@@ -145,7 +145,7 @@ def test_what_is_missing_is_said_before_the_run(
     assert "a .mp4 needs the program ffmpeg: install it, or write a .gif" in refused(tmp_path / "run.mp4")
     assert "must end in .html, .gif, .mp4" in refused(tmp_path / "run.avi")
     monkeypatch.setitem(sys.modules, "PIL", None)
-    assert "this needs PIL: pip install 'exactacq[images]'" in refused(tmp_path / "run.gif")
+    assert "this needs PIL: in a clone of exactacq, pip install '.[images]'" in refused(tmp_path / "run.gif")
     assert not list(tmp_path.iterdir())
 
 

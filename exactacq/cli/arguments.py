@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
@@ -28,7 +28,9 @@ SceneName = Annotated[
     str,
     typer.Argument(metavar="SCENE", help="A file, or the name of a gallery scene.", autocompletion=scenes),
 ]
-Start = Annotated[str | None, typer.Option(metavar="X,Y", help="Start point; required for drawings.")]
+Start = Annotated[
+    str | None, typer.Option(metavar="X,Y", help="Start point; a drawing has none, and a run needs one.")
+]
 TerrainSize = Annotated[
     str | None,
     typer.Option(
@@ -161,7 +163,23 @@ def naming(option: str, act: Callable[[], Result]) -> Result:
         raise FormatError(f"{option}: {error}") from None
 
 
-def same_file(path: Path, scene: str) -> bool:
+def check_outputs(scene: str, *wanted: tuple[str | None, Collection[str]]) -> None:
+    """That each file that is wanted, with its suffixes, can be written, and writes over no other of these.
+
+    Raises `FormatError`; writes nothing.
+    """
+    from exactacq.files.whole_files import check_output
+
+    paths = [check_output(file, suffixes) for file, suffixes in wanted if file is not None]
+    if any(_is_same(path, scene) for path in paths):
+        raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
+    real = [os.path.realpath(path) for path in paths]
+    for k, path in enumerate(real):
+        if path in real[:k]:
+            raise FormatError(f"{paths[k]}: is named for two outputs; choose another name for one of them")
+
+
+def _is_same(path: Path, scene: str) -> bool:
     try:
         return path.samefile(scene)
     except (OSError, ValueError):

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from exactacq.cli.arguments import AsJson, FigureFile, SceneName, Start, place_of, same_file
+from exactacq.cli.arguments import AsJson, FigureFile, SceneName, Start, check_outputs, place_of
 from exactacq.cli.options import read_from_text, reads_files
 from exactacq.errors import FormatError
 
@@ -31,13 +31,12 @@ def check(
     No start is needed. The exit status is 2 if there are violations, or if a chain stays open that would
     enclose other loops; then the last line says so. Options are named as cures only after they were tried.
     """
-    from exactacq.files.whole_files import FIGURES, check_output
+    from exactacq.files.whole_files import FIGURES
     from exactacq.output.inspections import inspection_data, inspection_report
     from exactacq.output.report import console
     from exactacq.output.report_data import text_of
 
-    if figure is not None and same_file(check_output(figure, FIGURES), scene):
-        raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
+    check_outputs(scene, (figure, FIGURES))
     found = _inspected(scene, start, options)
     refused = None if figure is None else _draw(found, figure)
     if as_json:

@@ -16,17 +16,17 @@ from exactacq.cli.arguments import (
     SceneName,
     Start,
     TerrainSize,
+    check_outputs,
     check_radius,
     check_start,
     range_of,
-    same_file,
     scene_of,
 )
 from exactacq.cli.completion import strategies
 from exactacq.cli.options import reads_files
 from exactacq.cli.own_strategies import WORDS, chosen
 from exactacq.cli.runs import explored, watched
-from exactacq.errors import FormatError, InvalidScene
+from exactacq.errors import InvalidScene
 from exactacq.output.vocabulary import Labels
 from exactacq.strategies.options import MOST_MOVES, Strategy
 
@@ -62,15 +62,13 @@ def compare(
     The Seed Spreader starts in the SW corner of the terrain, the others there if no other start is given. If
     one of them does not take the scene, it is told why.
     """
-    from exactacq.files.whole_files import FIGURES, PAGES, check_output
+    from exactacq.files.whole_files import FIGURES, PAGES
     from exactacq.output.report import comparison, console, run_report
     from exactacq.output.report_data import comparison_data, text_of
     from exactacq.scene.bounding import at_corner
 
     range_ = range_of(radius)
-    for path, kinds in ((figure, FIGURES), (animate, PAGES)):
-        if path is not None and same_file(check_output(path, kinds), scene):
-            raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
+    check_outputs(scene, (figure, FIGURES), (animate, PAGES))
     wanted = [chosen(text) for text in strategy or Strategy]
     world = scene_of(scene, start, options, terrain)
     check_radius(scene, world, range_)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from exactacq.cli.arguments import Start, naming, number_of, same_file, scene_of
+from exactacq.cli.arguments import Start, check_outputs, naming, number_of, scene_of
 from exactacq.cli.completion import scenes
 from exactacq.cli.options import read_from_text, reads_files
 from exactacq.errors import FormatError
@@ -33,15 +33,13 @@ def convert(
     **options: Any,
 ) -> None:
     """Write a scene or a run in another format; say how far any point moved at most."""
-    from exactacq.files.whole_files import check_output
     from exactacq.output.report import console, remarks_report
     from exactacq.output.results import write
     from exactacq.output.run_json import is_run_file, load_run
 
     length = None if at is None else number_of("--at", at)
     kinds = None if only is None else [kind.strip() for kind in only.split(",")]
-    if same_file(check_output(target, written_suffixes()), source):
-        raise FormatError(f"{source}: would be overwritten by the output; choose another name")
+    check_outputs(source, (target, written_suffixes()))
     given = read_from_text(options)
     subject: Run | Scene
     if is_run_file(source):

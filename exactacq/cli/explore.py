@@ -17,17 +17,17 @@ from exactacq.cli.arguments import (
     SceneName,
     Start,
     TerrainSize,
+    check_outputs,
     check_radius,
     check_start,
     naming,
     number_of,
     range_of,
-    same_file,
     scene_of,
 )
 from exactacq.cli.completion import strategies
 from exactacq.cli.options import reads_files
-from exactacq.cli.own_strategies import WORDS, chosen
+from exactacq.cli.own_strategies import WORDS, NamedStrategy, chosen
 from exactacq.cli.runs import explored, watched
 from exactacq.errors import AuditError, ExactacqError, FormatError, Undecided
 from exactacq.output.vocabulary import Labels
@@ -86,7 +86,7 @@ def explore(
 
     Where a comparison stays undecided, all that is done for the run up to there, and the exit status is 3.
     """
-    from exactacq.files.whole_files import FIGURES, FILMS, PAGES, TRACES, check_output, write_whole
+    from exactacq.files.whole_files import FIGURES, FILMS, PAGES, TRACES, write_whole
     from exactacq.output.report import console, run_report
     from exactacq.scene.bounding import at_corner
 
@@ -99,9 +99,9 @@ def explore(
         from exactacq.output.animation.film import check_film
 
         check_film(animate)
-    if any(same_file(check_output(f, s), scene) for f, s in wanted if f is not None):
-        raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
+    check_outputs(scene, *wanted)
     rules = chosen(strategy)
+    _check_use(rules, lookahead, target, max_moves)
     world = scene_of(scene, start, options, terrain)
     check_radius(scene, world, range_)
     check_start(world, rules.sweeps)
@@ -139,6 +139,19 @@ def explore(
                 out.print(line, soft_wrap=True)
     if trouble is not None:
         raise trouble
+
+
+def _check_use(rules: NamedStrategy, lookahead: bool, target: TargetChoice, max_moves: int) -> None:
+    """`FormatError` for an option that the strategy does not heed."""
+    if rules.strategy is not Strategy.SEED_SPREADER:
+        for option, is_given in (
+            ("--no-lookahead", not lookahead),
+            ("--target", target is not TargetChoice.KNOWN),
+        ):
+            if is_given:
+                raise FormatError(f"{option}: is for the Seed Spreader; add --strategy seed-spreader")
+    if rules.strategy in tuple(Strategy) and max_moves != MOST_MOVES:
+        raise FormatError(f"--max-moves: is for strategies of your own, and {rules.name} has no limit")
 
 
 def _audited(run: Run) -> ExactacqError | None:

@@ -11,15 +11,14 @@ from exactacq.cli.arguments import (
     Radius,
     SceneName,
     check_free,
+    check_outputs,
     check_radius,
     needs_start,
     place_of,
     range_of,
-    same_file,
     scene_of,
 )
 from exactacq.cli.options import reads_files
-from exactacq.errors import FormatError
 
 
 @reads_files
@@ -33,14 +32,12 @@ def isovist(
     **options: Any,
 ) -> None:
     """What is seen from a place within a radius: area, perimeter and pieces; or a drawing of it."""
-    from exactacq.files.whole_files import check_output
     from exactacq.output.report import console, view_report
     from exactacq.output.results import write
     from exactacq.visibility.isovist import isovist as view_from
 
     range_, place = range_of(radius), place_of("--at", at)
-    if out is not None and same_file(check_output(out, DRAWINGS), scene):
-        raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
+    check_outputs(scene, (out, DRAWINGS))
     world = scene_of(scene, at if needs_start(scene) else None, options)
     check_radius(scene, world, range_)
     check_free(world, "--at", place)

@@ -11,13 +11,13 @@ from exactacq.cli.arguments import (
     FigureFile,
     SceneName,
     check_free,
+    check_outputs,
     needs_start,
     place_of,
-    same_file,
     scene_of,
 )
 from exactacq.cli.options import reads_files
-from exactacq.errors import FormatError, InvalidScene
+from exactacq.errors import InvalidScene
 
 Place = Annotated[str, typer.Argument(metavar="A", help="Where the path begins: X,Y.")]
 Goal = Annotated[str, typer.Argument(metavar="B", help="Where it ends: X,Y.")]
@@ -35,15 +35,13 @@ def path(
     **options: Any,
 ) -> None:
     """A shortest path between two points among the obstacles of a scene: its exact length and pieces."""
-    from exactacq.files.whole_files import FIGURES, check_output
+    from exactacq.files.whole_files import FIGURES
     from exactacq.output.report import console, path_report
     from exactacq.output.results import write
     from exactacq.visibility.shortest_path import shortest_path
 
     ends = place_of("A", a), place_of("B", b)
-    for file, suffixes in ((figure, FIGURES), (out, DRAWINGS)):
-        if file is not None and same_file(check_output(file, suffixes), scene):
-            raise FormatError(f"{scene}: would be overwritten by the output; choose another name")
+    check_outputs(scene, (figure, FIGURES), (out, DRAWINGS))
     world = scene_of(scene, a if needs_start(scene) else None, options)
     for name, place in zip("AB", ends, strict=True):
         check_free(world, name, place)

@@ -42,8 +42,9 @@ def play(
 ) -> None:
     """Draw a scene in the browser, and watch the robot explore it; control-C ends it.
 
-    The page is served to this machine alone, at an address that is printed and holds a secret. It needs
-    the extra play: pip install 'exactacq[play]'.
+    The page is served to this machine alone, at an address that is printed and holds a secret.
+
+    It needs the package installed with the extra play.
     """
     from exactacq.play.api import Limits
     from exactacq.play.scenes import opened

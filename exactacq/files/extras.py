@@ -14,4 +14,4 @@ def extra(module: str, name: str) -> Any:
         return import_module(module)
     except ImportError:
         library = module.split(".", maxsplit=1)[0]
-        raise FormatError(f"this needs {library}: pip install 'exactacq[{name}]'") from None
+        raise FormatError(f"this needs {library}: in a clone of exactacq, pip install '.[{name}]'") from None

@@ -36,6 +36,8 @@ GROUPS = ("g", "a", "switch")
 SHAPES = ("path", "rect", "circle", "ellipse", "line", "polyline", "polygon")
 LEFT_OUT = ("image", "text", "foreignObject", "style")
 """What is left out and counted; other elements, such as definitions, show nothing by themselves."""
+TERRAIN = "terrain"
+"""The ``data-kind`` of the border of a terrain, as `exactacq.files.writing.svg` draws it: it is no wall."""
 CUTS = ("clip-path", "mask")
 """What hides parts of elements, which are read whole."""
 Pair = tuple[fmpq, fmpq]
@@ -133,6 +135,9 @@ class _SvgReader:
         """The frame of what is in an element, or of the element if it is a shape; None if it is not shown."""
         if element.style("display") == "none":
             self.drawing.dropped["hidden element"] += 1
+            return None
+        if element.attributes.get("data-kind") == TERRAIN:
+            self.drawing.dropped["border of a terrain"] += 1
             return None
         self.drawing.dropped.update(w for w in CUTS if element.style(w) not in ("", "none"))
         names = (element.attributes.get(key) for key in ("inkscape:label", "id"))

@@ -218,5 +218,6 @@ def _gaps(spots: Floats, extents: Spot, target: Floats) -> Floats:
 def _width(text: str) -> float:
     """The width of a text of size 1, in bold letters."""
     size = 20.0
-    path = TextPath((0, 0), text, size=size, prop=FontProperties(weight="bold"), usetex=False)
+    plain = text.replace("$", r"\$")  # Between two of these would be a formula.
+    path = TextPath((0, 0), plain, size=size, prop=FontProperties(weight="bold"), usetex=False)
     return float(path.get_extents().width) / size if len(path.vertices) else 0.3

@@ -28,7 +28,7 @@ def cluster_records(settings: Settings, tasks: Iterable[Task], address: str) -> 
         dask = import_module("distributed")
     except ImportError:
         raise CampaignError(
-            "--scheduler needs dask.distributed; install it with: pip install 'exactacq[cluster]'"
+            "--scheduler needs dask.distributed; in a clone of exactacq: pip install '.[cluster]'"
         ) from None
     try:
         client = dask.Client(address, timeout=PATIENCE, set_as_default=False)

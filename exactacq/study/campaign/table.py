@@ -26,7 +26,7 @@ def arrow() -> Any:
         return import_module("pyarrow")
     except ImportError:
         raise CampaignError(
-            "--export needs pyarrow; install it with: pip install 'exactacq[parquet]'"
+            "--export needs pyarrow; in a clone of exactacq: pip install '.[parquet]'"
         ) from None
 
 

@@ -113,6 +113,6 @@ def _hypothesis() -> Any:
         import hypothesis.strategies
     except ImportError:
         raise FormatError(
-            "hypothesis is not installed; `pip install exactacq[search]`, or --method local"
+            "hypothesis is not installed: in a clone of exactacq, pip install '.[search]'; or --method local"
         ) from None
     return hypothesis
