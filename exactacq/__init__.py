@@ -170,6 +170,8 @@ def __getattr__(name: str) -> "Any":
     """Load the module where a name lives; from then on it is a name of this one."""
     if name == "kernel":  # Whose DESCRIPTION says which form of the kernel runs.
         return import_module("exactacq.kernel")
+    if name == "__version__":
+        return import_module("importlib.metadata").version("exactacq")
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     value = globals()[name] = getattr(import_module(_HOMES[name]), name)

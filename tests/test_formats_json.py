@@ -251,7 +251,7 @@ def test_a_scene_that_breaks_the_rules_is_invalid_not_malformed(tmp_path: Path) 
     [
         ("missing.json", "no such file"),
         ("folder.json", "is a directory"),
-        ("scene.doc", "unknown file type '.doc'; known are .json"),
+        ("scene.doc", "unknown file type '.doc'; files that are read end in .json"),
         ("scene", "a file name without a type"),
         ("nul\0.json", "cannot be read"),
         ("x" * 5000 + ".json", "cannot be read"),

@@ -138,7 +138,8 @@ def format_of(path: Path) -> Format:
         if suffix in known.suffixes:
             return known
     kind = f"unknown file type {shown(suffix)}" if suffix else "a file name without a type"
-    raise FormatError(f"{kind}; known are {' '.join(s for known in formats() for s in known.suffixes)}")
+    read = " ".join(suffix for known in formats() if known.reader for suffix in known.suffixes)
+    raise FormatError(f"{kind}; files that are read end in {read}")
 
 
 def _check_unused(name: str, value: object, used: Format) -> None:

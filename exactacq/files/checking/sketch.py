@@ -76,11 +76,12 @@ class Sketch:
 
     @cached_property
     def nesting(self) -> Bools:
-        """Row i tells which loops lie around the first vertex of loop i."""
+        """Row i tells which loops lie around three points of loop i: around one lie loops that touch, too."""
         known = [k for k in range(self.count) if len(self.lines[k])]
         found = np.zeros((self.count, self.count), dtype=bool)
         if known:
-            found[known] = self.around(np.array([self.lines[k][0] for k in known]))
+            thirds = [self.lines[k][n * len(self.lines[k]) // 3] for k in known for n in range(3)]
+            found[known] = self.around(np.array(thirds)).reshape(len(known), 3, -1).all(axis=1)
         np.fill_diagonal(found, False)
         return found
 
