@@ -289,7 +289,9 @@ def test_an_extra_that_is_missing_is_named(tmp_path: Path, monkeypatch: pytest.M
     monkeypatch.setattr(extras, "import_module", missing)
     path = tmp_path / "plan.png"
     path.write_bytes(b"\x89PNG")
-    with pytest.raises(xa.FormatError, match=r"this needs PIL: pip install 'exactacq\[images\]'"):
+    with pytest.raises(
+        xa.FormatError, match=r"this needs PIL: in a clone of exactacq, pip install '\.\[images\]'"
+    ):
         xa.load(path)
 
 

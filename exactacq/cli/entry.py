@@ -25,7 +25,7 @@ from exactacq.study.search.command import search
 
 REFUSED, INTERNAL, UNDECIDED, INTERRUPTED = 2, 1, 3, 130
 """Exit statuses; `exactacq.cli.manual.STATUSES` has their words."""
-VIOLATIONS = 8
+VIOLATIONS = 3
 """Most violations of a scene that the one line of an error names."""
 UsageError: type[Exception] = typer.BadParameter.__bases__[0]
 """What typer raises for a wrong command line; where it lives depends on typer's release."""
@@ -110,7 +110,8 @@ def _one_line(error: BaseException) -> str:
         text = error.format_message().replace("Value error, ", "", 1)  # Some releases of typer say so.
     elif isinstance(error, InvalidScene) and len(error.violations) > VIOLATIONS:
         shown = "; ".join(error.violations[:VIOLATIONS])
-        text = f"{len(error.violations)} violations: {shown}; and {len(error.violations) - VIOLATIONS} more"
+        more = len(error.violations) - VIOLATIONS
+        text = f"{len(error.violations)} violations: {shown}; and {more} more, all told by exactacq check"
         text += f"; {error.cure}" if error.cure else ""
     elif isinstance(error, OSError) and error.strerror is not None:
         place = "" if error.filename is None else f"{error.filename}: "

@@ -89,11 +89,13 @@ def comparison(runs: Sequence[Run]) -> RenderableType:
     ratios = [f"{_short(run)} / {_short(first)}  {float(run.length) / whole:.6f}" for run in others]
     counts = [(len(run.visits), len(run.map.acquired), len(run.obstacles)) for run in runs]
     beside = [standing(run) for run in runs]
+    beyond = [0 if run.ground is None else len(run.ground.unreached) for run in runs]
     rows: dict[str, list[str]] = {
         Word.LENGTH: ["\n".join(readable(run.length, CLOSED_FORM // 2, 12)) for run in runs],
         Word.VISITED: [f"{visits} of {count}" for visits, _, count in counts],
         Word.ACQUIRED: [f"{known} of {count}" for _, known, count in counts],
         Word.UNSEEN: [str(len(run.unseen)) for run in runs],
+        **({Word.UNREACHABLE: list(map(str, beyond))} if any(beyond) else {}),
         Word.UNKNOWN: [_share(one.unknown, one.boundary) for one in beside],
         f"{Word.DIVERSION}s": [
             str(len(run.diversions)) if isinstance(run, SeedSpreaderRun) else "-" for run in runs

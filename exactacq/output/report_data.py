@@ -94,6 +94,7 @@ def _run(run: Run) -> dict[str, Any]:
         "acquired": list(run.map.acquired),
         "unseen": list(run.unseen),
         "unvisited": list(run.unvisited),
+        "unreachable": [] if run.ground is None else [part.label for part in run.ground.unreached],
         "unknown": length_to_json(beside.unknown),
         "boundary": length_to_json(beside.boundary),
         "lower_bounds": {"seeing": _least(beside.seeing), "circling": _least(beside.circling)},

@@ -22,6 +22,8 @@ HUGE = 10**150
 """Coordinates beyond this are not sketched: squares of floats would overflow."""
 AT_ONCE = 2_000_000
 """Pairs of a place and a chord that are looked at in one step, which bounds the memory."""
+NEAR = 1e-9
+"""What is nearer to a loop counts as on it, as a part of the width of everything."""
 Bools = NDArray[np.bool_]
 
 
@@ -64,30 +66,41 @@ class Sketch:
 
     def clearance(self, places: Floats) -> Floats:
         """The distance of each place to the nearest chord."""
-        least = np.full(len(places), np.inf)
-        along = self.ends - self.starts
-        size = np.maximum((along**2).sum(axis=1), 1e-300)
-        for some in _steps(np.arange(len(places)), len(self.starts)):
-            offset = places[some][:, None] - self.starts
-            share = np.clip((offset * along).sum(axis=2) / size, 0, 1)
-            offset -= share[..., None] * along
-            least[some] = np.sqrt((offset**2).sum(axis=2).min(axis=1))
-        return least
+        return _least(places, self.starts, self.ends)
 
     @cached_property
     def nesting(self) -> Bools:
-        """Row i tells which loops lie around three points of loop i: around one lie loops that touch, too."""
+        """Row i tells which loops lie around the first vertex of loop i, or around another if it is on them."""
         known = [k for k in range(self.count) if len(self.lines[k])]
         found = np.zeros((self.count, self.count), dtype=bool)
         if known:
-            thirds = [self.lines[k][n * len(self.lines[k]) // 3] for k in known for n in range(3)]
-            found[known] = self.around(np.array(thirds)).reshape(len(known), 3, -1).all(axis=1)
-        np.fill_diagonal(found, False)
+            first, later = (
+                np.array([self.lines[k][n * len(self.lines[k]) // 2] for k in known]) for n in (0, 1)
+            )
+            inside = self.around(first)
+            inside[np.arange(len(known)), known] = False
+            for row, k in np.argwhere(inside):
+                if _least(first[row : row + 1], *self._chords(k))[0] <= NEAR * np.ptp(self.ends[:, 0]):
+                    inside[row, k] = self.around(later[row : row + 1])[0, k]
+            found[known] = inside
         return found
 
     def _chords(self, loop: int) -> tuple[Floats, Floats]:
         part = slice(self.begin[loop], self.begin[loop + 1])
         return self.starts[part], self.ends[part]
+
+
+def _least(places: Floats, starts: Floats, ends: Floats) -> Floats:
+    """The distance of each place to the nearest of some chords."""
+    least = np.full(len(places), np.inf)
+    along = ends - starts
+    size = np.maximum((along**2).sum(axis=1), 1e-300)
+    for some in _steps(np.arange(len(places)), len(starts)):
+        offset = places[some][:, None] - starts
+        share = np.clip((offset * along).sum(axis=2) / size, 0, 1)
+        offset -= share[..., None] * along
+        least[some] = np.sqrt((offset**2).sum(axis=2).min(axis=1))
+    return least
 
 
 def points_of(edges: Sequence[Curve]) -> list[Floats]:
