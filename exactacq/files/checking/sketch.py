@@ -70,7 +70,7 @@ class Sketch:
 
     @cached_property
     def nesting(self) -> Bools:
-        """Row i tells which loops lie around the first vertex of loop i, or around another if it is on them."""
+        """Row i: the loops around the first vertex of loop i, or around another one where that is on them."""
         known = [k for k in range(self.count) if len(self.lines[k])]
         found = np.zeros((self.count, self.count), dtype=bool)
         if known:
