@@ -195,6 +195,25 @@ class TestTheStrategyAgrees:
                 expected = sees_later(x, Real(start), stop, targets, lambda _, k=known: k, radius)
                 assert sees(targets, others, radius, start, stop, x=x) is expected, (seed, x)
 
+    @pytest.mark.filterwarnings("error::RuntimeWarning")
+    @pytest.mark.parametrize("seed", [100246, 102816, 104787])
+    def test_where_the_range_is_huge(self, seed: int) -> None:
+        """On these maps a bound was no number, 0 times infinity: what it bounds counted as out of sight."""
+        targets, others, radius, start, stop = degenerate(seed)
+        one, other = ([enlarged(piece, 10**10) for piece in pieces] for pieces in (targets, others))
+        x, low, high, reach = (fmpq(number) * 10**10 for number in (1, start, stop, radius))
+        expected = sees_later(fmpq(1), Real(start), stop, targets, lambda _: [*targets, *others], radius)
+        assert sees_later(x, Real(low), high, one, lambda _: [*one, *other], reach) is expected
+
+
+def enlarged(piece: Curve, times: int) -> Curve:
+    """A piece of a map that is so many times as large."""
+    start, end = (Point(place.x * times, place.y * times) for place in (piece.start, piece.end))
+    if isinstance(piece, Segment):
+        return Segment(start, end)
+    center = Point(piece.center.x * times, piece.center.y * times)
+    return Arc(start, end, center, piece.radius_sq * times**2, piece.ccw, piece.full)
+
 
 # -- runs of a strategy that asks wrongly ----------------------------------------------------------
 

@@ -316,9 +316,9 @@ class Proposals:
         p = self._places((low + high) / 2)
         way, bend, along, real = self._about(touch, p)
         real &= self._may_touch(touch, left(way), bend)
-        shake = np.where(gaps.tiny, high - low + 10 * self.slack, 0.0)
+        shake = (high - low + 10 * self.slack) * (1 + self.radius / np.maximum(np.abs(along), TINY))
         base = self.grain / 1000 + bend * self.radius
-        base = np.minimum(base + shake * (1 + self.radius / np.maximum(np.abs(along), TINY)), self.radius)
+        base = np.minimum(base + np.where(gaps.tiny, shake, 0.0), self.radius)
         hit, blur = self._hits(p, way, base)
         ok = real[:, None, None] & (hit > along[:, None, None] - blur - self.slack)
         straight = self.pieces.sense[self.targets] == 0
