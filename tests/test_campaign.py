@@ -391,5 +391,5 @@ class TestCommand:
     ) -> None:
         monkeypatch.setitem(sys.modules, module, None)
         monkeypatch.chdir(tmp_path)
-        with pytest.raises(CampaignError, match=rf"{option} needs .*pip install 'exactacq\["):
+        with pytest.raises(CampaignError, match=rf"{option} needs .*pip install '\.\["):
             CliRunner().invoke(app, [option, value], catch_exceptions=False)
