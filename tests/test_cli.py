@@ -351,6 +351,51 @@ def test_bad_scenes(capsys: pytest.CaptureFixture[str], tmp_path: Path, obstacle
     assert re.search(r": not OK: \d violations? of the rules for scenes\n$", out) and err == ""
 
 
+@pytest.mark.parametrize("second", ["a.svg", "./a.svg"])
+def test_two_outputs_of_one_name_are_refused(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, second: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for command in (("explore", "circles"), ("path", "circles", "0,0", "20,5")):
+        assert "is named for two outputs" in refused(capsys, *command, "--figure", "a.svg", "--out", second)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    "strategy, option",
+    [
+        ("sightseer", ("--no-lookahead",)),
+        ("nearest-frontier", ("--target", "visible")),
+        ("sightseer", ("--max-moves", "4")),
+        ("seed-spreader", ("--max-moves", "4")),
+    ],
+)
+def test_options_that_a_strategy_does_not_heed_are_refused(
+    capsys: pytest.CaptureFixture[str], strategy: str, option: tuple[str, ...]
+) -> None:
+    told = refused(capsys, "explore", "m14", "--strategy", strategy, *option)
+    assert told.startswith(f"exactacq: {option[0]}: is for ")
+
+
+def test_what_no_sweep_can_reach_is_counted(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    """A wall across the terrain: what lies behind it was neither known nor missed."""
+    wall = polygon([5, -1], [6, -1], [6, 11], [5, 11])
+    world = scene(tmp_path, wall, circle(10, 5, 1), terrain={"width": 20, "height": 10})
+    command = ("compare", world, "--strategy", "seed-spreader", "--strategy", "seed-spreader")
+    assert cli.main(command) == 0
+    rows = [line.split() for line in capsys.readouterr().out.splitlines()]
+    assert ["unreachable", "1", "1"] in rows and ["never", "seen", "0", "0"] in rows
+    assert cli.main([*command, "--json"]) == 0
+    runs = json.loads(capsys.readouterr().out)["runs"]
+    assert [run["unreachable"] for run in runs] == [["O2"]] * 2
+
+
+def test_only_what_is_read_is_offered(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    (tmp_path / "a.pdf").touch()
+    told = refused(capsys, "check", str(tmp_path / "a.pdf"))
+    assert ".dxf" in told and ".csv" not in told
+
+
 def test_many_violations_stay_one_line_of_bounded_length(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:

@@ -183,6 +183,15 @@ def test_the_gap_is_the_widest_link_of_a_shortest_tree(seed: int) -> None:
     assert xa.sightseer(scene, rounded_up(1.5 * gap)).complete
 
 
+@pytest.mark.parametrize("x", [-10, 10])
+def test_circles_that_touch_from_outside_are_no_holes(tmp_path: Path, x: int) -> None:
+    """The first vertex of the one is on the other: rounded it may lie inside."""
+    path = tmp_path / "two.svg"
+    circles = "".join(f'<circle cx="{20 + c}" cy="10" r="5"/>' for c in (0, x))
+    path.write_text(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 40 20">{circles}</svg>')
+    assert [loop.role for loop in inspected(path).loops] == ["single", "single"]
+
+
 def test_rounding_stays_within_the_clearance() -> None:
     random = Random(5)
     for _ in range(300):

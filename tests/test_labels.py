@@ -126,6 +126,11 @@ def test_labels_can_be_chosen(labels: str, present: set[str], absent: set[str], 
     assert cli.main(["gallery", "circles", "--figure", str(tmp_path / "scene.svg"), "--labels", labels]) == 0
 
 
+def test_a_name_with_two_dollar_signs_is_no_formula() -> None:
+    drawn = xa.figure(Scene([Circle((0, 0), 3, name="pin $1_$2")], (9, 9), radius=5))
+    assert "pin $1_$2" in [text for text, _ in boxes(drawn)]
+
+
 def test_other_labels_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(FormatError, match="labels: none, numbers, names, all, not"):
         xa.figure(xa.load("circles"), labels="some")

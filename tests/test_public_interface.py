@@ -39,6 +39,10 @@ def run(request: pytest.FixtureRequest) -> xa.Run:
     return xa.sightseer(SCENE) if request.param == "sightseer" else xa.seed_spreader(SWEPT)
 
 
+def test_the_version_is_told() -> None:
+    assert re.fullmatch(r"\d+\.\d+\.\d+.*", xa.__version__)
+
+
 class TestCopies:
     @pytest.mark.parametrize("again", [lambda x: pickle.loads(pickle.dumps(x)), copy.deepcopy, copy.copy])
     def test_of_a_run_are_the_run(self, run: xa.Run, again: object) -> None:

@@ -405,6 +405,15 @@ def test_svg_is_the_scene_where_radii_are_decimals(scene: xa.Scene, tmp_path: Pa
     assert shapes(xa.load(tmp_path / "s.svg", start=scene.start, tolerance=0)) == shapes(plain)
 
 
+def test_svg_shows_the_border_of_a_terrain_which_is_no_wall(tmp_path: Path) -> None:
+    """It was read again as one: the bar was left out as within it."""
+    swept = xa.load("m20-3")
+    xa.write(swept, tmp_path / "s.svg")
+    assert 'data-kind="terrain"' in (tmp_path / "s.svg").read_text()
+    again = xa.load(tmp_path / "s.svg", start=(0, 0), tolerance=0)
+    assert shapes(again) == shapes(swept) and again.notes[0] == "left out 1 border of a terrain"
+
+
 decimals = st.integers(-900, 900).map(lambda n: Q(n, 1000))
 bulges = st.sampled_from(["0", "0.25", "-0.125", "0.0625", "0.3", "-0.07"])
 
