@@ -36,6 +36,8 @@ def uncollected() -> Iterator[None]:
     Where the pauses of two threads overlap, the search goes on as soon as the one that stopped it ends.
     """
     searching = gc.isenabled()
+    if searching:
+        _search_now_and_then()
     gc.disable()
     try:
         yield
@@ -45,19 +47,25 @@ def uncollected() -> Iterator[None]:
             gc.enable()
 
 
-def _take_as_old() -> None:
-    """Let what is there be searched only when all objects are.
+def _search_now_and_then() -> None:
+    """Search all objects if it is time, for who makes cycles around each of many runs.
 
-    To freeze is to move the lists of all objects to one that is never searched, in constant time, and to thaw
-    moves this on to that of the oldest. Not where somebody else keeps objects frozen: they would thaw too.
-    It sets the interpreter's own count of searches back, so who makes cycles around each of many runs is
-    helped by a full search now and then.
+    Before a run: what it makes would only be walked through afterwards, and nothing of that found.
     """
     now = perf_counter()
     if now - _last.ended >= SHARE * _last.took:
         gc.collect()
         _last.ended = perf_counter()
         _last.took = _last.ended - now
-    elif gc.get_freeze_count() == 0:
+
+
+def _take_as_old() -> None:
+    """Let what is there be searched only when all objects are.
+
+    To freeze is to move the lists of all objects to one that is never searched, in constant time, and to thaw
+    moves this on to that of the oldest. Not where somebody else keeps objects frozen: they would thaw too.
+    It sets the interpreter's own count of searches back, so a full search is made now and then.
+    """
+    if gc.get_freeze_count() == 0:
         gc.freeze()
         gc.unfreeze()
