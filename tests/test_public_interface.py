@@ -362,3 +362,13 @@ def test_what_is_public_has_an_example() -> None:
     """`test_examples_in_docstrings` runs them."""
     bare = {name for name, text in public_docstrings().items() if ">>> " not in text}
     assert bare == set(WITHOUT_EXAMPLE)
+
+
+def test_points_are_also_pairs_of_numbers() -> None:
+    view = xa.isovist(SCENE, (0, 0))
+    assert view.contains((2, 0)) and view.contains(("5/2", "0")) and not view.contains((5, 0))
+    assert xa.sightseer(SCENE).map.knows(0, (3, 0))
+    with pytest.raises(xa.FormatError, match="a point needs two numbers"):
+        view.contains("3,0")  # type: ignore[arg-type]
+    with pytest.raises(xa.FormatError, match="a scene is needed"):
+        xa.isovist("circles", (0, 0))  # type: ignore[arg-type]

@@ -119,13 +119,16 @@ class Map:
         """
         return tuple(part for k in range(len(self.obstacles[i].edges)) for part in self._on_edge(i, k))
 
-    def knows(self, i: int, point: Point) -> bool:
+    def knows(self, i: int, point: Point | Sequence[object]) -> bool:
         """Whether a point of the boundary of obstacle i is known; ValueError if it is not on the boundary.
+
+        The point may be given as two numbers.
 
         >>> import exactacq as xa
         >>> xa.sightseer(xa.load("circles")).map_at(2).knows(0, xa.Point(7, 0))
         False
         """
+        point = Point.of(point)
         spots = self.spots(i, point)
         if not spots:
             raise ValueError(f"{point} is not on the boundary of obstacle {i}")

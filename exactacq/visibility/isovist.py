@@ -8,6 +8,7 @@ They bound no area. They belong to the isovist, but not to its outline, and are 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property
 from typing import Any
 
@@ -21,7 +22,7 @@ from exactacq.numbers.length import Length
 from exactacq.numbers.rationals import plain
 from exactacq.numbers.real import fmpq
 from exactacq.scene.ports import SVG, made
-from exactacq.scene.scene import Scene, radius_of
+from exactacq.scene.scene import Scene, as_scene, radius_of
 from exactacq.scene.validation import place_text
 from exactacq.visibility.free_segment import is_free
 from exactacq.visibility.outline import ViewKind, ViewPiece, outline
@@ -99,8 +100,8 @@ class Isovist:
         """Exact length of the outline, windows and range arcs included."""
         return Length.sum(piece.curve.length for piece in self.pieces)
 
-    def contains(self, point: Point) -> bool:
-        """Whether a point is visible; False for points inside obstacles.
+    def contains(self, point: Point | Sequence[object]) -> bool:
+        """Whether a point, also one as two numbers, is visible; False for points inside obstacles.
 
         >>> import exactacq as xa
         >>> wall = xa.Polygon([(2, -1), (3, -1), (3, 1), (2, 1)])
@@ -108,6 +109,7 @@ class Isovist:
         >>> view.contains(xa.Point(4, 0)), view.contains(xa.Point(4, 2))
         (False, True)
         """
+        point = Point.of(point)
         if self._view.range.order(self.point, point) > 0:
             return False
         if any(place is Location.INSIDE for place, _ in SceneTables.of(self.scene).around(point)):
@@ -145,13 +147,14 @@ def isovist(scene: Scene, point: object, radius: object = None) -> Isovist:
 
     The point, a `Point` or a pair of numbers, may be algebraic and may lie on a boundary; the radius is
     rational. Raises `InvalidScene` if the point is inside an obstacle or the radius missing or not positive,
-    and `FormatError` for what is no point or number. Cost: near linear in the edges within the radius, after
-    one pass over all edges of a scene.
+    and `FormatError` for what is no scene, point or number. Cost: near linear in the edges within the
+    radius, after one pass over all edges of a scene.
 
     >>> import exactacq as xa
     >>> print(isovist(xa.load("circles"), (0, 0), radius=4).perimeter)
     2*asin(31/200) + 4*asin(569/800) + 7*pi
     """
+    as_scene(scene)
     with about("point"):
         place = Point.of(point)  # type: ignore[arg-type]
     reach = radius_of(scene, radius, place)
