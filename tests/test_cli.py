@@ -390,6 +390,27 @@ def test_what_no_sweep_can_reach_is_counted(capsys: pytest.CaptureFixture[str], 
     assert [run["unreachable"] for run in runs] == [["O2"]] * 2
 
 
+@pytest.mark.parametrize(
+    "command", [("explore",), ("isovist", "--at", "0,0"), ("compare", "--terrain", "bbox:1")]
+)
+def test_names_send_a_terminal_nothing_to_obey(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, command: tuple[str, ...]
+) -> None:
+    world = scene(tmp_path, {**circle(5, 0, 2), "name": "red\x1b[31m\nand more"}, name="a\x1b[2J scene")
+    assert cli.main([command[0], world, *command[1:]]) == 0
+    out = capsys.readouterr().out
+    assert "\x1b" not in out and (command[0] == "compare" or "red [31m and more" in out)
+
+
+def test_the_report_of_a_trapped_sweep_names_the_obstacle(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    wall = {**polygon([5, -1], [6, -1], [6, 11], [5, 11]), "name": "WALL"}
+    world = scene(tmp_path, wall, terrain={"width": 20, "height": 10})
+    assert cli.main(["explore", world, "--strategy", "seed-spreader"]) == 0
+    assert "is trapped in WALL\n" in capsys.readouterr().out
+
+
 def test_only_what_is_read_is_offered(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     (tmp_path / "a.pdf").touch()
     told = refused(capsys, "check", str(tmp_path / "a.pdf"))
