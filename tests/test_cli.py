@@ -411,6 +411,17 @@ def test_the_report_of_a_trapped_sweep_names_the_obstacle(
     assert "is trapped in WALL\n" in capsys.readouterr().out
 
 
+def test_a_start_in_a_hole_of_a_plate_is_told_of_the_room(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    path = tmp_path / "plate.svg"
+    loops = '<rect x="1" y="1" width="30" height="30"/><rect x="5" y="5" width="20" height="20"/>'
+    path.write_text(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 40 40">{loops}</svg>')
+    command = ("explore", str(path), "--start", "15,25", "--radius", "60")
+    assert refused(capsys, *command).endswith("; with --outer room it is a scene\n")
+    assert cli.main([*command, "--outer", "room"]) == 0
+
+
 def test_only_what_is_read_is_offered(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     (tmp_path / "a.pdf").touch()
     told = refused(capsys, "check", str(tmp_path / "a.pdf"))

@@ -24,9 +24,8 @@ AS_TOLD = "as told"
 """The file itself says which loop is the wall; all others are obstacles."""
 MOST_TRIED = 2000
 """Edges beyond which a scene that is refused is not tried with other options."""
-TRIED = ({"outer": "drop"}, {"union": True}, {"outer": "drop", "union": True})
-"""Options that are tried where a scene is refused; what they are called is in `WORDS`."""
-WORDS = {"outer": "--outer drop", "union": "--union"}
+TRIED = ({"outer": "drop"}, {"union": True}, {"outer": "drop", "union": True}, {"outer": "room"})
+"""Options that are tried in turn where a scene is refused."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,7 +131,8 @@ class Contents:
                 replace(self, **more)._scene()
             except (FormatError, InvalidScene):
                 continue
-            return f"with {' '.join(WORDS[name] for name in more)} it is a scene"
+            told = (f"--{name}" if value is True else f"--{name} {value}" for name, value in more.items())
+            return f"with {' '.join(told)} it is a scene"
         return ""
 
     def _advice(self, error: InvalidScene) -> str:
