@@ -391,5 +391,7 @@ class TestCommand:
     ) -> None:
         monkeypatch.setitem(sys.modules, module, None)
         monkeypatch.chdir(tmp_path)
-        with pytest.raises(CampaignError, match=rf"{option} needs .*pip install '\.\["):
+        with pytest.raises(
+            CampaignError, match=rf"{option} needs .*: in a clone of exactacq, pip install '\.\["
+        ):
             CliRunner().invoke(app, [option, value], catch_exceptions=False)

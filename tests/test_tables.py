@@ -101,7 +101,8 @@ def test_data_frames(run: xa.Run, library: str) -> None:
 @pytest.mark.parametrize("library", ["pandas", "polars"])
 def test_what_is_missing_is_named(run: xa.Run, library: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, library, None)
-    with pytest.raises(xa.FormatError, match=rf"this needs {library}: .*pip install '\.\[tables\]'"):
+    how = r"in a clone of exactacq, pip install '\.\[tables\]'"
+    with pytest.raises(xa.FormatError, match=f"this needs {library}: {how}"):
         getattr(run.event_table, f"to_{library}")()
 
 

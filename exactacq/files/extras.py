@@ -14,4 +14,9 @@ def extra(module: str, name: str) -> Any:
         return import_module(module)
     except ImportError:
         library = module.split(".", maxsplit=1)[0]
-        raise FormatError(f"this needs {library}: in a clone of exactacq, pip install '.[{name}]'") from None
+        raise FormatError(f"this needs {library}: {installing(name)}") from None
+
+
+def installing(name: str) -> str:
+    """How an extra is installed."""
+    return f"in a clone of exactacq, pip install '.[{name}]'"

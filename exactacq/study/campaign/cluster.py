@@ -7,6 +7,7 @@ from importlib import import_module
 from importlib.metadata import version
 from typing import Any
 
+from exactacq.files.extras import installing
 from exactacq.study.campaign.judging import Record, Result, lost, records
 from exactacq.study.campaign.settings import CampaignError, Settings, Task
 
@@ -27,9 +28,7 @@ def cluster_records(settings: Settings, tasks: Iterable[Task], address: str) -> 
     try:
         dask = import_module("distributed")
     except ImportError:
-        raise CampaignError(
-            "--scheduler needs dask.distributed; in a clone of exactacq: pip install '.[cluster]'"
-        ) from None
+        raise CampaignError(f"--scheduler needs dask.distributed: {installing('cluster')}") from None
     try:
         client = dask.Client(address, timeout=PATIENCE, set_as_default=False)
     except (OSError, ValueError, TimeoutError) as error:

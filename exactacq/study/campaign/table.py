@@ -6,6 +6,7 @@ import os
 from importlib import import_module
 from typing import Any
 
+from exactacq.files.extras import installing
 from exactacq.files.whole_files import write_whole
 from exactacq.study.campaign.settings import CampaignError
 from exactacq.study.campaign.store import Store
@@ -25,9 +26,7 @@ def arrow() -> Any:
     try:
         return import_module("pyarrow")
     except ImportError:
-        raise CampaignError(
-            "--export needs pyarrow; in a clone of exactacq: pip install '.[parquet]'"
-        ) from None
+        raise CampaignError(f"--export needs pyarrow: {installing('parquet')}") from None
 
 
 def export(store: Store, path: str | os.PathLike[str]) -> int:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from flint import fmpq
 
 from exactacq.errors import FormatError
+from exactacq.files.extras import installing
 from exactacq.scene.shapes import Circle, Polygon, Shape
 from exactacq.study.claims.model import Subject
 from exactacq.study.search.annealing import Budget, Search
@@ -113,6 +114,6 @@ def _hypothesis() -> Any:
         import hypothesis.strategies
     except ImportError:
         raise FormatError(
-            "hypothesis is not installed: in a clone of exactacq, pip install '.[search]'; or --method local"
+            f"hypothesis is not installed: {installing('search')}; or take --method local"
         ) from None
     return hypothesis
