@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from reprlib import repr as short
 from typing import Any
+from unicodedata import category
 
 
 class ExactacqError(Exception):
@@ -136,3 +137,8 @@ def about(part: str) -> Iterator[None]:
 def shown(value: object) -> str:
     """A value in a message: short, and on one line."""
     return " ".join(short(value).split())
+
+
+def without_controls(name: str) -> str:
+    """A name to be shown, without control characters: a terminal would obey them, and XML forbids them."""
+    return "".join(" " if category(character) == "Cc" else character for character in name)

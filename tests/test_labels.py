@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 from random import Random
+from xml.etree import ElementTree
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -129,6 +130,15 @@ def test_labels_can_be_chosen(labels: str, present: set[str], absent: set[str], 
 def test_a_name_with_two_dollar_signs_is_no_formula() -> None:
     drawn = xa.figure(Scene([Circle((0, 0), 3, name="pin $1_$2")], (9, 9), radius=5))
     assert "pin $1_$2" in [text for text, _ in boxes(drawn)]
+
+
+def test_figures_of_names_with_control_characters_are_xml(tmp_path: Path) -> None:
+    scene = Scene([Circle((0, 0), 3, name="red\x1b[31m")], (9, 9), radius=5, name="a\x1b scene")
+    assert scene.shapes[0].name == "red\x1b[31m"
+    drawn = xa.figure(scene)
+    drawn.savefig(tmp_path / "f.svg")
+    assert "red [31m" in [text for text, _ in boxes(drawn)]
+    ElementTree.parse(tmp_path / "f.svg")
 
 
 def test_other_labels_are_refused(capsys: pytest.CaptureFixture[str]) -> None:

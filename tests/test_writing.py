@@ -414,6 +414,14 @@ def test_svg_shows_the_border_of_a_terrain_which_is_no_wall(tmp_path: Path) -> N
     assert shapes(again) == shapes(swept) and again.notes[0] == "left out 1 border of a terrain"
 
 
+def test_svg_is_xml_whatever_names_are(tmp_path: Path) -> None:
+    """Control characters were written as they are, and the file was refused."""
+    named = xa.Scene([xa.Circle((3, 0), 1, name="red\x1b[31m <&>")], (0, 0), name="a\x00\x7f b")
+    xa.write(named, tmp_path / "s.svg")
+    assert shapes(xa.load(tmp_path / "s.svg", start=(0, 0))) == shapes(named)
+    assert "red [31m &lt;&amp;&gt;" in (tmp_path / "s.svg").read_text()
+
+
 decimals = st.integers(-900, 900).map(lambda n: Q(n, 1000))
 bulges = st.sampled_from(["0", "0.25", "-0.125", "0.0625", "0.3", "-0.07"])
 

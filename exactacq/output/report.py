@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from unicodedata import category
 
 from flint import fmpq
 from rich.console import Console, Group, RenderableType
@@ -13,6 +12,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from rich.table import Table
 from rich.text import Text
 
+from exactacq.errors import without_controls
 from exactacq.files.whole_files import readable
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.points import Point
@@ -51,9 +51,9 @@ def progress_bar(what: str) -> Progress:
 
 def run_report(run: Run) -> RenderableType:
     """What a run did, in the order: visits and links, length, bounds, what was missed, import notes."""
-    names = list(map(_harmless, run.names()))
+    names = list(run.names())
     parts: list[RenderableType] = [
-        Text(f"{run.title} on {_harmless(run.scene.name or 'a scene')}", style="bold"),
+        Text(f"{run.title} on {without_controls(run.scene.name or 'a scene')}", style="bold"),
         f"S = {_place(run.start)}, R = {_rational(run.radius)}, {_counted(len(run.obstacles), 'obstacle')}",
         "",
     ]
@@ -113,13 +113,8 @@ def comparison(runs: Sequence[Run]) -> RenderableType:
             *("" if b is None else f"{b.name}: {_verdict(b, f'{b.ratio:.4f}')}" for b in bounds),
         )
     how_many = "Both" if len(runs) == 2 else str(len(runs))
-    title = Text(f"{how_many} strategies on {_harmless(first.scene.name or 'a scene')}", style="bold")
+    title = Text(f"{how_many} strategies on {without_controls(first.scene.name or 'a scene')}", style="bold")
     return Group(title, "", table, "", *ratios)
-
-
-def _harmless(name: str) -> str:
-    """A name without control characters, which a terminal would obey."""
-    return "".join(" " if category(character) == "Cc" else character for character in name)
 
 
 def _share(part: Length, whole: Length) -> str:
@@ -147,7 +142,7 @@ def scene_report(scene: Scene) -> RenderableType:
     table = Table.grid(padding=(0, 2))
     for row in scene_rows(scene).items():
         table.add_row(*row)
-    return Group(Text(f"{_harmless(scene.name or 'scene')}: OK", style="bold"), table, *_notes(scene))
+    return Group(Text(f"{without_controls(scene.name or 'scene')}: OK", style="bold"), table, *_notes(scene))
 
 
 def scene_rows(scene: Scene) -> dict[str, str]:
@@ -179,8 +174,7 @@ def view_report(view: Isovist) -> RenderableType:
         "area": "  ".join(readable(view.area, CLOSED_FORM, 20)),
         "perimeter": "  ".join(readable(view.perimeter, CLOSED_FORM, 20)),
         "pieces": ", ".join(_counted(kinds[kind.value], WORDS[kind]) for kind in ViewKind) or "none",
-        "bounded by": _listed("", (_harmless(view.scene.obstacles[k].label) for k in seen), ", ").strip()
-        or "nothing",
+        "bounded by": _listed("", (view.scene.obstacles[k].label for k in seen), ", ").strip() or "nothing",
     }
     if view.rays:
         rows["rays"] = str(len(view.rays))
@@ -230,7 +224,7 @@ def _sweep(run: SeedSpreaderRun, names: list[str]) -> Iterator[RenderableType]:
     if run.again:
         yield _listed(f"met again on the {Word.M_LINE}", (names[k] for k in run.again), ", ")
     if run.unreached:
-        parts = (_harmless(run.scene.obstacles[k].label) for k in run.unreached)
+        parts = (run.scene.obstacles[k].label for k in run.unreached)
         yield _listed(f"{Word.UNREACHABLE}, parts of", parts, ", ")
     if run.diversions:
         table = _table(Word.DIVERSION, Word.OBSTACLE, f"from {Word.D}", f"to {Word.Q}", "because")

@@ -8,7 +8,7 @@ from typing import Any
 
 from flint import fmpq
 
-from exactacq.errors import FormatError, InvalidScene, about, shown
+from exactacq.errors import FormatError, InvalidScene, about, shown, without_controls
 from exactacq.geometry.boundary_index import BoundaryIndex
 from exactacq.geometry.box_index import DIRECTIONS
 from exactacq.geometry.curves import Arc, Curve
@@ -56,8 +56,8 @@ class Obstacle:
 
     @property
     def label(self) -> str:
-        """The name, or "O" and the number from 1."""
-        return self.name or ("wall" if self.is_enclosure else f"O{self.index + 1}")
+        """The name as it is shown, or "O" and the number from 1."""
+        return without_controls(self.name or "") or ("wall" if self.is_enclosure else f"O{self.index + 1}")
 
     @cached_property
     def perimeter(self) -> Length:

@@ -10,6 +10,7 @@ from html import escape
 
 from flint import fmpq
 
+from exactacq.errors import without_controls
 from exactacq.files.loops.chains import Corner
 from exactacq.files.writing.corners import Corners
 from exactacq.files.writing.decimals import Precision, text
@@ -52,7 +53,7 @@ def written(sheet: Sheet) -> Written:
     mirror = text(2 * box[1] + box[3])
     lines = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{" ".join(map(text, box))}" {size}>',
-        f"<title>{escape(sheet.title)}</title>",
+        f"<title>{_told(sheet.title)}</title>",
         f'<g transform="matrix(1 0 0 -1 0 {mirror})" stroke-linecap="round" stroke-linejoin="round">',
         *([body] if body else []),
         "</g>",
@@ -75,6 +76,11 @@ def _frame(sheet: Sheet) -> tuple[tuple[fmpq, ...], str]:
     return box, " ".join(f'{name}="{count}"' for name, count in zip(("width", "height"), pixels, strict=True))
 
 
+def _told(value: object) -> str:
+    """What XML holds of a name or number."""
+    return escape(without_controls(str(value)))
+
+
 class _SvgWriter:
     def __init__(self, precision: Precision) -> None:
         self.precision, self.moved = precision, fmpq(0)
@@ -82,12 +88,10 @@ class _SvgWriter:
     def path(self, item: Item) -> str:
         """One item, a full circle as such; a point is a stroke of no length, which round ends make a dot."""
         told = "".join(
-            f' data-{key}="{escape(str(value))}"'
-            for key, value in item.properties.items()
-            if value is not None
+            f' data-{key}="{_told(value)}"' for key, value in item.properties.items() if value is not None
         )
         name = item.properties.get("name")
-        title = f"<title>{escape(str(name))}</title>" if name else ""
+        title = f"<title>{_told(name)}</title>" if name else ""
         first = item.curves[0] if item.curves else None
         element, data = "path", ""
         if isinstance(first, Arc) and first.full and len(item.curves) == 1:

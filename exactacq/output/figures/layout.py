@@ -13,6 +13,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.legend_handler import HandlerTuple
 
+from exactacq.errors import without_controls
 from exactacq.files.whole_files import readable
 from exactacq.output.figures.canvas import Canvas
 from exactacq.output.figures.labels import fitted
@@ -80,7 +81,7 @@ def dress(axes: Any) -> None:
 
 def title(drawing: Canvas) -> list[str]:
     """What is drawn, how far the robot came, and what was missed."""
-    run, name = drawing.run, drawing.scene.name
+    run, name = drawing.run, without_controls(drawing.scene.name or "")
     if run is None:
         count = sum(not o.is_enclosure for o in drawing.scene.obstacles)
         room = " in an enclosure" if drawing.scene.enclosure is not None else ""
