@@ -60,7 +60,7 @@ def of_lines(start: Point, end: Point) -> SingleImage:
 def family(sector: Sector, low: Real, high: Real) -> FamilyImage:
     """The lines of a sector between two parameters."""
     first, last = (EndLine(sector.image, *float_ball(t), [], []) for t in (low, high))
-    return FamilyImage(sector.image, (first, last), (NONE, NONE, NONE), False, True, NONE, None, 0)
+    return FamilyImage(sector.image, (first, last), (NONE, NONE, NONE), True, NONE, None, 0)
 
 
 def side_of(image: FamilyImage | SingleImage, place: Point) -> int:

@@ -108,7 +108,7 @@ def tangents(rng: Random) -> tuple[FamilyImage, list[tuple[Pair, Pair]]]:
     low, high = Q(rng.randrange(6), 16), Q(rng.randrange(7, 17), 16)
     frame = (ROLLING, float(x), float(y), float(ex), float(ey), 0.0, 1)
     ends = [EndLine(frame, float(t), UNIT, [], [k]) for k, t in enumerate((low, high))]
-    family = FamilyImage(frame, (ends[0], ends[1]), (-1, 0, -1), False, True, -1, None, 0)
+    family = FamilyImage(frame, (ends[0], ends[1]), (-1, 0, -1), True, -1, None, 0)
     family.is_known = True
     lines = []
     for k in range(33):

@@ -47,7 +47,7 @@ class FamilyImage:
     """A line family: a cell of a pencil, and the edges that its lines meet behind and ahead of the contact.
 
     ``edges`` are those behind, at the contact and ahead, `NONE` where there is none. The contact is
-    ``fixed`` at a corner. ``corner`` is the vertex about which lines turn, or `NONE`. Of the first and of the
+    ``fixed`` if lines turn about a ``corner``, which else is `NONE`: one of its edge. Of the first and of the
     last line are known: the vertices that they pass, and their ``keys``, numbers that are equal only for
     equal lines. ``fraction`` bounds their parameters, the first one's before the last one's. Unless the image
     ``is_known`` floats cannot tell where the lines meet the edges. It belongs to cell ``number`` of what it
@@ -59,7 +59,6 @@ class FamilyImage:
         frame: Frame,
         ends: tuple[EndLine, EndLine],
         edges: tuple[int, int, int],
-        fixed: bool,
         goes_back: bool,
         corner: int,
         origin: object,
@@ -68,7 +67,7 @@ class FamilyImage:
         """*ends* are the first and the last line."""
         self.origin, self.number = origin, number
         self.frame, self.edges = frame, edges
-        self.fixed, self.goes_back, self.corner = fixed, goes_back, corner
+        self.fixed, self.goes_back, self.corner = corner >= 0, goes_back, corner
         first, last = ends
         self.low, self.high = first.t, last.t
         self.first, self.last = first.line, last.line
@@ -178,7 +177,8 @@ def _place(
     x, y, _, _, error, _ = at.line
     if role == CONTACT:
         if image.fixed:
-            return -inf, -inf, x, y, error
+            end = -inf if image.corner == edge else inf
+            return end, end, x, y, error
         if image.frame[0] == SLIDING:
             end = _corner(edge, following, at.corners)
             return (end, end, x, y, error) if end else (at.t - at.error, at.t + at.error, x, y, error)

@@ -15,7 +15,7 @@ from exactacq.kernel.bounded import TINY, UNIT, cross, dot, product, root, total
 from exactacq.kernel.choice import LegSpan
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import Extent, Span, bent, extent
-from exactacq.kernel.family_images import AHEAD, CONTACT, NONE, FamilyImage
+from exactacq.kernel.family_images import AHEAD, BEHIND, CONTACT, NONE, FamilyImage
 from exactacq.kernel.images import ROLLING, SLIDING, TURNING
 from exactacq.kernel.line_keys import key_of_corners, key_of_normal
 from exactacq.kernel.lines import Line, meets_straight
@@ -101,27 +101,14 @@ def name_of(feature: int, there: int) -> int:
     return feature * 3 + there + 1
 
 
-def corner_normals(extents: list[Extent], crossing: list[FamilyImage]) -> list[FamilyImage]:
-    """The families of normals at corners that extents tell of, or its origin's place in *crossing*."""
-    found: list[FamilyImage] = []
-    for one in extents:
-        origin = one.origin
-        if isinstance(origin, int):
-            origin = crossing[origin]
-        if isinstance(origin, FamilyImage) and origin.frame[0] == TURNING and not origin.goes_back:
-            found.append(origin)
-    return found
-
-
-def _all_keys(keys: list[int], family: FamilyImage, also: dict[int, int], count: int) -> list[int]:
-    """The keys of a line, and if it is a normal, those by which other families know it."""
+def _all_keys(keys: list[int], family: FamilyImage, count: int) -> list[int]:
+    """The keys of a line, and if it is a ray or a normal, those by which other families know it."""
     if family.goes_back or not keys:
         return keys
     passed = family.first_corners if keys is family.first_keys else family.last_corners
     own = family.corner
     if own >= 0:
-        found = keys + [key_of_corners(own, v, count) for v in passed]
-        return [*found, also[keys[0]]] if keys[0] in also else found
+        return keys + [key_of_corners(own, v, count) for v in passed]
     if family.frame[0] == SLIDING:
         return keys + [key_of_normal(family.edges[1], v, count) for v in passed]
     return keys
@@ -132,16 +119,15 @@ def sights(
     crossing: list[FamilyImage],
     span: LegSpan,
     leg: CurveImage,
-    scene: tuple[list[CurveImage], list[int], tuple[float, float]],
-    also: dict[int, int],
+    scene: tuple[list[CurveImage], list[int], list[int], tuple[float, float]],
 ) -> tuple[list[Sight], list[Extent]]:
     """The sights of families of which floats tell both ends, and the families of which they do not.
 
     *crossing* are the families that the extents of a straight way tell of by their places; the leg lies on
-    the curve *leg*. *scene* has its curves, the numbers of the circles of arcs, and bounds of the radius;
-    *also* has second keys of lines.
+    the curve *leg*. *scene* has its curves, for each the number of the one before it, the numbers of the
+    circles of arcs, and bounds of the radius.
     """
-    curves, circles, reach = scene
+    curves, previous, circles, reach = scene
     count = len(circles)
     found: list[Sight] = []
     left: list[Extent] = []
@@ -160,10 +146,10 @@ def sights(
         else:
             left.append(one)
             continue
-        name = _bounded_by(family, one.there, circles)
+        name, edge = _bounded_by(family, one.there, circles), _seen(family, one, previous)
         (low, high), (first, last) = one.source, one.surely
         if first > last:
-            cut = _cut(one, family, is_way, name, leg, curves, reach, also, count)
+            cut = _cut(one, family, is_way, (edge, name), leg, curves, reach, count)
             if cut is None:
                 left.append(one)
             else:
@@ -172,9 +158,15 @@ def sights(
         lows, highs = one.first_keys, one.last_keys
         if leg.sense:
             lows, highs = _keys_on_arc(family, one.here, low, leg)
-        lows, highs = _all_keys(lows, family, also, count), _all_keys(highs, family, also, count)
-        found.append(Sight(one.edge, name, (low, first), (last, high), lows, highs, BOTH_SHORT, one))
+        lows, highs = _all_keys(lows, family, count), _all_keys(highs, family, count)
+        found.append(Sight(edge, name, (low, first), (last, high), lows, highs, BOTH_SHORT, one))
     return found, left
+
+
+def _seen(family: FamilyImage, one: Extent, previous: list[int]) -> int:
+    """The edge that is seen along some lines: from behind a corner that they touch, that before it."""
+    is_before = one.there == CONTACT and one.here == BEHIND and family.fixed
+    return previous[family.corner] if is_before else one.edge
 
 
 def _bounded_by(family: FamilyImage, there: int, circles: list[int]) -> int:
@@ -189,14 +181,17 @@ def _cut(
     one: Extent,
     family: FamilyImage,
     is_way: bool,
-    name: int,
+    seen: tuple[int, int],
     leg: CurveImage,
     curves: list[CurveImage],
     reach: tuple[float, float],
-    also: dict[int, int],
     count: int,
 ) -> Sight | None:
-    """The sight of a family that leaves the range at one end, if floats tell where."""
+    """The sight of a family that leaves the range at one end, if floats tell where.
+
+    *seen* are the edge and the name of what bounds the views of it.
+    """
+    edge, name = seen
     shown = None if one.there == CONTACT else curves[one.edge]
     end, cut = range_cut(family, one.here, one.there, leg, shown, reach)
     if end == 0:
@@ -207,11 +202,11 @@ def _cut(
         near = u - error, u + error
     else:
         near = family.places(one.here)[0 if end > 0 else 1][:2]
-    keys = _all_keys(keys, family, also, count)
+    keys = _all_keys(keys, family, count)
     if near[1] <= cut[0]:
-        return Sight(one.edge, name, near, cut, keys, [], (SHORT, LONG), one)
+        return Sight(edge, name, near, cut, keys, [], (SHORT, LONG), one)
     if cut[1] <= near[0]:
-        return Sight(one.edge, name, cut, near, [], keys, (LONG, SHORT), one)
+        return Sight(edge, name, cut, near, [], keys, (LONG, SHORT), one)
     return None
 
 
@@ -324,6 +319,10 @@ class LegChanges:
     def clusters(self) -> list[list[int]]:
         """The places that matter and that floats do not part, each as the number of one end there."""
         return [cluster for cluster in self._order if len(cluster) > 1]
+
+    def is_throughout(self, edge: int) -> bool:
+        """Whether an edge surely is in sight all along the leg."""
+        return any(group.before and group.after for group in self._groups.get(edge, []))
 
     def is_out(self, end: int) -> bool:
         """Whether an end surely does not lie inside the leg."""
@@ -502,7 +501,7 @@ class LegChanges:
         return self._at(len(self.low) - 2) < rank < self._at(len(self.low) - 1)
 
     def _sighted(self, edge: int, found: list[Turn], places: set[int]) -> None:
-        """Add where an edge comes into sight and goes out of it, and these places."""
+        """Add where an edge comes into sight and goes out of it, and these places; not if they are one."""
         spans: list[tuple[int, int, int, int]] = []
         ends: list[int] = []
         most = len(self._rank)
@@ -531,6 +530,8 @@ class LegChanges:
                 if spans[k][2] > high:
                     high, end = spans[k][2], spans[k][3]
                 k += 1
+            if low == high:
+                continue
             for rank, kind, at in ((low, BEGINS, begin), (high, ENDS, end)):
                 if self._is_inside(rank):
                     places.add(rank)

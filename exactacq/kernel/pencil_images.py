@@ -7,7 +7,6 @@ from exactacq.kernel.bounded import UNIT
 from exactacq.kernel.cells import LineCells
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.family_images import NONE, EndLine, FamilyImage, locate
-from exactacq.kernel.images import TURNING
 from exactacq.kernel.line_keys import LineNumbers
 from exactacq.kernel.lines import Frame
 
@@ -15,7 +14,7 @@ from exactacq.kernel.lines import Frame
 def pencil_images(
     rows: list[LineCells],
     frame: Frame,
-    at: tuple[int, bool],
+    at: tuple[int, int],
     goes_back: bool,
     feature: int,
     numbers: LineNumbers,
@@ -25,12 +24,11 @@ def pencil_images(
 ) -> list[FamilyImage]:
     """The images of the cells of a pencil, and where their lines meet *curves*; without these, not where.
 
-    *at* is the edge at the contact, and whether that stays at a corner; *feature* the number of the corner
-    or circle by which lines are numbered, or `NONE`.
+    *at* is the edge at the contact, and the corner at which that stays or `NONE`; *feature* the number of the
+    corner or circle by which lines are numbered, or `NONE`.
     """
-    contact, fixed = at
+    contact, corner = at
     found: list[FamilyImage] = []
-    corner = contact if frame[0] == TURNING else NONE
     before: FamilyImage | None = None
     # Neighbouring cells share a bound, so they share what is told of it.
     last: EndLine | None = None
@@ -39,7 +37,7 @@ def pencil_images(
         first = _end(row.first, frame, feature, numbers) if last is None else last
         last = _end(row.last, frame, feature, numbers)
         edges = (row.behind if goes_back else NONE, contact, row.ahead)
-        image = FamilyImage(frame, (first, last), edges, fixed, goes_back, corner, origin, k)
+        image = FamilyImage(frame, (first, last), edges, goes_back, corner, origin, k)
         if curves:
             locate(image, (first, last), before, curves, following)
         found.append(image)

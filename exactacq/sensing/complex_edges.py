@@ -10,9 +10,10 @@ from __future__ import annotations
 from bisect import bisect_left
 from collections.abc import Iterator, Sequence
 from functools import cached_property, partial
-from math import inf
+from math import hypot, inf
 from typing import TypeAlias
 
+import numpy as np
 from flint import fmpq
 
 from exactacq.geometry.coordinates import Vector, cross, dot, minus, raw
@@ -21,6 +22,7 @@ from exactacq.geometry.curves import Curve, Segment
 from exactacq.kernel.bound_lines import BoundLine
 from exactacq.kernel.extents import EVERYTHING
 from exactacq.kernel.family_images import NONE, FamilyImage, by_edge
+from exactacq.kernel.line_keys import key_of_normal
 from exactacq.kernel.near_edges import NearEdges
 from exactacq.scene.edge_table import CONVEX, EdgeTable
 from exactacq.sensing.followed_lines import FeatureLine, FollowedLine, LineFollower, Met
@@ -28,6 +30,7 @@ from exactacq.sensing.line_family import PencilFamilies, Reached, SingleLine
 from exactacq.sensing.line_images import LineImages
 from exactacq.sensing.line_points import Role, Side
 from exactacq.sensing.view_families import FamilyClipper
+from exactacq.visibility.end_rays import EndRays, end_rays
 from exactacq.visibility.features import Feature, features, leaving
 from exactacq.visibility.line_families import Sector, Sliding, Spokes, corner_sectors, quarters
 from exactacq.visibility.line_names import Namer
@@ -117,11 +120,42 @@ class FamilySweeper:
                     self._add(images, sector, near, feature.edges, contact, feature, goes_back=False)
         return EdgeFamilies(images, single_lines)
 
+    def rays(self, e: int) -> EdgeFamilies:
+        """The rays from the ends of an edge to where these are what is nearest of it (see `end_rays`)."""
+        images: list[FamilyImage] = []
+        for end in end_rays(self.table, e):
+            vertex = end.own[1]
+            near = self._ahead(end)
+            contact = Side(e, Role.CONTACT, fixed=True, at_end=vertex != e)
+            _, found = self._add(
+                images, end.sector, near, end.own, contact, None, end.passed, goes_back=False
+            )
+            # The normal of the edge there bounds them.
+            keys = found[-1].last_keys if vertex == e else found[0].first_keys
+            keys.append(key_of_normal(e, vertex, self._numbers.count))
+        return EdgeFamilies(images, [])
+
     def _near(self, box: Sequence[float]) -> NearEdges:
         """The edges within reach of a box."""
         left, bottom, right, top = box
         edges = self.table.around((left, bottom), (right, top), self.range.above)
         return NearEdges(self.table.images, edges)
+
+    def _ahead(self, rays: EndRays) -> NearEdges:
+        """The edges that rays may meet, with those at their vertex.
+
+        Floats leave out the boxes that lie right of the first or left of the last ray, which are less than a
+        half turn apart.
+        """
+        table, (x, y) = self.table, self.table.curves[rays.own[1]].start.xy
+        near = table.near((x, y), (x, y), self.range.above)
+        (ax, ay), (bx, by) = ((float(dx), float(dy)) for dx, dy in rays.bounds)
+        left, bottom, right, top = (table.boxes[near] - (x, y, x, y)).T
+        slack, ahead = 64 * table.roundoff_at((x, y)), np.ones(len(near), bool)
+        for hx, hy in ((-ay, ax), (by, -bx)):
+            most = np.maximum(hx * left, hx * right) + np.maximum(hy * bottom, hy * top)
+            ahead &= most >= -slack * hypot(hx, hy)
+        return NearEdges(table.images, sorted({*near[ahead].tolist(), *rays.own}))
 
     def _corners_beside(self, feature: Feature) -> tuple[int, int]:
         """The other ends of the straight edges at a corner: its first and its last tangent pass them."""
@@ -151,8 +185,8 @@ class FamilySweeper:
         goes_back: bool = True,
     ) -> Swept:
         """Sweep a sector, of which the first and the last line pass vertices *ends*, and add its families."""
-        at_start = isinstance(sector, Sliding) or (feature is not None and not feature.round)
-        lines = swept(self.table, sector, own, near, ends=ends, vertex=contact.edge if at_start else NONE)
+        vertex = own[1] if contact.fixed else contact.edge if isinstance(sector, Sliding) else NONE
+        lines = swept(self.table, sector, own, near, ends=ends, vertex=vertex)
         families = PencilFamilies(lines, contact, self._namer, feature, goes_back)
         imaged = families.imaged(self.images, self._numbers)
         images += imaged

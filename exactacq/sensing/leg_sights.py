@@ -8,49 +8,50 @@ not know its ends, if two places that matter look the same, or if someone reads 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from functools import cmp_to_key
+from dataclasses import replace
+from functools import cached_property, cmp_to_key
 from itertools import groupby, pairwise
 from math import inf
 
+import numpy as np
 from flint import arb
 
-from exactacq.geometry.coordinates import dot, minus
+from exactacq.geometry.box_index import box
 from exactacq.geometry.curve_images import curve_image
-from exactacq.geometry.curves import Segment
+from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.late import Pin, late_point
 from exactacq.geometry.points import Point
 from exactacq.kernel.choice import LegSpan
+from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import Extent, Span
 from exactacq.kernel.family_images import NONE, FamilyImage
 from exactacq.kernel.leg_changes import (
     AFTER,
     BEFORE,
-    BOTH_SHORT,
     EITHER,
     LegChanges,
     Sight,
-    Spot,
     Turn,
-    between,
-    corner_normals,
-    in_reach,
     name_of,
     normal_sights,
     sights,
 )
-from exactacq.kernel.line_keys import key_of_normal
-from exactacq.kernel.lines import meets_straight
+from exactacq.numbers.between import rational_between
 from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real
 from exactacq.sensing.end_names import Seen
-from exactacq.sensing.free_way import WayViews
 from exactacq.sensing.leg_views import Share
 from exactacq.sensing.legs import Leg
-from exactacq.sensing.line_family import PencilFamilies, SingleLine, family_of
+from exactacq.sensing.line_family import family_of
 from exactacq.sensing.line_images import bounds
+from exactacq.sensing.line_points import Role
+from exactacq.sensing.own_line import OwnLine
+from exactacq.sensing.straight_way import StraightWay
 from exactacq.sensing.view_families import End, ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
+from exactacq.sensing.way_crossings import WayCrossings
+from exactacq.sensing.way_normals import WayNormals
 from exactacq.visibility.rotational_sweep import Pencil
 
 WAY_KEYS = -(2**60)
@@ -69,12 +70,19 @@ class LegSights:
         self.complex, self.leg = complex_, leg
         self._view, self._clipper = view, complex_.clipper
         self._rail = None if leg.edge is None else leg.rail
-        self._numbers = complex_.table.line_numbers
-        self._scene = complex_.table.curve_images, self._numbers.circles, complex_.images.reach
+        self._previous = complex_.table.images.previous
+        circles = complex_.table.line_numbers.circles
+        self._scene = complex_.table.curve_images, self._previous, circles, complex_.images.reach
         self._span = LegSpan(bounds(leg.span.low, None), bounds(leg.span.high, None))
         self._made: dict[int, list[Share]] = {}
         self._sights = [*(self._on_way() if leg.edge is None else self._on_edge(leg.edge))]
-        self._changes = LegChanges(self._sights, self._span, NONE if leg.edge is None else leg.edge)
+        self._changes = self._changed()
+        if found := [*self._on_line()]:
+            self._sights += found
+            self._changes = self._changed()
+
+    def _changed(self) -> LegChanges:
+        return LegChanges(self._sights, self._span, NONE if self.leg.edge is None else self.leg.edge)
 
     def turns(self) -> list[Turn]:
         """The changes inside the leg."""
@@ -125,75 +133,87 @@ class LegSights:
 
     def _on_edge(self, edge: int) -> Iterator[Sight]:
         complex_ = self.complex
-        curve = complex_.table.curve_images[edge]
-        extents = complex_.extents(edge)
-        also = self._normals_at(corner_normals(extents, []))
-        found, left = sights(extents, [], self._span, curve, self._scene, also)
-        yield from found
-        for one in left:
-            if isinstance(one.origin, SingleLine) and one.is_known:
-                yield from self._single_on_edge(one, one.origin)
-            else:
-                yield from self._exactly(one)
-
-    def _single_on_edge(self, one: Extent, single: SingleLine) -> Iterator[Sight]:
-        """The sights of a single line from the leg's edge: from its place, or from the run that it shows."""
-        reach, (near, far) = self.complex.images.reach, single.points
-        place = _spot(single.place)
-        at_near = in_reach(place, _spot(near), reach)
-        if at_near < 0:
-            return
-        if one.here == 0 and at_near > 0:
-            keys = self._keys(single)
-            yield Sight(one.edge, NONE, one.source, one.source, keys, keys, BOTH_SHORT, one)
-        elif one.here and self._is_whole(single) and in_reach(place, _spot(far), reach) > 0:
-            yield Sight(one.edge, NONE, BEFORE, AFTER, [], [], BOTH_SHORT, one)
-        else:
-            yield from self._exactly(one)
+        extents = [one for one in complex_.extents(edge) if _counts(one.origin)]
+        extents += complex_.extents_of_rays(edge)
+        yield from self._told(extents, [], complex_.table.curve_images[edge])
 
     def _on_way(self) -> Iterator[Sight]:
-        complex_, leg = self.complex, self.leg
-        x, y, right, top = leg.box
-        near = complex_.table.near((x, y), (right, top), complex_.range.above)
-        self._way = way = WayViews(complex_, leg, frozenset(near.tolist()), self._view)
-        self._clipper = way.way.clipper
-        self._crossing = list(way.crossing)
-        images = [image for image, _ in self._crossing]
-        extents, curve = way.crossing.extents(), curve_image(leg.rail.curve)
-        also = self._normals_at(corner_normals(extents, images))
-        found, left = sights(extents, images, self._span, curve, self._scene, also)
-        yield from found
-        for one in left:
-            yield from self._exactly(one)
-        for one in way.single_lines():
-            assert isinstance(one.origin, SingleLine), "extents of single lines tell of them"
-            yield from self._single_on_way(one.origin)
-        for family in way.own_line.families():
-            yield from self._sights_of([Share.of(family, 0)], None)
-        for k, (lines, normals) in enumerate(groupby(way.normals.images, lambda image: image.origin), 1):
+        complex_, leg, way, wanted = self.complex, self.leg, self._way, self._near
+        self._clipper = way.clipper
+        around = np.array(box(way.piece))
+        images = [image for near in complex_.near(around) for image in near.images if _counts(image)]
+        images += [image for near in complex_.rays(around) for image in near.images]
+        self._crossings = WayCrossings(way, images, wanted)
+        self._crossing = list(self._crossings)
+        yield from self._told(
+            self._crossings.extents(), [image for image, _ in self._crossing], curve_image(leg.rail.curve)
+        )
+        self._normals = WayNormals(way, wanted)
+        for k, (lines, normals) in enumerate(groupby(self._normals.images, lambda image: image.origin), 1):
             assert isinstance(lines, Pencil), "normals come from pencils"
             yield from self._along_normals(lines, [*normals], k * WAY_KEYS)
 
-    def _normals_at(self, images: Iterable[FamilyImage]) -> dict[int, int]:
-        """Second keys of normals of corners that are normals of the edges there too, by the first key."""
-        found: dict[int, int] = {}
-        table, count = self.complex.table, self._numbers.count
-        for image in images:
-            assert isinstance(image.origin, PencilFamilies), "families come from pencils"
-            corner, lines = image.corner, image.origin.lines
-            for row, bound, keys, edge, t in (
-                (0, lines.rows[0].first, image.first_keys, int(table.previous[corner]), lines.sector.low),
-                (len(lines.rows) - 1, lines.rows[-1].last, image.last_keys, corner, lines.sector.high),
-            ):
-                if image.number != row or lines.value(bound).rational != t or table.images.kind[edge]:
-                    continue
-                (x, y), along = (
-                    lines.sector.base,
-                    minus(table.vertices[int(table.next[edge])], table.vertices[edge]),
-                )
-                if dot((x - t * y, y + t * x), along) == 0:
-                    found[keys[0]] = key_of_normal(edge, corner, count)
-        return found
+    @cached_property
+    def _way(self) -> StraightWay:
+        """The leg, if it is straight, as a way through free space."""
+        return StraightWay(self.complex, replace(self.leg, edge=None))
+
+    @cached_property
+    def _near(self) -> frozenset[int]:
+        """The edges within range of the leg."""
+        x, y, right, top = self.leg.box
+        return frozenset(self.complex.table.near((x, y), (right, top), self.complex.range.above).tolist())
+
+    def _told(self, extents: list[Extent], crossing: list[FamilyImage], curve: CurveImage) -> Iterator[Sight]:
+        """The sights that extents tell of, *crossing* as for `exactacq.kernel.leg_changes.sights`."""
+        found, left = sights(extents, crossing, self._span, curve, self._scene)
+        yield from found
+        for one in left:
+            yield from self._sights_of(self._shares_of(one), self._image(one))
+
+    def _on_line(self) -> Iterator[Sight]:
+        """What is seen along the leg's own line of edges that are not in sight all along without that.
+
+        It counts where the view from a place between shows more than a point. What else lies beside the line
+        between the place and what is seen is the same for all places.
+        """
+        if not isinstance(self.leg.rail.curve, Segment):
+            return
+        wanted = {e for e in self._near if not self._changes.is_throughout(e)} - self._behind
+        for family in OwnLine(self._way, frozenset(wanted), self._view).families():
+            share = Share.of(family, 0)
+            low, high = share.source.low, share.source.high
+            if low.compare(high) == 0:
+                continue
+            middle = self.leg.rail.point(rational_between(low, high))
+            if self._is_before(share.edge, middle):
+                seen = self._view(middle, None if self.leg.edge is None else (self.leg.edge,)).spans
+                if any(self._is_more(part, share) for part in seen.get(share.edge, ())):
+                    yield from self._sights_of([share], None)
+
+    @property
+    def _behind(self) -> set[int]:
+        """The leg's own edge and the straight ones next to it that are not seen from it."""
+        e, table = self.leg.edge, self.complex.table
+        if e is None:
+            return set()
+        beside = int(table.previous[e]), int(table.next[e])
+        middle = self.leg.rail.point(rational_between(self.leg.span.low, self.leg.span.high))
+        return {e, *(f for f in beside if not self._is_before(f, middle))}
+
+    def _is_before(self, edge: int, place: Point) -> bool:
+        """Whether a place is in front of an edge, if that is straight."""
+        curve = self.complex.table.curves[edge]
+        return isinstance(curve, Arc) or curve.direction.cross(place - curve.start).sign() < 0
+
+    def _is_more(self, part: Interval, share: Share) -> bool:
+        """Whether a part of an edge has length and contains what a share shows: a point."""
+        u, rail = share.shown.low, self.complex.clipper.rails[share.edge]
+        # A full circle's start is at 0 and at the top.
+        places = [u, rail.top] if rail.is_closed and u.sign() == 0 else [u]
+        return part.low.compare(part.high) < 0 and any(
+            part.low.compare(place) <= 0 <= part.high.compare(place) for place in places
+        )
 
     def _along_normals(self, lines: Pencil, normals: list[FamilyImage], first_key: int) -> Iterator[Sight]:
         """The sights along the way's normals to one side."""
@@ -205,45 +225,9 @@ class LegSights:
 
     def _shares_along(self, normals: FamilyImage) -> list[Share]:
         """What some normals of the way show."""
-        return [Share.of(family, 0) for family in self._way.normals.views(normals)]
-
-    def _single_on_way(self, single: SingleLine) -> Iterator[Sight]:
-        """The sight of a single line where it crosses the way."""
-        image = single.image(self.complex.images)
-        _, _, u, error, *at, e = meets_straight(image.line, self._way.way.image.line)
-        if error < inf:
-            here = at[0], at[1], e
-            crosses = between(image.place, image.near, here)
-            reaches = in_reach(here, image.near, self.complex.images.reach)
-            if crosses < 0 or reaches < 0 or u + error < self._span.low[0] or u - error > self._span.high[1]:
-                return
-            if crosses and reaches:
-                keys, source = self._keys(single), (u - error, u + error)
-                yield Sight(single.shown, NONE, source, source, keys, keys, BOTH_SHORT, single)
-                return
-        yield from self._sights_of([Share.of(f, 0) for f in self._way.along(single)], None)
-
-    def _is_whole(self, single: SingleLine) -> bool:
-        """Whether a single line shows a whole straight edge end on."""
-        curve = self.complex.table.curves[single.shown]
-        if not isinstance(curve, Segment):
-            return False
-        first, last = single.points
-        return (first is curve.start and last is curve.end) or (first is curve.end and last is curve.start)
-
-    def _keys(self, single: SingleLine) -> list[int]:
-        """The number of a single line, if it runs along an edge."""
-        if not self._is_whole(single) or self.complex.table.curve_images[self.leg.edge or 0].sense:
-            return []
-        e = single.shown
-        return [self._numbers.corners(e, int(self.complex.table.next[e]))]
+        return [Share.of(family, 0) for family in self._normals.views(normals)]
 
     # -- what is made exactly ----------------------------------------------------------------------
-
-    def _exactly(self, one: Extent) -> Iterator[Sight]:
-        """The sights of a family of which floats do not tell both ends."""
-        image = self._image(one)
-        yield from self._sights_of(self._shares_of(one), image)
 
     def _image(self, one: Extent) -> FamilyImage | None:
         if isinstance(one.origin, int):
@@ -252,15 +236,18 @@ class LegSights:
 
     def _sights_of(self, shares: Iterable[Share], image: FamilyImage | None) -> Iterator[Sight]:
         for share in shares:
-            family, source, name = share.family, share.source, NONE
+            family, source, edge, name = share.family, share.source, share.edge, NONE
             first, last = (self._keys_at(end, image) for end in (family.first, family.last))
             if source.low is not family.first.places[share.side]:
                 first, last = last, first
             free_views = family.free_views
             if free_views is not None and free_views.anchor is not None:
-                name = name_of(free_views.anchor, free_views.sides[1 - share.side].role)
+                here, there = free_views.sides[share.side], free_views.sides[1 - share.side]
+                name = name_of(free_views.anchor, there.role)
+                if there.fixed and here.role is Role.BEHIND:
+                    edge = self._previous[edge]
             low, high = self._bounds(source.low), self._bounds(source.high)
-            yield Sight(share.edge, name, low, high, first, last, (EITHER, EITHER), share)
+            yield Sight(edge, name, low, high, first, last, (EITHER, EITHER), share)
 
     def _bounds(self, u: Real) -> Span:
         span = self.leg.span
@@ -281,9 +268,7 @@ class LegSights:
         if isinstance(origin, Share):
             return [origin]
         if k not in self._made:
-            if isinstance(origin, SingleLine):
-                self._made[k] = [Share.of(family, 0) for family in self._way.along(origin)]
-            elif isinstance(origin, FamilyImage):
+            if isinstance(origin, FamilyImage):
                 self._made[k] = self._shares_along(origin)
             else:
                 assert isinstance(origin, Extent), "sights come from families"
@@ -295,7 +280,7 @@ class LegSights:
         if not isinstance(one.origin, int):
             return [Share.of(family, side) for family, side in self.complex.views(one)]
         image, certain = self._crossing[one.origin]
-        found = self._way.crossing.views(family_of(image), certain, frozenset({one.edge}))
+        found = self._crossings.views(family_of(image), certain, frozenset({one.edge}))
         return [Share.of(family, 0) for family in found if _role(family) == one.there]
 
     # -- places ------------------------------------------------------------------------------------
@@ -353,11 +338,11 @@ def _by_place(a: tuple[int, Real], b: tuple[int, Real]) -> int:
     return a[1].compare(b[1])
 
 
+def _counts(origin: object) -> bool:
+    """Whether a family tells that an edge is in sight: no single line, nor the normals at a corner."""
+    return isinstance(origin, FamilyImage) and (origin.goes_back or not origin.fixed)
+
+
 def _role(family: ViewFamily) -> int:
     """Where on its lines a family from a way shows something."""
     return 0 if family.free_views is None else int(family.free_views.sides[1].role)
-
-
-def _spot(point: Point) -> Spot:
-    (x, p), (y, q) = float_ball(point.x), float_ball(point.y)
-    return x, y, max(p, q)

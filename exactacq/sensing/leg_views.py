@@ -242,41 +242,40 @@ class Shares:
         leg = self.leg
         return self.view(leg.start, leg.own(leg.first)), self.view(leg.end, leg.own(leg.last))
 
-    def is_in_sight(self, k: int, edge: int | None = None) -> bool:
-        """Whether an obstacle, or an edge of it, is surely in sight all along: no exact number is read."""
+    def is_in_sight(self, k: int) -> bool:
+        """Whether an obstacle is surely in sight all along: no exact number is read."""
         span = self.leg.span
-        if self._is_along(k) and edge in (None, self.leg.edge):
+        if self._is_along(k):
             return True
         return any(i.low is span.low and i.high is span.high for i in self.in_sight.get(k, ()))
 
-    def times(self, k: int, edge: int | None = None) -> Cover:
-        """When an obstacle, or only one edge of it, is in sight, as a cover of the leg's rail."""
+    def times(self, k: int) -> Cover:
+        """When an obstacle is in sight, as a cover of the leg's rail."""
         leg = self.leg
-        if self.is_in_sight(k, edge):
+        if self.is_in_sight(k):
             return Cover((leg.span,))
         times = EMPTY
         places = (leg.first, leg.start), (leg.last, leg.end)
         for (u, place), view in zip(places, self._end_views, strict=True):
-            if any(edge in (None, e) for _, (e, _) in self.targets.within({k}, view.spans)):
+            if any(True for _ in self.targets.within({k}, view.spans)):
                 times = times.added(Interval(u, place, u, place))
-        sources = [share.source for share in self.of[k] if edge in (None, share.edge)]
+        sources = [share.source for share in self.of[k]]
         sources += self.in_sight.get(k, ())
-        sources += [part for end, part in self.ends.get(k, ()) if edge in (None, end.edge)]
+        sources += [part for _, part in self.ends.get(k, ())]
         for interval in sorted(sources, key=size, reverse=True):
             times = times.added(interval)
         return times
 
-    def is_short(self, k: int, u: Real, edge: int | None = None) -> bool:
-        """Whether a view that begins or ends at *u*, of an obstacle or an edge, is shorter than the range."""
+    def is_short(self, k: int, u: Real) -> bool:
+        """Whether a view of an obstacle that begins or ends at *u* is shorter than the range."""
         ends = [
             (end.places[share.side], end)
             for share in self.of[k]
-            if edge is None or share.edge == edge
             for end in (share.family.first, share.family.last)
         ]
         # Most often the very number was copied: no proof is needed that it is equal.
         ends.sort(key=lambda end: end[0] is not u)
-        if self._is_near(k, u, edge) or self._is_end_near(k, u):
+        if self._is_near(k, u) or self._is_end_near(k, u):
             return True
         return any(
             end.is_short(self.complex.range) for place, end in ends if place is u or place.compare(u) == 0
@@ -290,14 +289,14 @@ class Shares:
             for v, place in ((part.low, part.start), (part.high, part.end))
         )
 
-    def _is_near(self, k: int, u: Real, edge: int | None) -> bool:
+    def _is_near(self, k: int, u: Real) -> bool:
         """Whether *u* is an end of the leg from which something nearer than the range is seen."""
         leg = self.leg
         if u is not leg.first and u is not leg.last:
             return False
         place, view = (leg.start, self._end_views[0]) if u is leg.first else (leg.end, self._end_views[1])
         return any(
-            edge in (None, e) and self.complex.range.order(place, point) < 0
+            self.complex.range.order(place, point) < 0
             for _, (e, interval) in self.targets.within({k}, view.spans)
             for point in self._samples(e, interval)
         )

@@ -40,10 +40,10 @@ Reached: TypeAlias = "tuple[Point, Real | None]"
 class LineFamily:
     """A cell of a pencil with what its lines meet; None where nothing is met within reach.
 
-    Normals have nothing ``behind`` and do not go back: they start at the contact, which lies on an edge. So
-    does the contact of a convex arc; a corner counts as the start of the edge that follows it. ``anchor``
-    is the number of what tangents touch (see `line_keys`), ``names`` are those of the first and the last line
-    (see `line_names`), ``passed`` is what they pass.
+    Normals and rays have nothing ``behind`` and do not go back: they start at the contact, which lies on an
+    edge. So does the contact of a convex arc; a corner that tangents touch counts as the start of the edge
+    that follows it. ``anchor`` is the number of what is touched (see `line_keys`), ``names`` are those of the
+    first and the last line (see `line_names`), ``passed`` is what they pass.
     """
 
     sector: Sector
@@ -113,11 +113,17 @@ class PencilFamilies:
         """The families in floats, with *numbers* for their lines. They know this; it does not keep them."""
         lines, feature, contact = self.lines, self._feature, self.contact
         own = NONE if feature is None or not self.goes_back else self._namer.number(feature)
-        frame, at = lines.sector.image, (contact.edge, contact.fixed)
+        frame, at = lines.sector.image, (contact.edge, self._corner)
         curves, following = images.curves, images.table.images.following
         found = pencil_images(lines.rows, frame, at, self.goes_back, own, numbers, curves, following, self)
         images.unroll(found, lines)
         return found
+
+    @property
+    def _corner(self) -> int:
+        """The vertex at which the contact stays, or `NONE`."""
+        e, following = self.contact.edge, self.lines.table.images.following
+        return NONE if not self.contact.fixed else following[e] if self.contact.at_end else e
 
     def family(self, image: FamilyImage) -> LineFamily:
         """The family of an image, made when it is first asked for."""
@@ -127,7 +133,7 @@ class PencilFamilies:
         return self._made[k]
 
     def _family(self, row: LineCells) -> LineFamily:
-        cell, feature = self.lines.cell(row), self._feature
+        cell, feature, corner = self.lines.cell(row), self._feature, self._corner
         behind = None if cell.behind is None or not self.goes_back else Side(cell.behind, Role.BEHIND)
         ahead = None if cell.ahead is None else Side(cell.ahead, Role.AHEAD)
         names: tuple[Names, Names] = (), ()
@@ -145,7 +151,7 @@ class PencilFamilies:
             self.contact,
             ahead,
             self.goes_back,
-            None if feature is None else self._namer.number(feature),
+            corner if corner != NONE else None if feature is None else self._namer.number(feature),
             names,
             cell.bounds,
         )

@@ -34,12 +34,17 @@ class Role(IntEnum):
 class Side:
     """One end of a family of views: the edge it runs on and its role on the lines.
 
-    A ``fixed`` end stays at the contact: a corner, the start of its edge.
+    A ``fixed`` end stays at the contact: a corner, the start of its edge or, if ``at_end``, its end.
     """
 
     edge: int
     role: Role
     fixed: bool = False
+    at_end: bool = False
+
+    def corner(self, curve: Curve) -> Point:
+        """Where a fixed end stays, on the curve of its edge."""
+        return curve.end if self.at_end else curve.start
 
 
 class LinePoints:
@@ -101,7 +106,7 @@ class LinePoints:
         """Where a line, given by its contact and direction, meets an edge."""
         curve = self._rails[side.edge].curve
         if side.role is Role.CONTACT:
-            return curve.start if side.fixed else contact
+            return side.corner(curve) if side.fixed else contact
         center = _met_in_center(sector, curve, direction, side.role)
         if center is not None:
             return center

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator
+from functools import cached_property
 from math import hypot
 
 import numpy as np
@@ -31,8 +32,15 @@ class OwnLine:
         self.table, self.line = way.table, way.line
         self._slack = margin(256 * way.clipper.roundoff)
 
+    @cached_property
+    def _near(self) -> list[int]:
+        """The wanted edges that the way's line may meet."""
+        return on_line(self.table, self.wanted, self.line.start, self.line.end - self.line.start, self._slack)
+
     def families(self) -> Iterator[ViewFamily]:
         """The views of the way's ends, of corners that it touches, and of what lies beyond."""
+        if not self._near:
+            return
         span, rails = self.way.span, self.way.clipper.rails
         shown = [(e, p) for p in (span.start, span.end) for e in self._edges_near(p)]
         along = self.line.end - self.line.start
@@ -54,7 +62,7 @@ class OwnLine:
         table, start, touches = self.table, self.line.start, self.way.touches
         numbers = table.line_numbers
         along = self.line.end - start
-        for e in on_line(table, self.wanted, start, along, self._slack):
+        for e in self._near:
             curve = table.curves[e]
             for number, corner in ((e, curve.start), (int(table.next[e]), curve.end)):
                 if numbers.feature(number, False) in touches or along.cross(corner - start).sign() == 0:
@@ -69,7 +77,7 @@ class OwnLine:
     def _beyond(self, end: Point, onward: Point) -> Iterator[tuple[int, Point]]:
         """What the way's line meets beyond an end, as far as it is seen from there."""
         own, view = self._edges_near(end), self.view(end, None)
-        edges = [e for e in view.edges if e in self.wanted]
+        edges = [e for e in self._near if e in view.edges]
         for e in on_line(self.table, edges, end, onward, self._slack, ahead=True):
             curve = self.table.curves[e]
             if e in own:

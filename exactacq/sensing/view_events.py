@@ -1,9 +1,10 @@
 """The sweep: how the view of a robot changes along one piece of a path, and what it sees between the changes.
 
-What is seen of an edge is bounded by windows: lines through the robot that touch a corner or a convex arc. A
-*visual event* is a place where a window begins to touch something else, or where an edge comes into sight or
-goes out of it (Hall-Holt, "Kinetic visibility", 2002). Between neighbouring events, in a *cell*, the view
-keeps its combinatorial form.
+What is seen of an edge is bounded by windows: lines through the robot that touch a corner or a convex arc. An
+edge is in sight where a part of it with length is seen, or all along where its nearest point is just in
+range. A *visual event* is a place where a window begins to touch something else, or where an edge comes into
+sight or goes out of it (Hall-Holt, "Kinetic visibility", 2002). Between neighbouring events, in a *cell*, the
+view keeps its combinatorial form.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ Place: TypeAlias = "tuple[Real, Point]"
 
 
 class Change(Enum):
-    """What an event changes for one edge."""
+    """What an event changes for one edge, which is in sight where a part of it with length is seen."""
 
     REAPPEARANCE = "reappearance"
     """The edge comes into sight from behind something."""
@@ -211,8 +212,8 @@ def sweep(scene: Scene, curve: Curve, radius: object = None, *, obstacle: int | 
     >>> import exactacq as xa
     >>> scene = xa.Scene([xa.Polygon([(2, -1), (3, -1), (3, 1), (2, 1)])])
     >>> swept = sweep(scene, xa.Segment(xa.Point(0, 2), xa.Point(4, 2)), radius=5)
-    >>> [(event.change.value, event.edge, str(event.place)) for event in swept.events[::2]]
-    [('occlusion', 0, '(2, 2)'), ('reappearance', 1, '(3, 2)')]
+    >>> [(event.change.value, event.edge, str(event.place)) for event in swept.events[1:3]]
+    [('occlusion', 3, '(2, 2)'), ('reappearance', 1, '(3, 2)')]
     """
     reach = radius_of(scene, radius, curve.start)
     if obstacle is None and not isinstance(curve, Segment):

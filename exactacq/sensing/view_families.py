@@ -323,7 +323,8 @@ class FamilyClipper:
         """Where a line meets an edge: a corner if it is one, else a place that is made when it is read."""
         curve = self.curve(side.edge)
         if side.role is Role.CONTACT and side.fixed:
-            return curve.start, self.rails[side.edge].parameter(curve.start)
+            corner = side.corner(curve)
+            return corner, self.rails[side.edge].parameter(corner)
         rail, make = self.rails[side.edge], partial(self._points.exact, sector, t, side, passed)
         at = line(sector, t.ball(64))
         is_told, found = self._points.passed_in_balls(side, at, passed)

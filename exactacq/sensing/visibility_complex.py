@@ -9,7 +9,7 @@ of every convex corner. Each is swept once; cost: near linear in the scene at co
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import lru_cache
 
 from exactacq.kernel.extents import Extent, extents_from
@@ -17,6 +17,7 @@ from exactacq.kernel.family_images import FamilyImage
 from exactacq.scene.edge_table import EdgeTable, Floats
 from exactacq.sensing.complex_edges import EdgeFamilies, FamilySweeper
 from exactacq.sensing.line_family import SingleLine, family_of
+from exactacq.sensing.line_images import LineImages
 from exactacq.sensing.view_families import ViewFamily
 from exactacq.visibility.sensor_range import Range
 
@@ -34,12 +35,21 @@ class VisibilityComplex:
         self.table, self.range = table, range_
         sweeper = FamilySweeper(table, range_)
         self.clipper, self.images = sweeper.clipper, sweeper.images
-        self._around = Neighbourhood(sweeper)
+        self._around = Neighbourhood(table, range_, self.images, sweeper.of)
+        self._rays = Neighbourhood(table, range_, self.images, sweeper.rays)
         self._seen_from = lru_cache(SEEN_FROM_KEPT)(self._around.extents)
 
     def near(self, box: Floats) -> list[EdgeFamilies]:
         """The families of the edges within reach of a box: all that may show anything to places in it."""
         return self._around.near(box)
+
+    def rays(self, box: Floats) -> list[EdgeFamilies]:
+        """The rays from the ends of the edges within reach of a box (see `end_rays`)."""
+        return self._rays.near(box)
+
+    def extents_of_rays(self, edge: int) -> list[Extent]:
+        """Which edges the rays from their ends show from an edge, in floats."""
+        return self._rays.extents(edge)
 
     def extents(self, edge: int) -> list[Extent]:
         """What the families at an edge show of others from it, in floats.
@@ -63,9 +73,12 @@ class VisibilityComplex:
 class Neighbourhood:
     """Finds the families near a place, and sweeps them where that was not done yet."""
 
-    def __init__(self, sweeper: FamilySweeper) -> None:
-        self.table, self.range, self.images = sweeper.table, sweeper.range, sweeper.images
-        self._sweeper, self._most = sweeper, KEPT
+    def __init__(
+        self, table: EdgeTable, range_: Range, images: LineImages, swept: Callable[[int], EdgeFamilies]
+    ) -> None:
+        """*swept* are the families of an edge."""
+        self.table, self.range, self.images = table, range_, images
+        self._swept, self._most = swept, KEPT
         # In the order of their last use.
         self._kept: dict[int, EdgeFamilies] = {}
 
@@ -80,7 +93,7 @@ class Neighbourhood:
         return found
 
     def _of(self, edge: int) -> EdgeFamilies:
-        families = self._kept.pop(edge, None) or self._sweeper.of(edge)
+        families = self._kept.pop(edge, None) or self._swept(edge)
         self._kept[edge] = families
         return families
 

@@ -42,7 +42,11 @@ class WayCrossings:
     @cached_property
     def _found(self) -> list[Crossing]:
         found = crossings(self._families, set(self.wanted), self.way.image)
-        left = [(k, certain) for k, certain in found if certain or not self._are_round(self._families[k])]
+        left = [
+            (k, certain)
+            for k, certain in found
+            if certain or self._families[k].fixed or not self._are_round(self._families[k])
+        ]
         self.way.tell_lines_at_ends(self._families[k] for k, certain in left if not certain)
         return left
 

@@ -35,7 +35,7 @@ class WayNormals:
             sector = Sliding(start, minus(end, start), way.span.low, way.span.high, leftward=sense > 0)
             sweep = pencil(way.table, sector, (), complex_.range.above)
             frame = SLIDING, line.x, line.y, line.wx, line.wy, 0.0, sense
-            no_names = (NONE, False), False, NONE, LineNumbers([])
+            no_names = (NONE, NONE), False, NONE, LineNumbers([])
             curves, following = complex_.images.curves, way.table.images.following
             images = pencil_images(sweep.rows, frame, *no_names, curves, following, sweep)
             complex_.images.unroll(images, sweep)
