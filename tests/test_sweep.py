@@ -230,3 +230,12 @@ def test_errors() -> None:
         sweep(scene, Segment(Point(0, 0), Point(1, 0)))
     with pytest.raises(ValueError, match="obstacle"):
         sweep(scene, scene.obstacles[0].edges[0], 2)
+
+
+def test_an_arc_next_to_an_edge_that_is_all_but_smooth() -> None:
+    """Along the wall its rounded corner is seen past the vertex between, which sticks out by 10^-11."""
+    scene = xa.load("plate")
+    wall = scene.obstacles[14].edges[5]
+    rounded = [e for e in sweep(scene, wall, 60, obstacle=14).events if (e.obstacle, e.edge) == (14, 6)]
+    assert [event.change for event in rounded] == [Change.ENTRY]
+    assert check_cells(scene, 60, Piece("boundary", 14, wall)) > 10

@@ -18,7 +18,7 @@ from flint import arb
 
 from exactacq.geometry.box_index import box
 from exactacq.geometry.curve_images import curve_image
-from exactacq.geometry.curves import Arc, Segment
+from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.late import Pin, late_point
 from exactacq.geometry.points import Point
@@ -186,25 +186,19 @@ class LegSights:
             if low.compare(high) == 0:
                 continue
             middle = self.leg.rail.point(rational_between(low, high))
-            if self._is_before(share.edge, middle):
-                seen = self._view(middle, None if self.leg.edge is None else (self.leg.edge,)).spans
-                if any(self._is_more(part, share) for part in seen.get(share.edge, ())):
-                    yield from self._sights_of([share], None)
+            seen = self._view(middle, None if self.leg.edge is None else (self.leg.edge,)).spans
+            if any(self._is_more(part, share) for part in seen.get(share.edge, ())):
+                yield from self._sights_of([share], None)
 
     @property
     def _behind(self) -> set[int]:
-        """The leg's own edge and the straight ones next to it that are not seen from it."""
+        """The leg's own edge and those next to it that are straight and turn away from it."""
         e, table = self.leg.edge, self.complex.table
         if e is None:
             return set()
         beside = int(table.previous[e]), int(table.next[e])
         middle = self.leg.rail.point(rational_between(self.leg.span.low, self.leg.span.high))
-        return {e, *(f for f in beside if not self._is_before(f, middle))}
-
-    def _is_before(self, edge: int, place: Point) -> bool:
-        """Whether a place is in front of an edge, if that is straight."""
-        curve = self.complex.table.curves[edge]
-        return isinstance(curve, Arc) or curve.direction.cross(place - curve.start).sign() < 0
+        return {e, *(f for f in beside if _is_left_of(middle, table.curves[f]))}
 
     def _is_more(self, part: Interval, share: Share) -> bool:
         """Whether a part of an edge has length and contains what a share shows: a point."""
@@ -336,6 +330,10 @@ class _LateEnd:
 
 def _by_place(a: tuple[int, Real], b: tuple[int, Real]) -> int:
     return a[1].compare(b[1])
+
+
+def _is_left_of(place: Point, curve: Curve) -> bool:
+    return isinstance(curve, Segment) and curve.direction.cross(place - curve.start).sign() > 0
 
 
 def _counts(origin: object) -> bool:

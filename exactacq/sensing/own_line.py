@@ -8,7 +8,7 @@ from math import hypot
 
 import numpy as np
 
-from exactacq.geometry.curves import Arc, Segment
+from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.interval_union import Cover
 from exactacq.geometry.late import Pin
@@ -80,13 +80,13 @@ class OwnLine:
         edges = [e for e in self._near if e in view.edges]
         for e in on_line(self.table, edges, end, onward, self._slack, ahead=True):
             curve = self.table.curves[e]
-            if e in own:
-                # The line meets an edge at its end only there, unless it runs along it.
-                if isinstance(curve, Segment) and len(line_contacts(end, onward, curve)) == 2:
+            if e in own and isinstance(curve, Segment):
+                # The line meets it at its end only there, unless it runs along it.
+                if len(line_contacts(end, onward, curve)) == 2:
                     far = max((curve.start, curve.end), key=lambda p: (p - end).dot(onward))
                     yield e, far
                 continue
-            for share in line_contacts(end, onward, curve):
+            for share in _again(end, onward, curve) if e in own else line_contacts(end, onward, curve):
                 if share.sign() > 0:
                     point = end + onward * share
                     rail = self.way.clipper.rails[e]
@@ -118,6 +118,17 @@ class OwnLine:
         """The edges that balls do not part from a point: it lies on a boundary, or it does not."""
         near = self.table.near(point.xy, point.xy, 0.0).tolist()
         return [e for e in near if self.table.curves[e].may_pass(point, BITS)]
+
+
+def _again(place: Point, along: Point, curve: Curve) -> list[Real]:
+    """Where a line through a point of an arc meets it again inside the circle, in multiples of *along*.
+
+    Outside a round obstacle it does not. Of the two places one is at 0, so their sum is the other.
+    """
+    if not isinstance(curve, Arc) or curve.ccw:
+        return []
+    share: Real = -2 * (place - curve.center).dot(along) / along.norm_sq()
+    return [share] if share.sign() > 0 and curve.contains(place + along * share) else []
 
 
 def _certainly(low: Real, high: Real) -> bool:
