@@ -56,7 +56,7 @@ def pytest_collection_finish() -> None:
     """Search for garbage again, but seldom among all objects.
 
     What tests share stays to the end, and to search it takes seconds. Runs do so from time to time
-    (`strategies.gc_pause`).
+    (`exactacq.gc_pause`).
     """
     gc.enable()
     gc.set_threshold(*gc.get_threshold()[:2], 1000)

@@ -11,8 +11,8 @@ import pytest
 from nightly import NIGHTLY
 
 import exactacq as xa
-from exactacq.strategies import gc_pause
-from exactacq.strategies.gc_pause import SHARE, uncollected
+from exactacq import gc_pause
+from exactacq.gc_pause import SHARE, uncollected
 
 FEW = 100
 """Objects that belong to others: the libraries below, and the tests themselves."""

@@ -7,12 +7,12 @@ from dataclasses import replace
 from inspect import signature
 
 from exactacq.errors import FormatError, InvalidScene, MoveError, StrategyError, Undecided, shown
+from exactacq.gc_pause import uncollected
 from exactacq.geometry.points import Point
 from exactacq.progress import Meter, Progress
 from exactacq.scene.scene import Scene
 from exactacq.sensing.event import Ending, EventKind
 from exactacq.strategies.bounds import own_bounds
-from exactacq.strategies.gc_pause import uncollected
 from exactacq.strategies.known_map import Sighting
 from exactacq.strategies.moves import EnoughMoves
 from exactacq.strategies.options import MOST_MOVES, Strategy

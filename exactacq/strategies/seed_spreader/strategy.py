@@ -6,12 +6,12 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from exactacq.errors import Undecided
+from exactacq.gc_pause import uncollected
 from exactacq.progress import Meter, Progress
 from exactacq.scene.bounding import rectangular_room
 from exactacq.scene.scene import Scene, as_scene
 from exactacq.sensing.event import Ending, Event, EventKind
 from exactacq.strategies.bounds import with_bounds
-from exactacq.strategies.gc_pause import uncollected
 from exactacq.strategies.options import TargetChoice
 from exactacq.strategies.robot import Robot
 from exactacq.strategies.run import Diversion, SeedSpreaderRun

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from exactacq.errors import Undecided
+from exactacq.gc_pause import uncollected
 from exactacq.geometry.points import Point
 from exactacq.progress import Meter, Progress
 from exactacq.scene.scene import Scene
 from exactacq.sensing.event import Ending, EventKind
 from exactacq.strategies.bounds import with_bounds
-from exactacq.strategies.gc_pause import uncollected
 from exactacq.strategies.robot import Robot
 from exactacq.strategies.run import SightseerRun, TreeLink
 from exactacq.strategies.sightseer.rules import Tour
