@@ -1,9 +1,9 @@
 """Pausing the interpreter's search for cyclic garbage.
 
-A run makes millions of small objects that live as long as it. It leaves no cycles, and once it is dropped it
-is freed without a search (tests see to both). Without a pause the interpreter walks through all of them
-again and again: a sixth of the time, more in larger scenes. Nor does it walk through them when the pause is
-over: what was made meanwhile counts as old then, as if a search had found it in use.
+A run, or a sweep, makes millions of small objects that live as long as it. It leaves no cycles, and once
+dropped it is freed without a search (tests see to both). Without a pause the interpreter walks through all of
+them again and again: a sixth of the time, more in larger scenes. Nor does it walk through them when the pause
+is over: what was made meanwhile counts as old then, as if a search had found it in use.
 """
 
 from __future__ import annotations

@@ -17,6 +17,7 @@ from typing import Any, TypeAlias
 
 from flint import fmpq
 
+from exactacq.gc_pause import uncollected
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.late import Pin
@@ -181,6 +182,7 @@ class Sweep:
         return f"<Sweep from {piece.start} to {piece.end} within {radius}>"
 
     @cached_property
+    @uncollected()
     def events(self) -> tuple[SweepEvent, ...]:
         """All events inside the piece; those of one place by edge."""
         return tuple(event for k, views in enumerate(self._legs) for event in views.events(k))
