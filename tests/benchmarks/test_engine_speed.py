@@ -75,6 +75,7 @@ def judged(strategy, count):
 """
 SWEEPS = """
 from flint import fmpq
+from exactacq.gc_pause import uncollected
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.sensor import Sensor
 from exactacq.sensing.view_events import Sweep
@@ -86,7 +87,8 @@ def swept():
     events = sum(len(Sweep(run.scene, piece, senses).events) for piece in run.path)
     middle = time.process_time()
     places = [piece.curve.point(fmpq(1, 2)) for piece in run.path]
-    views = [xa.isovist(run.scene, place, run.radius).pieces for place in places]
+    with uncollected():
+        views = [xa.isovist(run.scene, place, run.radius).pieces for place in places]
     one, other = (middle - begin) / events, (time.process_time() - middle) / len(views)
     times = f"{{1e3 * one:.2f}} ms each, a view {{1e3 * other:.2f}} ms"
     return f"{{events}} events, {{times}}: {{one / other:.2f}} views for an event"
