@@ -69,6 +69,16 @@ def test_sweeps_leave_no_cycles() -> None:
     assert gc.collect() < FEW
 
 
+@pytest.mark.usefixtures("unsearched")
+@pytest.mark.parametrize("name", RUNS)
+def test_audits_leave_no_cycles(name: str) -> None:
+    run = RUNS[name](xa.load(name))
+    xa.audit(run, samples=8)
+    gc.collect()
+    xa.audit(run, samples=8)
+    assert gc.collect() < FEW
+
+
 def test_a_run_that_fails_resumes_the_search() -> None:
     def stop(visited: int, total: int) -> None:
         raise KeyboardInterrupt

@@ -30,11 +30,13 @@ from exactacq.auditing.seed_spreader import Replay
 from exactacq.auditing.sightseer import MOVES, check_ending, check_links, check_moves
 from exactacq.auditing.visibility import World
 from exactacq.errors import AuditError
+from exactacq.gc_pause import uncollected
 from exactacq.progress import Meter, Progress
 from exactacq.sensing.event import Ending, EventKind
 from exactacq.strategies.run import OwnRun, Run, SeedSpreaderRun, SightseerRun
 
 
+@uncollected()
 def audit(run: Run, *, samples: int = 64, seed: int = 0, progress: Progress | None = None) -> None:
     """Check a finished run by other means than those that made it; raises `AuditError` with the first flaw.
 

@@ -327,8 +327,8 @@ class _View:
 
     def _ray_to(self, point: Point, offset: tuple[float, float], aim: int | None = None) -> list[Direction]:
         """The ray to a point; none to q itself."""
-        unit = unit_vector(*offset)
-        return [] if unit is None else [Direction(unit, lambda: point - self.q, aim)]
+        unit, q = unit_vector(*offset), self.q
+        return [] if unit is None else [Direction(unit, lambda: point - q, aim)]
 
     def _range_crossings(self) -> Iterator[Point]:
         q, radius = self.q, self.lookout.radius
