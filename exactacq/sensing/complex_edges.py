@@ -24,6 +24,7 @@ from exactacq.kernel.extents import EVERYTHING
 from exactacq.kernel.family_images import NONE, FamilyImage, by_edge
 from exactacq.kernel.line_keys import key_of_normal
 from exactacq.kernel.near_edges import NearEdges
+from exactacq.numbers.rationals import nearest_float
 from exactacq.scene.edge_table import CONVEX, EdgeTable
 from exactacq.sensing.followed_lines import FeatureLine, FollowedLine, LineFollower, Met
 from exactacq.sensing.line_family import PencilFamilies, Reached, SingleLine
@@ -149,7 +150,7 @@ class FamilySweeper:
         """
         table, (x, y) = self.table, self.table.curves[rays.own[1]].start.xy
         near = table.near((x, y), (x, y), self.range.above)
-        (ax, ay), (bx, by) = ((float(dx), float(dy)) for dx, dy in rays.bounds)
+        (ax, ay), (bx, by) = ((nearest_float(dx), nearest_float(dy)) for dx, dy in rays.bounds)
         left, bottom, right, top = (table.boxes[near] - (x, y, x, y)).T
         slack, ahead = 64 * table.roundoff_at((x, y)), np.ones(len(near), bool)
         for hx, hy in ((-ay, ax), (by, -bx)):
