@@ -8,6 +8,7 @@ from random import Random
 import pytest
 from nightly import NIGHTLY, some
 from strategies import arc_terrain, degenerate_terrain, random_terrain
+from swept_edges import check_edges
 
 import exactacq as xa
 from exactacq import Circle, Point, Polygon, Scene
@@ -16,7 +17,7 @@ from exactacq.geometry.curves import Arc, Segment
 from exactacq.numbers.between import rational_between
 from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Piece
-from exactacq.sensing.view_events import Change, Sweep, SweepCell, SweepEvent, sweep
+from exactacq.sensing.view_events import Change, Sweep, SweepCell, sweep
 from exactacq.visibility.outline import ViewKind
 
 BITS = 600
@@ -52,22 +53,11 @@ def seen_through(
 
 
 def check_cells(scene: Scene, radius: object, piece: Piece) -> int:
-    """In the middle of every cell: the windows are those of the isovist, and all it sees was taught.
-
-    The edges in sight there are those of the cell before, but for what the events between tell.
-    """
+    """In the middle of every cell: edges in sight and windows are those of the isovist, and all it sees was taught."""
     swept = sweep(scene, piece.curve, radius, obstacle=piece.obstacle)
-    in_sight: set[tuple[int, int]] = set()
-    just: set[tuple[int, int]] = set()
-    for k, cell in enumerate(swept.cells):
+    assert check_edges(scene, radius, swept) == len(swept.cells)
+    for cell in swept.cells:
         u = rational_between(cell.low, cell.high)
-        before, (seen, just) = just, edges_in_sight(scene, cell.point(u), radius)
-        if k and swept.cells[k - 1].leg == cell.leg:
-            for event in swept.events:
-                if event.leg == cell.leg and event.u is cell.begin[0]:
-                    pass_event(event, in_sight, before)
-            assert seen <= in_sight <= seen | just, (piece, float(cell.low), float(cell.high))
-        in_sight = in_sight & just | seen
         mine, its = cell.windows(u), seen_through(scene, radius, cell, u)
         assert len(mine) == len(its)
         for near, far in its:
@@ -79,36 +69,6 @@ def check_cells(scene: Scene, radius: object, piece: Piece) -> int:
                 middle = middle_of(scene.obstacles[i].edges[e], start, end)
                 assert middle is None or cell.map.knows(i, middle)
     return len(swept.cells)
-
-
-def edges_in_sight(
-    scene: Scene, place: Point, radius: object
-) -> tuple[set[tuple[int, int]], set[tuple[int, int]]]:
-    """The edges of which an isovist shows a part with length, and those that have a point just in range."""
-    square = Point(radius, 0).norm_sq()
-    seen = xa.isovist(scene, place, radius).seen()
-    long = {edge for edge, spans in seen.items() if any(start != end for start, end in spans)}
-    return long, {
-        edge
-        for edge, spans in seen.items()
-        if any(start == end and (start - place).norm_sq() == square for start, end in spans)
-    }
-
-
-def pass_event(event: SweepEvent, in_sight: set[tuple[int, int]], just: set[tuple[int, int]]) -> None:
-    """Change the edges in sight at an event, before which its edge must be in sight or not, as it tells.
-
-    An edge with a point *just* in range may be called either.
-    """
-    edge = event.obstacle, event.edge
-    if event.change in (Change.ENTRY, Change.REAPPEARANCE):
-        assert edge not in in_sight
-        in_sight.add(edge)
-    elif event.change in (Change.EXIT, Change.OCCLUSION):
-        assert edge in in_sight | just
-        in_sight.discard(edge)
-    else:
-        assert edge in in_sight
 
 
 def middle_of(edge: Segment | Arc, start: Point, end: Point) -> Point | None:
