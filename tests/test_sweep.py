@@ -53,7 +53,7 @@ def seen_through(
 
 
 def check_cells(scene: Scene, radius: object, piece: Piece) -> int:
-    """In the middle of every cell: edges in sight and windows are those of the isovist, and all it sees was taught."""
+    """In the middle of every cell edges and windows are those of the isovist, and all it sees was taught."""
     swept = sweep(scene, piece.curve, radius, obstacle=piece.obstacle)
     assert check_edges(scene, radius, swept) == len(swept.cells)
     for cell in swept.cells:
