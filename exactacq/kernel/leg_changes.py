@@ -41,8 +41,6 @@ BEFORE: Span = (-inf, -inf)
 """Instead of the bounds of a place that is the start of the leg's span or lies before it."""
 AFTER: Span = (inf, inf)
 """Of one that is its end or lies behind it."""
-Spot = tuple[float, float, float]
-"""A point, and the error of its coordinates."""
 
 
 @final
@@ -270,27 +268,6 @@ def _tells(line: Line, low: float, high: float, arc: CurveImage) -> bool:
     reach, reach_bound = product(arc.radius, UNIT * arc.radius, size, size_bound)
     # Half the chord is at least the root of 2 CLEAR radii, and the parameter grows by half the angle or more.
     return abs(height) + bound < (reach - reach_bound) * (1.0 - CLEAR)
-
-
-def in_reach(a: Spot, b: Spot, reach: Span) -> int:
-    """1 or -1 as two points surely are nearer than the radius, which *reach* bounds, or farther; else 0."""
-    x, p = total(a[0], a[2], -b[0], b[2])
-    y, q = total(a[1], a[2], -b[1], b[2])
-    far, error = root(*dot(x, y, max(p, q), x, y, max(p, q)))
-    return 1 if far + error < reach[0] else -1 if far - error > reach[1] else 0
-
-
-def between(a: Spot, b: Spot, at: Spot) -> int:
-    """1 or -1 as a point of the line through a and b surely lies between them, or beyond one; else 0."""
-    x, p = total(b[0], b[2], -a[0], a[2])
-    y, q = total(b[1], b[2], -a[1], a[2])
-    u, r = total(at[0], at[2], -a[0], a[2])
-    v, s = total(at[1], at[2], -a[1], a[2])
-    along, error = dot(x, y, max(p, q), u, v, max(r, s))
-    whole, bound = dot(x, y, max(p, q), x, y, max(p, q))
-    if along < -error or along - error > whole + bound:
-        return -1
-    return 1 if along > error and along + error < whole - bound else 0
 
 
 @final

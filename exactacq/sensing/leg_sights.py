@@ -3,6 +3,9 @@
 Every family at the leg is an interval of it, a `Sight`. Floats know nearly all of them, and the kernel tells
 from them where something changes (`exactacq.kernel.leg_changes`). A family is made exact only if floats do
 not know its ends, if two places that matter look the same, or if someone reads the place of a change.
+
+The families are the tangents of features and the normals of edges, which sensing uses too, and the rays from
+the ends of edges (`exactacq.visibility.end_rays`). Single lines count where the leg runs along them.
 """
 
 from __future__ import annotations
