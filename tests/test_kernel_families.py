@@ -45,13 +45,13 @@ def test_what_is_at_an_edge(seed: int) -> None:
                 one for one in found.single_lines if one.edge is not None and e in (one.edge, one.shown)
             ]
         for one in found.single_lines:
-            if one.spot is not None and one.edge is not None:
+            if one.met is not None and one.edge is not None:
                 curve, u = sweeper.table.curves[one.edge], one.u
                 assert u is not None and curve.passes(one.place)
                 top = sweeper.clipper.rails[one.edge].top
-                low, high = (0 if v == -inf else top if v == inf else xa.Real(v) for v in one.spot)
+                low, high = (0 if v == -inf else top if v == inf else xa.Real(v) for v in one.met[:2])
                 if sweeper.table.full[one.edge]:
-                    assert low <= u <= high or one.spot in ((-inf, -inf), (inf, inf))
+                    assert low <= u <= high or one.met[:2] in ((-inf, -inf), (inf, inf))
                 else:
                     assert low <= u <= high
 

@@ -26,6 +26,8 @@ EdgePlace = tuple[float, float, float, float, float]
 EdgePlaces = tuple[EdgePlace, EdgePlace]
 """Where the first and the last line of a family meet an edge."""
 NOWHERE: EdgePlace = (0.0, 0.0, 0.0, 0.0, inf)
+ANYWHERE: EdgePlace = (-inf, inf, 0.0, 0.0, inf)
+"""Where floats do not tell."""
 
 
 @final

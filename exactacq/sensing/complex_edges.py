@@ -20,8 +20,7 @@ from exactacq.geometry.coordinates import Vector, cross, dot, minus, raw
 from exactacq.geometry.curve_parameter import ZERO, Rail
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.kernel.bound_lines import BoundLine
-from exactacq.kernel.extents import EVERYTHING
-from exactacq.kernel.family_images import NONE, FamilyImage, by_edge
+from exactacq.kernel.family_images import ANYWHERE, NONE, FamilyImage, by_edge
 from exactacq.kernel.line_keys import key_of_normal
 from exactacq.kernel.near_edges import NearEdges
 from exactacq.numbers.rationals import nearest_float
@@ -217,8 +216,8 @@ class FamilySweeper:
                 continue
             met = image.edge(role) if image.edge(role) != NONE else None
             make = partial(self._reached, feature, sweep, bound, role, met)
-            low, high, *_ = image.places(role)[0 if ahead else 1]
-            yield SingleLine(make, met, run, e, (low, high) if image.is_known else EVERYTHING)
+            place = None if met is None else image.places(role)[0 if ahead else 1]
+            yield SingleLine(make, met, run, e, place if image.is_known else ANYWHERE)
 
     def _reached(
         self, feature: Feature, sweep: Pencil, bound: BoundLine, role: Role, met: int | None

@@ -257,7 +257,7 @@ class Shares:
         times = EMPTY
         places = (leg.first, leg.start), (leg.last, leg.end)
         for (u, place), view in zip(places, self._end_views, strict=True):
-            if any(True for _ in self.targets.within({k}, view.spans)):
+            if self.targets.is_among(k, view.spans):
                 times = times.added(Interval(u, place, u, place))
         sources = [share.source for share in self.of[k]]
         sources += self.in_sight.get(k, ())

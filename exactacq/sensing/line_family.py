@@ -18,7 +18,7 @@ from exactacq.geometry.points import Point
 from exactacq.kernel.cells import LineCells
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent, Span, view_keys
-from exactacq.kernel.family_images import NONE, FamilyImage
+from exactacq.kernel.family_images import NONE, EdgePlace, FamilyImage
 from exactacq.kernel.line_keys import LineNumbers
 from exactacq.kernel.pencil_images import pencil_images
 from exactacq.kernel.single_lines import SingleImage, Spot
@@ -181,11 +181,11 @@ class SingleLine:
     """A single line: from ``place`` it shows edge ``shown`` from one point of a run to the other.
 
     The place lies on edge ``edge``, with parameter ``u`` if known, or in free space within reach (None);
-    what lies between sees the run too. It may be given as what makes it; then ``spot`` bounds its parameter.
-    *keys* are numbers of the line (see `line_keys`).
+    what lies between sees the run too. It may be given as what makes it; ``met`` then tells in floats where
+    it is. *keys* are numbers of the line (see `line_keys`).
     """
 
-    __slots__ = ("_hulls", "_image", "_reached", "_views", "edge", "keys", "run", "shown", "spot")
+    __slots__ = ("_hulls", "_image", "_reached", "_views", "edge", "keys", "met", "run", "shown")
 
     def __init__(
         self,
@@ -193,11 +193,11 @@ class SingleLine:
         edge: int | None,
         run: tuple[Pin, Pin],
         shown: int,
-        spot: Span | None = None,
+        met: EdgePlace | None = None,
         keys: Sequence[int] = (),
     ) -> None:
         self._reached = reached
-        self.edge, self.run, self.shown, self.spot, self.keys = edge, run, shown, spot, [*keys]
+        self.edge, self.run, self.shown, self.met, self.keys = edge, run, shown, met, [*keys]
         self._views: list[ViewFamily] | None = None
         self._image: SingleImage | None = None
         self._hulls: tuple[Span, Span] | None = None
@@ -229,7 +229,8 @@ class SingleLine:
         if self._image is None:
             first, last = self.points
             run = None if first is last else images.table.curve_images[self.shown]
-            self._image = SingleImage(_spot(self.place), _spot(first), run)
+            place = _spot(self.place) if self.met is None else self.met[2:]
+            self._image = SingleImage(place, _spot(first), run)
         return self._image
 
     def extent(self, images: LineImages, leg: CurveImage, here: int = 0) -> Extent:
@@ -238,8 +239,9 @@ class SingleLine:
         That is seen from a *leg* on that curve. A view of more than a point has no keys.
         """
         if self._hulls is None:
-            place = self.spot
-            if place is None:
+            if self.met is not None:
+                place = self.met[:2]
+            else:
                 place = EVERYTHING if self.edge is None else images.hull(self.edge, (self.place,))
             self._hulls = images.hull(self.shown, self.points), place
         (shown, source), edge = self._hulls, self.shown

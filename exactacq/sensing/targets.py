@@ -106,8 +106,18 @@ class Targets:
 
     def counting(self, edges: Iterable[int], obstacles: Collection[int]) -> list[int]:
         """Those of some edges that count for some of the obstacles."""
-        owners = self._owners
-        return [e for e in edges if e in owners and any(k in obstacles for k in owners[e])]
+        owners, some = self._owners, frozenset(obstacles)
+        return [e for e in edges if e in owners and not some.isdisjoint(owners[e])]
+
+    def is_among(self, k: int, spans: Mapping[int, Iterable[Interval]]) -> bool:
+        """Whether intervals of edges, by their numbers, contain anything of an obstacle."""
+        if self.edges[k].isdisjoint(spans.keys()):
+            return False
+        return any(
+            target.edge in spans
+            and (target.whole or any(target.clip(i) is not None for i in spans[target.edge]))
+            for target in self.of[k]
+        )
 
     def within(
         self, obstacles: Collection[int], spans: Mapping[int, Iterable[Interval]]

@@ -21,9 +21,10 @@ from exactacq.sensing.line_images import LineImages
 from exactacq.sensing.view_families import ViewFamily
 from exactacq.visibility.sensor_range import Range
 
-KEPT = 512
-"""Edges whose families are remembered, the last used; more only where a neighbourhood has more than half as
-many: then twice its edges. So no way makes a family twice, and memory is bounded by what is near."""
+KEPT = 256
+"""When the families of so many edges are remembered, or of twice those of a neighbourhood if these are more,
+the others are dropped that were not used meanwhile. So no way makes a family twice, and memory is bounded by
+what is near."""
 SEEN_FROM_KEPT = 128
 """Edges for which it is remembered what is seen from them."""
 
@@ -79,23 +80,22 @@ class Neighbourhood:
         """*swept* are the families of an edge."""
         self.table, self.range, self.images = table, range_, images
         self._swept, self._most = swept, KEPT
-        # In the order of their last use.
-        self._kept: dict[int, EdgeFamilies] = {}
+        # Those that were used since the last ones were dropped, and what was there before.
+        self._used: dict[int, EdgeFamilies] = {}
+        self._before: dict[int, EdgeFamilies] = {}
 
     def near(self, box: Floats) -> list[EdgeFamilies]:
         """The families of the edges within reach of a box."""
         left, bottom, right, top = box.tolist()
         edges = self.table.around((left, bottom), (right, top), self.range.above)
-        found = [self._of(e) for e in edges]
+        used = self._used
+        for e in [e for e in edges if e not in used]:
+            families = self._before.pop(e, None)
+            used[e] = self._swept(e) if families is None else families
         self._most = max(self._most, 2 * len(edges))
-        while len(self._kept) > self._most:
-            del self._kept[next(iter(self._kept))]
-        return found
-
-    def _of(self, edge: int) -> EdgeFamilies:
-        families = self._kept.pop(edge, None) or self._swept(edge)
-        self._kept[edge] = families
-        return families
+        if len(used) >= self._most:
+            self._used, self._before = {}, used
+        return [used[e] for e in edges]
 
     def extents(self, edge: int) -> list[Extent]:
         """What families show of others from an edge, and single lines that meet it."""
