@@ -29,6 +29,8 @@ DATA = Path(__file__).parent / "data"
 DRAWN = {".dxf", ".svg", ".json", ".geojson", ".wkt", ".pgm", ".map", ".kicad_pcb"}
 DRAWINGS = sorted(path for path in DATA.rglob("*") if path.suffix in DRAWN)
 EDGES = 12
+LONGEST = 300
+"""So much of an error is printed."""
 MOST = 1500
 """Drawings with more edges are left out."""
 
@@ -37,7 +39,10 @@ def of_run(kind: str, seed: int) -> Iterator[tuple[xa.Scene, object, Piece]]:
     """The pieces of a run on a random scene."""
     run = (xa.sightseer if kind == "sightseer" else xa.seed_spreader)(random_scene(Subject(kind), seed))
     for piece in run.path:
-        yield run.scene, run.radius, piece
+        owner = piece.obstacle
+        if owner is not None and run.ground is not None:
+            owner = run.ground.components[owner].obstacle.index
+        yield run.scene, run.radius, Piece(piece.kind, owner, piece.curve)
 
 
 def of_drawing(number: int) -> Iterator[tuple[xa.Scene, object, Piece]]:
@@ -90,7 +95,8 @@ def main(arguments: list[str] | None = None) -> int:
             events += len(swept.events)
         except (AssertionError, xa.ExactacqError) as error:
             wrong += 1
-            print(f"{piece} within {radius}: {type(error).__name__}: {error}", flush=True)
+            where = f"{piece.kind} {piece.obstacle} {piece.start.xy} {piece.end.xy} within {radius}"
+            print(f"{where}: {type(error).__name__}: {str(error)[:LONGEST]}", flush=True)
     spent = time.process_time() - begin
     print(f"{asked.kind}: {pieces} pieces, {events} events, {cells} cells, {wrong} wrong; {spent:.0f} s")
     return 1 if wrong else 0

@@ -49,7 +49,7 @@ def check_edges(scene: xa.Scene, radius: object, swept: Sweep) -> int:
     for k, cell in enumerate(swept.cells):
         place = cell.point(rational_between(cell.low, cell.high))
         before, (seen, just) = just, edges_in_sight(scene, place, radius)
-        if k and swept.cells[k - 1].leg == cell.leg:
+        if k:
             for event in swept.events:
                 if event.leg == cell.leg and event.u is cell.begin[0]:
                     pass_event(event, in_sight, before)

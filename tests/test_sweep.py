@@ -190,6 +190,32 @@ def test_errors() -> None:
         sweep(scene, Segment(Point(0, 0), Point(1, 0)))
     with pytest.raises(ValueError, match="obstacle"):
         sweep(scene, scene.obstacles[0].edges[0], 2)
+    for number in (-1, 1):
+        with pytest.raises(ValueError, match=f"no obstacle number {number}"):
+            sweep(scene, scene.obstacles[0].edges[0], 2, obstacle=number)
+    with pytest.raises(ValueError, match="without length"):
+        sweep(scene, Segment(Point(0, 0), Point(0, 0)), 2)
+
+
+def test_where_a_way_touches_a_corner() -> None:
+    """Below it sees the lower side of the triangle, above the upper one: both change in the corner."""
+    scene = Scene([Polygon([(0, 1), (2, 0), (2, 2)])])
+    swept = sweep(scene, Segment(Point(0, -1), Point(0, 3)), radius=10)
+    assert [(e.change, e.edge, e.leg, e.place) for e in swept.events] == [
+        (Change.OCCLUSION, 0, 1, Point(0, 1)),
+        (Change.REAPPEARANCE, 2, 1, Point(0, 1)),
+    ]
+    assert [cell.leg for cell in swept.cells] == [0, 1]
+
+
+def test_along_the_side_of_a_square() -> None:
+    """The side itself is in sight all along, end on at first and last."""
+    scene = Scene([Polygon([(1, 1), (2, 1), (2, 2), (1, 2)])])
+    swept = sweep(scene, Segment(Point(1, 0), Point(1, 4)), radius=10)
+    assert [(e.change, e.edge, e.leg, e.place) for e in swept.events] == [
+        (Change.OCCLUSION, 0, 1, Point(1, 1)),
+        (Change.REAPPEARANCE, 2, 2, Point(1, 2)),
+    ]
 
 
 def test_an_arc_next_to_an_edge_that_is_all_but_smooth() -> None:

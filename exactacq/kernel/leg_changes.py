@@ -84,6 +84,15 @@ class Turn:
 
 
 @final
+class AtEnd:
+    """An edge in sight inside a leg up to its end, with the names of what bounds its views; see `Turn`."""
+
+    def __init__(self, edge: int, names: list[int], is_short: bool, unsure: list[int]) -> None:
+        self.edge, self.names = edge, names
+        self.is_short, self.unsure = is_short, unsure
+
+
+@final
 class Group:
     """Sights of one edge that surely are connected; which of their ends may be first or last.
 
@@ -479,34 +488,10 @@ class LegChanges:
 
     def _sighted(self, edge: int, found: list[Turn], places: set[int]) -> None:
         """Add where an edge comes into sight and goes out of it, and these places; not if they are one."""
-        spans: list[tuple[int, int, int, int]] = []
         ends: list[int] = []
-        most = len(self._rank)
         for group in self._groups[edge]:
-            low, begin, high, end = most, NONE, -1, NONE
-            for candidate in group.lows:
-                if self._at(candidate) < low:
-                    low, begin = self._at(candidate), candidate
-            for candidate in group.highs:
-                if self._at(candidate) > high:
-                    high, end = self._at(candidate), candidate
-            ends += group.lows
-            ends += group.highs
-            if group.before:
-                low = -1
-            if group.after:
-                high = most
-            if low <= high:
-                spans.append((low, begin, high, end))
-        spans.sort()
-        k = 0
-        while k < len(spans):
-            low, begin, high, end = spans[k]
-            k += 1
-            while k < len(spans) and spans[k][0] <= high:
-                if spans[k][2] > high:
-                    high, end = spans[k][2], spans[k][3]
-                k += 1
+            ends += group.lows + group.highs
+        for low, begin, high, end in self._spans(edge):
             if low == high:
                 continue
             for rank, kind, at in ((low, BEGINS, begin), (high, ENDS, end)):
@@ -516,6 +501,75 @@ class LegChanges:
                     is_short = any(self._length(end) == SHORT for end in there)
                     unsure = [end for end in there if self._length(end) == EITHER]
                     found.append(Turn(rank, edge, kind, at, is_short, unsure))
+
+    def at_end(self, is_high: bool) -> list[AtEnd]:
+        """The edges that are in sight inside the leg up to its low or its high end, once it is settled."""
+        step = 1 if is_high else 0
+        rank = self._at(len(self.low) - 2 + step)
+        found: list[AtEnd] = []
+        for edge in self._groups:
+            spans = self._spans(edge)
+            is_seen = any(low < rank <= high if is_high else low <= rank < high for low, _, high, _ in spans)
+            if is_seen:
+                found.append(self._views_at_end(edge, step, rank))
+        return found
+
+    def _views_at_end(self, edge: int, step: int, rank: int) -> AtEnd:
+        """What is seen of an edge up to an end of the leg: by sights that reach it and do not begin there."""
+        one = AtEnd(edge, [], False, [])
+        for k in range(len(self.sights)):
+            sight, end, other = self.sights[k], 2 * k + step, 2 * k + 1 - step
+            if sight.edge != edge or self._passes(other, step) or self._rank_of(other) == rank:
+                continue
+            is_beyond = self._passes(end, step)
+            if is_beyond or self._rank_of(end) == rank:
+                if sight.name != NONE and sight.name not in one.names:
+                    one.names.append(sight.name)
+                if is_beyond or self._length(end) == SHORT:
+                    one.is_short = True
+                elif self._length(end) == EITHER:
+                    one.unsure.append(end)
+        one.names.sort()
+        return one
+
+    def _rank_of(self, end: int) -> int:
+        """The rank of a place, -2 if it does not matter."""
+        return self._rank.get(self.leader[end], -2)
+
+    def _passes(self, end: int, step: int) -> bool:
+        """Whether an end of a sight surely is at the high end of the leg or behind it, or at the low one."""
+        return self.low[end] >= self.span.high[1] if step else self.high[end] <= self.span.low[0]
+
+    def _spans(self, edge: int) -> list[tuple[int, int, int, int]]:
+        """The stretches of which an edge is in sight: ranks and ends where they begin and end."""
+        spans: list[tuple[int, int, int, int]] = []
+        most = len(self._rank)
+        for group in self._groups[edge]:
+            low, begin, high, end = most, NONE, -1, NONE
+            for candidate in group.lows:
+                if self._at(candidate) < low:
+                    low, begin = self._at(candidate), candidate
+            for candidate in group.highs:
+                if self._at(candidate) > high:
+                    high, end = self._at(candidate), candidate
+            if group.before:
+                low = -1
+            if group.after:
+                high = most
+            if low <= high:
+                spans.append((low, begin, high, end))
+        spans.sort()
+        found: list[tuple[int, int, int, int]] = []
+        k = 0
+        while k < len(spans):
+            low, begin, high, end = spans[k]
+            k += 1
+            while k < len(spans) and spans[k][0] <= high:
+                if spans[k][2] > high:
+                    high, end = spans[k][2], spans[k][3]
+                k += 1
+            found.append((low, begin, high, end))
+        return found
 
     def _length(self, end: int) -> int:
         return self.sights[end // 2].lengths[end % 2]

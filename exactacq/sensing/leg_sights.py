@@ -10,7 +10,7 @@ the ends of edges (`exactacq.visibility.end_rays`). Single lines count where the
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property, cmp_to_key
 from itertools import groupby, pairwise
@@ -33,6 +33,7 @@ from exactacq.kernel.leg_changes import (
     AFTER,
     BEFORE,
     EITHER,
+    AtEnd,
     LegChanges,
     Sight,
     Turn,
@@ -57,6 +58,8 @@ from exactacq.sensing.way_crossings import WayCrossings
 from exactacq.sensing.way_normals import WayNormals
 from exactacq.visibility.rotational_sweep import Pencil
 
+BITS = 256
+"""Precision of the balls that part a point from visible parts."""
 WAY_KEYS = -(2**60)
 """From here down go keys of a way's own normals, to either side: below those of the scene's lines."""
 
@@ -87,10 +90,23 @@ class LegSights:
     def _changed(self) -> LegChanges:
         return LegChanges(self._sights, self._span, NONE if self.leg.edge is None else self.leg.edge)
 
+    @cached_property
     def turns(self) -> list[Turn]:
         """The changes inside the leg."""
         changes = self._changes
         return changes.settle([self._parted(cluster) for cluster in changes.clusters()])
+
+    def at_end(self, is_last: bool) -> dict[int, AtEnd]:
+        """The edges in sight where the robot leaves the leg, or else where it enters it; its own one is."""
+        assert self.turns is not None, "places are in order once changes are known"
+        found = {one.edge: one for one in self._changes.at_end(is_last == self.leg.ahead)}
+        if self.leg.edge is not None:
+            found[self.leg.edge] = AtEnd(self.leg.edge, [], True, [])
+        return found
+
+    def is_near(self, seen: Turn | AtEnd) -> bool:
+        """Whether a view of what comes or goes is shorter than the range."""
+        return seen.is_short or any(self._is_short(end) for end in seen.unsure)
 
     def place(self, end: int) -> Pin:
         """The place of an end of a sight, or of the leg, by its number there; late where floats know it."""
@@ -109,7 +125,7 @@ class LegSights:
         late = _LateEnd(self, end)
         return late_point(around, late.point), Real.late(u, late.parameter)
 
-    def is_short(self, end: int) -> bool:
+    def _is_short(self, end: int) -> bool:
         """Whether a view of a sight from one of its ends is shorter than the range."""
         u = self.made(end)[1]
         return any(
@@ -190,7 +206,7 @@ class LegSights:
                 continue
             middle = self.leg.rail.point(rational_between(low, high))
             seen = self._view(middle, None if self.leg.edge is None else (self.leg.edge,)).spans
-            if any(self._is_more(part, share) for part in seen.get(share.edge, ())):
+            if self._is_more(seen.get(share.edge, ()), share):
                 yield from self._sights_of([share], None)
 
     @property
@@ -203,14 +219,20 @@ class LegSights:
         middle = self.leg.rail.point(rational_between(self.leg.span.low, self.leg.span.high))
         return {e, *(f for f in beside if _is_left_of(middle, table.curves[f]))}
 
-    def _is_more(self, part: Interval, share: Share) -> bool:
-        """Whether a part of an edge has length and contains what a share shows: a point."""
+    def _is_more(self, parts: Sequence[Interval], share: Share) -> bool:
+        """Whether of an edge's visible parts that has length which contains what a share shows: a point.
+
+        One contains it, as it is visible. Balls tell which may. Numbers, in other forms, are compared only if
+        some of those have length and some have not.
+        """
         u, rail = share.shown.low, self.complex.clipper.rails[share.edge]
         # A full circle's start is at 0 and at the top.
         places = [u, rail.top] if rail.is_closed and u.sign() == 0 else [u]
-        return part.low.compare(part.high) < 0 and any(
-            part.low.compare(place) <= 0 <= part.high.compare(place) for place in places
-        )
+        may = [(part, v) for part in parts for v in places if _may_contain(part, v)]
+        long = [(part, v) for part, v in may if part.low.compare(part.high) < 0]
+        if len(long) in (0, len(may)):
+            return bool(long)
+        return any(part.low.compare(v) <= 0 <= part.high.compare(v) for part, v in long)
 
     def _along_normals(self, lines: Pencil, normals: list[FamilyImage], first_key: int) -> Iterator[Sight]:
         """The sights along the way's normals to one side."""
@@ -337,6 +359,10 @@ def _by_place(a: tuple[int, Real], b: tuple[int, Real]) -> int:
 
 def _is_left_of(place: Point, curve: Curve) -> bool:
     return isinstance(curve, Segment) and curve.direction.cross(place - curve.start).sign() > 0
+
+
+def _may_contain(part: Interval, u: Real) -> bool:
+    return (u - part.low).clear_sign(BITS) >= 0 and (part.high - u).clear_sign(BITS) >= 0
 
 
 def _counts(origin: object) -> bool:

@@ -22,7 +22,7 @@ from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
-from exactacq.kernel.leg_changes import BEGINS, TURNS, Turn
+from exactacq.kernel.leg_changes import BEGINS, TURNS, AtEnd, Turn
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.scene import Scene, radius_of
@@ -58,8 +58,10 @@ class Change(Enum):
 class SweepEvent:
     """A change of the view of an edge, given as obstacle and number of the edge, at a place of the piece.
 
-    ``u`` is the parameter on the piece's rail (see `exactacq.geometry.curve_parameter`); ``leg`` is 1 once
-    the start of a full circle was passed, else 0.
+    ``leg`` is the number of the leg of the piece: there is a new one where a straight piece touches a corner,
+    where an edge that it runs along begins or ends, and where a piece passes the start of a full circle.
+    Parameter ``u`` is on the leg's rail (see `exactacq.geometry.curve_parameter`) and may fall on the way.
+    Obstacles and edges are numbered as in ``scene.obstacles``, the enclosure last.
     """
 
     change: Change
@@ -101,7 +103,7 @@ class SweepCell:
 
     @cached_property
     def map(self) -> Map:
-        """The map of a robot that has walked this cell only: all that is seen from some place of it."""
+        """The map of a robot that has walked this cell only: all that is seen from it, its ends included."""
         shares = self.views.shares
         part = shares.leg.between(self.begin, self.end)
         rails = shares.complex.clipper.rails
@@ -110,7 +112,8 @@ class SweepCell:
     def windows(self, u: fmpq) -> list[tuple[Point, Point | None]]:
         """The windows of the view at a rational parameter: the touched point, and the point seen beyond it.
 
-        The latter is None if it is out of range. A view along the robot's own line is no window here.
+        The latter is None if it is out of range. A view along the robot's own line is no window here. What is
+        seen along it may go out of range without an event.
         """
         touched: list[Point] = []
         found: list[tuple[Point, Point | None]] = []
@@ -144,24 +147,41 @@ class LegViews:
 
     def events(self, number: int) -> Iterator[SweepEvent]:
         """The events inside the leg of that number; those of one place by edge."""
-        sights, leg, table = self.sights, self.leg, self._sensor.table
+        sights, leg = self.sights, self.leg
         places: dict[int, Pin] = {}
         step = 1 if leg.ahead else -1
-        for turn in sorted(sights.turns(), key=lambda turn: (step * turn.rank, turn.edge)):
+        for turn in sorted(sights.turns, key=lambda turn: (step * turn.rank, turn.edge)):
             if turn.rank not in places:
                 places[turn.rank] = sights.place(turn.end)
             place, u = places[turn.rank]
-            owner = table.owners[turn.edge]
-            first = table.edges_of(owner).start
-            yield SweepEvent(self._change(turn), owner, turn.edge - first, number, u, place)
+            change = Change.TURNING
+            if turn.kind != TURNS:
+                change = self._change(turn, comes=(turn.kind == BEGINS) == leg.ahead)
+            yield self._event(change, turn.edge, number, u, place)
 
-    def _change(self, turn: Turn) -> Change:
-        if turn.kind == TURNS:
-            return Change.TURNING
-        short = turn.is_short or any(self.sights.is_short(end) for end in turn.unsure)
-        if (turn.kind == BEGINS) == self.leg.ahead:
-            return Change.REAPPEARANCE if short else Change.ENTRY
-        return Change.OCCLUSION if short else Change.EXIT
+    def events_at_start(self, before: LegViews, number: int) -> Iterator[SweepEvent]:
+        """The events where the leg of that number begins, after another one."""
+        gone, here, own = before.sights.at_end(True), self.sights.at_end(False), self.leg.edge
+        for edge in sorted({*gone, *here}):
+            if edge not in here:
+                change = before._change(gone[edge], comes=False)
+            elif edge not in gone:
+                change = self._change(here[edge], comes=True)
+            elif gone[edge].names != here[edge].names and edge not in (own, before.leg.edge):
+                change = Change.TURNING
+            else:
+                continue
+            yield self._event(change, edge, number, self.leg.first, self.leg.start)
+
+    def _event(self, change: Change, edge: int, number: int, u: Real, place: Point) -> SweepEvent:
+        table = self._sensor.table
+        owner = table.owners[edge]
+        return SweepEvent(change, owner, edge - table.edges_of(owner).start, number, u, place)
+
+    def _change(self, seen: Turn | AtEnd, comes: bool) -> Change:
+        if self.sights.is_near(seen):
+            return Change.REAPPEARANCE if comes else Change.OCCLUSION
+        return Change.ENTRY if comes else Change.EXIT
 
 
 class Sweep:
@@ -185,7 +205,12 @@ class Sweep:
     @uncollected()
     def events(self) -> tuple[SweepEvent, ...]:
         """All events inside the piece; those of one place by edge."""
-        return tuple(event for k, views in enumerate(self._legs) for event in views.events(k))
+        found: list[SweepEvent] = []
+        for k, views in enumerate(self._legs):
+            if k:
+                found += views.events_at_start(self._legs[k - 1], k)
+            found += views.events(k)
+        return tuple(found)
 
     @cached_property
     def cells(self) -> tuple[SweepCell, ...]:
@@ -208,8 +233,8 @@ def sweep(scene: Scene, curve: Curve, radius: object = None, *, obstacle: int | 
 
     The curve is a free segment, or part of one boundary edge of the obstacle of that number. That a segment
     is free is not checked. Raises `InvalidScene` if the radius is missing or not positive, and ValueError if
-    the curve is no part of the boundary. Cost: near linear in the free lines within reach that touch two
-    corners or arcs.
+    the curve has no length or is no part of the boundary, or there is no such obstacle. Cost: near linear in
+    the free lines within reach that touch two corners or arcs.
 
     >>> import exactacq as xa
     >>> scene = xa.Scene([xa.Polygon([(2, -1), (3, -1), (3, 1), (2, 1)])])
@@ -220,6 +245,10 @@ def sweep(scene: Scene, curve: Curve, radius: object = None, *, obstacle: int | 
     reach = radius_of(scene, radius, curve.start)
     if obstacle is None and not isinstance(curve, Segment):
         raise ValueError("free space is crossed on straight lines: an arc needs its obstacle's number")
+    if obstacle is not None and not 0 <= obstacle < len(scene.obstacles):
+        raise ValueError(f"there is no obstacle number {obstacle}: the scene has {len(scene.obstacles)}")
+    if isinstance(curve, Segment) and curve.start == curve.end:
+        raise ValueError(f"a segment without length, at {curve.start}, is no piece of a path")
     kind = "straight" if obstacle is None else "boundary"
     return _again(scene, Piece(kind, obstacle, curve), reach)
 
