@@ -40,14 +40,17 @@ def pass_event(event: SweepEvent, in_sight: Edges, just: Edges) -> None:
 
 
 def check_edges(scene: xa.Scene, radius: object, swept: Sweep) -> int:
-    """In the middle of every cell the edges in sight are those of the cell before, but for what events tell.
+    """Inside every cell the edges in sight are those of the cell before, but for what events tell.
 
-    Returns how many cells there are.
+    Returns how many cells there are. The place is not the middle: there the piece may just touch a circle, of
+    which it sees a single point from that one place.
     """
     in_sight: Edges = set()
     just: Edges = set()
     for k, cell in enumerate(swept.cells):
-        place = cell.point(rational_between(cell.low, cell.high))
+        middle = rational_between(cell.low, cell.high)
+        beyond = rational_between(xa.Real(middle), cell.high)
+        place = cell.point(middle + (beyond - middle) * 3 / 7)
         before, (seen, just) = just, edges_in_sight(scene, place, radius)
         if k:
             for event in swept.events:

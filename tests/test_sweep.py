@@ -208,6 +208,16 @@ def test_where_a_way_touches_a_corner() -> None:
     assert [cell.leg for cell in swept.cells] == [0, 1]
 
 
+def test_where_a_way_touches_an_arc() -> None:
+    """Before the way touches the upper arc it sees of the lower one a single point, past the upper one."""
+    scene = Scene([xa.Outline([(2, 1, 1), (2, 2, 1), (2, 3), (1, 2)])])
+    piece = Piece("straight", None, Segment(Point("5/2", 4), Point("5/2", 0)))
+    assert check_cells(scene, "5/2", piece) == 8
+    found = [(e.change, e.edge, e.place) for e in sweep(scene, piece.curve, "5/2").events]
+    assert (Change.REAPPEARANCE, 0, Point("5/2", "5/2")) in found
+    assert (Change.OCCLUSION, 1, Point("5/2", "3/2")) in found
+
+
 def test_along_the_side_of_a_square() -> None:
     """The side itself is in sight all along, end on at first and last."""
     scene = Scene([Polygon([(1, 1), (2, 1), (2, 2), (1, 2)])])

@@ -21,7 +21,7 @@ from flint import arb
 
 from exactacq.geometry.box_index import box
 from exactacq.geometry.curve_images import curve_image
-from exactacq.geometry.curves import Curve, Segment
+from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.late import Pin, late_point
 from exactacq.geometry.points import Point
@@ -193,21 +193,41 @@ class LegSights:
     def _on_line(self) -> Iterator[Sight]:
         """What is seen along the leg's own line of edges that are not in sight all along without that.
 
-        It counts where the view from a place between shows more than a point. What else lies beside the line
-        between the place and what is seen is the same for all places.
+        It counts where the view shows more than a point. Between places where the leg touches circles that is
+        so everywhere or nowhere, for what lies beside the line on the way to what is seen is the same.
         """
         if not isinstance(self.leg.rail.curve, Segment):
             return
         wanted = {e for e in self._near if not self._changes.is_throughout(e)} - self._behind
         for family in OwnLine(self._way, frozenset(wanted), self._view).families():
-            share = Share.of(family, 0)
-            low, high = share.source.low, share.source.high
-            if low.compare(high) == 0:
-                continue
-            middle = self.leg.rail.point(rational_between(low, high))
-            seen = self._view(middle, None if self.leg.edge is None else (self.leg.edge,)).spans
-            if self._is_more(seen.get(share.edge, ()), share):
-                yield from self._sights_of([share], None)
+            whole = Share.of(family, 0)
+            for stretch in self._stretches:
+                view = self._way.clipper.clipped(family, 0, stretch)
+                share = whole if view is None else whole.cut(view)
+                low, high = share.source.low, share.source.high
+                if view is None or low.compare(high) == 0:
+                    continue
+                middle = self.leg.rail.point(rational_between(low, high))
+                seen = self._view(middle, None if self.leg.edge is None else (self.leg.edge,)).spans
+                if self._is_more(seen.get(share.edge, ()), share):
+                    yield from self._sights_of([share], None)
+
+    @cached_property
+    def _stretches(self) -> list[Interval]:
+        """The leg, divided where it touches circles."""
+        table, span, stops = self.complex.table, self.leg.span, list[Pin]()
+        start, along = self._way.line.start, self._way.line.end - self._way.line.start
+        for number in self.leg.touches:
+            if table.line_numbers.is_circle(number):
+                arc = table.curves[table.line_numbers.first_arc(number)]
+                assert isinstance(arc, Arc), "only arcs have circles"
+                foot = start + along * ((arc.center - start).dot(along) / along.norm_sq())
+                u = self.leg.rail.parameter(foot)
+                if span.low.compare(u) < 0 < span.high.compare(u):
+                    stops.append((foot, u))
+        stops.sort(key=lambda stop: stop[1])
+        pins = [(span.start, span.low), *stops, (span.end, span.high)]
+        return [Interval(u, p, v, q) for (p, u), (q, v) in pairwise(pins)]
 
     @property
     def _behind(self) -> set[int]:
