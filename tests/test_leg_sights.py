@@ -208,7 +208,7 @@ def check_sweep(scene: xa.Scene, piece: Piece, radius: object) -> int:
         for event in events:
             e = table.edges_of(event.obstacle).start + event.edge
             assert leg.rail.parameter(event.place).compare(event.u) == 0
-            if event.change is Change.TURNING:
+            if event.change is Change.TURNING and leg.order(event.u, leg.first) > 0:
                 turned.append((e, event.u))
             else:
                 taken.setdefault(e, []).append(event.u)
@@ -241,7 +241,9 @@ def test_floats_change_nothing(make: object, monkeypatch: pytest.MonkeyPatch) ->
     """With every float unsure all families are made, all places compared, and the events are the same."""
     scene, run = run_of(make, 4)
     count = 0
-    for piece in run.path[: 2 if NIGHTLY else 1]:
+    for k, piece in enumerate(run.path):
+        if count and k >= (2 if NIGHTLY else 1):
+            break
         swept = xa.sweep(scene, piece.curve, run.radius, obstacle=piece.obstacle).events
         with monkeypatch.context() as patch:
             patch.setattr(kernel, "EXACT_ONLY", True)
