@@ -16,7 +16,7 @@ from typing import TypeAlias
 import numpy as np
 from flint import fmpq
 
-from exactacq.geometry.coordinates import Vector, cross, dot, minus, raw
+from exactacq.geometry.coordinates import minus, raw
 from exactacq.geometry.curve_parameter import ZERO, Rail
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.kernel.bound_lines import BoundLine
@@ -31,7 +31,7 @@ from exactacq.sensing.line_images import LineImages
 from exactacq.sensing.line_points import Role, Side
 from exactacq.sensing.view_families import FamilyClipper
 from exactacq.visibility.end_rays import EndRays, end_rays
-from exactacq.visibility.features import Feature, features, leaving
+from exactacq.visibility.features import Feature, features, leaving, parallel
 from exactacq.visibility.line_families import Sector, Sliding, Spokes, corner_sectors, quarters
 from exactacq.visibility.line_names import Namer
 from exactacq.visibility.pinched_lines import may_be_pinched
@@ -145,7 +145,8 @@ class FamilySweeper:
         """The edges that rays may meet, with those at their vertex.
 
         Floats leave out the boxes that lie right of the first or left of the last ray, which are less than a
-        half turn apart.
+        half turn apart. For coordinates of size m at most an offset is off by 2^-50 m, and is below 3 m; a
+        product with a direction h adds roundings of 2^-50 times 3 m |h|. The slack is far more.
         """
         table, (x, y) = self.table, self.table.curves[rays.own[1]].start.xy
         near = table.near((x, y), (x, y), self.range.above)
@@ -239,9 +240,9 @@ class FamilySweeper:
         curves = self.table.curves
         before, after = int(self.table.previous[e]), int(self.table.next[e])
         ends = leaving(curves[before], at_end=True), leaving(curves[e], at_end=False)
-        incoming = before if _continues(*ends) else e
+        incoming = before if parallel(*ends) else e
         ends = leaving(curves[e], at_end=True), leaving(curves[after], at_end=False)
-        return incoming, after if _continues(*ends) else e
+        return incoming, after if parallel(*ends) else e
 
     def _pinched(self, at: FeatureLine, keys: list[int]) -> Iterator[SingleLine]:
         """What the touched points and edges of a line that grazes several features show of each other.
@@ -311,10 +312,6 @@ def normals(curve: Curve) -> Iterator[Sector]:
         first, last = last, first
     for base, low, high in quarters(first, last):
         yield Spokes(center, base, low, high, radius_sq=curve.radius_sq, outward=curve.ccw)
-
-
-def _continues(a: Vector, b: Vector) -> bool:
-    return bool(cross(a, b) == 0 and dot(a, b) > 0)
 
 
 def _is_told_by_others(here: int, near: int, featured: list[int]) -> bool:

@@ -216,12 +216,11 @@ class LegSights:
     def _stretches(self) -> list[Interval]:
         """The leg, divided where it touches circles."""
         table, span, stops = self.complex.table, self.leg.span, list[Pin]()
-        start, along = self._way.line.start, self._way.line.end - self._way.line.start
         for number in self.leg.touches:
             if table.line_numbers.is_circle(number):
                 arc = table.curves[table.line_numbers.first_arc(number)]
                 assert isinstance(arc, Arc), "only arcs have circles"
-                foot = start + along * ((arc.center - start).dot(along) / along.norm_sq())
+                foot = self._way.foot(arc.center)
                 u = self.leg.rail.parameter(foot)
                 if span.low.compare(u) < 0 < span.high.compare(u):
                     stops.append((foot, u))

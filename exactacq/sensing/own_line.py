@@ -70,7 +70,7 @@ class OwnLine:
             if isinstance(curve, Arc):
                 named = numbers.feature(e, True) in touches
                 if named or self.way.is_tangent(curve.center, curve.radius_sq):
-                    foot = start + along * ((curve.center - start).dot(along) / along.norm_sq())
+                    foot = self.way.foot(curve.center)
                     if curve.contains(foot):
                         yield e, foot
 

@@ -84,6 +84,11 @@ class StraightWay:
         numbers = {number for e in near for number in (e, int(self.table.next[e]))}
         return [number for number in numbers if self.table.vertices[number] == point.rational]
 
+    def foot(self, point: Point) -> Point:
+        """The place of its line that is nearest to a point."""
+        start, along = self.line.start, self.line.end - self.line.start
+        return start + along * ((point - start).dot(along) / along.norm_sq())
+
     def is_tangent(self, center: Point, radius_sq: fmpq) -> bool:
         """Whether the way's line touches a circle."""
         along = self.line.end - self.line.start

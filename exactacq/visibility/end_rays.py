@@ -10,11 +10,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from exactacq.geometry.coordinates import cross, dot, sign
+from exactacq.geometry.coordinates import cross, sign
 from exactacq.geometry.curves import Segment
 from exactacq.kernel.family_images import NONE
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.visibility.features import is_spike, leaving
+from exactacq.visibility.features import Joint, joint, leaving
 from exactacq.visibility.line_families import Turning, Vector, corner_sectors
 
 
@@ -33,16 +33,17 @@ class EndRays:
 
 
 def end_rays(table: EdgeTable, e: int) -> Iterator[EndRays]:
-    """The rays from both ends of an edge. A full circle has no ends, and a narrow nook has no rays."""
+    """The rays from both ends of an edge. A full circle has none, nor an end in a corner that is narrow."""
     if table.full[e]:
         return
     for incoming, outgoing in ((int(table.previous[e]), e), (e, int(table.next[e]))):
-        before = leaving(table.curves[incoming], at_end=True)
-        after = leaving(table.curves[outgoing], at_end=False)
+        curves = table.curves[incoming], table.curves[outgoing]
+        before, after = leaving(curves[0], at_end=True), leaving(curves[1], at_end=False)
         is_start = outgoing == e
         (x, y), other = (after, incoming) if is_start else (before, outgoing)
         normal, onward, along = (y, -x), (-x, -y) if is_start else (x, y), e
-        if _is_nook(table, incoming, outgoing, before, after):
+        if joint(*curves, before, after) is Joint.REFLEX:
+            # The other edge there bounds the rays.
             onward, along = (-before[0], -before[1]) if is_start else after, other
         first, last = (onward, normal) if is_start else (normal, onward)
         if sign(cross(first, last)) > 0:
@@ -50,14 +51,6 @@ def end_rays(table: EdgeTable, e: int) -> Iterator[EndRays]:
             (sector,) = corner_sectors(table.vertices[outgoing], first, last)
             passed = (far, NONE) if is_start else (NONE, far)
             yield EndRays(sector, (first, last), (incoming, outgoing), passed)
-
-
-def _is_nook(table: EdgeTable, incoming: int, outgoing: int, before: Vector, after: Vector) -> bool:
-    """Whether less than a half turn is free at a vertex, so that the edges there bound what leaves it."""
-    turn = sign(cross(before, after))
-    if turn == 0 and sign(dot(before, after)) < 0:
-        return not is_spike(table.curves[incoming], table.curves[outgoing])
-    return turn < 0
 
 
 def _far_end(table: EdgeTable, e: int, vertex: int) -> int:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from enum import Enum
 from weakref import WeakKeyDictionary
 
 from flint import fmpq
@@ -34,6 +35,23 @@ class Feature:
     radius_sq: fmpq
     edges: tuple[int, ...]
     sectors: tuple[Sector, ...]
+
+
+class Joint(Enum):
+    """How two edges of a boundary meet: with more than a half turn free between them, just that, or less."""
+
+    CONVEX = "convex"
+    SMOOTH = "smooth"
+    REFLEX = "reflex"
+
+
+def joint(incoming: Curve, outgoing: Curve, before: Vector, after: Vector) -> Joint:
+    """How an edge meets the next one, with their directions of travel there; of a cusp curvatures tell."""
+    turn = sign(cross(before, after))
+    if turn == 0 and dot(before, after) > 0:
+        return Joint.SMOOTH
+    is_convex = turn > 0 if turn else is_spike(incoming, outgoing)
+    return Joint.CONVEX if is_convex else Joint.REFLEX
 
 
 _kept: WeakKeyDictionary[EdgeTable, list[Feature]] = WeakKeyDictionary()
@@ -69,10 +87,7 @@ def _corner_feature(table: EdgeTable, e: int, following: int) -> Feature | None:
     """The corner between edge *e* and the next one, if the obstacle is convex there."""
     incoming, outgoing = table.curves[e], table.curves[following]
     first, last = leaving(incoming, at_end=True), leaving(outgoing, at_end=False)
-    turn = cross(first, last)
-    if turn < 0:
-        return None
-    if turn == 0 and (dot(first, last) > 0 or not is_spike(incoming, outgoing)):
+    if joint(incoming, outgoing, first, last) is not Joint.CONVEX:
         return None
     center = table.vertices[following]
     sectors = tuple(corner_sectors(center, first, last))
