@@ -218,6 +218,13 @@ def test_where_a_way_touches_an_arc() -> None:
     assert (Change.OCCLUSION, 1, Point("5/2", "3/2")) in found
 
 
+@pytest.mark.parametrize("x", ["-1/4", "1/4", -1, 2])
+def test_rays_from_a_reflex_corner_stay_outside(x: object) -> None:
+    """Left of the bracket its arm hides both walls at the corner (1, 1), right of it both are seen."""
+    bracket = Scene([Polygon([("1/2", 0), (4, 0), (4, 1), (1, 1), (1, 4), ("1/2", 4)])])
+    assert check_cells(bracket, 3, Piece("straight", None, Segment(Point(x, 5), Point(x, "9/8")))) > 1
+
+
 def test_along_the_side_of_a_square() -> None:
     """The side itself is in sight all along, end on at first and last."""
     scene = Scene([Polygon([(1, 1), (2, 1), (2, 2), (1, 2)])])
