@@ -10,8 +10,9 @@ start, then in the pair farthest along the line neither point can be moved on (e
 - it runs along the line itself.
 
 Floats list these candidates and drop what is certainly blocked or out of range; what is left is decided
-exactly. Only where a line of sight that touches one feature is as long as the range there is no closed form:
-there the lengths are bounded between neighbouring lines through two features, where nothing changes.
+exactly. The lengths of lines of sight that touch one feature are bounded between neighbouring lines through
+two features, where nothing changes. Where bounds do not part them from the range, a polynomial tells which
+are as long (`at_range`, in this folder).
 """
 
 from __future__ import annotations
@@ -32,6 +33,7 @@ from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real, rational
 from exactacq.strategies.seed_spreader.horizon import Horizon
 from exactacq.strategies.seed_spreader.hulls import hull, overlap
+from exactacq.strategies.seed_spreader.prediction.at_range import ordinates_at_range
 from exactacq.strategies.seed_spreader.prediction.pieces import (
     ANGLE,
     KnownFeature,
@@ -55,8 +57,9 @@ GRID = 8
 """Places of the walk, and points of each target, that are tried first, less one."""
 TRIES = 6
 """Lines of sight of the grid that are tried exactly."""
-STRETCHES = 2000
-"""Into how many stretches a part of the walk is divided to prove that lines about a feature are too long."""
+FEW, MANY = 50, 2000
+"""Into how many stretches a part of the walk is divided to prove that lines about a feature are too long:
+before a polynomial is solved, and where there is none."""
 
 
 @np.errstate(over="ignore")  # A bound that overflows is infinite, and decides nothing.
@@ -76,8 +79,8 @@ def sees_later(
 
     *blockers* gives the known pieces of boundaries in a box, the blocked side on their left; the targets are
     some of them, *points* single known points of the same obstacle. A point is seen within the radius if the
-    segment to it nowhere enters the known blocked side; it may touch. Raises `Undecided` where a line of
-    sight that touches one feature and is exactly as long as the range can be neither found nor excluded.
+    segment to it nowhere enters the known blocked side; it may touch. Raises `Undecided` where lines of sight
+    past one irrational feature come down to exactly the range, which can be neither found nor excluded.
     """
     if not including and Real(stop).compare(start) == 0:
         return False
@@ -422,9 +425,10 @@ class _LineBatch:
                 return True
             undecided = cell if answer is None else undecided
         if undecided is not None:
+            x, y = self._shape(undecided.touch)[0].xy
             raise Undecided(
-                f"whether an obstacle is seen later near ({float(self.walk.x)}, {undecided.low}): a line of "
-                "sight that touches one feature is as long as the range there, as far as floats can tell"
+                f"whether an obstacle is seen later near ({float(self.walk.x)}, {undecided.low}): lines of "
+                f"sight past what is known about ({x}, {y}) come down to the range, as far as can be told"
             )
         return False
 
@@ -488,13 +492,18 @@ class _LineBatch:
             ends = [(z, self._order(cell, z)) for z in (low, high)]
             if any(order == -1 for _, order in ends):
                 return True
-            in_range = self._is_in_range_between(cell, *((z, order is not None) for z, order in ends))
+            tested = [(z, order is not None) for z, order in ends]
+            in_range = self._is_in_range_between(cell, *tested, stretches=FEW)
+            if in_range is None:
+                in_range = self._comes_down_to_range(cell, low, high)
+            if in_range is None:
+                in_range = self._is_in_range_between(cell, *tested, stretches=MANY)
             if in_range:
                 return True
             answer = answer if in_range is False else None
         return answer
 
-    def _is_in_range_between(self, cell: LineCell, *ends: tuple[Real, bool]) -> bool | None:
+    def _is_in_range_between(self, cell: LineCell, *ends: tuple[Real, bool], stretches: int) -> bool | None:
         """Whether a line of a cell between two ordinates is as short as the range; None if that is open.
 
         The ends are the lower and the upper ordinate, each with whether its line is known to be no shorter
@@ -503,7 +512,7 @@ class _LineBatch:
         radius, shape = self.walk.radius, self._shape(cell.touch)
         target = self.search.known[cell.target]
         open_ones, is_bounded = deque([ends]), True
-        for _ in range(STRETCHES):
+        for _ in range(stretches):
             if not open_ones:
                 return False if is_bounded else None
             (low, is_low_tested), (high, is_high_tested) = ends = open_ones.popleft()
@@ -520,6 +529,24 @@ class _LineBatch:
             if not is_longer:
                 open_ones += [(ends[0], (y, True)), ((y, True), ends[1])]
         return None
+
+    def _comes_down_to_range(self, cell: LineCell, low: Real, high: Real) -> bool | None:
+        """Like `_is_in_range_between`, by all ordinates strictly between two from which a line is as long.
+
+        Next to them, and where there are none, all lines are longer or all are shorter.
+        """
+        feature = self.proposals.features[self.proposals.feature[cell.touch]].shape
+        target = self.search.known[cell.target]
+        found = ordinates_at_range(self.walk.x, feature, target, self.walk.radius)
+        if found is None:
+            return None
+        inside = sorted(y for y in found if low.compare(y) < 0 < high.compare(y))
+        bounds = [low, *inside, high]
+        between = [Real(rational_between(a, b)) for a, b in pairwise(bounds) if a.compare(b)]
+        orders = [self._order(cell, y) for y in (*between, *inside)]
+        if any(order is not None and order <= 0 for order in orders):
+            return True
+        return None if None in orders else False
 
     def _order(self, cell: LineCell, y: Real) -> int | None:
         """-1, 0 or 1 as a line of a cell is shorter than the range, as long, or longer; None without one."""
