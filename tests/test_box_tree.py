@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from math import hypot, inf
 from random import Random
 
@@ -45,8 +46,49 @@ def test_what_is_found_is_what_is_near(seed: int) -> None:
         assert all(gaps[k] <= reach * (1 + SLACK) for k in found)
 
 
+@given(st.integers(0, 10**6))
+def test_what_is_found_along_a_line_is_what_it_may_meet(seed: int) -> None:
+    """Exactly: a box that the line meets is found, also where only its corner is on it; few others are."""
+    rng = Random(seed)
+    boxes = [box for box in (some_box(rng) for _ in range(rng.randint(1, 200))) if inf not in box]
+    tree = box_tree(boxes)
+    for _ in range(5):
+        x, y, *_ = rng.choice([*boxes, some_box(rng)])
+        if inf in (abs(x), abs(y)):
+            continue
+        dx, dy = rng.choice([(1.0, 0.0), (1.0, 1.0), (0.0, -3.0), (rng.uniform(-1, 1), rng.uniform(-1, 1))])
+        reach = rng.choice([1, 5, 10 ** rng.uniform(-2, 4)])
+        found = tree.along((x, y, dx, dy, 0.0, 0.0), reach, 0.0)
+        assert found == sorted(set(found))
+        for k, box in enumerate(boxes):
+            far = gap(box, (x, y, x, y))
+            sides = [
+                Fraction(dx) * (Fraction(v) - Fraction(y)) - Fraction(dy) * (Fraction(u) - Fraction(x))
+                for u in box[::2]
+                for v in box[1::2]
+            ]
+            is_met = min(sides) <= 0 <= max(sides)
+            near = min(map(abs, sides)) <= 1e-12 * (hypot(*box) + hypot(x, y)) * hypot(dx, dy)
+            if is_met and far <= reach * (1 - SLACK):
+                assert k in found
+            if far > reach * (1 + SLACK) or not (is_met or near):
+                assert k not in found
+
+
+def test_what_a_line_with_errors_may_meet_is_found() -> None:
+    """The contact and the direction may each be off by what they are held with, and boxes by the slack."""
+    unit = box_tree([(10.0, 1.0, 11.0, 2.0)])
+    level = 0.0, 0.0, 1.0, 0.0
+    assert unit.along((*level, 0.0, 0.0), 20, 0.0) == []
+    assert unit.along((*level, 1.0, 0.0), 20, 0.0) == [0]
+    assert unit.along((*level, 0.0, 0.1), 20, 0.0) == [0]
+    assert unit.along((*level, 0.0, 0.0), 20, 0.5) == [0]
+    assert unit.along((*level, 0.0, inf), 20, 0.0) == [0]
+
+
 def test_an_empty_tree() -> None:
     assert box_tree([]).near((0, 0, 0, 0), 1) == []
+    assert box_tree([]).along((0.0, 0.0, 1.0, 0.0, 0.0, 0.0), 1, 0.0) == []
 
 
 @pytest.mark.parametrize("n", [100, 1000, 10000])

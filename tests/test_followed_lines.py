@@ -14,13 +14,15 @@ import exactacq as xa
 from exactacq.geometry.points import Point
 from exactacq.kernel import line_walks
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.sensing import complex_edges, followed_lines
+from exactacq.sensing import complex_edges
 from exactacq.sensing.complex_edges import FamilySweeper
 from exactacq.sensing.followed_lines import FeatureLine, FollowedLine
 from exactacq.sensing.line_points import Role
 from exactacq.study.claims.model import Subject
 from exactacq.study.random_scenes import random_scene
+from exactacq.visibility import pinched_lines
 from exactacq.visibility.features import features
+from exactacq.visibility.pinched_chords import PinchedLine
 from exactacq.visibility.rotational_sweep import pencil
 from exactacq.visibility.sensor_range import Range
 
@@ -79,7 +81,7 @@ def test_names_tell_what_exact_contacts_tell(name: str, monkeypatch: pytest.Monk
         for line in lines(sweeper, sweeper.range.above):
             by_names = sweeper.follower.follow(line)
             with monkeypatch.context() as patch:
-                patch.setattr(followed_lines, "WalkedLine", Untold)
+                patch.setattr(pinched_lines, "WalkedLine", Untold)
                 exact = sweeper.follower.follow(line)
             assert by_names.is_blocked == exact.is_blocked
             assert places(by_names) == places(exact)
@@ -116,12 +118,38 @@ def test_most_lines_are_told_of(name: str) -> None:
         return made
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(followed_lines, "WalkedLine", kept)
+        patch.setattr(pinched_lines, "WalkedLine", kept)
         for line in lines(sweeper, sweeper.range.above):
             sweeper.follower.follow(line)
             count += 1
     assert len(told) == count
     assert sum(told) > 0.9 * count
+
+
+@pytest.mark.parametrize("name", some(SCENES, 5))
+def test_chords_along_lines_are_the_same_by_exact_contacts(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Between all pairs of obstacles that a line joins; of what is beyond the reach either may be told."""
+    scene = SCENES[name]
+    table, reach = EdgeTable(scene.obstacles), Range(fmpq(353, 100)).above
+    count = len(scene.obstacles)
+    joined = 0
+    for line in lines(FamilySweeper(table, Range(fmpq(353, 100))), reach):
+        made = table, line.feature, line.sector, line.t, line.passed, reach
+        by_names = PinchedLine.of(*made)
+        with monkeypatch.context() as patch:
+            patch.setattr(pinched_lines, "WalkedLine", Untold)
+            exact = PinchedLine.of(*made)
+        for i in range(count):
+            for j in range(count):
+                one, other = by_names.chord(i, j), exact.chord(i, j)
+                if one is not None and other is not None:
+                    assert (one.start, one.end, one.length) == (other.start, other.end, other.length)
+                    joined += 1
+                else:
+                    assert all(c is None or float(c.length) > reach for c in (one, other))
+    assert joined > 2
 
 
 def told_pairs(sweeper: FamilySweeper) -> set[tuple[object, ...]]:
@@ -156,7 +184,7 @@ def test_a_line_that_enters_its_own_obstacle_at_the_contact() -> None:
     for line in tangents:
         for walked in (line_walks.WalkedLine, Untold):
             with pytest.MonkeyPatch.context() as patch:
-                patch.setattr(followed_lines, "WalkedLine", walked)
+                patch.setattr(pinched_lines, "WalkedLine", walked)
                 found = sweeper.follower.follow(line)
             forward = line.sector.touch(line.t)[1].x > 0
             assert found.is_blocked == (not forward, forward)

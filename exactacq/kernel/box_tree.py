@@ -12,6 +12,9 @@ from math import ceil, sqrt
 from operator import attrgetter
 from typing import Final, final
 
+from exactacq.kernel.bounded import UNIT
+from exactacq.kernel.lines import Line
+
 GROUP: Final = 12
 """Boxes in a group at most; from 8 to 20 a search takes about the same."""
 
@@ -34,6 +37,51 @@ class BoxNode:
         self._search(*window, reach * reach, found)
         found.sort()
         return found
+
+    def along(self, line: Line, reach: float, slack: float) -> list[int]:
+        """The numbers of the boxes that a line may meet up to *reach* from its contact, in ascending order.
+
+        *slack* covers the errors of boxes and distances. With w from the contact to a corner the line misses
+        the box if all d x w have one sign. With sizes as sums of both components, d held with e and w with s,
+        d x w is off by at most (|d| + 2 e) s + e |w|, and its roundings are below 8 UNIT |d| |w|.
+        """
+        found: list[int] = []
+        x, y, dx, dy, ce, de = line
+        size = abs(dx) + abs(dy)
+        shift = (size + 2.0 * de) * (2.0 * slack + ce)
+        self._search_along(x, y, dx, dy, shift, de + 8.0 * UNIT * size, (reach + ce) * (reach + ce), found)
+        found.sort()
+        return found
+
+    def _search_along(
+        self,
+        x: float,
+        y: float,
+        dx: float,
+        dy: float,
+        shift: float,
+        turn: float,
+        square: float,
+        found: list[int],
+    ) -> None:
+        for node in self.group:
+            # From the contact to the sides, and to the box.
+            west, east = node.x0 - x, node.x1 - x
+            south, north = node.y0 - y, node.y1 - y
+            u = west if west > 0.0 else east if east < 0.0 else 0.0
+            v = south if south > 0.0 else north if north < 0.0 else 0.0
+            if u * u + v * v > square:
+                continue
+            a, b, c, d = dx * south, dx * north, dy * west, dy * east
+            low = (a if a < b else b) - (c if c > d else d)
+            high = (a if a > b else b) - (c if c < d else d)
+            error = shift + turn * (max(-west, east) + max(-south, north))
+            if low > error or -high > error:
+                continue
+            if node.number >= 0:
+                found.append(node.number)
+            else:
+                node._search_along(x, y, dx, dy, shift, turn, square, found)
 
     def _search(self, x0: float, y0: float, x1: float, y1: float, square: float, found: list[int]) -> None:
         for node in self.group:

@@ -24,6 +24,7 @@ from exactacq.kernel.box_tree import BoxNode, box_tree
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.images import EdgeImages
 from exactacq.kernel.line_keys import LineNumbers
+from exactacq.kernel.lines import Line
 from exactacq.numbers.float_bounds import margin
 from exactacq.scene.scene import Obstacle
 
@@ -180,6 +181,11 @@ class EdgeTable:
             slack = 8 * self._error(low, high)
             found = self._around[low, high, reach] = self.tree.near((*low, *high), reach + slack)
         return found
+
+    def along(self, line: Line, reach: float) -> list[int]:
+        """The edges whose boxes a line may meet within *reach* of its contact: to be looked at."""
+        slack = 8 * self._error((line[0], line[1]))
+        return self.tree.along(line, reach + slack, slack)
 
     def distance_bounds(self, x: float, y: float, edges: Ints) -> Floats:
         """Lower bounds of the distances from a point to edges."""

@@ -1,7 +1,7 @@
 """Tangent lines that graze several features, followed both ways up to what blocks them.
 
-`exactacq.kernel.line_walks` follows them by the names of what they pass. Where that leaves something open,
-`exactacq.visibility.free_segment.walk_line` does it by exact contacts.
+`exactacq.visibility.pinched_lines` follows them by the names of what they pass. Where that leaves something
+open, `exactacq.visibility.free_segment.walk_line` does it by exact contacts.
 """
 
 from __future__ import annotations
@@ -14,9 +14,7 @@ from flint import arb
 
 from exactacq.geometry.late import Pin, late_point
 from exactacq.geometry.points import Point
-from exactacq.kernel.line_walks import Hit, WalkedLine
-from exactacq.kernel.lines import line_at
-from exactacq.numbers.float_bounds import float_ball
+from exactacq.kernel.line_walks import Hit
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import CONVEX, EdgeTable
 from exactacq.sensing.line_points import Role, Side
@@ -26,6 +24,7 @@ from exactacq.visibility.free_segment import LineWalk, walk_line
 from exactacq.visibility.line_balls import line
 from exactacq.visibility.line_families import Sector
 from exactacq.visibility.line_names import Namer, Names
+from exactacq.visibility.pinched_lines import walked
 from exactacq.visibility.rotational_sweep import Passed
 from exactacq.visibility.sensor_range import Range
 
@@ -86,27 +85,12 @@ class LineFollower:
 
     def _followed(self, at: FeatureLine, names: Names) -> tuple[list[Met], list[Met], tuple[bool, bool]]:
         """What a line meets behind and ahead, nearest first, and whether the last of it blocks the line."""
-        sector, feature, own = at.sector, at.feature, at.feature.edges[-1]
-        if sector.is_rational:
-            image = line_at(sector.image, *float_ball(at.t))
-            here = image[0], image[1]
-            walk = WalkedLine(
-                self.table.images,
-                self.table.curve_images,
-                self.table.around(here, here, self.range.above),
-                image,
-                {number for number, side, _ in at.passed if not side} | (set() if feature.round else {own}),
-                {number for number, side, _ in at.passed if side} | ({own} if feature.round else set()),
-                self.table.line_numbers.circles,
-                own,
-                feature.round,
-                self.range.above,
-            )
-            if walk.is_told:
-                behind = self._named(walk.behind, at, names, Role.BEHIND)
-                ahead = self._named(walk.ahead, at, names, Role.AHEAD)
-                return behind, ahead, (walk.is_blocked_behind, walk.is_blocked_ahead)
-        walks = walk_line(self.table, sector, at.t, self.range.above)
+        walk = walked(self.table, at.feature, at.sector, at.t, at.passed, self.range.above)
+        if walk is not None:
+            behind = self._named(walk.behind, at, names, Role.BEHIND)
+            ahead = self._named(walk.ahead, at, names, Role.AHEAD)
+            return behind, ahead, (walk.is_blocked_behind, walk.is_blocked_ahead)
+        walks = walk_line(self.table, at.sector, at.t, self.range.above)
         behind, ahead = (self._exact(walk, at, role) for walk, role in zip(walks, (-1, 1), strict=True))
         return behind, ahead, (walks[0].blocked, walks[1].blocked)
 

@@ -37,6 +37,7 @@ from exactacq.visibility.features import Feature, leaving
 from exactacq.visibility.features import features as scene_features
 from exactacq.visibility.free_segment import is_free, walk_line
 from exactacq.visibility.free_translates import free_pieces
+from exactacq.visibility.pinched_chords import PinchedLine, first_met
 from exactacq.visibility.rotational_sweep import Cell, Pencil, pencil
 from exactacq.visibility.sensor_range import Range
 
@@ -104,7 +105,7 @@ class Links:
         self.table = EdgeTable(scene.obstacles)
         self._between: dict[tuple[int, int], Link | None] = {}
         self._pencils: dict[int, dict[tuple[int, int], list[tuple[Pencil, Cell]]]] = {}
-        self._pinch_table: dict[int, list[tuple[Chord, tuple[int, int]]]] = {}
+        self._pinched: dict[int, list[PinchedLine]] = {}
         self._from_start: tuple[Point, dict[int, Link]] | None = None
         self._congruent = CongruentChords()
 
@@ -254,13 +255,17 @@ class Links:
             for ends in ((i, j), (j, i)):
                 for sweep, cell in self._cells(k).get(ends, ()):
                     push(self._cell_bound(k, cell), partial(offer, sweep, cell, ends))
-            for chord, ends in self._pinches(k):
-                if ends in ((i, j), (j, i)):
-                    best.offer(chord.length, chord if ends == (i, j) else chord.reversed())
+            for line in self._pinched[k]:
+                for ends in ((i, j), (j, i)):
+                    if (chord := line.chord(*ends)) is not None:
+                        offer_one(chord, ends)
 
         def offer(sweep: Pencil, cell: Cell, ends: tuple[int, int]) -> None:
             for chord in self._cell_chords(sweep, cell):
-                best.offer(chord.length, chord if ends == (i, j) else chord.reversed())
+                offer_one(chord, ends)
+
+        def offer_one(chord: Chord, ends: tuple[int, int]) -> None:
+            best.offer(chord.length, chord if ends == (i, j) else chord.reversed())
 
         edges = [np.array(self.table.edges_of(one), dtype=np.intp) for one in (i, j)]
         close = np.flatnonzero(bounds <= best.guess)
@@ -275,11 +280,11 @@ class Links:
             step()
 
     def _cells(self, k: int) -> dict[tuple[int, int], list[tuple[Pencil, Cell]]]:
-        """Cells of feature k by the obstacles behind and ahead."""
+        """Cells of feature k by the obstacles behind and ahead; its pinched lines are found with them."""
         if k not in self._pencils:
             feature, owner = self.features[k], self.table.owner
             groups: dict[tuple[int, int], list[tuple[Pencil, Cell]]] = {}
-            pinched: list[tuple[Chord, tuple[int, int]]] = []
+            self._pinched[k] = []
             for sector in feature.sectors:
                 sweep = pencil(self.table, sector, feature.edges, self.reach)
                 for cell in sweep.cells:
@@ -287,33 +292,12 @@ class Links:
                         ends = int(owner[cell.behind]), int(owner[cell.ahead])
                         if ends[0] != ends[1]:
                             groups.setdefault(ends, []).append((sweep, cell))
-                for t, _ in sweep.pinches:
-                    pinched += self._pinched_chords(sweep, t)
-            self._pencils[k], self._pinch_table[k] = groups, pinched
+                self._pinched[k] += [
+                    PinchedLine.of(self.table, feature, sector, t, passed, self.reach)
+                    for t, passed in sweep.pinches
+                ]
+            self._pencils[k] = groups
         return self._pencils[k]
-
-    def _pinches(self, k: int) -> list[tuple[Chord, tuple[int, int]]]:
-        self._cells(k)
-        return self._pinch_table[k]
-
-    def _pinched_chords(self, sweep: Pencil, t: Real) -> Iterator[tuple[Chord, tuple[int, int]]]:
-        """Free chords through the contact along a line that grazes several features."""
-        behind, ahead = walk_line(self.table, sweep.sector, t, self.reach)
-        contact, direction = sweep.sector.touch(t)
-        size = direction.norm_sq().sqrt()
-        first_behind = self.first_contacts(behind.hits)
-        for j, high in self.first_contacts(ahead.hits).items():
-            for i, low in first_behind.items():
-                length = (high - low) * size
-                if i != j and length.compare(self.limit) <= 0:
-                    start, end = contact + direction * low, contact + direction * high
-                    yield Chord(start, end, length), (i, j)
-
-    def first_contacts(self, hits: list[tuple[Real, int]]) -> dict[int, Real]:
-        first: dict[int, Real] = {}
-        for tau, e in hits:
-            first.setdefault(int(self.table.owner[e]), tau)
-        return first
 
     def _cell_bound(self, k: int, cell: Cell) -> float:
         """Lower bound of the chords of a cell: the ways from the feature to the two edges."""
@@ -383,7 +367,7 @@ class Links:
         contact, direction = sweep.sector.touch(t)
         size = direction.norm_sq().sqrt()
         _, ahead = walk_line(self.table, sweep.sector, t, self.reach)
-        for j, tau in self.first_contacts(ahead.hits).items():
+        for j, tau in first_met(self.table, ((e, tau) for tau, e in ahead.hits)).items():
             chord = Chord(contact, contact + direction * tau, tau * size)
             best.setdefault(j, _Best(self.limit)).offer(chord.length, chord)
 

@@ -6,6 +6,8 @@ stay clear, or those ahead. If it touches only two, on two sides, it may turn ab
 other. With three there is one such that the two others are in the way of both turns, or of the one that
 clears either: from beyond these it is seen along the line itself only. The same holds for three on one side
 if one of them is an arc: the robot sees the others from one point of it, which is no end of an edge.
+
+Which lines may be pinched floats tell mostly, and what such a line meets, by the names of what it passes.
 """
 
 from __future__ import annotations
@@ -16,6 +18,7 @@ from exactacq.geometry.coordinates import cross, sign
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.points import Point
 from exactacq.kernel.images import STRAIGHT
+from exactacq.kernel.line_walks import WalkedLine
 from exactacq.kernel.lines import line_at, rounding, side_of
 from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real
@@ -49,6 +52,35 @@ def may_be_pinched(table: EdgeTable, feature: Feature, sector: Sector, t: Real, 
         if side:
             sides.append(side)
     return len(sides) > 2 and (is_round or min(sides) < 0)
+
+
+def walked(
+    table: EdgeTable, feature: Feature, sector: Sector, t: Real, passed: Passed, reach: float
+) -> WalkedLine | None:
+    """What the tangent line of a feature at a parameter of one of its sectors meets, up to what blocks it.
+
+    *passed* is all that it passes. None where floats leave something open: `free_segment.walk_line` tells
+    then. Cost: near linear in the edges whose boxes the line meets within *reach*.
+    """
+    if not sector.is_rational:
+        return None
+    line, own = line_at(sector.image, *float_ball(t)), feature.edges[-1]
+    vertices = {number for number, side, _ in passed if not side}
+    arcs = {number for number, side, _ in passed if side}
+    (arcs if feature.round else vertices).add(own)
+    walk = WalkedLine(
+        table.images,
+        table.curve_images,
+        table.along(line, reach),
+        line,
+        vertices,
+        arcs,
+        table.line_numbers.circles,
+        own,
+        feature.round,
+        reach,
+    )
+    return walk if walk.is_told else None
 
 
 class TangentLine:
