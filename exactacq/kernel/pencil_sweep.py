@@ -13,6 +13,7 @@ from typing import Final, final
 from exactacq.kernel.bound_lines import BoundLine
 from exactacq.kernel.cells import LineCells, clusters, middles, rows
 from exactacq.kernel.first_edges import first_edges
+from exactacq.kernel.lattice import LatticeLines
 from exactacq.kernel.line_events import line_events
 from exactacq.kernel.surroundings import Surroundings
 
@@ -44,13 +45,16 @@ class PencilSweep:
         breaks: list[BoundLine],
         corner: int,
         has_kinds: bool,
+        on_lattice: LatticeLines | None,
     ) -> None:
         """*breaks* are further lines that end cells; *corner* is the vertex at the contact, or `NOTHING`.
 
         What the first and the last line pass already is not passed by others. With *has_kinds* every edge is
-        looked at in every cell, and cells are joined only if they are of one kind.
+        looked at in every cell, and cells are joined only if they are of one kind. *on_lattice* decides the
+        order of lines through vertices, if it is known how.
         """
         self.around, self.low, self.high, self.has_kinds = around, low, high, has_kinds
+        self._on_lattice = on_lattice
         self.clusters: list[list[BoundLine]] = []
         self.bounds: list[BoundLine] = []
         self.middles: list[float] = []
@@ -78,13 +82,22 @@ class PencilSweep:
     def order(self, found: list[BoundLine]) -> None:
         """Put the lines in order, with those *found* of which it was open whether they exist."""
         self.stage = ORDER
-        self.clusters = clusters([*self._sure, *found, self.low, self.high], self.low, self.high)
+        self.clusters = []
         bounds: list[BoundLine] = []
-        for cluster in self.clusters:
-            if len(cluster) > 1:
-                return
-            bounds.append(cluster[0])
-        self.part(bounds)
+        for cluster in clusters([*self._sure, *found, self.low, self.high], self.low, self.high):
+            lines = cluster if len(cluster) == 1 else self._parted(cluster)
+            if lines:
+                self.clusters += [[line] for line in lines]
+                bounds += lines
+            else:
+                self.clusters.append(cluster)
+        if len(bounds) == len(self.clusters):
+            self.part(bounds)
+
+    def _parted(self, cluster: list[BoundLine]) -> list[BoundLine]:
+        """The distinct lines of a cluster, in order; none where that stays open."""
+        lattice = self._on_lattice
+        return [] if lattice is None else lattice.parted(cluster, self.low, self.high)
 
     def part(self, bounds: list[BoundLine]) -> None:
         """Find a line between each two neighbours."""

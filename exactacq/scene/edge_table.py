@@ -11,7 +11,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from flint import fmpq
+from flint import fmpq, fmpz
 from numpy.typing import NDArray
 
 from exactacq.geometry.box_index import bounds, circles, united
@@ -23,6 +23,7 @@ from exactacq.kernel import images
 from exactacq.kernel.box_tree import BoxNode, box_tree
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.images import EdgeImages
+from exactacq.kernel.lattice import Lattice
 from exactacq.kernel.line_keys import LineNumbers
 from exactacq.kernel.lines import Line
 from exactacq.numbers.float_bounds import margin
@@ -33,6 +34,8 @@ Ints = NDArray[np.intp]
 
 STRAIGHT, CONVEX, CONCAVE = images.STRAIGHT, images.CONVEX, images.CONCAVE
 NEAR_KEPT = 64
+LATTICE_BITS = 64
+"""Up to this size of the common denominator vertices are looked at as integers."""
 BITS = 64
 """Precision of the balls that tell which edges are not near a point."""
 
@@ -131,6 +134,17 @@ class EdgeTable:
             self.next.tolist(),
             self.previous.tolist(),
         )
+
+    @cached_property
+    def lattice(self) -> tuple[fmpz, Lattice] | None:
+        """The vertices as integers, and the number that they are multiplied by; None if that is large."""
+        common = fmpz(1)
+        for x, y in self.vertices:
+            common = common.lcm(x.q).lcm(y.q)
+            if common.height_bits() > LATTICE_BITS:
+                return None
+        xs, ys = ([int((v[k] * common).p) for v in self.vertices] for k in (0, 1))
+        return common, Lattice(xs, ys)
 
     @cached_property
     def curve_images(self) -> list[CurveImage]:

@@ -11,8 +11,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from flint import fmpq
-
 from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
 from exactacq.kernel.cells import LineCells
@@ -168,10 +166,8 @@ def rational_line(image: FamilyImage, is_last: bool) -> tuple[Point, Point] | No
     assert isinstance(image.origin, PencilFamilies), "families come from pencils"
     lines = image.origin.lines
     row = lines.rows[image.number]
-    value = (row.last if is_last else row.first).value
-    if isinstance(value, Real):
-        value = None if value.is_late else value.rational
-    if not isinstance(value, fmpq):
+    value = lines.rational(row.last if is_last else row.first)
+    if value is None:
         return None
     contact, direction = lines.sector.touch(Real(value))
     return None if contact.rational is None or direction.rational is None else (contact, direction)

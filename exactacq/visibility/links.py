@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.nearest_points import Nearest, NearestFamily, NearestFamilyKind, nearest_points
 from exactacq.geometry.points import Point
+from exactacq.kernel.bound_lines import NOTHING
 from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
@@ -286,7 +287,8 @@ class Links:
             groups: dict[tuple[int, int], list[tuple[Pencil, Cell]]] = {}
             self._pinched[k] = []
             for sector in feature.sectors:
-                sweep = pencil(self.table, sector, feature.edges, self.reach)
+                vertex = NOTHING if feature.round else feature.edges[1]
+                sweep = pencil(self.table, sector, feature.edges, self.reach, vertex=vertex)
                 for cell in sweep.cells:
                     if cell.behind is not None and cell.ahead is not None:
                         ends = int(owner[cell.behind]), int(owner[cell.ahead])

@@ -30,7 +30,8 @@ from exactacq.geometry.points import Point
 from exactacq.kernel.bound_lines import NOTHING, BoundLine, known_line
 from exactacq.kernel.bounded import UNIT
 from exactacq.kernel.cells import LineCells
-from exactacq.kernel.images import SPOKES
+from exactacq.kernel.images import SLIDING, SPOKES, TURNING
+from exactacq.kernel.lattice import LatticeLines
 from exactacq.kernel.near_edges import NearEdges
 from exactacq.kernel.pencil_sweep import DONE, EDGES, EVENTS, MIDDLES, ORDER, PencilSweep
 from exactacq.kernel.surroundings import Surroundings
@@ -96,6 +97,15 @@ class Pencil:
         """The exact parameter of a line; a late number where only the interval is known."""
         return value_of(self.table, self.sector, bound)
 
+    def rational(self, bound: BoundLine) -> fmpq | None:
+        """The exact parameter of a line, if it is seen to be rational."""
+        value = bound.value
+        if value is None and bound.passes_several:
+            value = self.value(bound)
+        if isinstance(value, Real):
+            return None if value.is_late else value.rational
+        return value if isinstance(value, fmpq) else None
+
 
 def value_of(table: EdgeTable, sector: Sector, bound: BoundLine) -> Real:
     """The exact parameter of a line of a sector; a late number where only the interval is known."""
@@ -104,13 +114,29 @@ def value_of(table: EdgeTable, sector: Sector, bound: BoundLine) -> Real:
         return value
     if isinstance(value, fmpq):
         made = Real(value)
+    elif bound.passes_several:
+        # Integers brought together what it passes: vertices.
+        shared = through_vertex(table, sector, bound.number)
+        assert shared is not None, "on a lattice all is rational"
+        made = Real(shared)
     else:
-        # Of what passes several things the value is known.
         circle = target(table, bound.number, bound.side)
         make = partial(_exact, sector, *circle, bound.side, bound.sign)
         made = Real.late(arb(bound.low).union(arb(bound.high)), make)
     bound.value = made
     return made
+
+
+def through_vertex(table: EdgeTable, sector: Sector, v: int) -> fmpq | None:
+    """The parameter of the line through a vertex, where it is one quotient of rationals."""
+    (x, y), (cx, cy), (ex, ey) = table.vertices[v], sector.center, sector.base
+    if isinstance(sector, Rolling) or not (isinstance(cx, fmpq) and isinstance(ex, fmpq)):
+        return None
+    dx, dy = x - cx, y - cy
+    along = ex * dx + ey * dy
+    if isinstance(sector, Sliding):
+        return along / (ex * ex + ey * ey)
+    return (ex * dy - ey * dx) / along if along else None
 
 
 def pencil(
@@ -119,16 +145,17 @@ def pencil(
     own: tuple[int, ...],
     reach: float,
     breaks: tuple[Vector, ...] = (),
+    vertex: int = NOTHING,
 ) -> Pencil:
     """Sweep one sector; only edges within *reach* of the contact are considered.
 
-    *own* are the edges through the contact, *breaks* further directions (at a corner) that end cells. What
-    lies beyond *reach* may be reported wrongly or as None, so a chord is to be trusted only if both its
-    halves are no longer than *reach*.
+    *own* are the edges through the contact, *breaks* further directions (at a corner) that end cells, and
+    *vertex* is that in the sector's centre, if it is known. What lies beyond *reach* may be reported wrongly
+    or as None, so a chord is to be trusted only if both its halves are no longer than *reach*.
     """
     (x, y), extent = map(float, sector.center), sector.extent
     edges = table.around((x - extent, y - extent), (x + extent, y + extent), reach)
-    return swept(table, sector, own, NearEdges(table.images, edges), breaks)
+    return swept(table, sector, own, NearEdges(table.images, edges), breaks, vertex=vertex)
 
 
 def swept(
@@ -159,10 +186,24 @@ def swept(
         list(_break_events(table, sector, breaks, through)) if breaks or through else [],
         images.following[own[0]] if len(own) == 2 else NOTHING,
         bool(through),
+        None if breaks or vertex == NOTHING else _on_lattice(table, sector, frame.kind, vertex),
     )
     if sweep.stage != DONE:
         _Decisions(table, sector, own, through, sweep).make()
     return Pencil(table, sector, sweep.rows, sweep.pinched)
+
+
+def _on_lattice(table: EdgeTable, sector: Sector, kind: int, vertex: int) -> LatticeLines | None:
+    """The lines of a sector about a vertex in integers; None where there are none, or large ones only."""
+    if table.lattice is None or kind not in (TURNING, SLIDING):
+        return None
+    common, lattice = table.lattice
+    x, y = (c * common for c in sector.base)
+    low, high = sector.low, sector.high
+    if not (x.q == y.q == 1 and isinstance(low, fmpq) and isinstance(high, fmpq)):
+        return None
+    ends = (int(low.p), int(low.q)), (int(high.p), int(high.q))
+    return LatticeLines(lattice, kind, vertex, (int(x.p), int(y.p)), *ends)
 
 
 def _break_events(
@@ -262,22 +303,11 @@ class _Decisions:
         """The exact parameter of a line, if it is seen to be rational."""
         value = event.value
         if value is None and event.side == 0:
-            value = event.value = self._through_vertex(event.number)
+            value = event.value = through_vertex(self.table, self.sector, event.number)
         if isinstance(value, Real):
             return None if value.is_late else value.rational
         assert value is None or isinstance(value, fmpq), "values are exact"
         return value
-
-    def _through_vertex(self, v: int) -> fmpq | None:
-        """The parameter of the line through a vertex, where it is one quotient of rationals."""
-        (x, y), (cx, cy), (ex, ey) = self.table.vertices[v], self.sector.center, self.sector.base
-        if isinstance(self.sector, Rolling) or not (isinstance(cx, fmpq) and isinstance(ex, fmpq)):
-            return None
-        dx, dy = x - cx, y - cy
-        along = ex * dx + ey * dy
-        if isinstance(self.sector, Sliding):
-            return along / (ex * ex + ey * ey)
-        return (ex * dy - ey * dx) / along if along else None
 
     # -- lines of the cells ----------------------------------------------------------------------
 
