@@ -108,15 +108,12 @@ class Seen:
         """
         view, found = self._view, dict[int, list[Interval]]()
         for e in edges:
-            parts = view.seen_parts.get(e)
-            if parts is None:
+            parts, spans = view.seen_parts.get(e), known.get(e, ())
+            if parts is None or (-inf, inf) in spans:
                 continue
-            spans = known.get(e, ())
             new = parts
             if spans and not self._rails[e].is_closed:
                 new = [part for part in parts if not _is_in(view.bracket(e, part), spans)]
-            elif (-inf, inf) in spans:
-                new = []
             if new:
                 found[e] = self.spans.intervals(e, new)
         return found

@@ -181,7 +181,7 @@ class LegSights:
     def _near(self) -> frozenset[int]:
         """The edges within range of the leg."""
         x, y, right, top = self.leg.box
-        return frozenset(self.complex.table.near((x, y), (right, top), self.complex.range.above).tolist())
+        return frozenset(self.complex.table.around((x, y), (right, top), self.complex.range.above))
 
     def _told(self, extents: list[Extent], crossing: list[FamilyImage], curve: CurveImage) -> Iterator[Sight]:
         """The sights that extents tell of, *crossing* as for `exactacq.kernel.leg_changes.sights`."""

@@ -202,7 +202,7 @@ def _along_edges(table: EdgeTable, way: Segment) -> list[tuple[int | None, Segme
     """A straight way in parts: along edges, with their numbers, and other ones with None between."""
     left, bottom, right, top = box(way)
     dx, dy = (d.rough() for d in way.direction)
-    near = [e for e in table.near((left, bottom), (right, top), 0.0).tolist() if not table.kind[e]]
+    near = [e for e in table.around((left, bottom), (right, top), 0.0) if not table.kind[e]]
     edges, length = table.end[near] - table.start[near], math.hypot(dx, dy)
     sizes, slack = np.hypot(*edges.T), 16 * table.roundoff_at((left, bottom), (right, top))
     slopes = np.abs(edges[:, 0] * dy - edges[:, 1] * dx)
@@ -256,7 +256,7 @@ def _edge_of(table: EdgeTable, obstacle: int, piece: Curve) -> int:
     of finding the edges near one place, however many the boundary has.
     """
     start, edges = piece.start.xy, table.edges_of(obstacle)
-    near: list[int] = [e for e in table.near(start, start, 0.0).tolist() if e in edges]
+    near: list[int] = [e for e in table.around(start, start, 0.0) if e in edges]
     for e in near:
         if _is_whole(table.curves[e], piece):
             return e

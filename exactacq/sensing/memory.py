@@ -247,7 +247,7 @@ class Memory:
     def near(self, box: tuple[float, float, float, float]) -> set[int]:
         """The obstacles with an edge whose box is within the radius of a box."""
         x, y, right, top = box
-        return self._sensor.targets.near(self._table.near((x, y), (right, top), float(self.radius)).tolist())
+        return self._sensor.targets.near(self._table.around((x, y), (right, top), float(self.radius)))
 
     def visible(self, place: Point, obstacle: int) -> list[Curve]:
         """What is in sight of an obstacle from a place; a single point is a piece without length."""

@@ -116,7 +116,7 @@ class OwnLine:
 
     def _edges_near(self, point: Point) -> list[int]:
         """The edges that balls do not part from a point: it lies on a boundary, or it does not."""
-        near = self.table.near(point.xy, point.xy, 0.0).tolist()
+        near = self.table.around(point.xy, point.xy, 0.0)
         return [e for e in near if self.table.curves[e].may_pass(point, BITS)]
 
 

@@ -175,8 +175,7 @@ class Sensor:
     def _near(self, leg: Leg) -> set[int]:
         """The obstacles with an edge whose box is within reach of the leg's."""
         x, y, right, top = leg.box
-        edges = self.table.near((x, y), (right, top), self.range.above)
-        return self.targets.near(edges.tolist())
+        return self.targets.near(self.table.around((x, y), (right, top), self.range.above))
 
     def _view(
         self, place: Point, own: tuple[int, ...] | None = None, facts: PlaceFacts = NOTHING_KNOWN

@@ -80,7 +80,7 @@ class StraightWay:
         if point.rational is None:
             return []
         x, y = point.xy
-        near = self.table.near((x, y), (x, y), 0.0).tolist()
+        near = self.table.around((x, y), (x, y), 0.0)
         numbers = {number for e in near for number in (e, int(self.table.next[e]))}
         return [number for number in numbers if self.table.vertices[number] == point.rational]
 

@@ -57,7 +57,12 @@ class Targets:
         for k, targets in enumerate(self.of):
             for target in targets:
                 self._on.setdefault(target.edge, []).append((k, target))
-        self._owners = {e: tuple({k for k, _ in found}) for e, found in self._on.items()}
+        # One object for equal sets: mostly all edges of an obstacle count for it alone.
+        shared: dict[frozenset[int], frozenset[int]] = {}
+        self._owners = {
+            e: shared.setdefault(owners := frozenset(k for k, _ in found), owners)
+            for e, found in self._on.items()
+        }
         self._missing: dict[int, int] = {}
 
     def whole_covers(self, k: int) -> Iterator[tuple[int, Cover]]:
@@ -101,13 +106,14 @@ class Targets:
 
     def near(self, edges: Iterable[int]) -> set[int]:
         """The obstacles that some of the edges count for."""
-        owners = self._owners
-        return set(chain.from_iterable([owners[e] for e in edges if e in owners]))
+        owners = set(map(self._owners.get, edges))
+        return set(chain.from_iterable(some for some in owners if some is not None))
 
     def counting(self, edges: Iterable[int], obstacles: Collection[int]) -> list[int]:
         """Those of some edges that count for some of the obstacles."""
         owners, some = self._owners, frozenset(obstacles)
-        return [e for e in edges if e in owners and not some.isdisjoint(owners[e])]
+        counting = {of for of in map(owners.get, edges) if of is not None and not some.isdisjoint(of)}
+        return [e for e in edges if owners.get(e) in counting]
 
     def is_among(self, k: int, spans: Mapping[int, Iterable[Interval]]) -> bool:
         """Whether intervals of edges, by their numbers, contain anything of an obstacle."""

@@ -114,7 +114,7 @@ class Underway(Mapping[int, Cover]):
     def _near(self) -> frozenset[int]:
         """The edges within reach of the place, and perhaps a few more."""
         complex_, at = self._news.shares.complex, self._place.xy
-        return frozenset(complex_.table.near(at, at, complex_.range.above).tolist())
+        return frozenset(complex_.table.around(at, at, complex_.range.above))
 
     def _cover(self, edge: int) -> Cover | None:
         if edge not in self._found:

@@ -34,7 +34,7 @@ def first_hit(table: EdgeTable, way: Segment) -> FirstHit | None:
     of each part tells whether that part is inside.
     """
     left, bottom, right, top = box(way)
-    edges = table.near((left, bottom), (right, top), 0.0).tolist()
+    edges = table.around((left, bottom), (right, top), 0.0)
     verdicts = crossed(table.images, edges, held_point(way.start), held_point(way.end))
     met: dict[int, list[int]] = {}
     for e, verdict in zip(edges, verdicts, strict=True):
@@ -68,6 +68,6 @@ def _into(table: EdgeTable, way: Segment, obstacle: int, edges: list[int]) -> Fi
 def obstacle_at(table: EdgeTable, place: Point) -> int | None:
     """The obstacle on whose boundary a place lies, if there is one: boundaries do not meet."""
     x, y, error = held_point(place)
-    near = table.near((x, y), (x, y), error).tolist()
+    near = table.around((x, y), (x, y), error)
     owners = sorted({table.owners[e] for e in near})
     return next((k for k in owners if table.obstacles[k].edges_at(place)), None)

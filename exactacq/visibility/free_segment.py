@@ -36,7 +36,7 @@ def is_free(table: EdgeTable, start: Point, end: Point) -> bool:
     """
     first, last = held_point(start), held_point(end)
     (ax, ay, a), (bx, by, b) = first, last
-    edges = table.near((min(ax, bx), min(ay, by)), (max(ax, bx), max(ay, by)), max(a, b)).tolist()
+    edges = table.around((min(ax, bx), min(ay, by)), (max(ax, bx), max(ay, by)), max(a, b))
     verdicts = crossed(table.images, edges, first, last)
     if 1 in verdicts:
         return False
@@ -89,7 +89,7 @@ def walk_line(table: EdgeTable, sector: Sector, t: Real, reach: float) -> tuple[
     """What a tangent line touches behind and ahead of its contact, up to what first blocks it."""
     contact, direction = sector.touch(t)
     x, y = contact.xy
-    edges = table.near((x, y), (x, y), reach).tolist()
+    edges = table.around((x, y), (x, y), reach)
     size = hypot(*direction.xy)
     possible = met(table.images, edges, held_point(contact), held_point(direction))
     edges_met, walls = _as_far_as_walls(table, sector, t, possible)
