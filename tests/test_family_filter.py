@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from math import inf
 from random import Random
 
-import numpy as np
 import pytest
 from flint import fmpq
 from nightly import NIGHTLY, some
@@ -67,7 +66,7 @@ def told(complex_: VisibilityComplex, leg: Leg, run: xa.SightseerRun) -> Iterato
     for one in way.normals.extents():
         yield told_of(one, way.normals.views(one.origin))
     crossing_lines = {id(one.origin): one for one in way.single_lines()}
-    for edge in complex_.near(np.array(leg.box)):
+    for edge in complex_.near(leg.spots):
         for single in edge.single_lines:
             if id(single) in crossing_lines:
                 yield told_of(crossing_lines[id(single)], way.along(single))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
 from functools import cached_property
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -26,6 +27,7 @@ from exactacq.kernel.images import EdgeImages
 from exactacq.kernel.lattice import Lattice
 from exactacq.kernel.line_keys import LineNumbers
 from exactacq.kernel.lines import Line
+from exactacq.kernel.shadows import Spot, lit, shadows
 from exactacq.numbers.float_bounds import margin
 from exactacq.scene.scene import Obstacle
 
@@ -36,6 +38,10 @@ STRAIGHT, CONVEX, CONCAVE = images.STRAIGHT, images.CONVEX, images.CONCAVE
 NEAR_KEPT = 64
 LATTICE_BITS = 64
 """Up to this size of the common denominator vertices are looked at as integers."""
+CLOSE = 0.2
+"""Within this part of the reach what hides much is looked for,"""
+MANY = 24
+"""if there are so many edges: of few ones more is looked at than is spared."""
 BITS = 64
 """Precision of the balls that tell which edges are not near a point."""
 
@@ -71,6 +77,7 @@ class EdgeTable:
         self.center, self.radius = round_[:, :2], round_[:, 2]
         self.boxes: Floats = bounds(self.curves)
         self._around: dict[tuple[tuple[float, float], tuple[float, float], float], list[int]] = {}
+        self._lit: dict[tuple[tuple[Spot, ...], float], list[int]] = {}
         self.magnitude = float(np.abs(self.boxes).max(initial=0.0))
         self._largest = max(self.magnitude, float(self.radius.max(initial=0.0)))
 
@@ -196,6 +203,34 @@ class EdgeTable:
             found = self._around[low, high, reach] = self.tree.near((*low, *high), reach + slack)
         return found
 
+    def lit(self, places: tuple[Spot, ...], reach: float) -> list[int]:
+        """The edges that may be seen within *reach* from somewhere between some places; not to be changed.
+
+        Of those that are in reach `around` them, what single edges and discs certainly hide is left out. The
+        last answers are kept.
+        """
+        found = self._lit.get((places, reach))
+        if found is None:
+            xs, ys = zip(*places, strict=True)
+            low, high = (min(xs), min(ys)), (max(xs), max(ys))
+            close, slack = self.around(low, high, reach * CLOSE), 8 * self.roundoff_at(low, high)
+            if len(close) < MANY or slack == inf:
+                found = self.around(low, high, reach)
+            else:
+                hiding = shadows(self.images, close, places, slack)
+                found = lit(self.tree, (*low, *high), reach + 8 * self._error(low, high), hiding, slack)
+            if len(self._lit) >= NEAR_KEPT:
+                self._lit.clear()
+            self._lit[places, reach] = found
+        return found
+
+    def spots(self, e: int) -> tuple[Spot, ...]:
+        """Places between which all of an edge lies."""
+        curve = self.curves[e]
+        return (
+            (curve.start.xy, curve.end.xy) if isinstance(curve, Segment) else corners(self.boxes[e].tolist())
+        )
+
     def along(self, line: Line, reach: float) -> list[int]:
         """The edges whose boxes a line may meet within *reach* of its contact: to be looked at."""
         slack = 8 * self._error((line[0], line[1]))
@@ -217,6 +252,12 @@ class EdgeTable:
         bound = np.where(self.kind[edges] == STRAIGHT, straight, curved)
         bounds: Floats = np.maximum(bound * (1 - 1e-14) - 8 * self.roundoff, 0.0)
         return bounds
+
+
+def corners(box: Sequence[float]) -> tuple[Spot, ...]:
+    """The corners of a box."""
+    left, bottom, right, top = box
+    return (left, bottom), (right, bottom), (right, top), (left, top)
 
 
 def quotient(top: Floats | float, bottom: Floats) -> Floats:

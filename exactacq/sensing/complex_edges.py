@@ -8,7 +8,7 @@ sides and shows what no neighbouring line does.
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from functools import cached_property, partial
 from math import hypot, inf
 from typing import TypeAlias
@@ -23,6 +23,7 @@ from exactacq.kernel.bound_lines import BoundLine
 from exactacq.kernel.family_images import ANYWHERE, NONE, FamilyImage, by_edge
 from exactacq.kernel.line_keys import key_of_normal
 from exactacq.kernel.near_edges import NearEdges
+from exactacq.kernel.shadows import Spot
 from exactacq.numbers.rationals import nearest_float
 from exactacq.scene.edge_table import CONVEX, EdgeTable
 from exactacq.sensing.followed_lines import FeatureLine, FollowedLine, LineFollower, Met
@@ -86,12 +87,12 @@ class FamilySweeper:
         """
         images: list[FamilyImage] = []
         single_lines: list[SingleLine] = []
-        around = self._near(self.table.boxes[e].tolist())
+        around = self._near(self.table.spots(e))
         for sector in normals(self.table.curves[e]):
             ends = (e, int(self.table.next[e])) if isinstance(sector, Sliding) else NO_ENDS
             self._add(images, sector, around, (e,), Side(e, Role.CONTACT), None, ends, goes_back=False)
         for feature in self._features.get(e, ()):
-            near = around if feature.round else self._near(self.table.curves[e].start.xy * 2)
+            near = around if feature.round else self._near((self.table.curves[e].start.xy,))
             contact = Side(e, Role.CONTACT, fixed=not feature.round)
             first, last = self._corners_beside(feature)
             sweeps = [
@@ -112,9 +113,9 @@ class FamilySweeper:
                     keys = self._numbers.keys(self._namer.number(feature), [*passed])
                     # Neighbouring sectors share a line.
                     if followed.isdisjoint(keys) and may_be_pinched(self.table, feature, s.sector, t, passed):
-                        single_lines += self._pinched(FeatureLine(feature, s.sector, t, passed), keys)
+                        single_lines += self._pinched(FeatureLine(feature, s.sector, t, passed, near), keys)
                         followed.update(keys)
-            single_lines += self._end_on(feature, sweeps[0], sweeps[-1])
+            single_lines += self._end_on(feature, sweeps[0], sweeps[-1], near)
             if not feature.round:
                 for sector in self._corner_normals(feature):
                     self._add(images, sector, near, feature.edges, contact, feature, goes_back=False)
@@ -135,11 +136,9 @@ class FamilySweeper:
             keys.append(key_of_normal(e, vertex, self._numbers.count))
         return EdgeFamilies(images, [])
 
-    def _near(self, box: Sequence[float]) -> NearEdges:
-        """The edges within reach of a box."""
-        left, bottom, right, top = box
-        edges = self.table.around((left, bottom), (right, top), self.range.above)
-        return NearEdges(self.table.images, edges)
+    def _near(self, places: tuple[Spot, ...]) -> NearEdges:
+        """The edges that may be seen within reach of somewhere between some places."""
+        return NearEdges(self.table.images, self.table.lit(places, self.range.above))
 
     def _ahead(self, rays: EndRays) -> NearEdges:
         """The edges that rays may meet, with those at their vertex.
@@ -195,7 +194,7 @@ class FamilySweeper:
 
     # -- single lines ------------------------------------------------------------------------------
 
-    def _end_on(self, feature: Feature, first: Swept, last: Swept) -> Iterator[SingleLine]:
+    def _end_on(self, feature: Feature, first: Swept, last: Swept, near: NearEdges) -> Iterator[SingleLine]:
         """The straight edges beside a feature as seen along their own lines, from where these first end."""
         incoming, outgoing = self._beside(feature)
         for e, (sweep, images), role in ((incoming, first, Role.AHEAD), (outgoing, last, Role.BEHIND)):
@@ -210,7 +209,7 @@ class FamilySweeper:
             run = (ends[1], ends[0]) if ahead else ends
             if any(side or number not in (e, self.table.next[e]) for number, side, _ in bound.passed):
                 # The line grazes what may block its neighbours: it goes on by itself.
-                at = FeatureLine(feature, sweep.sector, sweep.value(bound), tuple(bound.passed))
+                at = FeatureLine(feature, sweep.sector, sweep.value(bound), tuple(bound.passed), near)
                 end = self.follower.follow(at).end(role)
                 reached = (self.follower.at_range(at, role), None) if end is None else end.pin
                 yield SingleLine(reached, None if end is None else end.edge, run, e)

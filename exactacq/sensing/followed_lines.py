@@ -15,6 +15,7 @@ from flint import arb
 from exactacq.geometry.late import Pin, late_point
 from exactacq.geometry.points import Point
 from exactacq.kernel.line_walks import Hit
+from exactacq.kernel.near_edges import NearEdges
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import CONVEX, EdgeTable
 from exactacq.sensing.line_points import Role, Side
@@ -31,12 +32,16 @@ from exactacq.visibility.sensor_range import Range
 
 @dataclass(frozen=True, slots=True)
 class FeatureLine:
-    """The tangent line of a feature at a parameter of one of its sectors, with all that it passes."""
+    """The tangent line of a feature at a parameter of one of its sectors, with all that it passes.
+
+    That is of the edges *near* its contact, or of all within reach.
+    """
 
     feature: Feature
     sector: Sector
     t: Real
     passed: Passed
+    near: NearEdges | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +90,7 @@ class LineFollower:
 
     def _followed(self, at: FeatureLine, names: Names) -> tuple[list[Met], list[Met], tuple[bool, bool]]:
         """What a line meets behind and ahead, nearest first, and whether the last of it blocks the line."""
-        walk = walked(self.table, at.feature, at.sector, at.t, at.passed, self.range.above)
+        walk = walked(self.table, at.feature, at.sector, at.t, at.passed, self.range.above, at.near)
         if walk is not None:
             behind = self._named(walk.behind, at, names, Role.BEHIND)
             ahead = self._named(walk.ahead, at, names, Role.AHEAD)

@@ -10,9 +10,6 @@ from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property
 from typing import TypeAlias
 
-import numpy as np
-
-from exactacq.geometry.box_index import box
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.points import Point
 from exactacq.kernel.extents import Extent
@@ -53,7 +50,7 @@ class WayViews:
 
     @cached_property
     def _near(self) -> list[EdgeFamilies]:
-        return self.way.complex.near(np.array(box(self.way.piece)))
+        return self.way.complex.near(self.way.spots)
 
     @cached_property
     def crossing(self) -> WayCrossings:

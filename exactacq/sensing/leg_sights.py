@@ -16,10 +16,8 @@ from functools import cached_property, cmp_to_key
 from itertools import groupby, pairwise
 from math import inf
 
-import numpy as np
 from flint import arb
 
-from exactacq.geometry.box_index import box
 from exactacq.geometry.curve_images import curve_image
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.interval_union import Interval
@@ -159,9 +157,8 @@ class LegSights:
     def _on_way(self) -> Iterator[Sight]:
         complex_, leg, way, wanted = self.complex, self.leg, self._way, self._near
         self._clipper = way.clipper
-        around = np.array(box(way.piece))
-        images = [image for near in complex_.near(around) for image in near.images if _counts(image)]
-        images += [image for near in complex_.rays(around) for image in near.images]
+        images = [image for near in complex_.near(way.spots) for image in near.images if _counts(image)]
+        images += [image for near in complex_.rays(way.spots) for image in near.images]
         self._crossings = WayCrossings(way, images, wanted)
         self._crossing = list(self._crossings)
         yield from self._told(
@@ -179,9 +176,8 @@ class LegSights:
 
     @cached_property
     def _near(self) -> frozenset[int]:
-        """The edges within range of the leg."""
-        x, y, right, top = self.leg.box
-        return frozenset(self.complex.table.around((x, y), (right, top), self.complex.range.above))
+        """The edges that may be seen from the leg."""
+        return frozenset(self.complex.table.lit(self.leg.spots, self.complex.range.above))
 
     def _told(self, extents: list[Extent], crossing: list[FamilyImage], curve: CurveImage) -> Iterator[Sight]:
         """The sights that extents tell of, *crossing* as for `exactacq.kernel.leg_changes.sights`."""

@@ -142,8 +142,7 @@ class Shares:
         chooser = None if known is None else FamilyFilter(leg, self.targets, obstacles, along, known)
         choose = None if chooser is None else chooser.choose
         if leg.edge is None:
-            x, y, right, top = leg.box
-            near = complex_.table.around((x, y), (right, top), complex_.range.above)
+            near = complex_.table.lit(leg.spots, complex_.range.above)
             edges = chain.from_iterable(self.targets.edges[k] for k in obstacles)
             crossing = WayViews(complex_, leg, frozenset(near).intersection(edges), self.view)
             yield from ((family, 0) for family in crossing.families(choose))

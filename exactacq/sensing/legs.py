@@ -17,8 +17,9 @@ from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import ContactKind, contacts
 from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.points import Point
+from exactacq.kernel.shadows import Spot
 from exactacq.numbers.real import Real
-from exactacq.scene.edge_table import EdgeTable, Floats, Ints
+from exactacq.scene.edge_table import EdgeTable, Floats, Ints, corners
 
 BITS = 256
 """Precision of the balls that tell which corners a way may touch, and which places are inside an edge."""
@@ -68,6 +69,13 @@ class Leg:
     def box(self) -> tuple[float, float, float, float]:
         """A box that contains the leg."""
         return box(self.curve)
+
+    @property
+    def spots(self) -> tuple[Spot, ...]:
+        """Places between which all of the leg lies."""
+        if isinstance(self.rail.curve, Segment):
+            return self.span.start.xy, self.span.end.xy
+        return corners(self.box)
 
     def own(self, u: Real) -> tuple[int, ...] | None:
         """The edges through a place of the leg if they are known: inside its edge there is no other."""

@@ -173,9 +173,8 @@ class Sensor:
         return notices, learned
 
     def _near(self, leg: Leg) -> set[int]:
-        """The obstacles with an edge whose box is within reach of the leg's."""
-        x, y, right, top = leg.box
-        return self.targets.near(self.table.around((x, y), (right, top), self.range.above))
+        """The obstacles with an edge that may be seen from the leg."""
+        return self.targets.near(self.table.lit(leg.spots, self.range.above))
 
     def _view(
         self, place: Point, own: tuple[int, ...] | None = None, facts: PlaceFacts = NOTHING_KNOWN

@@ -14,6 +14,7 @@ from exactacq.geometry.points import Point
 from exactacq.kernel.bounded import TINY, UNIT
 from exactacq.kernel.family_images import FamilyImage
 from exactacq.kernel.lines import side_of
+from exactacq.kernel.shadows import Spot
 from exactacq.kernel.ways import WayImage
 from exactacq.numbers.float_bounds import margin, rough
 from exactacq.numbers.real import Real
@@ -43,6 +44,11 @@ class StraightWay:
         """Its ends: points and parameters."""
         span = self.span
         return (span.start, span.low), (span.end, span.high)
+
+    @property
+    def spots(self) -> tuple[Spot, Spot]:
+        """Its ends in floats."""
+        return self.span.start.xy, self.span.end.xy
 
     @cached_property
     def image(self) -> WayImage:

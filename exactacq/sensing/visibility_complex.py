@@ -14,7 +14,8 @@ from functools import lru_cache
 
 from exactacq.kernel.extents import Extent, extents_from
 from exactacq.kernel.family_images import FamilyImage
-from exactacq.scene.edge_table import EdgeTable, Floats
+from exactacq.kernel.shadows import Spot
+from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.complex_edges import EdgeFamilies, FamilySweeper
 from exactacq.sensing.line_family import SingleLine, family_of
 from exactacq.sensing.line_images import LineImages
@@ -40,13 +41,13 @@ class VisibilityComplex:
         self._rays = Neighbourhood(table, range_, self.images, sweeper.rays)
         self._seen_from = lru_cache(SEEN_FROM_KEPT)(self._around.extents)
 
-    def near(self, box: Floats) -> list[EdgeFamilies]:
-        """The families of the edges within reach of a box: all that may show anything to places in it."""
-        return self._around.near(box)
+    def near(self, places: tuple[Spot, ...]) -> list[EdgeFamilies]:
+        """The families of the edges in sight between some places: all that may show anything there."""
+        return self._around.near(places)
 
-    def rays(self, box: Floats) -> list[EdgeFamilies]:
-        """The rays from the ends of the edges within reach of a box (see `end_rays`)."""
-        return self._rays.near(box)
+    def rays(self, places: tuple[Spot, ...]) -> list[EdgeFamilies]:
+        """The rays from the ends of the edges in sight between some places (see `end_rays`)."""
+        return self._rays.near(places)
 
     def extents_of_rays(self, edge: int) -> list[Extent]:
         """Which edges the rays from their ends show from an edge, in floats."""
@@ -84,10 +85,9 @@ class Neighbourhood:
         self._used: dict[int, EdgeFamilies] = {}
         self._before: dict[int, EdgeFamilies] = {}
 
-    def near(self, box: Floats) -> list[EdgeFamilies]:
-        """The families of the edges within reach of a box."""
-        left, bottom, right, top = box.tolist()
-        edges = self.table.around((left, bottom), (right, top), self.range.above)
+    def near(self, places: tuple[Spot, ...]) -> list[EdgeFamilies]:
+        """The families of the edges that may be seen from somewhere between some places."""
+        edges = self.table.lit(places, self.range.above)
         used = self._used
         for e in [e for e in edges if e not in used]:
             families = self._before.pop(e, None)
@@ -99,7 +99,7 @@ class Neighbourhood:
 
     def extents(self, edge: int) -> list[Extent]:
         """What families show of others from an edge, and single lines that meet it."""
-        near, curves, reach = self.near(self.table.boxes[edge]), self.table.curve_images, self.images.reach
+        near, curves, reach = self.near(self.table.spots(edge)), self.table.curve_images, self.images.reach
         single_lines: list[Extent] = []
         leg = curves[edge]
         for single in (single for one in near if edge in one.lines_at for single in one.lines_at[edge]):

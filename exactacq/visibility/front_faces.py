@@ -161,7 +161,7 @@ class FrontFaces:
         self.special: list[int] = []
         self._offsets: dict[int, Vector] = {}
         self.floats = faces = RadialFaces(table.images, _image(self.origin), held(range_.square))
-        near = table.around(point.xy, point.xy, range_.above)
+        near = table.lit((point.xy,), range_.above)
         open_ = faces.add_straight(near)
         round_ = faces.arcs(near) if table.curved else []
         if own is None:

@@ -20,6 +20,7 @@ from exactacq.geometry.points import Point
 from exactacq.kernel.images import STRAIGHT
 from exactacq.kernel.line_walks import WalkedLine
 from exactacq.kernel.lines import line_at, rounding, side_of
+from exactacq.kernel.near_edges import NearEdges
 from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
@@ -55,12 +56,19 @@ def may_be_pinched(table: EdgeTable, feature: Feature, sector: Sector, t: Real, 
 
 
 def walked(
-    table: EdgeTable, feature: Feature, sector: Sector, t: Real, passed: Passed, reach: float
+    table: EdgeTable,
+    feature: Feature,
+    sector: Sector,
+    t: Real,
+    passed: Passed,
+    reach: float,
+    near: NearEdges | None = None,
 ) -> WalkedLine | None:
     """What the tangent line of a feature at a parameter of one of its sectors meets, up to what blocks it.
 
-    *passed* is all that it passes. None where floats leave something open: `free_segment.walk_line` tells
-    then. Cost: near linear in the edges whose boxes the line meets within *reach*.
+    *passed* is all that it passes of the edges *near* its contact, or of all within *reach*. None where
+    floats leave something open: `free_segment.walk_line` tells then. Cost: near linear in the edges whose
+    boxes the line meets within reach.
     """
     if not sector.is_rational:
         return None
@@ -71,7 +79,7 @@ def walked(
     walk = WalkedLine(
         table.images,
         table.curve_images,
-        table.along(line, reach),
+        [e for e in table.along(line, reach) if near is None or near.edge(e) >= 0],
         line,
         vertices,
         arcs,

@@ -1,0 +1,166 @@
+"""What a straight edge or a circle hides from some places, in floats with bounds: it need not be looked at.
+
+A segment within an obstacle, such as a boundary edge or a diameter of a disc, blocks every line of sight that
+crosses it between its ends. So a point is hidden from a place p by a segment from A to B if it lies beyond
+the line A B and strictly between the rays from p through A and B. The places from which a point is hidden so
+are a convex set: what is hidden from several places is hidden from all places between them.
+"""
+
+from __future__ import annotations
+
+from math import hypot
+from typing import Final, final
+
+from exactacq.kernel.bounded import UNIT
+from exactacq.kernel.box_tree import BoxNode
+from exactacq.kernel.images import CONVEX, STRAIGHT, EdgeImages
+
+MOST: Final = 16
+"""So many segments are looked at: those that hide most."""
+
+Spot = tuple[float, float]
+"""A place in floats."""
+Ends = tuple[float, float, float, float]
+"""Both ends of a segment."""
+
+
+@final
+class HalfPlane:
+    """An open half-plane: a place on its rim, and the normal that points into it, of that size."""
+
+    def __init__(self, x: float, y: float, nx: float, ny: float) -> None:
+        self.x, self.y, self.nx, self.ny = x, y, nx, ny
+        self.size = abs(nx) + abs(ny)
+
+
+@final
+class Shadow:
+    """What one segment hides: the points that lie in all of some half-planes."""
+
+    def __init__(self, sides: list[HalfPlane]) -> None:
+        self._sides = sides
+
+    def hides(self, node: BoxNode, slack: float) -> bool:
+        """Whether all of a box certainly lies in the shadow, if all coordinates are held with *slack*.
+
+        A product of an offset o and a normal n, both differences, is off by at most 2 s (|o| + |n|) + 4 s^2
+        for the data, | | being the sum of the components' sizes, and its roundings are below 8 UNIT |o| |n|.
+        """
+        for side in self._sides:
+            nx, ny, size = side.nx, side.ny, side.size
+            x = (node.x0 if nx > 0.0 else node.x1) - side.x
+            y = (node.y0 if ny > 0.0 else node.y1) - side.y
+            far = abs(x) + abs(y)
+            if not nx * x + ny * y > 2.0 * slack * (far + size + 2.0 * slack) + 8.0 * UNIT * far * size:
+                return False
+        return True
+
+
+def shadows(images: EdgeImages, edges: list[int], places: tuple[Spot, ...], slack: float) -> list[Shadow]:
+    """Of what hides most from the middle of some places the shadows: of straight edges and whole discs."""
+    mx = my = 0.0
+    for x, y in places:
+        mx, my = mx + x / len(places), my + y / len(places)
+    # The largest so far, in falling order.
+    sizes: list[float] = []
+    found: list[Ends] = []
+    for e in edges:
+        kind = images.kind[e]
+        if kind == STRAIGHT:
+            v = images.following[e]
+            ends = images.x[e], images.y[e], images.x[v], images.y[v]
+        elif kind == CONVEX and images.full[e]:
+            ends = _across(images.cx[e], images.cy[e], images.radius[e], mx, my)
+        else:
+            continue
+        ax, ay, bx, by = ends[0] - mx, ends[1] - my, ends[2] - mx, ends[3] - my
+        below = hypot(ax, ay) * hypot(bx, by)
+        if below > 0.0:
+            # Grows with the angle at which the segment appears, up to a half turn.
+            sine, cosine = abs(ax * by - ay * bx) / below, (ax * bx + ay * by) / below
+            size = sine if cosine > 0.0 else 2.0 - sine
+            if len(sizes) == MOST:
+                if size <= sizes[MOST - 1]:
+                    continue
+                sizes.pop()
+                found.pop()
+            at = len(sizes)
+            while at > 0 and sizes[at - 1] < size:
+                at -= 1
+            sizes.insert(at, size)
+            found.insert(at, ends)
+    made: list[Shadow] = []
+    for ends in found:
+        sides = _sides(places, ends, slack)
+        if sides:
+            made.append(Shadow(sides))
+    return made
+
+
+def lit(
+    tree: BoxNode, window: tuple[float, float, float, float], reach: float, hiding: list[Shadow], slack: float
+) -> list[int]:
+    """The numbers of the boxes at most as far as *reach* from a window that no shadow contains, ascending."""
+    found: list[int] = []
+    _search(tree, *window, reach * reach, hiding, slack, found)
+    found.sort()
+    return found
+
+
+def _search(
+    around: BoxNode,
+    x0: float,
+    y0: float,
+    x1: float,
+    y1: float,
+    square: float,
+    hiding: list[Shadow],
+    slack: float,
+    found: list[int],
+) -> None:
+    for node in around.group:
+        dx = node.x0 - x1 if node.x0 > x1 else x0 - node.x1 if x0 > node.x1 else 0.0
+        dy = node.y0 - y1 if node.y0 > y1 else y0 - node.y1 if y0 > node.y1 else 0.0
+        if dx * dx + dy * dy > square:
+            continue
+        is_hidden = False
+        for shadow in hiding:
+            if shadow.hides(node, slack):
+                is_hidden = True
+                break
+        if is_hidden:
+            continue
+        if node.number >= 0:
+            found.append(node.number)
+        else:
+            _search(node, x0, y0, x1, y1, square, hiding, slack, found)
+
+
+def _across(cx: float, cy: float, radius: float, x: float, y: float) -> Ends:
+    """The ends of the diameter of a disc that is seen broadside from a place; a little within."""
+    dx, dy = cx - x, cy - y
+    far = hypot(dx, dy)
+    if not far > radius:
+        return cx, cy, cx, cy
+    part = radius * (1.0 - 1e-9) / far
+    return cx - dy * part, cy + dx * part, cx + dy * part, cy - dx * part
+
+
+def _sides(places: tuple[Spot, ...], ends: Ends, slack: float) -> list[HalfPlane]:
+    """The half-planes of a segment's shadow from some places; none if it may have some on both sides."""
+    ax, ay, bx, by = ends
+    px, py = places[0]
+    if (ax - px) * (by - py) - (ay - py) * (bx - px) < 0.0:
+        ax, ay, bx, by = bx, by, ax, ay
+    sides = [HalfPlane(ax, ay, by - ay, ax - bx)]
+    size = abs(bx - ax) + abs(by - ay)
+    for x, y in places:
+        ux, uy, vx, vy = ax - x, ay - y, bx - x, by - y
+        far = abs(ux) + abs(uy)
+        # Before the line: the place itself is beyond if it is turned around.
+        before = (bx - ax) * -uy + (by - ay) * ux
+        if not before > 2.0 * slack * (far + size + 2.0 * slack) + 8.0 * UNIT * far * size:
+            return []
+        sides.append(HalfPlane(x, y, -uy, ux))
+        sides.append(HalfPlane(x, y, vy, -vx))
+    return sides
