@@ -189,7 +189,7 @@ class Scene:
 
     def __hash__(self) -> int:
         """Cheap: views look up by the scene what they share. An irrational start would have no hash."""
-        return hash((len(self.shapes), self.terrain, self.radius))
+        return hash((len(self.shapes), self.name))
 
     @property
     def _made_of(self) -> tuple[object, ...]:

@@ -181,7 +181,7 @@ def sensor_flaws(start: Point | None, radius: fmpq | None) -> Iterator[str]:
         yield f"radius {_number(radius)}: a sensing radius must be positive"
     if radius is not None and radius > LIMIT:
         yield f"radius: a sensing radius of more than {LIMIT_TEXT} is not supported"
-    if start is not None and max(abs(start.x), abs(start.y)) > LIMIT:
+    if start is not None and any(abs(c) > LIMIT for c in start.rational or (start.x, start.y)):
         yield f"start: it must not lie farther than {LIMIT_TEXT} from the axes"
 
 

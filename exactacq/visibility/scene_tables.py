@@ -6,10 +6,9 @@ from functools import cached_property
 from typing import ClassVar
 from weakref import WeakKeyDictionary
 
-import numpy as np
-
 from exactacq.errors import InvalidScene, about
 from exactacq.geometry.points import Location, Point
+from exactacq.kernel.box_tree import BoxNode, box_tree
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.scene import Obstacle, Scene, as_scene
 from exactacq.visibility.pegs import Pegs, is_within
@@ -34,6 +33,11 @@ class SceneTables:
         return known
 
     @cached_property
+    def _hulls(self) -> BoxNode:
+        """The boxes of the obstacles, to find those at a point."""
+        return box_tree([(x0, y0, x1, y1) for x0, y0, x1, y1 in self.edges.hulls.tolist()])
+
+    @cached_property
     def tangents(self) -> Tangents:
         """What is known of the free tangents of corners and arcs."""
         return Tangents(Pegs(self.edges, self._terrain))
@@ -42,12 +46,11 @@ class SceneTables:
         """The obstacles that a point lies inside of or on; only those whose box holds it, and the enclosure,
         are asked."""
         x, y = point.xy
-        slack = 8 * self.edges.roundoff_at((x, y))
-        left, low, right, high = self.edges.hulls.T
-        near = (left <= x + slack) & (right >= x - slack) & (low <= y + slack) & (high >= y - slack)
-        if self.obstacles and self.obstacles[-1].is_enclosure:
-            near[-1] = True
-        asked = (self.obstacles[k] for k in np.flatnonzero(near).tolist())
+        near = self._hulls.near((x, y, x, y), 16 * self.edges.roundoff_at((x, y)))
+        last = len(self.obstacles) - 1
+        if self.obstacles and self.obstacles[last].is_enclosure and last not in near:
+            near.append(last)
+        asked = (self.obstacles[k] for k in near)
         return [(where, o) for o in asked if (where := o.locate(point)) is not Location.OUTSIDE]
 
 
