@@ -8,8 +8,10 @@ parts ended in `Undecided` for ties that had nothing to do with the moment. Only
 from __future__ import annotations
 
 from pathlib import Path
+from random import Random
 
 import pytest
+from flint import fmpq
 from nightly import some
 
 import exactacq as xa
@@ -104,3 +106,47 @@ def test_a_diversion_between_two_roots_of_quartics() -> None:
     That its last view is from its end, along the edge, was `Undecided`, for numbers of two roots.
     """
     assert xa.seed_spreader(random_scene(Subject.SEED_SPREADER, 96000186)).complete
+
+
+def past_a_circle(seed: int) -> xa.Scene:
+    """Two circles whose shortest link touches a third one, and something that comes into sight along it."""
+    rng = Random(seed)
+
+    def near(value: fmpq) -> fmpq:
+        return value + fmpq(rng.randint(-8, 8), 16)
+
+    x, y = near(fmpq(-9, 2)), near(fmpq(-5, 2))
+    plate = [(-2, -2), (2, -2), (2, 1), (1, 1, fmpq(-1, 2)), (-1, 1), (-2, 1)]
+    shape = rng.choice(
+        [
+            xa.Outline([(x - 1, y, 1), (x + 1, y, fmpq(-1, 2))]),
+            xa.Outline([(x + u, y + v, *bulge) for u, v, *bulge in plate]),
+            xa.Polygon([(x - 1, y - 1), (x + 1, y - 1), (x, y + 1)]),
+        ]
+    )
+    circles = [
+        xa.Circle((near(fmpq(9, 2)), near(fmpq(5, 2))), 1),
+        xa.Circle((near(fmpq(19, 2)), near(fmpq(19, 2))), fmpq(1, 2)),
+        xa.Circle((near(fmpq(25, 4)), near(fmpq(4))), fmpq(rng.randint(14, 20), 16)),
+    ]
+    return xa.Scene([*circles, shape], start=(5, 5), radius=11)
+
+
+@pytest.mark.parametrize("first", some(range(0, 60, 6), 3))
+def test_ways_that_touch_a_circle_between(first: int) -> None:
+    """Where such a way is as far from a corner as the range was found along tangents and along normals.
+
+    The way's numbers are those of a root of degree 20, and no comparison of the two places came to an end: a
+    quarter of these runs was `Undecided`. What families have in common at the range is one point now. And
+    from places of the way one of the two tangents of the circle is the way itself, which need not be told.
+    """
+    done = 0
+    for seed in range(first, first + 6):
+        try:
+            run = xa.sightseer(past_a_circle(seed))
+        except xa.InvalidScene:
+            continue
+        assert run.complete
+        xa.audit(run, samples=4)
+        done += 1
+    assert done > 1

@@ -11,7 +11,7 @@ to the range, and the results are `ViewFamily` objects.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Hashable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cmp_to_key, partial
 from itertools import pairwise
@@ -50,6 +50,10 @@ BITS = 128
 PINS_KEPT = 10_000
 """Points of named lines that are remembered: those of a wide neighbourhood."""
 
+SidePin: TypeAlias = "tuple[int, Pin]"
+"""The point of the first side, 0, or of the second one, 1."""
+Candidate: TypeAlias = "tuple[Real, SidePin | None]"
+"""The parameter of a line, and the point of a side there if it is known."""
 PinName: TypeAlias = "tuple[int, int, int]"
 """The number of a line, an edge, and where on the line it is met."""
 
@@ -173,6 +177,7 @@ class FamilyClipper:
         self._base: FamilyClipper | None = None
         self._balls: dict[int, CurveBalls] = {}
         self._images: dict[int, CurveImage] = {}
+        self._rims: dict[tuple[Hashable, Hashable, int], list[Pin]] = {}
         self._touched: Collection[int] = ()
 
     def with_way(self, way: Rail, touches: Collection[int] = ()) -> FamilyClipper:
@@ -285,16 +290,19 @@ class FamilyClipper:
         one, other = (End(Real(0), (place, point), (here, u)) for point, u in (near, far))
         yield one, other
 
-    def end(self, free_views: FreeViews, t: Real) -> End:
-        """The view of a free views at a parameter."""
+    def end(self, free_views: FreeViews, t: Real, known: SidePin | None = None) -> End:
+        """The view of a free views at a parameter; the point of one side there may be *known*."""
         names: Names = ()
         pin: Pin | None = None
         passed: Passed = ()
         for k, bound in enumerate((free_views.low, free_views.high)):
             if t is bound:
                 names, pin, passed = free_views.names[k], free_views.pinned[k], free_views.passed[k]
+        given = {} if pin is None else {0: pin}
+        if known is not None:
+            given[known[0]] = known[1]
         pins = [
-            pin if pin is not None and k == 0 else self.pin(free_views.sector, t, side, names, passed)
+            given[k] if k in given else self.pin(free_views.sector, t, side, names, passed)
             for k, side in enumerate(free_views.sides)
         ]
         return End(t, (pins[0][0], pins[1][0]), (pins[0][1], pins[1][1]))
@@ -389,7 +397,12 @@ class FamilyClipper:
         return self._exact_view(family, family.free_views, side, point) if late is None else late
 
     def _late_view(self, family: ViewFamily, free_views: FreeViews, side: int, point: Point) -> End | None:
-        """The view from a point, with numbers made when they are read; None if balls leave it open."""
+        """The view from a point, with numbers made when they are read; None if balls leave it open.
+
+        Of the two tangents through a point one is the view. The other one may be the last line of the family,
+        as where a way touches the circle itself: then balls leave that one open, and the view is told all the
+        same.
+        """
         sector, (here, there) = free_views.sector, (free_views.sides[side], free_views.sides[1 - side])
         if isinstance(sector, Spokes) or (here.role is Role.CONTACT and isinstance(sector, Rolling)):
             return None
@@ -400,9 +413,8 @@ class FamilyClipper:
                 continue
             at = line(sector, t)
             ahead = ball_sign((x - at[0]) * at[2] + (y - at[1]) * at[3])
-            if not (after and before and (ahead or here.role is Role.CONTACT)):
-                return None
-            if here.role in (ahead, Role.CONTACT):
+            is_open = not (after and before and (ahead or here.role is Role.CONTACT))
+            if not is_open and here.role in (ahead, Role.CONTACT):
                 found = Real.late(t, partial(_line_through, sector, point, k))
                 far, _ = self._late_pin(sector, found, there, ())
                 points = (point, far) if side == 0 else (far, point)
@@ -469,13 +481,18 @@ class FamilyClipper:
     def _at_range(self, free_views: FreeViews, low: End, high: End) -> list[End]:
         """The views strictly between the extreme ones that may be as long as the range, in order."""
         found = [
-            t
-            for t in self._candidates(free_views, low, high)
-            if t.compare(free_views.low) > 0 and t.compare(free_views.high) < 0
+            at
+            for at in self._candidates(free_views, low, high)
+            if at[0].compare(free_views.low) > 0 and at[0].compare(free_views.high) < 0
         ]
-        found.sort(key=cmp_to_key(Real.compare))
-        distinct = [t for k, t in enumerate(found) if k == 0 or t.compare(found[k - 1]) != 0]
-        ends = (self.end(free_views, t) for t in distinct)
+        found.sort(key=cmp_to_key(_by_parameter))
+        distinct: list[Candidate] = []
+        for at in found:
+            if not distinct or _by_parameter(at, distinct[-1]):
+                distinct.append(at)
+            elif distinct[-1][1] is None:
+                distinct[-1] = at
+        ends = (self.end(free_views, t, known) for t, known in distinct)
         return [end for end in ends if self._may_be_at_range(end)]
 
     def _longer_at(self, low: End, high: End, t: Real) -> int:
@@ -486,28 +503,50 @@ class FamilyClipper:
     def _may_be_at_range(self, end: End) -> bool:
         return not self.range.clear_order(*map(balls, end.points))
 
-    def _candidates(self, free_views: FreeViews, low: End, high: End) -> Iterator[Real]:
+    def _candidates(self, free_views: FreeViews, low: End, high: End) -> Iterator[Candidate]:
+        """Where views may be as long as the range."""
         sector, (one, other) = free_views.sector, free_views.sides
         roles = {side.role: side.edge for side in (one, other)}
         curves = {role: self.curve(edge) for role, edge in roles.items()}
         if Role.CONTACT not in roles:
             behind, ahead = curves[Role.BEHIND], curves[Role.AHEAD]
             if _is_rational(behind) and _is_rational(ahead):
-                yield from of_length(sector, behind, ahead, self.range.square)
+                found = of_length(sector, behind, ahead, self.range.square)
             else:
                 is_touched = sector.round and free_views.anchor in self._touched
                 way = self.rails[-1].curve if is_touched else None
                 span = free_views.low, free_views.high
                 longer_at = partial(self._longer_at, low, high)
-                yield from of_length_on(sector, behind, ahead, self.range.square, *span, way, longer_at)
+                found = of_length_on(sector, behind, ahead, self.range.square, *span, way, longer_at)
+            yield from ((t, None) for t in found)
             return
-        far = next(curve for role, curve in curves.items() if role is not Role.CONTACT)
+        k = 1 if one.role is Role.CONTACT else 0
+        far = free_views.sides[k]
         if isinstance(sector, Sliding):
-            yield from self._beside(sector, far)
+            yield from ((t, None) for t in self._beside(sector, curves[far.role]))
             return
-        center = Point(*sector.center)
-        for point in _at_distance(center, self._square_from_center(sector), far):
-            yield from sector.through(point)
+        for pin in self._rim(Point(*sector.center), self._square_from_center(sector), far.edge):
+            for t in sector.through(pin[0]):
+                yield t, (k, pin) if self._is_towards(sector, t, far.role, pin[0]) else None
+
+    def _rim(self, center: Point, square: Real, edge: int) -> list[Pin]:
+        """The points of an edge at a squared distance from a point, the same objects for all families.
+
+        A corner has two with the same lines, tangents and normals, on which such places could be told to be
+        equal by their numbers alone.
+        """
+        key = center.key, square.key, edge
+        if key not in self._rims:
+            if len(self._rims) >= PINS_KEPT:
+                self._rims.clear()
+            points = _at_distance(center, square, self.curve(edge))
+            self._rims[key] = [(point, self.rails[edge].parameter(point)) for point in points]
+        return self._rims[key]
+
+    def _is_towards(self, sector: Sector, t: Real, role: Role, point: Point) -> bool:
+        """Whether balls tell that a line's point lies where its role is: ahead of the contact or behind."""
+        (cx, cy, dx, dy), (x, y) = line(sector, t.ball(64)), balls(point)
+        return ball_sign((x - cx) * dx + (y - cy) * dy) == role
 
     def _beside(self, sector: Sliding, far: Curve) -> list[Real]:
         """Where the parallel of a segment at the range meets an edge."""
@@ -524,6 +563,10 @@ class FamilyClipper:
             away: Real = radius + self.range.radius if sector.outward else radius - self.range.radius
             return away * away
         return Real(self.range.square)
+
+
+def _by_parameter(a: Candidate, b: Candidate) -> int:
+    return a[0].compare(b[0])
 
 
 def _line_through(sector: Sector, point: Point, k: int) -> Real:
