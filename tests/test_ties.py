@@ -150,3 +150,8 @@ def test_ways_that_touch_a_circle_between(first: int) -> None:
         xa.audit(run, samples=4)
         done += 1
     assert done > 1
+
+
+def test_a_map_on_a_way_that_touches_a_circle() -> None:
+    """The view from an event's place past the circle lies between others; the way's own line bounds them."""
+    xa.audit(xa.sightseer(past_a_circle(40)))
