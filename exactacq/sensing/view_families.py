@@ -11,7 +11,7 @@ to the range, and the results are `ViewFamily` objects.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Hashable, Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cmp_to_key, partial
 from itertools import pairwise
@@ -37,6 +37,7 @@ from exactacq.numbers.float_bounds import float_ball, margin
 from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.sensing.line_points import LinePoints, Role, Side, along_normal
+from exactacq.sensing.named_pins import NamedPins
 from exactacq.sensing.view_length import of_length_on
 from exactacq.visibility.chords import of_length
 from exactacq.visibility.line_balls import CurveBalls, Line, line, through
@@ -47,15 +48,11 @@ from exactacq.visibility.sensor_range import Range
 
 BITS = 128
 """Precision of the balls that tell a short way from a long proof."""
-PINS_KEPT = 10_000
-"""Points of named lines that are remembered: those of a wide neighbourhood."""
 
 SidePin: TypeAlias = "tuple[int, Pin]"
 """The point of the first side, 0, or of the second one, 1."""
 Candidate: TypeAlias = "tuple[Real, SidePin | None]"
 """The parameter of a line, and the point of a side there if it is known."""
-PinName: TypeAlias = "tuple[int, int, int]"
-"""The number of a line, an edge, and where on the line it is met."""
 
 
 @dataclass(slots=True)
@@ -121,31 +118,6 @@ class ViewFamily:
     free_views: FreeViews | None = None
 
 
-class NamedPins:
-    """Points in which named lines meet edges, so that one that families share is made once.
-
-    What a way adds is its own. When there are `PINS_KEPT` all are forgotten: a point that is then made again
-    is recognised by its numbers.
-    """
-
-    __slots__ = ("_base", "_of")
-
-    def __init__(self, base: NamedPins | None = None) -> None:
-        self._of: dict[PinName, Pin] = {}
-        self._base = base
-
-    def get(self, name: PinName) -> Pin | None:
-        """The point of a name."""
-        pin = self._of.get(name)
-        return pin if pin is not None or self._base is None else self._base.get(name)
-
-    def put(self, name: PinName, pin: Pin) -> None:
-        """Give a point a name."""
-        if len(self._of) >= PINS_KEPT:
-            self._of.clear()
-        self._of[name] = pin
-
-
 class RailsAndWay(Sequence[Rail]):
     """Rails by number and one more, that of a way: without a copy, as families of every way keep it."""
 
@@ -177,7 +149,6 @@ class FamilyClipper:
         self._base: FamilyClipper | None = None
         self._balls: dict[int, CurveBalls] = {}
         self._images: dict[int, CurveImage] = {}
-        self._rims: dict[tuple[Hashable, Hashable, int], list[Pin]] = {}
         self._touched: Collection[int] = ()
 
     def with_way(self, way: Rail, touches: Collection[int] = ()) -> FamilyClipper:
@@ -530,18 +501,12 @@ class FamilyClipper:
                 yield t, (k, pin) if self._is_towards(sector, t, far.role, pin[0]) else None
 
     def _rim(self, center: Point, square: Real, edge: int) -> list[Pin]:
-        """The points of an edge at a squared distance from a point, the same objects for all families.
-
-        A corner has two with the same lines, tangents and normals, on which such places could be told to be
-        equal by their numbers alone.
-        """
-        key = center.key, square.key, edge
-        if key not in self._rims:
-            if len(self._rims) >= PINS_KEPT:
-                self._rims.clear()
-            points = _at_distance(center, square, self.curve(edge))
-            self._rims[key] = [(point, self.rails[edge].parameter(point)) for point in points]
-        return self._rims[key]
+        """The points of an edge at a squared distance from a point, the same ones for all families."""
+        curve, rail = self.curve(edge), self.rails[edge]
+        return self._pins.rim(
+            (center.key, square.key, edge),
+            lambda: [(point, rail.parameter(point)) for point in _at_distance(center, square, curve)],
+        )
 
     def _is_towards(self, sector: Sector, t: Real, role: Role, point: Point) -> bool:
         """Whether balls tell that a line's point lies where its role is: ahead of the contact or behind."""

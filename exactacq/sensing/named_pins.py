@@ -1,0 +1,55 @@
+"""Points that families of views share, by name: made once, so that nobody has to compare them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable
+from typing import TypeAlias
+
+from exactacq.geometry.late import Pin
+
+PINS_KEPT = 10_000
+"""Points of named lines that are remembered: those of a wide neighbourhood."""
+
+PinName: TypeAlias = "tuple[int, int, int]"
+"""The number of a line, an edge, and where on the line it is met."""
+RimName: TypeAlias = "tuple[Hashable, Hashable, int]"
+"""The keys of a centre and of a squared distance, and an edge."""
+
+
+class NamedPins:
+    """Points in which named lines, and circles about named places, meet edges.
+
+    What a way adds is its own. When there are `PINS_KEPT` all are forgotten: a point that is then made again
+    is recognised by its numbers.
+    """
+
+    __slots__ = ("_base", "_of", "_rims")
+
+    def __init__(self, base: NamedPins | None = None) -> None:
+        self._of: dict[PinName, Pin] = {}
+        self._rims: dict[RimName, list[Pin]] = {}
+        self._base = base
+
+    def get(self, name: PinName) -> Pin | None:
+        """The point of a name."""
+        pin = self._of.get(name)
+        return pin if pin is not None or self._base is None else self._base.get(name)
+
+    def put(self, name: PinName, pin: Pin) -> None:
+        """Give a point a name."""
+        if len(self._of) >= PINS_KEPT:
+            self._of.clear()
+        self._of[name] = pin
+
+    def rim(self, name: RimName, make: Callable[[], list[Pin]]) -> list[Pin]:
+        """The points of an edge at a distance from a centre, made at the first call.
+
+        A corner has tangents and normals along the same lines: where they reach the range, numbers alone
+        would have to tell that the places are equal.
+        """
+        found = self._rims.get(name)
+        if found is None:
+            if len(self._rims) >= PINS_KEPT:
+                self._rims.clear()
+            found = self._rims[name] = make()
+        return found
