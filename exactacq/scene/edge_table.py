@@ -41,7 +41,9 @@ LATTICE_BITS = 64
 CLOSE = 0.2
 """Within this part of the reach what hides much is looked for,"""
 MANY = 24
-"""if there are so many edges: of few ones more is looked at than is spared."""
+"""if there are so many edges: among fewer ones that takes as long as is spared."""
+SAMPLES = 16
+"""If it is so at none of so many edges, it is looked for nowhere."""
 BITS = 64
 """Precision of the balls that tell which edges are not near a point."""
 
@@ -78,6 +80,7 @@ class EdgeTable:
         self.boxes: Floats = bounds(self.curves)
         self._around: dict[tuple[tuple[float, float], tuple[float, float], float], list[int]] = {}
         self._lit: dict[tuple[tuple[Spot, ...], float], list[int]] = {}
+        self._dense: dict[float, bool] = {}
         self.magnitude = float(np.abs(self.boxes).max(initial=0.0))
         self._largest = max(self.magnitude, float(self.radius.max(initial=0.0)))
 
@@ -213,8 +216,9 @@ class EdgeTable:
         if found is None:
             xs, ys = zip(*places, strict=True)
             low, high = (min(xs), min(ys)), (max(xs), max(ys))
-            close, slack = self.around(low, high, reach * CLOSE), 8 * self.roundoff_at(low, high)
-            if len(close) < MANY or slack == inf:
+            slack = 8 * self.roundoff_at(low, high)
+            close = self.around(low, high, reach * CLOSE) if self._is_dense(reach) and slack < inf else []
+            if len(close) < MANY:
                 found = self.around(low, high, reach)
             else:
                 hiding = shadows(self.images, close, places, slack)
@@ -222,6 +226,16 @@ class EdgeTable:
             if len(self._lit) >= NEAR_KEPT:
                 self._lit.clear()
             self._lit[places, reach] = found
+        return found
+
+    def _is_dense(self, reach: float) -> bool:
+        """Whether many edges are close to one of a few edges, spread over the scene."""
+        found = self._dense.get(reach)
+        if found is None:
+            some = range(0, len(self.curves), len(self.curves) // SAMPLES + 1)
+            places = (self.curves[e].start.xy for e in some)
+            found = any(len(self.around(place, place, reach * CLOSE)) >= MANY for place in places)
+            self._dense[reach] = found
         return found
 
     def spots(self, e: int) -> tuple[Spot, ...]:
