@@ -38,6 +38,12 @@ class BoxNode:
         found.sort()
         return found
 
+    def square_from(self, x0: float, y0: float, x1: float, y1: float) -> float:
+        """The squared distance of the box from a window."""
+        dx = self.x0 - x1 if self.x0 > x1 else x0 - self.x1 if x0 > self.x1 else 0.0
+        dy = self.y0 - y1 if self.y0 > y1 else y0 - self.y1 if y0 > self.y1 else 0.0
+        return dx * dx + dy * dy
+
     def along(self, line: Line, reach: float, slack: float) -> list[int]:
         """The numbers of the boxes that a line may meet up to *reach* from its contact, in ascending order.
 
@@ -65,12 +71,10 @@ class BoxNode:
         found: list[int],
     ) -> None:
         for node in self.group:
-            # From the contact to the sides, and to the box.
+            # From the contact to the sides.
             west, east = node.x0 - x, node.x1 - x
             south, north = node.y0 - y, node.y1 - y
-            u = west if west > 0.0 else east if east < 0.0 else 0.0
-            v = south if south > 0.0 else north if north < 0.0 else 0.0
-            if u * u + v * v > square:
+            if node.square_from(x, y, x, y) > square:
                 continue
             a, b, c, d = dx * south, dx * north, dy * west, dy * east
             low = (a if a < b else b) - (c if c > d else d)
@@ -85,9 +89,7 @@ class BoxNode:
 
     def _search(self, x0: float, y0: float, x1: float, y1: float, square: float, found: list[int]) -> None:
         for node in self.group:
-            dx = node.x0 - x1 if node.x0 > x1 else x0 - node.x1 if x0 > node.x1 else 0.0
-            dy = node.y0 - y1 if node.y0 > y1 else y0 - node.y1 if y0 > node.y1 else 0.0
-            if dx * dx + dy * dy > square:
+            if node.square_from(x0, y0, x1, y1) > square:
                 continue
             if node.number >= 0:
                 found.append(node.number)

@@ -119,9 +119,7 @@ def _search(
     found: list[int],
 ) -> None:
     for node in around.group:
-        dx = node.x0 - x1 if node.x0 > x1 else x0 - node.x1 if x0 > node.x1 else 0.0
-        dy = node.y0 - y1 if node.y0 > y1 else y0 - node.y1 if y0 > node.y1 else 0.0
-        if dx * dx + dy * dy > square:
+        if node.square_from(x0, y0, x1, y1) > square:
             continue
         is_hidden = False
         for shadow in hiding:

@@ -14,7 +14,6 @@ from exactacq.geometry.points import Point
 from exactacq.kernel.bounded import TINY, UNIT
 from exactacq.kernel.family_images import FamilyImage
 from exactacq.kernel.lines import side_of
-from exactacq.kernel.shadows import Spot
 from exactacq.kernel.ways import WayImage
 from exactacq.numbers.float_bounds import margin, rough
 from exactacq.numbers.real import Real
@@ -33,7 +32,7 @@ class StraightWay:
     def __init__(self, complex_: VisibilityComplex, leg: Leg) -> None:
         self.complex, self.table = complex_, complex_.table
         self.span, self.rail = leg.span, leg.rail
-        self.line = leg.rail.curve
+        self.line, self.spots = leg.rail.curve, leg.spots
         self.touches: frozenset[int] = frozenset(leg.touches)
         self.piece = Segment(leg.span.start, leg.span.end)
         self.clipper = complex_.clipper.with_way(leg.rail, leg.touches)
@@ -44,11 +43,6 @@ class StraightWay:
         """Its ends: points and parameters."""
         span = self.span
         return (span.start, span.low), (span.end, span.high)
-
-    @property
-    def spots(self) -> tuple[Spot, Spot]:
-        """Its ends in floats."""
-        return self.span.start.xy, self.span.end.xy
 
     @cached_property
     def image(self) -> WayImage:

@@ -496,6 +496,8 @@ class FamilyClipper:
         if isinstance(sector, Sliding):
             yield from ((t, None) for t in self._beside(sector, curves[far.role]))
             return
+        # An arc that is met twice is seen where the line enters the obstacle. At the other place no view
+        # ends: those beside it are all longer than the range, or all shorter.
         for pin in self._rim(Point(*sector.center), self._square_from_center(sector), far.edge):
             for t in sector.through(pin[0]):
                 yield t, (k, pin) if self._is_towards(sector, t, far.role, pin[0]) else None

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from flint import fmpq
-
 from exactacq.geometry.coordinates import raw
 from exactacq.geometry.points import Point
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.features import directions_at
-from exactacq.visibility.line_families import corner_sectors
+from exactacq.visibility.line_families import EAST, corner_sectors
 from exactacq.visibility.rotational_sweep import Pencil, pencil
-
-EAST = fmpq(1), fmpq(0)
 
 
 def fan(table: EdgeTable, point: Point, reach: float, own: tuple[int, ...] | None = None) -> list[Pencil]:

@@ -16,9 +16,7 @@ from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
 from exactacq.visibility.chords import of_length
-from exactacq.visibility.line_families import Sector, corner_sectors, round_sectors
-
-EAST = fmpq(1), fmpq(0)
+from exactacq.visibility.line_families import EAST, Sector, corner_sectors, round_sectors
 
 
 def ordinates_at_range(x: fmpq, feature: Point | Arc, target: Curve, radius: fmpq) -> list[Real] | None:
