@@ -26,11 +26,11 @@ from exactacq.kernel.near_edges import NearEdges
 from exactacq.kernel.shadows import Spot
 from exactacq.numbers.rationals import nearest_float
 from exactacq.scene.edge_table import CONVEX, EdgeTable
+from exactacq.sensing.family_clipper import FamilyClipper
 from exactacq.sensing.followed_lines import FeatureLine, FollowedLine, LineFollower, Met
 from exactacq.sensing.line_family import PencilFamilies, Reached, SingleLine
 from exactacq.sensing.line_images import LineImages
 from exactacq.sensing.line_points import Role, Side
-from exactacq.sensing.view_families import FamilyClipper
 from exactacq.visibility.end_rays import EndRays, end_rays
 from exactacq.visibility.features import Feature, features, leaving, parallel
 from exactacq.visibility.line_families import Sector, Sliding, Spokes, corner_sectors, quarters
@@ -70,7 +70,7 @@ class FamilySweeper:
         self.clipper = FamilyClipper(rails, range_, table.roundoff, table.line_numbers)
         self.images = LineImages(table, range_)
         self._namer, self._numbers = Namer(table), table.line_numbers
-        self.follower = LineFollower(table, range_, self.clipper, self._namer)
+        self.follower = LineFollower(table, range_, self.clipper.views, self._namer)
 
     @cached_property
     def _features(self) -> dict[int, list[Feature]]:

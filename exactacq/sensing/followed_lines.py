@@ -19,7 +19,7 @@ from exactacq.kernel.near_edges import NearEdges
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import CONVEX, EdgeTable
 from exactacq.sensing.line_points import Role, Side
-from exactacq.sensing.view_families import FamilyClipper
+from exactacq.sensing.line_views import LineViews
 from exactacq.visibility.features import Feature
 from exactacq.visibility.free_segment import LineWalk, walk_line
 from exactacq.visibility.line_balls import line
@@ -73,8 +73,8 @@ class FollowedLine:
 class LineFollower:
     """Follows tangent lines of the features of a scene as far as the range."""
 
-    def __init__(self, table: EdgeTable, range_: Range, clipper: FamilyClipper, namer: Namer) -> None:
-        self.table, self.range, self.clipper, self._namer = table, range_, clipper, namer
+    def __init__(self, table: EdgeTable, range_: Range, views: LineViews, namer: Namer) -> None:
+        self.table, self.range, self.views, self._namer = table, range_, views, namer
 
     def follow(self, at: FeatureLine) -> FollowedLine:
         """What a line meets, as far as it is free."""
@@ -116,16 +116,16 @@ class LineFollower:
         for tau, e in walk.hits:
             if tau.compare(before) != 0:
                 place, before, point = place + role, tau, contact + direction * tau
-            found.append(Met(e, (point, self.clipper.rails[e].parameter(point)), place))
+            found.append(Met(e, (point, self.views.rails[e].parameter(point)), place))
         return found
 
     def _vertex(self, vertex: int, e: int) -> Pin:
         """An end of an edge."""
         point = self.table.curves[e].start if vertex == e else self.table.curves[e].end
-        return point, self.clipper.rails[e].parameter(point)
+        return point, self.views.rails[e].parameter(point)
 
     def _pin(self, at: FeatureLine, names: Names, e: int, role: Role) -> Pin:
-        return self.clipper.pin(at.sector, at.t, Side(e, role), names, at.passed)
+        return self.views.pin(at.sector, at.t, Side(e, role), names, at.passed)
 
     def _names(self, at: FeatureLine) -> Names:
         return self._namer.names(at.feature, at.sector, at.t, at.passed)

@@ -20,11 +20,12 @@ from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
 from exactacq.sensing.cut_ends import CutEnd
 from exactacq.sensing.end_names import Seen
+from exactacq.sensing.family_clipper import FamilyClipper
 from exactacq.sensing.family_filter import FamilyFilter
 from exactacq.sensing.free_way import WayViews
 from exactacq.sensing.legs import Leg
 from exactacq.sensing.targets import Targets
-from exactacq.sensing.view_families import End, FamilyClipper, ViewFamily
+from exactacq.sensing.view_families import End, ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
 
 Covers: TypeAlias = "Mapping[int, Cover]"

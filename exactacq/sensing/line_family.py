@@ -22,9 +22,10 @@ from exactacq.kernel.pencil_images import pencil_images
 from exactacq.kernel.single_lines import SingleImage, Spot
 from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real
+from exactacq.sensing.family_clipper import FamilyClipper
 from exactacq.sensing.line_images import LineImages
 from exactacq.sensing.line_points import Role, Side
-from exactacq.sensing.view_families import FamilyClipper, FreeViews, ViewFamily
+from exactacq.sensing.view_families import FreeViews, ViewFamily
 from exactacq.visibility.features import Feature
 from exactacq.visibility.line_families import Sector
 from exactacq.visibility.line_names import Namer, Names

@@ -1,0 +1,171 @@
+"""Cuts families of free views: to the range, where full circles begin, and to parts of their sides."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+from typing import overload
+
+from exactacq.geometry.curve_parameter import Rail
+from exactacq.geometry.curves import Curve
+from exactacq.geometry.interval_union import Interval
+from exactacq.geometry.late import Pin
+from exactacq.kernel.line_keys import LineNumbers
+from exactacq.kernel.lines import line_at, meets, parameter_round
+from exactacq.numbers.between import rational_between
+from exactacq.numbers.float_bounds import float_ball, margin
+from exactacq.numbers.real import Real
+from exactacq.sensing.line_points import Role
+from exactacq.sensing.line_views import LineViews
+from exactacq.sensing.range_ends import RangeEnds
+from exactacq.sensing.view_families import End, FreeViews, ViewFamily
+from exactacq.visibility.sensor_range import Range
+
+
+class RailsAndWay(Sequence[Rail]):
+    """Rails by number and one more, that of a way: without a copy, as families of every way keep it."""
+
+    __slots__ = ("_rails", "_way")
+
+    def __init__(self, rails: Sequence[Rail], way: Rail) -> None:
+        self._rails, self._way = rails, way
+
+    @overload
+    def __getitem__(self, e: int) -> Rail: ...
+    @overload
+    def __getitem__(self, e: slice) -> Sequence[Rail]: ...
+    def __getitem__(self, e: int | slice) -> Rail | Sequence[Rail]:
+        if isinstance(e, slice):
+            return [*self._rails, self._way][e]
+        return self._way if e in (-1, len(self._rails)) else self._rails[e]
+
+    def __len__(self) -> int:
+        return len(self._rails) + 1
+
+
+class FamilyClipper:
+    """Cuts free views to a range and finds their views; holds the rails of the scene's edges by number."""
+
+    def __init__(
+        self,
+        rails: Sequence[Rail],
+        range_: Range,
+        roundoff: float,
+        numbers: LineNumbers,
+        base: FamilyClipper | None = None,
+        touched: Collection[int] = (),
+    ) -> None:
+        """*base* are the rails without a way, *touched* the numbers of the features that it touches."""
+        self.rails, self.range, self.roundoff = rails, range_, roundoff
+        self.views: LineViews = LineViews(rails, numbers, None if base is None else base.views)
+        self._ends = RangeEnds(self.views, range_, touched)
+
+    def with_way(self, way: Rail, touches: Collection[int] = ()) -> FamilyClipper:
+        """These and one more curve, a way through free space, with the numbers of the features it touches."""
+        extent = max(abs(v) for p in (way.curve.start, way.curve.end) for v in p.xy)
+        return FamilyClipper(
+            RailsAndWay(self.rails, way),
+            self.range,
+            max(self.roundoff, margin(2.0**-50 * extent)),
+            self.views.numbers,
+            self,
+            touches,
+        )
+
+    def curve(self, e: int) -> Curve:
+        """The curve of a number."""
+        return self.rails[e].curve
+
+    def families(self, free_views: FreeViews) -> list[ViewFamily]:
+        """The parts of a free views that lie within range, as closed families; single views count."""
+        found = list(self._ends.within(free_views))
+        for k, side in enumerate(free_views.sides):
+            if getattr(self.curve(side.edge), "full", False):
+                found = [part for family in found for part in self._unrolled(family, k)]
+        return found
+
+    def _unrolled(self, family: ViewFamily, k: int) -> Iterator[ViewFamily]:
+        """On a full circle: cut where a side passes the circle's start, whose parameter is 0 or 4."""
+        first, last, free_views = family.first, family.last, family.free_views
+        if free_views is None or first is last or self._is_on_one_side(family, free_views, k):
+            yield family
+            return
+        a, b = first.places[k], last.places[k]
+        middle = self.views.end(free_views, Real(rational_between(first.t, last.t))).places[k]
+        if a.sign() == 0 and middle.compare(b) > 0:
+            a = Real(4)
+        if b.sign() == 0 and middle.compare(a) > 0:
+            b = Real(4)
+        first, last = first.placed(k, a), last.placed(k, b)
+        if min(a, b) <= middle <= max(a, b):
+            yield ViewFamily(family.edges, first, last, free_views)
+            return
+        seam = self.views.view_from(family, k, self.curve(family.edges[k]).start)
+        before, after = (Real(4), Real(0)) if a > b else (Real(0), Real(4))
+        yield ViewFamily(family.edges, first, seam.placed(k, before), free_views)
+        yield ViewFamily(family.edges, seam.placed(k, after), last, free_views)
+
+    def _is_on_one_side(self, family: ViewFamily, free_views: FreeViews, k: int) -> bool:
+        """Whether a side on a full circle surely does not pass its start, as a line between tells in floats.
+
+        Differences of floats are off by far less than half of themselves.
+        """
+        sector, side = free_views.sector, free_views.sides[k]
+        if not sector.is_rational:
+            return False
+        ends = family.first, family.last
+        (low, p), (high, q) = (float_ball(end.t) for end in ends)
+        t = (low + high) / 2.0
+        if not (t - low > 2.0 * p and high - t > 2.0 * q):
+            return False
+        line_, image = line_at(sector.image, t, 0.0), self.views.image(side.edge)
+        if side.role is Role.CONTACT:
+            x, y, _, _, e, _ = line_
+            u, r = parameter_round(image, x, y, e)
+        else:
+            _, _, u, r, *_ = meets(line_, image, side.role)
+        (a, p), (b, q) = sorted(float_ball(end.places[k]) for end in ends)
+        return u - a > 2.0 * (p + r) and b - u > 2.0 * (q + r)
+
+    def along(self, pin: Pin, run: tuple[Pin, Pin], shown: int) -> Iterator[tuple[End, End]]:
+        """The views along one line from a place to a run on an edge, as far as it is within range."""
+        (place, here), (near, far) = pin, run
+        if self.range.order(place, near[0]) > 0:
+            return
+        if self.range.order(place, far[0]) > 0:
+            along = far[0] - place
+            last = place + along * (self.range.radius / along.norm_sq().sqrt())
+            far = last, self.rails[shown].parameter(last)
+        one, other = (End(Real(0), (place, point), (here, u)) for point, u in (near, far))
+        yield one, other
+
+    def clipped(self, family: ViewFamily, side: int, span: Interval) -> ViewFamily | None:
+        """The part of a family whose one side lies in an interval of that side's rail."""
+        a, b = family.first.places[side], family.last.places[side]
+        if span.low.rational == 0 and span.high is self.rails[family.edges[side]].top:
+            return family
+        low, high = (a, b) if a.compare(b) <= 0 else (b, a)
+        if low.compare(span.high) > 0 or high.compare(span.low) < 0:
+            return None
+        first = self._moved(family, family.first, family.last, side, span)
+        last = self._moved(family, family.last, family.first, side, span)
+        if family.free_views is not None and first.t.compare(last.t) > 0:
+            first, last = last, first
+        return ViewFamily(family.edges, first, last, family.free_views)
+
+    def _moved(self, family: ViewFamily, end: End, other: End, side: int, span: Interval) -> End:
+        """An extreme view, moved to the end of an interval if it lies outside; *other* is the other one."""
+        place = end.places[side]
+        at_low, at_high = place.compare(span.low), place.compare(span.high)
+        if at_low == 0:
+            return end.pinned(side, span.start, span.low)
+        if at_high == 0:
+            return end.pinned(side, span.end, span.high)
+        if at_low > 0 > at_high:
+            return end
+        place, point = (span.low, span.start) if at_low < 0 else (span.high, span.end)
+        if place.compare(other.places[side]) == 0:
+            return other.pinned(side, point, place)
+        if family.free_views is None:
+            points = (point, end.points[1]) if side == 0 else (end.points[0], point)
+            return End(end.t, points, end.places).placed(side, place)
+        return self.views.view_from(family, side, point).placed(side, place)

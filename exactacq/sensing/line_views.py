@@ -1,0 +1,192 @@
+"""The views along single lines of a family: their end points, made late, and found again by name."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+
+from exactacq.geometry.curve_images import curve_image
+from exactacq.geometry.curve_parameter import Rail
+from exactacq.geometry.curves import Curve
+from exactacq.geometry.late import Balls, Pin, balls, late_point
+from exactacq.geometry.points import Point
+from exactacq.kernel.curve_images import CurveImage
+from exactacq.kernel.line_keys import LineNumbers
+from exactacq.numbers.rationals import ball_sign
+from exactacq.numbers.real import Real
+from exactacq.sensing.line_points import LinePoints, Role, Side, along_normal
+from exactacq.sensing.named_pins import NamedPins
+from exactacq.sensing.view_families import End, FreeViews, SidePin, ViewFamily
+from exactacq.visibility.line_balls import CurveBalls, Line, line, through
+from exactacq.visibility.line_families import Rolling, Sector, Spokes
+from exactacq.visibility.line_names import Names
+from exactacq.visibility.rotational_sweep import Passed
+
+
+class LineViews:
+    """Makes the views of families along single lines; holds the rails of the scene's edges by number.
+
+    *base* are those that it adds a way to.
+    """
+
+    def __init__(self, rails: Sequence[Rail], numbers: LineNumbers, base: LineViews | None = None) -> None:
+        self.rails, self.numbers = rails, numbers
+        self.pins: NamedPins = NamedPins(None if base is None else base.pins)
+        self._points = LinePoints(rails)
+        self._base = base
+        self._balls: dict[int, CurveBalls] = {}
+        self._images: dict[int, CurveImage] = {}
+
+    def curve(self, e: int) -> Curve:
+        """The curve of a number."""
+        return self.rails[e].curve
+
+    def image(self, e: int) -> CurveImage:
+        """The curve of a number in floats."""
+        if self._base is not None and 0 <= e < len(self._base.rails):
+            return self._base.image(e)
+        if e not in self._images:
+            self._images[e] = curve_image(self.curve(e))
+        return self._images[e]
+
+    def end(self, free_views: FreeViews, t: Real, known: SidePin | None = None) -> End:
+        """The view of a free views at a parameter; the point of one side there may be *known*."""
+        names: Names = ()
+        pin: Pin | None = None
+        passed: Passed = ()
+        for k, bound in enumerate((free_views.low, free_views.high)):
+            if t is bound:
+                names, pin, passed = free_views.names[k], free_views.pinned[k], free_views.passed[k]
+        given = {} if pin is None else {0: pin}
+        if known is not None:
+            given[known[0]] = known[1]
+        pins = [
+            given[k] if k in given else self.pin(free_views.sector, t, side, names, passed)
+            for k, side in enumerate(free_views.sides)
+        ]
+        return End(t, (pins[0][0], pins[1][0]), (pins[0][1], pins[1][1]))
+
+    def pin(self, sector: Sector, t: Real, side: Side, names: Names, passed: Passed) -> Pin:
+        """Where a line meets an edge: the same point as on the same line under another name.
+
+        A line that touches the edge's circle meets it at the contact, in either sense.
+        """
+        role = side.role
+        touches = any(touching and number == side.edge for number, touching, _ in passed)
+        keys = [
+            (name, side.edge, 0 if touches or self.numbers.touches(name, side.edge) else role * sense)
+            for name, sense in names
+        ]
+        for key in keys:
+            known = self.pins.get(key)
+            if known is not None:
+                return known
+        pin = self._late_pin(sector, t, side, passed)
+        for key in keys:
+            self.pins.put(key, pin)
+        return pin
+
+    def _late_pin(self, sector: Sector, t: Real, side: Side, passed: Passed) -> Pin:
+        """Where a line meets an edge: a corner if it is one, else a place that is made when it is read."""
+        curve = self.curve(side.edge)
+        if side.role is Role.CONTACT and side.fixed:
+            corner = side.corner(curve)
+            return corner, self.rails[side.edge].parameter(corner)
+        rail, make = self.rails[side.edge], partial(self._points.exact, sector, t, side, passed)
+        at = line(sector, t.ball(64))
+        is_told, found = self._points.passed_in_balls(side, at, passed)
+        if isinstance(found, Point):
+            return found, rail.parameter(found)
+        if found is None and is_told:
+            found = self.spot(at, side)
+        point = make() if found is None else late_point(found, make)
+        return point, rail.parameter(point)
+
+    def spot(self, at: Line, side: Side) -> Balls | None:
+        """Where a line meets an edge, in balls; None if no ball holds it."""
+        if side.role is Role.CONTACT:
+            return at[:2]
+        met = self._balls_of(side.edge).met(at, side.role)
+        return None if met is None else met[1]
+
+    def _balls_of(self, e: int) -> CurveBalls:
+        """The curve of a number in balls."""
+        if self._base is not None and 0 <= e < len(self._base.rails):
+            return self._base._balls_of(e)
+        if e not in self._balls:
+            self._balls[e] = CurveBalls(self.curve(e))
+        return self._balls[e]
+
+    def view_from(self, family: ViewFamily, side: int, point: Point) -> End:
+        """The view of a family from a point of one of its sides, strictly between its extreme views."""
+        assert family.free_views is not None
+        late = self._late_view(family, family.free_views, side, point)
+        return self._exact_view(family, family.free_views, side, point) if late is None else late
+
+    def _late_view(self, family: ViewFamily, free_views: FreeViews, side: int, point: Point) -> End | None:
+        """The view from a point, with numbers made when they are read; None if balls leave it open.
+
+        Of the two tangents through a point one is the view. The other one may be the last line of the family,
+        as where a way touches the circle itself: then balls leave that one open, and the view is told all the
+        same.
+        """
+        sector, (here, there) = free_views.sector, (free_views.sides[side], free_views.sides[1 - side])
+        if isinstance(sector, Spokes) or (here.role is Role.CONTACT and isinstance(sector, Rolling)):
+            return None
+        x, y = balls(point)
+        for k, t in enumerate(through(sector, (x, y)) or ()):
+            after, before = ball_sign(t - family.first.t.ball(64)), ball_sign(family.last.t.ball(64) - t)
+            if min(after, before) < 0:
+                continue
+            at = line(sector, t)
+            ahead = ball_sign((x - at[0]) * at[2] + (y - at[1]) * at[3])
+            is_open = not (after and before and (ahead or here.role is Role.CONTACT))
+            if not is_open and here.role in (ahead, Role.CONTACT):
+                found = Real.late(t, partial(_line_through, sector, point, k))
+                far, _ = self._late_pin(sector, found, there, ())
+                points = (point, far) if side == 0 else (far, point)
+                one, other = (
+                    self.rails[s.edge].parameter(p) for s, p in zip(free_views.sides, points, strict=True)
+                )
+                return End(found, points, (one, other))
+        return None
+
+    def _exact_view(self, family: ViewFamily, free_views: FreeViews, side: int, point: Point) -> End:
+        """The view from a point, by exact numbers."""
+        role = free_views.sides[side].role
+        sector = free_views.sector
+        if role == 0 and isinstance(sector, Rolling):
+            lines = [sector.touching(point)]
+        else:
+            lines = sector.through(point)
+        for t in lines:
+            if t.compare(family.first.t) < 0 or t.compare(family.last.t) > 0:
+                continue
+            contact, direction = free_views.sector.touch(t)
+            # 0: the two sides meet there, as where a way touches a circle.
+            if role == 0 or (point - contact).dot(direction).sign() in (0, role):
+                near, far = (self.curve(free_views.sides[k].edge) for k in (side, 1 - side))
+                other = along_normal(sector, free_views.sides[1 - side].role, near, far, point, direction)
+                if other is None:
+                    other = self._points.at(sector, free_views.sides[1 - side], contact, direction)
+                points = (point, other) if side == 0 else (other, point)
+                places = [
+                    self.rails[s.edge].parameter(p) for s, p in zip(free_views.sides, points, strict=True)
+                ]
+                return End(t, points, (places[0], places[1]))
+        # Each point of the plane, but for one that all lines may share, lies on one line of a family on that
+        # side of the contact: on one half tangent of a circle, one ray from a corner, one normal. So where
+        # the lines meet a side moves along it without turning back, through all places between the extreme
+        # ones. Where they all meet it in the shared point, the centre of an arc to which they are normal,
+        # there is no place between: `rotational_sweep` parts such normals from the others.
+        raise AssertionError("a line of the family passes each point between its extreme views")
+
+    def exactly(self, sector: Sector, t: Real, sides: tuple[Side, Side]) -> list[Point]:
+        """Where the line at an exact parameter meets two sides."""
+        contact, direction = sector.touch(t)
+        return [self._points.at(sector, side, contact, direction) for side in sides]
+
+
+def _line_through(sector: Sector, point: Point, k: int) -> Real:
+    """One of the lines of a sector through a point."""
+    return sector.through(point)[k]

@@ -1,0 +1,190 @@
+"""Where families of free views meet the range, and what of them lies within it."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from functools import cmp_to_key, partial
+from itertools import pairwise
+from math import inf
+from typing import TypeAlias
+
+from flint import arb, fmpq
+
+from exactacq.geometry.curve_images import held_point
+from exactacq.geometry.curves import Arc, Curve
+from exactacq.geometry.intersections import contacts, line_contacts
+from exactacq.geometry.late import Pin, balls
+from exactacq.geometry.points import Point
+from exactacq.kernel.extents import in_range, sagitta
+from exactacq.kernel.family_images import EdgePlace, EdgePlaces
+from exactacq.numbers.between import rational_between
+from exactacq.numbers.rationals import ball_sign
+from exactacq.numbers.real import Real
+from exactacq.sensing.line_points import Role
+from exactacq.sensing.line_views import LineViews
+from exactacq.sensing.view_families import End, FreeViews, SidePin, ViewFamily
+from exactacq.sensing.view_length import of_length_on
+from exactacq.visibility.chords import of_length
+from exactacq.visibility.line_balls import line
+from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes
+from exactacq.visibility.sensor_range import Range
+
+Candidate: TypeAlias = "tuple[Real, SidePin | None]"
+"""The parameter of a line, and the point of a side there if it is known."""
+
+
+class RangeEnds:
+    """Restricts families to the range. *touched* are the numbers of the features that a way touches."""
+
+    def __init__(self, views: LineViews, range_: Range, touched: Collection[int] = ()) -> None:
+        self.views, self.range = views, range_
+        self._touched = touched
+
+    def within(self, free_views: FreeViews) -> Iterator[ViewFamily]:
+        """The parts of a free views that lie within range, as closed families; single views count."""
+        low, high = self.views.end(free_views, free_views.low), self.views.end(free_views, free_views.high)
+        edges = free_views.sides[0].edge, free_views.sides[1].edge
+        if certain := 1 if free_views.in_range else self._certain(free_views, low, high):
+            if certain > 0:
+                yield ViewFamily(edges, low, high, free_views)
+            return
+        ends = [low, *self._at_range(free_views, low, high), high]
+        inside = [self._is_inside(free_views, rational_between(a.t, b.t)) for a, b in pairwise(ends)]
+        begin: End | None = None
+        for k, end in enumerate(ends):
+            before, after = k > 0 and inside[k - 1], k < len(inside) and inside[k]
+            if after and begin is None:
+                begin = end.tightened() if k > 0 else end
+            elif before and not after:
+                assert begin is not None
+                yield ViewFamily(edges, begin, end.tightened() if k < len(inside) else end, free_views)
+                begin = None
+            elif not before and not after and self.range.order(*end.points) <= 0:
+                yield ViewFamily(edges, end, end, free_views)
+
+    def _is_inside(self, free_views: FreeViews, t: fmpq) -> bool:
+        at = line(free_views.sector, arb(t))
+        here, there = (self.views.spot(at, side) for side in free_views.sides)
+        if here is not None and there is not None and (clear := self.range.clear_order(here, there)):
+            return clear < 0
+        return self.range.order(*self.views.exactly(free_views.sector, Real(t), free_views.sides)) <= 0
+
+    def _certain(self, free_views: FreeViews, low: End, high: End) -> int:
+        """1 if floats prove that all views are within range, -1 if none is, 0 if they cannot tell."""
+        near, far = ((_held(low.points[k]), _held(high.points[k])) for k in (0, 1))
+        slack = self._bent(free_views, 0, near) + self._bent(free_views, 1, far)
+        return in_range(near, far, slack, (self.range.below, self.range.above))
+
+    def _bent(self, free_views: FreeViews, k: int, places: EdgePlaces) -> float:
+        """How far a side may leave the box of its two extreme points."""
+        side = free_views.sides[k]
+        curve = self.views.curve(side.edge)
+        radius = float(curve.radius) if isinstance(curve, Arc) and not side.fixed else 0.0
+        return sagitta(radius, not isinstance(free_views.sector, Rolling | Sliding), places)
+
+    def _at_range(self, free_views: FreeViews, low: End, high: End) -> list[End]:
+        """The views strictly between the extreme ones that may be as long as the range, in order."""
+        found = [
+            at
+            for at in self._candidates(free_views, low, high)
+            if at[0].compare(free_views.low) > 0 and at[0].compare(free_views.high) < 0
+        ]
+        found.sort(key=cmp_to_key(_by_parameter))
+        distinct: list[Candidate] = []
+        for at in found:
+            if not distinct or _by_parameter(at, distinct[-1]):
+                distinct.append(at)
+            elif distinct[-1][1] is None:
+                distinct[-1] = at
+        ends = (self.views.end(free_views, t, known) for t, known in distinct)
+        return [end for end in ends if self._may_be_at_range(end)]
+
+    def _longer_at(self, low: End, high: End, t: Real) -> int:
+        """-1, 0 or 1 as the view at one of two ends is shorter than the range, as long or longer."""
+        end = low if t is low.t else high
+        return self.range.order(*end.points)
+
+    def _may_be_at_range(self, end: End) -> bool:
+        return not self.range.clear_order(*map(balls, end.points))
+
+    def _candidates(self, free_views: FreeViews, low: End, high: End) -> Iterator[Candidate]:
+        """Where views may be as long as the range."""
+        sector, (one, other) = free_views.sector, free_views.sides
+        roles = {side.role: side.edge for side in (one, other)}
+        curves = {role: self.views.curve(edge) for role, edge in roles.items()}
+        if Role.CONTACT not in roles:
+            behind, ahead = curves[Role.BEHIND], curves[Role.AHEAD]
+            if _is_rational(behind) and _is_rational(ahead):
+                found = of_length(sector, behind, ahead, self.range.square)
+            else:
+                is_touched = sector.round and free_views.anchor in self._touched
+                way = self.views.rails[-1].curve if is_touched else None
+                span = free_views.low, free_views.high
+                longer_at = partial(self._longer_at, low, high)
+                found = of_length_on(sector, behind, ahead, self.range.square, *span, way, longer_at)
+            yield from ((t, None) for t in found)
+            return
+        k = 1 if one.role is Role.CONTACT else 0
+        far = free_views.sides[k]
+        if isinstance(sector, Sliding):
+            yield from ((t, None) for t in self._beside(sector, curves[far.role]))
+            return
+        # An arc that is met twice is seen where the line enters the obstacle. At the other place no view
+        # ends: those beside it are all longer than the range, or all shorter.
+        for pin in self._rim(Point(*sector.center), self._square_from_center(sector), far.edge):
+            for t in sector.through(pin[0]):
+                yield t, (k, pin) if self._is_towards(sector, t, far.role, pin[0]) else None
+
+    def _rim(self, center: Point, square: Real, edge: int) -> list[Pin]:
+        """The points of an edge at a squared distance from a point, the same ones for all families."""
+        curve, rail = self.views.curve(edge), self.views.rails[edge]
+        return self.views.pins.rim(
+            (center.key, square.key, edge),
+            lambda: [(point, rail.parameter(point)) for point in _at_distance(center, square, curve)],
+        )
+
+    def _is_towards(self, sector: Sector, t: Real, role: Role, point: Point) -> bool:
+        """Whether balls tell that a line's point lies where its role is: ahead of the contact or behind."""
+        (cx, cy, dx, dy), (x, y) = line(sector, t.ball(64)), balls(point)
+        return ball_sign((x - cx) * dx + (y - cy) * dy) == role
+
+    def _beside(self, sector: Sliding, far: Curve) -> list[Real]:
+        """Where the parallel of a segment at the range meets an edge."""
+        start, normal = sector.touch(Real(0))
+        offset = normal * (self.range.radius / normal.norm_sq().sqrt())
+        return line_contacts(start + offset, Point(*sector.base), far)
+
+    def _square_from_center(self, sector: Sector) -> Real:
+        """Squared distance from a sector's centre to the far end of a view that is as long as the range."""
+        if sector.round:
+            return Real(self.range.square + sector.base[0] ** 2 + sector.base[1] ** 2)
+        if isinstance(sector, Spokes):
+            radius = Real(sector.radius_sq).sqrt()
+            away: Real = radius + self.range.radius if sector.outward else radius - self.range.radius
+            return away * away
+        return Real(self.range.square)
+
+
+def _by_parameter(a: Candidate, b: Candidate) -> int:
+    return a[0].compare(b[0])
+
+
+def _held(point: Point) -> EdgePlace:
+    """A point in floats, as of an edge wherever it is there."""
+    return -inf, inf, *held_point(point)
+
+
+def _is_rational(curve: Curve) -> bool:
+    """Whether a curve is fit for `of_length`: arcs, and segments with rational ends."""
+    return isinstance(curve, Arc) or (curve.start.rational is not None and curve.end.rational is not None)
+
+
+def _at_distance(center: Point, square: Real, curve: Curve) -> Iterator[Point]:
+    """The points of a curve at a squared distance from a point; none where that is all or nothing of it."""
+    if square.sign() == 0:
+        return
+    east = Point(center.x + square.sqrt(), center.y)
+    circle = Arc(east, east, center, square, ccw=True, full=True)
+    for contact in contacts(curve, circle):
+        if contact.start is contact.end:
+            yield contact.start
