@@ -10,7 +10,7 @@ from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import NOTHING, Span
 from exactacq.kernel.family_images import CONTACT, FamilyImage
 from exactacq.kernel.images import SLIDING, TURNING
-from exactacq.kernel.lines import Line, line_at, meets_straight
+from exactacq.kernel.lines import Frame, Line, line_at, meets_straight
 
 STEPS: Final = 40
 """How often a line is tried at most."""
@@ -18,6 +18,16 @@ ENOUGH: Final = 4e-13
 """A length is near enough to the radius if it differs by less than so much of it: less than its bounds do."""
 NEXT: Final = 2e-13
 """How far the next line is from there at first, in shares of the family."""
+
+
+UNSURE: Final = 0
+"""Floats do not tell which views are in range."""
+FIRST_TOO_LONG: Final = -1
+"""The first view is too long, the last one is in range."""
+LAST_TOO_LONG: Final = 1
+"""The last view is too long, the first one is in range."""
+ALL_IN_RANGE: Final = 2
+"""All views are in range."""
 
 
 def range_cut(
@@ -30,39 +40,63 @@ def range_cut(
 ) -> tuple[int, Span]:
     """At which end views of a family are too long, and where on a leg the last one in range begins.
 
-    The end is the first (-1) or the last (1) line; 0 if floats do not tell, if both ends are in range or if
-    neither is. *shown* is None for a contact at a corner. The leg and what is shown are straight, and no line
-    is parallel to either.
+    Where lines meet the leg moves along it without turning back, so the places on the two lines of
+    `parted_lines` bound that of the last view in range.
+    """
+    ends = family.first, family.last
+    told, near, far = parted_lines(family.frame, ends, family.fraction, here, there, leg, shown, reach)
+    if told not in (FIRST_TOO_LONG, LAST_TOO_LONG):
+        return UNSURE, NOTHING
+    u, p = _place(line_at(family.frame, near, 0.0), near, here, leg)
+    v, q = _place(line_at(family.frame, far, 0.0), far, here, leg)
+    if not (p < inf and q < inf):
+        return UNSURE, NOTHING
+    return told, (min(u - p, v - q), max(u + p, v + q))
+
+
+def parted_lines(
+    frame: Frame,
+    ends: tuple[Line, Line],
+    fraction: tuple[float, float, float, float],
+    here: int,
+    there: int,
+    leg: CurveImage,
+    shown: CurveImage | None,
+    reach: tuple[float, float],
+) -> tuple[int, float, float]:
+    """Which of the first and the last view is too long; and parameters of a view in range and of one beyond.
+
+    *ends* are the first and the last line, *fraction* bounds their parameters, the first one's before the
+    last one's. *shown* is None for a contact at a corner. The leg and what is shown are straight.
 
     Lines that turn meet a straight edge at a distance h / cos(a) with a the angle from the edge's normal, a
-    convex function; those that slide at one that is linear in the parameter. The length of a view is such a
-    distance or the sum of two, so it is convex along the family: if it is below the radius at one end and
-    above it at the other, it is equal to it exactly once between. So between two lines of which one surely is
-    in range and the other is not there is the last one that is. Where lines meet the leg moves along it
-    without turning back, so the places on these two lines bound that of the last one.
+    convex function as long as no line is parallel to the edge; those that slide at one that is linear in the
+    parameter. The length of a view is such a distance or the sum of two, so it is convex along the family: if
+    it is below the radius at both ends, it is so everywhere; if it is below at one end and above at the
+    other, it is equal to it exactly once between. So between two lines of which one surely is in range and
+    the other is not there is the last one that is.
     """
-    if family.frame[0] not in (TURNING, SLIDING) or leg.sense or (shown is not None and shown.sense):
-        return 0, NOTHING
-    if _turns_past(family, leg) or (shown is not None and _turns_past(family, shown)):
-        return 0, NOTHING
-    first = _order(family.first, here, there, leg, shown, reach)
-    last = _order(family.last, here, there, leg, shown, reach)
+    unsure = UNSURE, 0.0, 0.0
+    if frame[0] not in (TURNING, SLIDING) or leg.sense or (shown is not None and shown.sense):
+        return unsure
+    if _turns_past(ends, leg) or (shown is not None and _turns_past(ends, shown)):
+        return unsure
+    first = _order(ends[0], here, there, leg, shown, reach)
+    last = _order(ends[1], here, there, leg, shown, reach)
+    if first < 0 and last < 0:
+        return ALL_IN_RANGE, 0.0, 0.0
     if first * last >= 0:
-        return 0, NOTHING
-    inner, outer = family.fraction[1:3] if first < 0 else (family.fraction[2], family.fraction[1])
-    near, far = _parted(family, here, there, leg, shown, reach, inner, outer)
-    one, other = line_at(family.frame, near, 0.0), line_at(family.frame, far, 0.0)
+        return unsure
+    inner, outer = (fraction[1], fraction[2]) if first < 0 else (fraction[2], fraction[1])
+    near, far = _parted(frame, here, there, leg, shown, reach, inner, outer)
+    one, other = line_at(frame, near, 0.0), line_at(frame, far, 0.0)
     if _order(one, here, there, leg, shown, reach) >= 0 or _order(other, here, there, leg, shown, reach) <= 0:
-        return 0, NOTHING
-    u, p = _place(family, one, near, here, leg)
-    v, q = _place(family, other, far, here, leg)
-    if not (p < inf and q < inf):
-        return 0, NOTHING
-    return (1 if first < 0 else -1), (min(u - p, v - q), max(u + p, v + q))
+        return unsure
+    return (LAST_TOO_LONG if first < 0 else FIRST_TOO_LONG), near, far
 
 
 def _parted(
-    family: FamilyImage,
+    frame: Frame,
     here: int,
     there: int,
     leg: CurveImage,
@@ -78,14 +112,14 @@ def _parted(
     """
     middle = 0.5 * (reach[0] + reach[1])
     a, b = inner, outer
-    f = _length(line_at(family.frame, a, 0.0), here, there, leg, shown)[0] - middle
-    g = _length(line_at(family.frame, b, 0.0), here, there, leg, shown)[0] - middle
+    f = _length(line_at(frame, a, 0.0), here, there, leg, shown)[0] - middle
+    g = _length(line_at(frame, b, 0.0), here, there, leg, shown)[0] - middle
     t, kept = a, 0
     for _ in range(STEPS):
         if not f < 0.0 < g:
             break
         t = b - g * (b - a) / (g - f)
-        h = _length(line_at(family.frame, t, 0.0), here, there, leg, shown)[0] - middle
+        h = _length(line_at(frame, t, 0.0), here, there, leg, shown)[0] - middle
         if abs(h) <= ENOUGH * middle:
             break
         if h < 0.0:
@@ -98,13 +132,13 @@ def _parted(
     towards = 1.0 if inner < outer else -1.0
     near = far = t
     for _ in range(STEPS):
-        if _order(line_at(family.frame, near, 0.0), here, there, leg, shown, reach) < 0:
+        if _order(line_at(frame, near, 0.0), here, there, leg, shown, reach) < 0:
             break
         near -= towards * away
         away *= 4.0
     away = abs(outer - inner) * NEXT
     for _ in range(STEPS):
-        if _order(line_at(family.frame, far, 0.0), here, there, leg, shown, reach) > 0:
+        if _order(line_at(frame, far, 0.0), here, there, leg, shown, reach) > 0:
             break
         far += towards * away
         away *= 4.0
@@ -143,16 +177,16 @@ def _length(
     return size, (p + q + 10.0 * UNIT * size) * WIDEN
 
 
-def _place(family: FamilyImage, line: Line, t: float, here: int, leg: CurveImage) -> tuple[float, float]:
+def _place(line: Line, t: float, here: int, leg: CurveImage) -> tuple[float, float]:
     """Where a line meets the leg: its contact slides along the leg itself."""
     if here == CONTACT:
         return t, 0.0
     return meets_straight(line, leg)[2:4]
 
 
-def _turns_past(family: FamilyImage, curve: CurveImage) -> bool:
+def _turns_past(ends: tuple[Line, Line], curve: CurveImage) -> bool:
     """Whether a line between the first and the last one may be parallel to a segment."""
-    one, other = family.first, family.last
+    one, other = ends
     first = curve.wx * one[3] - curve.wy * one[2]
     last = curve.wx * other[3] - curve.wy * other[2]
     return first == 0.0 or last == 0.0 or (first > 0.0) != (last > 0.0)

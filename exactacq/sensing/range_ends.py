@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
-from functools import cmp_to_key, partial
+from collections.abc import Callable, Collection, Iterator
+from functools import cache, cmp_to_key, partial
 from itertools import pairwise
 from math import inf
 from typing import TypeAlias
@@ -13,11 +13,14 @@ from flint import arb, fmpq
 from exactacq.geometry.curve_images import held_point
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.intersections import contacts, line_contacts
-from exactacq.geometry.late import Pin, balls
+from exactacq.geometry.late import Pin, balls, late_point
 from exactacq.geometry.points import Point
 from exactacq.kernel.extents import in_range, sagitta
 from exactacq.kernel.family_images import EdgePlace, EdgePlaces
+from exactacq.kernel.lines import line_at
+from exactacq.kernel.range_cuts import ALL_IN_RANGE, FIRST_TOO_LONG, LAST_TOO_LONG, UNSURE, parted_lines
 from exactacq.numbers.between import rational_between
+from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.sensing.line_points import Role
@@ -42,9 +45,14 @@ class RangeEnds:
 
     def within(self, free_views: FreeViews) -> Iterator[ViewFamily]:
         """The parts of a free views that lie within range, as closed families; single views count."""
-        low, high = self.views.end(free_views, free_views.low), self.views.end(free_views, free_views.high)
-        edges = free_views.sides[0].edge, free_views.sides[1].edge
-        if certain := 1 if free_views.in_range else self._certain(free_views, low, high):
+        edges, views = (free_views.sides[0].edge, free_views.sides[1].edge), self.views
+        told, last = (ALL_IN_RANGE, None) if free_views.in_range else self._parted(free_views)
+        if last is not None:
+            kept = views.end(free_views, free_views.low if told == LAST_TOO_LONG else free_views.high)
+            yield ViewFamily(edges, *((kept, last) if told == LAST_TOO_LONG else (last, kept)), free_views)
+            return
+        low, high = views.end(free_views, free_views.low), views.end(free_views, free_views.high)
+        if certain := 1 if told == ALL_IN_RANGE else self._certain(free_views, low, high):
             if certain > 0:
                 yield ViewFamily(edges, low, high, free_views)
             return
@@ -81,6 +89,53 @@ class RangeEnds:
         curve = self.views.curve(side.edge)
         radius = float(curve.radius) if isinstance(curve, Arc) and not side.fixed else 0.0
         return sagitta(radius, not isinstance(free_views.sector, Rolling | Sliding), places)
+
+    # -- the one last view in range, by floats -------------------------------------------------------
+
+    def _parted(self, free_views: FreeViews) -> tuple[int, End | None]:
+        """Which views between straight sides floats find in range; the last one of them if not all are."""
+        sector = free_views.sector
+        if not sector.is_rational:
+            return UNSURE, None
+        here, there = sorted(free_views.sides, key=lambda side: side.fixed)
+        (a, p), (b, q) = float_ball(free_views.low), float_ball(free_views.high)
+        told, near, far = parted_lines(
+            sector.image,
+            (line_at(sector.image, a, p), line_at(sector.image, b, q)),
+            (a - p, a + p, b - q, b + q),
+            here.role,
+            there.role,
+            self.views.image(here.edge),
+            None if there.fixed else self.views.image(there.edge),
+            (self.range.below, self.range.above),
+        )
+        if told not in (FIRST_TOO_LONG, LAST_TOO_LONG):
+            return told, None
+        return told, self._late_last(free_views, arb(near).union(arb(far)))
+
+    def _late_last(self, free_views: FreeViews, t: arb) -> End:
+        """The last view in range, along a line in a ball: its numbers are made when they are read."""
+        at, exact, points = line(free_views.sector, t), cache(partial(self._last, free_views)), []
+        for k, side in enumerate(free_views.sides):
+            spot = self.views.spot(at, side)
+            if spot is None:
+                return exact()
+            late = partial(_point_of, exact, k)
+            points.append(side.corner(self.views.curve(side.edge)) if side.fixed else late_point(spot, late))
+        one, other = (
+            self.views.rails[side.edge].parameter(point)
+            for side, point in zip(free_views.sides, points, strict=True)
+        )
+        return End(Real.late(t, lambda: exact().t), (points[0], points[1]), (one, other), tight=True)
+
+    def _last(self, free_views: FreeViews) -> End:
+        """The one view between the extreme ones that is as long as the range."""
+        ends = (self.views.end(free_views, t) for t in (free_views.low, free_views.high))
+        found = self._at_range(free_views, *ends)
+        end = found[0] if len(found) == 1 else next(e for e in found if not self.range.order(*e.points))
+        return end.tightened()
+
+    # -- all views that may be as long as the range, exactly -----------------------------------------
 
     def _at_range(self, free_views: FreeViews, low: End, high: End) -> list[End]:
         """The views strictly between the extreme ones that may be as long as the range, in order."""
@@ -163,6 +218,11 @@ class RangeEnds:
             away: Real = radius + self.range.radius if sector.outward else radius - self.range.radius
             return away * away
         return Real(self.range.square)
+
+
+def _point_of(view: Callable[[], End], k: int) -> Point:
+    """The point of a view on its side k."""
+    return view().points[k]
 
 
 def _by_parameter(a: Candidate, b: Candidate) -> int:

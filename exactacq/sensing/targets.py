@@ -117,7 +117,7 @@ class Targets:
 
     def is_among(self, k: int, spans: Mapping[int, Iterable[Interval]]) -> bool:
         """Whether intervals of edges, by their numbers, contain anything of an obstacle."""
-        if self.edges[k].isdisjoint(spans.keys()):
+        if self.edges[k].isdisjoint(spans):
             return False
         return any(
             target.edge in spans
