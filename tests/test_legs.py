@@ -93,15 +93,18 @@ def test_a_walk_over_the_start_of_a_circle_has_two_legs() -> None:
 
 
 def test_inside_an_edge_there_is_no_other() -> None:
-    """At a corner the edges through a place are not known, inside an edge and on a circle they are."""
+    """At a corner there are two, the incoming one first; elsewhere the one that the leg is on."""
     table = EdgeTable(SHAPES.obstacles)
     first = table.edges_of(3).start
     edge = table.curves[first]
     (leg,) = legs(table, 3, edge.part(edge.start, edge.point(Q(1, 3))))
-    assert leg.own(leg.first) is None and leg.own(leg.last) == (first,)
+    before, after = int(table.previous[first]), int(table.next[first])
+    assert leg.own(leg.first) == (before, first) == table.edges_at(edge.start)
+    assert leg.own(leg.last) == (first,)
     (leg,) = legs(table, 3, edge)
-    assert leg.own(leg.first) is None and leg.own(leg.last) is None
-    copied = Leg(leg.rail, leg.edge, leg.span, leg.ahead)
+    assert leg.own(leg.first) == (before, first)
+    assert leg.own(leg.last) == (first, after) == table.edges_at(edge.end)
+    copied = Leg(leg.rail, leg.edge, leg.span, leg.ahead, beside=leg.beside)
     assert copied.own(Rail(edge).parameter(edge.end)) is None
     (leg,) = legs(table, 4, table.curves[table.edges_of(4).start])
     assert leg.own(leg.first) == (leg.edge,) == leg.own(leg.last)

@@ -242,6 +242,12 @@ class Shares:
         leg = self.leg
         return self.view(leg.start, leg.own(leg.first)), self.view(leg.end, leg.own(leg.last))
 
+    def shown(self) -> set[int]:
+        """The obstacles of which something may be in sight somewhere on the leg."""
+        of = [k for k, shares in self.of.items() if shares]
+        seen = self.targets.near(e for view in self._end_views for e in view.edges)
+        return {*of, *self.in_sight, *self.ends, *self._along, *seen.intersection(self.obstacles)}
+
     def is_in_sight(self, k: int) -> bool:
         """Whether an obstacle is surely in sight all along: no exact number is read."""
         span = self.leg.span

@@ -30,7 +30,8 @@ class Leg:
     """A way along one rail: of boundary edge ``edge``, or in free space if None.
 
     ``ahead`` tells whether the rail's parameter grows along the way; ``touches`` has the numbers of the
-    features that the line of a straight way touches (see `line_keys`).
+    features that the line of a straight way touches (see `line_keys`), ``beside`` the edges before and after
+    the edge.
     """
 
     rail: Rail
@@ -38,6 +39,7 @@ class Leg:
     span: Interval
     ahead: bool
     touches: tuple[int, ...] = ()
+    beside: tuple[int, int] | None = None
 
     @property
     def start(self) -> Point:
@@ -78,13 +80,20 @@ class Leg:
         return corners(self.box)
 
     def own(self, u: Real) -> tuple[int, ...] | None:
-        """The edges through a place of the leg if they are known: inside its edge there is no other."""
-        if self.edge is None:
+        """The edges through a place of the leg if they are known: inside its edge there is no other.
+
+        At a vertex they are the incoming one and the outgoing one.
+        """
+        if self.edge is None or self.beside is None:
             return None
         if self.rail.is_closed:
             return (self.edge,)
-        top = self.rail.top
-        inside = u is not top and u.clear_sign(BITS) > 0 and (top - u).clear_sign(BITS) > 0
+        top, (before, after) = self.rail.top, self.beside
+        if u is top:
+            return self.edge, after
+        if not u.is_late and u.rational == 0:
+            return before, self.edge
+        inside = u.clear_sign(BITS) > 0 and (top - u).clear_sign(BITS) > 0
         return (self.edge,) if inside else None
 
     def upto(self, u: Real, place: Point) -> Leg:
@@ -120,21 +129,21 @@ def legs_of(
         return [
             leg
             for e, part in _along_edges(table, curve)
-            for leg in (_through_space(table, part) if e is None else [_on_edge(rails[e], e, part)])
+            for leg in (_through_space(table, part) if e is None else [_on_edge(table, rails[e], e, part)])
         ]
     e = _edge_of(table, obstacle, curve)
     rail = rails[e]
     if isinstance(curve, Segment):
-        return [_on_edge(rail, e, curve)]
+        return [_on_edge(table, rail, e, curve)]
     assert isinstance(rail.curve, Arc), "an arc is carried by an arc"
     ahead = curve.ccw == rail.curve.ccw
     start, end = (curve.start, curve.end) if ahead else (curve.end, curve.start)
-    low, high = rail.parameter(start), rail.parameter(end)
+    low, high, beside = rail.parameter(start), rail.parameter(end), _beside(table, e)
     if low.compare(high) < 0:
-        return [Leg(rail, e, Interval(low, start, high, end), ahead)]
+        return [Leg(rail, e, Interval(low, start, high, end), ahead, beside=beside)]
     seam = rail.curve.start
     spans = [Interval(low, start, rail.top, seam), Interval(Real(0), seam, high, end)]
-    legs = [Leg(rail, e, span, ahead) for span in spans if span.low.compare(span.high) < 0]
+    legs = [Leg(rail, e, span, ahead, beside=beside) for span in spans if span.low.compare(span.high) < 0]
     return legs if ahead else legs[::-1]
 
 
@@ -235,12 +244,17 @@ def _along_edges(table: EdgeTable, way: Segment) -> list[tuple[int | None, Segme
     return parts
 
 
-def _on_edge(rail: Rail, e: int, piece: Segment) -> Leg:
-    start, end = piece.start, piece.end
+def _on_edge(table: EdgeTable, rail: Rail, e: int, piece: Segment) -> Leg:
+    start, end, beside = piece.start, piece.end, _beside(table, e)
     low, high = rail.parameter(start), rail.parameter(end)
     if low.compare(high) < 0:
-        return Leg(rail, e, Interval(low, start, high, end), True)
-    return Leg(rail, e, Interval(high, end, low, start), False)
+        return Leg(rail, e, Interval(low, start, high, end), True, beside=beside)
+    return Leg(rail, e, Interval(high, end, low, start), False, beside=beside)
+
+
+def _beside(table: EdgeTable, e: int) -> tuple[int, int]:
+    """The edges before and after an edge."""
+    return int(table.previous[e]), int(table.next[e])
 
 
 def _through_space(table: EdgeTable, way: Segment) -> list[Leg]:
