@@ -96,6 +96,12 @@ def dot(ax: float, ay: float, p: float, bx: float, by: float, q: float) -> tuple
     return m, (sizes + UNIT * (abs(left) + abs(right) + abs(m)) + TINY) * WIDEN
 
 
+def length(x: float, y: float, e: float) -> tuple[float, float]:
+    """The length of a vector whose components are held with the bound e."""
+    square, bound = dot(x, y, e, x, y, e)
+    return root(square, bound)
+
+
 def verdict(m: float, e: float) -> int:
     """The sign if it is certain, else 0."""
     if m > e:
@@ -103,3 +109,15 @@ def verdict(m: float, e: float) -> int:
     if -m > e:
         return -1
     return 0
+
+
+def cross_sign(ax: float, ay: float, p: float, bx: float, by: float, q: float) -> int:
+    """1 or -1 if vector b certainly points to the left or to the right of vector a, else 0; as `cross`."""
+    m, e = cross(ax, ay, p, bx, by, q)
+    return verdict(m, e)
+
+
+def dot_sign(ax: float, ay: float, p: float, bx: float, by: float, q: float) -> int:
+    """1 or -1 if vector b certainly points with or against vector a, else 0; as `dot`."""
+    m, e = dot(ax, ay, p, bx, by, q)
+    return verdict(m, e)

@@ -34,7 +34,8 @@ class BoxNode:
     def near(self, window: Box, reach: float) -> list[int]:
         """The numbers of the boxes at most as far as *reach* from a window, in ascending order."""
         found: list[int] = []
-        self._search(*window, reach * reach, found)
+        x0, y0, x1, y1 = window
+        self._search(x0, y0, x1, y1, reach * reach, found)
         found.sort()
         return found
 

@@ -8,14 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from math import inf
-from typing import final
+from typing import Final, final
 
 from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent, Span
 
 Group = tuple[int, Span, Span]
 """An obstacle, and of intervals that are connected, from which it is surely seen, the one that begins first
 and the one that ends last."""
-NOBODY: list[tuple[int, bool]] = []
+NOBODY: Final[list[tuple[int, bool]]] = []
 Known = Mapping[int, Sequence[Span]]
 """What is known of edges, by their numbers, rounded inward."""
 

@@ -2,7 +2,18 @@
 
 from __future__ import annotations
 
-from exactacq.kernel.bounded import TINY, UNIT, cross, dot, product, quotient, root, total, verdict
+from exactacq.kernel.bounded import (
+    TINY,
+    UNIT,
+    cross,
+    cross_sign,
+    dot,
+    dot_sign,
+    product,
+    quotient,
+    root,
+    total,
+)
 from exactacq.kernel.images import STRAIGHT, EdgeImages
 
 Place = tuple[float, float, float]
@@ -59,7 +70,8 @@ def _round(images: EdgeImages, e: int, start: Place, along: Place, whole: bool) 
     square, square_bound = dot(dx, dy, d, dx, dy, d)
     h, h_bound = dot(ox, oy, o, dx, dy, d)
     g, g_bound = cross(dx, dy, d, ox, oy, o)
-    reach, reach_bound = product(*root(square, square_bound), radius, UNIT * radius)
+    size, size_bound = root(square, square_bound)
+    reach, reach_bound = product(size, size_bound, radius, UNIT * radius)
     plus, plus_bound = total(reach, reach_bound, g, g_bound)
     minus, minus_bound = total(reach, reach_bound, -g, g_bound)
     under, under_bound = product(plus, plus_bound, minus, minus_bound)
@@ -70,13 +82,16 @@ def _round(images: EdgeImages, e: int, start: Place, along: Place, whole: bool) 
     chord = _offset(vertex, _vertex(images, images.following[e]))
     found = -1
     for sign in (-1.0, 1.0):
-        t, bound = quotient(*total(h, h_bound, sign * half, half_bound), square, square_bound)
+        top, top_bound = total(h, h_bound, sign * half, half_bound)
+        t, bound = quotient(top, top_bound, square, square_bound)
         if not whole and (-t > bound or t - 1.0 > bound + UNIT):
             continue
         on = 1
         if not images.full[e]:
-            px, p = total(start[0], start[2], *product(dx, d, t, bound))
-            py, q = total(start[1], start[2], *product(dy, d, t, bound))
+            px, p = product(dx, d, t, bound)
+            py, q = product(dy, d, t, bound)
+            px, p = total(start[0], start[2], px, p)
+            py, q = total(start[1], start[2], py, q)
             on = -images.kind[e] * _side(chord, _offset(vertex, (px, py, max(p, q))))
         if on < 0:
             continue
@@ -105,9 +120,9 @@ def _offset(a: Place, b: Place) -> Place:
 
 def _side(a: Place, b: Place) -> int:
     """1 or -1 if a vector certainly lies to the left or right of another, else 0."""
-    return verdict(*cross(a[0], a[1], a[2], b[0], b[1], b[2]))
+    return cross_sign(a[0], a[1], a[2], b[0], b[1], b[2])
 
 
 def _ahead(a: Place, b: Place) -> int:
     """1 or -1 if a vector certainly points with or against another, else 0."""
-    return verdict(*dot(a[0], a[1], a[2], b[0], b[1], b[2]))
+    return dot_sign(a[0], a[1], a[2], b[0], b[1], b[2])

@@ -145,7 +145,8 @@ class EdgeStates:
                 state += 1 if sign > 0 else 2
                 continue
             # A convex arc lies to the right of its chord.
-            m, e = self._off_chord(j, line, *_on_chord(h, h_bound, half, half_bound, sign, line))
+            place, bound = _on_chord(h, h_bound, half, half_bound, sign, line)
+            m, e = self._off_chord(j, line, place, bound)
             bulge = -kind * verdict(m, e)
             if bulge == 0:
                 return VAGUE

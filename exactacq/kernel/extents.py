@@ -160,8 +160,9 @@ def in_range(source: EdgePlaces, shown: EdgePlaces, slack: float, reach: tuple[f
     the sides may leave them, the errors of the points included.
     """
     (a, b), (c, d) = source, shown
-    longest = max(_apart(a, c), _apart(a, d), _apart(b, c), _apart(b, d))
-    if (longest + slack) * (1.0 + SURE) < reach[0]:
+    # Of two at a time: more are boxed where this is compiled.
+    one, other = max(_apart(a, c), _apart(a, d)), max(_apart(b, c), _apart(b, d))
+    if (max(one, other) + slack) * (1.0 + SURE) < reach[0]:
         return 1
     x = _gap(a[2], b[2], c[2], d[2])
     y = _gap(a[3], b[3], c[3], d[3])
@@ -200,7 +201,8 @@ def _apart(a: EdgePlace, b: EdgePlace) -> float:
 
 def _gap(a: float, b: float, c: float, d: float) -> float:
     """How far two intervals are apart, each given by its ends in any order."""
-    return max(min(a, b) - max(c, d), min(c, d) - max(a, b), 0.0)
+    between = max(min(a, b) - max(c, d), min(c, d) - max(a, b))
+    return max(between, 0.0)
 
 
 def _hull(a: EdgePlace, b: EdgePlace) -> Span:

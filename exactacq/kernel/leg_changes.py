@@ -11,7 +11,7 @@ from __future__ import annotations
 from math import inf
 from typing import Final, final
 
-from exactacq.kernel.bounded import TINY, UNIT, cross, dot, product, root, total
+from exactacq.kernel.bounded import TINY, UNIT, cross, length, product, total
 from exactacq.kernel.choice import LegSpan
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import Extent, Span, bent, extent
@@ -273,7 +273,7 @@ def _tells(line: Line, low: float, high: float, arc: CurveImage) -> bool:
     ox, p = total(arc.x, UNIT * abs(arc.x) + TINY, -x, ce)
     oy, q = total(arc.y, UNIT * abs(arc.y) + TINY, -y, ce)
     height, bound = cross(ox, oy, max(p, q), dx, dy, de)
-    size, size_bound = root(*dot(dx, dy, de, dx, dy, de))
+    size, size_bound = length(dx, dy, de)
     reach, reach_bound = product(arc.radius, UNIT * arc.radius, size, size_bound)
     # Half the chord is at least the root of 2 CLEAR radii, and the parameter grows by half the angle or more.
     return abs(height) + bound < (reach - reach_bound) * (1.0 - CLEAR)

@@ -117,7 +117,9 @@ def _touch(
     high: float,
 ) -> None:
     """The two lines through the centre that touch a circle."""
-    size, size_bound = total(*product(a, ae, a, ae), *product(k, ke, k, ke))
+    square, square_bound = product(a, ae, a, ae)
+    other, other_bound = product(k, ke, k, ke)
+    size, size_bound = total(square, square_bound, other, other_bound)
     right, right_bound = product(r, re, r, re)
     under, ue = total(size, size_bound, -right, right_bound)
     if -under > ue:

@@ -11,7 +11,19 @@ from math import inf, sqrt
 from typing import Final, final
 
 from exactacq.kernel.bound_lines import NOTHING
-from exactacq.kernel.bounded import UNIT, WIDEN, cross, dot, product, quotient, root, total, verdict
+from exactacq.kernel.bounded import (
+    UNIT,
+    WIDEN,
+    cross,
+    cross_sign,
+    dot,
+    dot_sign,
+    length,
+    product,
+    quotient,
+    root,
+    total,
+)
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.images import CONVEX, STRAIGHT, EdgeImages
 from exactacq.kernel.lines import Line, meets_straight, rounding, side_of
@@ -68,7 +80,7 @@ class WalkedLine:
         # The contact of an arc that ends there is a vertex like others.
         end = self._passed_end(own) if is_round else own
         self._own, self._is_round = (own, True) if end == NOTHING else (end, False)
-        self._size = root(*dot(line[2], line[3], line[5], line[2], line[3], line[5]))
+        self._size = length(line[2], line[3], line[5])
         self._sides: dict[int, int] = {}
         self._at: dict[int, GrazedPlace] = {}
         self._spots: list[GrazedPlace] = []
@@ -124,8 +136,9 @@ class WalkedLine:
         if not self.is_told:
             return
         if first and last:
-            self._cross(e, *total(foot, bound, -half, half_bound))
-            self._cross(e, *total(foot, bound, half, half_bound))
+            for reach in (-half, half):
+                far, far_bound = total(foot, bound, reach, half_bound)
+                self._cross(e, far, far_bound)
             return
         if first == 0:
             self._add_vertex(v, e)
@@ -134,7 +147,8 @@ class WalkedLine:
         if first or last:
             # The circle is met once more, as far from the foot on its other side.
             far, far_bound = self._vertex_along(w if first else v)
-            self._cross(e, *total(2.0 * foot, 2.0 * bound, -far, far_bound))
+            far, far_bound = total(2.0 * foot, 2.0 * bound, -far, far_bound)
+            self._cross(e, far, far_bound)
 
     def _passed_end(self, e: int) -> int:
         """The vertex at which an arc that the line touches ends there; `NOTHING` if it goes on."""
@@ -169,11 +183,12 @@ class WalkedLine:
         x, y, dx, dy, ce, de = self._line
         ox, p = total(curve.x, rounding(curve.x, curve.y), -x, ce)
         oy, q = total(curve.y, rounding(curve.x, curve.y), -y, ce)
-        height, bound = quotient(*cross(dx, dy, de, ox, oy, max(p, q)), *self._size)
+        across, across_bound = cross(dx, dy, de, ox, oy, max(p, q))
+        height, bound = self._in_lengths(across, across_bound)
         radius, blur = curve.radius, UNIT * curve.radius
-        under, under_bound = product(
-            *total(radius, blur, height, bound), *total(radius, blur, -height, bound)
-        )
+        plus, plus_bound = total(radius, blur, height, bound)
+        minus, minus_bound = total(radius, blur, -height, bound)
+        under, under_bound = product(plus, plus_bound, minus, minus_bound)
         if -under > under_bound:
             return -1.0, 0.0
         if under > under_bound:
@@ -185,14 +200,16 @@ class WalkedLine:
         if self._images.full[e]:
             return 1
         x, y, dx, dy, ce, de = self._line
-        step, step_bound = quotient(far, bound, *self._size)
-        px, p = total(x, ce, *product(dx, de, step, step_bound))
-        py, q = total(y, ce, *product(dy, de, step, step_bound))
+        step, step_bound = self._in_lengths(far, bound)
+        px, p = product(dx, de, step, step_bound)
+        py, q = product(dy, de, step, step_bound)
+        px, p = total(x, ce, px, p)
+        py, q = total(y, ce, py, q)
         ax, ay = self._images.x[e], self._images.y[e]
         ux, uy, u = self._vector(e, self._images.following[e])
         vx, r = total(px, p, -ax, rounding(ax, ay))
         vy, s = total(py, q, -ay, rounding(ax, ay))
-        return -self._images.kind[e] * verdict(*cross(ux, uy, u, vx, vy, max(r, s)))
+        return -self._images.kind[e] * cross_sign(ux, uy, u, vx, vy, max(r, s))
 
     def _side(self, v: int) -> int:
         """1 or -1 for a vertex left or right of the line, 0 for one on it, or if that is open."""
@@ -210,7 +227,13 @@ class WalkedLine:
         cx, cy, dx, dy, ce, de = self._line
         ox, p = total(x, rounding(x, y), -cx, ce)
         oy, q = total(y, rounding(x, y), -cy, ce)
-        return quotient(*dot(ox, oy, max(p, q), dx, dy, de), *self._size)
+        along, bound = dot(ox, oy, max(p, q), dx, dy, de)
+        return self._in_lengths(along, bound)
+
+    def _in_lengths(self, value: float, bound: float) -> tuple[float, float]:
+        """A value divided by the length of the line's direction."""
+        size, size_bound = self._size
+        return quotient(value, bound, size, size_bound)
 
     def _vertex_along(self, v: int) -> tuple[float, float]:
         """How far along the line a vertex on it is, in lengths."""
@@ -224,7 +247,8 @@ class WalkedLine:
         elif v == self._own and not self._is_round:
             return
         else:
-            self._add(*self._vertex_along(v), v, e)
+            far, bound = self._vertex_along(v)
+            self._add(far, bound, v, e)
             self._at[v] = self._spots[-1]
 
     def _add(self, far: float, bound: float, vertex: int, e: int) -> None:
@@ -313,7 +337,7 @@ class WalkedLine:
             ux, p = total(ax, rounding(ax, ay), -curve.x, rounding(curve.x, curve.y))
             uy, q = total(ay, rounding(ax, ay), -curve.y, rounding(curve.x, curve.y))
             _, _, dx, dy, _, de = self._line
-            side = verdict(*dot(dx, dy, de, ux, uy, max(p, q))) * kind * (1 if v == e else -1)
+            side = dot_sign(dx, dy, de, ux, uy, max(p, q)) * kind * (1 if v == e else -1)
         self.is_told = self.is_told and side != 0
         return side
 
@@ -326,7 +350,7 @@ class WalkedLine:
         """1 or -1 if the way over three vertices certainly turns left or right, else 0."""
         ax, ay, a = self._vector(u, v)
         bx, by, b = self._vector(v, w)
-        return verdict(*cross(ax, ay, a, bx, by, b))
+        return cross_sign(ax, ay, a, bx, by, b)
 
     def _vector(self, v: int, w: int) -> tuple[float, float, float]:
         """The vector from a vertex to another."""

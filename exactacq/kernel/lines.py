@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import inf
 from typing import Final
 
-from exactacq.kernel.bounded import TINY, UNIT, cross, dot, product, quotient, root, total, verdict
+from exactacq.kernel.bounded import TINY, UNIT, cross, dot, length, product, quotient, root, total, verdict
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.images import ROLLING, SLIDING, TURNING
 
@@ -46,7 +46,7 @@ def line_at(frame: Frame, t: float, te: float) -> Line:
     dx, dy, de = _moved(ex, ey, ee, -ey, ex, ee, t, te)
     if kind == TURNING:
         return cx, cy, dx, dy, ce, de
-    size, size_bound = root(*dot(dx, dy, de, dx, dy, de))
+    size, size_bound = length(dx, dy, de)
     away, away_bound = quotient(radius, UNIT * radius, size, size_bound)
     x, y, e = _moved(cx, cy, ce, dx, dy, de, away, away_bound)
     return x, y, dx * sense, dy * sense, e, de
@@ -94,11 +94,14 @@ def meets_straight(line: Line, segment: CurveImage) -> Meeting:
     se, we = UNIT * max(abs(sx), abs(sy)) + TINY, UNIT * max(abs(wx), abs(wy)) + TINY
     ox, oy, oe = _moved(x, y, ce, -sx, -sy, se, 1.0, 0.0)
     under, under_bound = cross(wx, wy, we, dx, dy, de)
-    u, ue = quotient(*cross(ox, oy, oe, dx, dy, de), under, under_bound)
-    tau, taue = quotient(*cross(ox, oy, oe, wx, wy, we), under, under_bound)
+    top, top_bound = cross(ox, oy, oe, dx, dy, de)
+    u, ue = quotient(top, top_bound, under, under_bound)
+    top, top_bound = cross(ox, oy, oe, wx, wy, we)
+    tau, taue = quotient(top, top_bound, under, under_bound)
     if not (ue < inf and taue < inf):
         return UNKNOWN
-    far, fe = product(tau, taue, *root(*dot(dx, dy, de, dx, dy, de)))
+    size, size_bound = length(dx, dy, de)
+    far, fe = product(tau, taue, size, size_bound)
     px, py, pe = _moved(sx, sy, se, wx, wy, we, u, ue)
     return far, fe, u, ue, px, py, pe
 

@@ -14,7 +14,19 @@ from __future__ import annotations
 
 from typing import Final, final
 
-from exactacq.kernel.bounded import TINY, UNIT, WIDEN, cross, dot, product, quotient, root, total, verdict
+from exactacq.kernel.bounded import (
+    TINY,
+    UNIT,
+    WIDEN,
+    cross,
+    dot,
+    length,
+    product,
+    quotient,
+    root,
+    total,
+    verdict,
+)
 from exactacq.kernel.images import REST, STRAIGHT, EdgeImages
 
 NONE: Final = -1
@@ -134,12 +146,13 @@ class RadialFaces:
         """How far the place lies outside the circle of an arc; negative inside."""
         wx, wy, w = self.center(e)
         r = self.images.radius[e]
-        far, far_bound = root(*dot(wx, wy, w, wx, wy, w))
+        far, far_bound = length(wx, wy, w)
         return total(far, far_bound, -r, UNIT * r)
 
     def beside(self, e: int) -> int:
         """1 or -1 if the place is certainly outside or inside the circle of an arc, else 0."""
-        return verdict(*self.gap(e))
+        gap, bound = self.gap(e)
+        return verdict(gap, bound)
 
     def reaches(self, e: int) -> int:
         """1 if the circle of an arc certainly comes within range, -1 if it certainly does not, else 0."""
@@ -151,7 +164,7 @@ class RadialFaces:
         first = self.slot(low) if low >= 0 else NONE
         last = self.slot(high) if high >= 0 else NONE
         wx, wy, w = self.center(e)
-        far, far_bound = root(*dot(wx, wy, w, wx, wy, w))
+        far, far_bound = length(wx, wy, w)
         r = self.images.radius[e]
         far, far_bound = total(far, far_bound, r, UNIT * r)
         self._add(e, first, last, self.reach(far, 0.0, far_bound) > 0)
@@ -198,12 +211,18 @@ class RadialFaces:
         """
         wx, wy, w = self.center(e)
         r = self.images.radius[e]
-        far, far_bound = root(*dot(wx, wy, w, wx, wy, w))
+        far, far_bound = length(wx, wy, w)
         gap, gap_bound = total(far, far_bound, -r, UNIT * r)
-        h, h_bound = root(*product(gap, gap_bound, *total(far, far_bound, r, UNIT * r)))
+        most, most_bound = total(far, far_bound, r, UNIT * r)
+        square, square_bound = product(gap, gap_bound, most, most_bound)
+        h, h_bound = root(square, square_bound)
         across, across_bound = side * r, UNIT * r
-        x, x_bound = total(*product(wx, w, h, h_bound), *product(-wy, w, across, across_bound))
-        y, y_bound = total(*product(wy, w, h, h_bound), *product(wx, w, across, across_bound))
+        x, x_bound = product(wx, w, h, h_bound)
+        y, y_bound = product(wy, w, h, h_bound)
+        u, u_bound = product(-wy, w, across, across_bound)
+        v, v_bound = product(wx, w, across, across_bound)
+        x, x_bound = total(x, x_bound, u, u_bound)
+        y, y_bound = total(y, y_bound, v, v_bound)
         return x, y, max(x_bound, y_bound)
 
     def way(self, f: int, dx: float, dy: float, d: float) -> tuple[float, float]:
@@ -229,7 +248,8 @@ class RadialFaces:
         across, across_bound = product(size, size_bound, r, UNIT * r)
         plus, plus_bound = total(across, across_bound, g, g_bound)
         minus, minus_bound = total(across, across_bound, -g, g_bound)
-        half, half_bound = root(*product(plus, plus_bound, minus, minus_bound))
+        under, under_bound = product(plus, plus_bound, minus, minus_bound)
+        half, half_bound = root(under, under_bound)
         top, top_bound = total(h, h_bound, -images.kind[e] * half, half_bound)
         return quotient(top, top_bound, square, square_bound)
 

@@ -102,7 +102,8 @@ def lit(
 ) -> list[int]:
     """The numbers of the boxes at most as far as *reach* from a window that no shadow contains, ascending."""
     found: list[int] = []
-    _search(tree, *window, reach * reach, hiding, slack, found)
+    x0, y0, x1, y1 = window
+    _search(tree, x0, y0, x1, y1, reach * reach, hiding, slack, found)
     found.sort()
     return found
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import inf
 
-from exactacq.kernel.bounded import UNIT, WIDEN, cross, dot, product, quotient, verdict
+from exactacq.kernel.bounded import UNIT, WIDEN, cross_sign, dot, product, quotient
 from exactacq.kernel.images import STRAIGHT
 from exactacq.kernel.radial_faces import RadialFaces
 from exactacq.kernel.radial_sweep import NOTHING, FaceSweep
@@ -45,7 +45,8 @@ def met(sweep: FaceSweep, rank: int, here: list[int], vertices: int) -> tuple[bo
         if event >= vertices:
             return False, NOTHING, [], 0
         u, v, e = faces.offset(event)
-        m, e = quotient(*dot(u, v, e, x, y, b), square, square_bound)
+        m, e = dot(u, v, e, x, y, b)
+        m, e = quotient(m, e, square, square_bound)
         e = e * WIDEN + UNIT * abs(m)
         ways.append((m - e, m + e, event))
     ways.sort()
@@ -55,7 +56,8 @@ def met(sweep: FaceSweep, rank: int, here: list[int], vertices: int) -> tuple[bo
         reached = last
         if first > high:
             break
-        inside = faces.reach(*faces.offset(event))
+        u, v, e = faces.offset(event)
+        inside = faces.reach(u, v, e)
         if inside < 0:
             break
         if inside == 0 or not last < low:
@@ -82,10 +84,10 @@ def blocks(faces: RadialFaces, vertex: int, x: float, y: float, b: float, along:
         return 0
     u, v, p = difference(faces, before, vertex)
     s, t, q = difference(faces, vertex, following)
-    turn = verdict(*cross(u, v, p, s, t, q))
+    turn = cross_sign(u, v, p, s, t, q)
     if along:
         return -turn
-    left, right = verdict(*cross(s, t, q, x, y, b)), verdict(*cross(x, y, b, -u, -v, p))
+    left, right = cross_sign(s, t, q, x, y, b), cross_sign(x, y, b, -u, -v, p)
     if turn > 0:
         return min(left, right) if left and right else -1 if left < 0 or right < 0 else 0
     if turn < 0:

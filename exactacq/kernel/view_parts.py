@@ -11,7 +11,7 @@ from __future__ import annotations
 from math import inf
 from typing import Final, final
 
-from exactacq.kernel.bounded import UNIT, WIDEN, cross, dot, product, quotient, root, total
+from exactacq.kernel.bounded import UNIT, WIDEN, cross, dot, length, product, quotient, root, total
 from exactacq.kernel.images import STRAIGHT
 from exactacq.kernel.radial_sweep import BLOCKED, FaceSweep
 
@@ -123,8 +123,8 @@ class ViewParts:
             after, after_bound = dot(tx, ty, t, ax, ay, a)
             if before > before_bound or -after > after_bound:
                 return []
-            length, length_bound = root(*dot(ax, ay, a, ax, ay, a))
-            far, far_bound = quotient(turn, turn_bound, length, length_bound)
+            size, size_bound = length(ax, ay, a)
+            far, far_bound = quotient(turn, turn_bound, size, size_bound)
             near = faces.reach(far, 0.0, far_bound)
             if near < 0:
                 return []
@@ -163,12 +163,15 @@ class ViewParts:
         if kind == HIT:
             slot = self.sweep.groups[which][0]
             x, y, b = faces.vector(slot)
-            m, bound = quotient(*cross(sx, sy, s, x, y, b), *cross(x, y, b, ax, ay, a))
+            top, top_bound = cross(sx, sy, s, x, y, b)
+            below, below_bound = cross(x, y, b, ax, ay, a)
+            m, bound = quotient(top, top_bound, below, below_bound)
         else:
             square, square_bound = dot(ax, ay, a, ax, ay, a)
             reach, reach_bound = product(square, square_bound, faces.square, faces.square_bound)
             height, height_bound = product(turn, turn_bound, turn, turn_bound)
-            half, half_bound = root(*total(reach, reach_bound, -height, height_bound))
+            under, under_bound = total(reach, reach_bound, -height, height_bound)
+            half, half_bound = root(under, under_bound)
             along, along_bound = dot(sx, sy, s, ax, ay, a)
             top, top_bound = total(-along, along_bound, which * half, half_bound)
             m, bound = quotient(top, top_bound, square, square_bound)

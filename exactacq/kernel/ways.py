@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf
 from typing import Final, final
 
-from exactacq.kernel.bounded import TINY, UNIT, cross, dot, product, root, total
+from exactacq.kernel.bounded import TINY, UNIT, cross, dot, length, product, total
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import Extent, Span, bent, extent, unknown
 from exactacq.kernel.family_images import AHEAD, BEHIND, CONTACT, EdgePlace, FamilyImage, side_of_all
@@ -257,12 +257,12 @@ def _may_touch(family: FamilyImage, way: WayImage) -> bool:
     bound = UNIT * radius
     if kind == ROLLING:
         error = UNIT * max(abs(ex), abs(ey)) + TINY
-        radius, bound = root(*dot(ex, ey, error, ex, ey, error))
+        radius, bound = length(ex, ey, error)
     ox, p = total(cx, UNIT * abs(cx), -line.x, UNIT * abs(line.x))
     oy, q = total(cy, UNIT * abs(cy), -line.y, UNIT * abs(line.y))
     error = UNIT * max(abs(line.wx), abs(line.wy)) + TINY
     height, height_bound = cross(ox, oy, max(p, q) + TINY, line.wx, line.wy, error)
-    size, size_bound = root(*dot(line.wx, line.wy, error, line.wx, line.wy, error))
+    size, size_bound = length(line.wx, line.wy, error)
     reach, reach_bound = product(radius, bound, size, size_bound)
     return sense < 0 or not abs(height) - height_bound > reach + reach_bound
 
