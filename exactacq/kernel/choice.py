@@ -226,7 +226,8 @@ class SightGroup:
 
     def contains(self, source: Source) -> bool:
         """Whether a family certainly is seen from here alone."""
-        (low, high), first, last = source.outer, self.first, self.last
+        low, high = source.outer
+        first, last = self.first, self.last
         begins, ends = first.surely[0] <= low, high <= last.surely[1]
         if source.surely[0] <= source.surely[1]:
             begins = begins or _have_common(source.extent.first_keys, first.extent.first_keys)
@@ -244,11 +245,12 @@ def _joined(sources: list[Source]) -> list[list[Source]]:
     Each group is in the order of its lower ends.
     """
     count = len(sources)
-    order = sorted([(sources[n].surely, n) for n in range(count)])
+    order = [n for _, n in sorted([(sources[n].surely, n) for n in range(count)])]
     leader = list(range(count))
     at: dict[int, int] = {}
     reached, last = -inf, -1
-    for (low, high), n in order:
+    for n in order:
+        low, high = sources[n].surely
         if last >= 0 and low <= reached:
             _unite(leader, last, n)
         if high >= reached:
@@ -259,7 +261,7 @@ def _joined(sources: list[Source]) -> list[list[Source]]:
             else:
                 at[key] = n
     groups: dict[int, list[Source]] = {}
-    for _, n in order:
+    for n in order:
         first = _leader(leader, n)
         if first not in groups:
             groups[first] = []

@@ -137,7 +137,8 @@ def extent(
     *slack* is how far sides may leave the boxes of their extreme points, *keys* are those of the first and
     of the last line.
     """
-    (a, b), (c, d) = source, shown
+    a, b = source
+    c, d = shown
     near = in_range(source, shown, slack, reach)
     if near < 0:
         return None
@@ -159,7 +160,8 @@ def in_range(source: EdgePlaces, shown: EdgePlaces, slack: float, reach: tuple[f
     as the longest between these points, and at least as long as the gap of their boxes; *slack* is how far
     the sides may leave them, the errors of the points included.
     """
-    (a, b), (c, d) = source, shown
+    a, b = source
+    c, d = shown
     # Of two at a time: more are boxed where this is compiled.
     one, other = max(_apart(a, c), _apart(a, d)), max(_apart(b, c), _apart(b, d))
     if (max(one, other) + slack) * (1.0 + SURE) < reach[0]:

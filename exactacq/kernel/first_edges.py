@@ -43,8 +43,8 @@ def first_edges(
         line = FrameLine(around, middles[cell], errors[cell])
         fresh = always or cell == 0
         sure = walk.start(line) if fresh else walk.step(walk.concerned(bounds[cell]), line)
-        behind.append(walk.met(0) if sure else DOUBT)
-        ahead.append(walk.met(1) if sure else DOUBT)
+        behind.append(walk.met_behind() if sure else DOUBT)
+        ahead.append(walk.met_ahead() if sure else DOUBT)
         if not sure:
             possible[cell] = [around.near.edges[j] for j in walk.active]
     return behind, ahead, possible
@@ -63,9 +63,9 @@ class EdgeWalk:
         self.active: list[int] = []
         self.vague: list[int] = []
         self.known = False
-        # The nearest crossings, behind (0) and ahead (1): number and root; the number is -1 for none.
-        self.near = (-1, -1)
-        self.root = (0, 0)
+        # The edges of the nearest crossings, -1 for none, and their roots.
+        self.behind, self.behind_root = -1, 0
+        self.ahead, self.ahead_root = -1, 0
 
     def concerned(self, bound: BoundLine) -> list[int]:
         """The numbers of the edges that have an event at a line."""
@@ -103,42 +103,45 @@ class EdgeWalk:
         if self.vague:
             self.known = False
             return False
-        state = self.states.state
-        for side in range(2):
-            j = self.near[side]
-            if j >= 0 and (j in events or not state[j] & self.root[side]):
-                self.known = False
+        state, behind, ahead = self.states.state, self.behind, self.ahead
+        if behind >= 0 and (behind in events or not state[behind] & self.behind_root):
+            self.known = False
+        if ahead >= 0 and (ahead in events or not state[ahead] & self.ahead_root):
+            self.known = False
         if not self.known:
             self.known = self._choose(self.active, line)
             return self.known
-        near, far = self.near
         tried: list[int] = []
         for j in changed:
-            if state[j] and j != near and j != far and not self._is_beyond(j):
+            if state[j] and j != behind and j != ahead and not self._is_beyond(j):
                 tried.append(j)
         if tried:
             # Otherwise nothing has come in front of the nearest.
-            if near >= 0:
-                tried.append(near)
-            if far >= 0:
-                tried.append(far)
+            if behind >= 0:
+                tried.append(behind)
+            if ahead >= 0:
+                tried.append(ahead)
             self.known = self._choose(tried, line)
         return self.known
 
     def _is_beyond(self, j: int) -> bool:
         """Whether an edge is surely crossed farther away than the nearest on its side: it needs no line."""
         low, high = self.states.span(j)
-        behind, ahead = self.near
-        if ahead >= 0 and low > self.states.span(ahead)[1]:
+        if self.ahead >= 0 and low > self.states.span(self.ahead)[1]:
             return True
-        return behind >= 0 and high < self.states.span(behind)[0]
+        return self.behind >= 0 and high < self.states.span(self.behind)[0]
 
-    def met(self, side: int) -> int:
-        """The edge of the nearest crossing on one side, if an obstacle is entered there."""
-        j = self.near[side]
-        if j >= 0 and self.states.enters(j, self.root[side]) == (side == 1):
-            return self.around.near.edges[j]
-        return NOTHING
+    def met_behind(self) -> int:
+        """The edge of the nearest crossing behind, if an obstacle is entered there going back."""
+        j = self.behind
+        return (
+            self.around.near.edges[j] if j >= 0 and not self.states.enters(j, self.behind_root) else NOTHING
+        )
+
+    def met_ahead(self) -> int:
+        """The edge of the nearest crossing ahead, if an obstacle is entered there."""
+        j = self.ahead
+        return self.around.near.edges[j] if j >= 0 and self.states.enters(j, self.ahead_root) else NOTHING
 
     def _look(self, changed: list[int], line: FrameLine) -> None:
         states = self.states
@@ -186,5 +189,6 @@ class EdgeWalk:
                     return False
         if (ahead >= 0 and not ahead_rest > ahead_high) or (behind >= 0 and not behind_rest > behind_high):
             return False
-        self.near, self.root = (behind, ahead), (behind_root, ahead_root)
+        self.behind, self.behind_root = behind, behind_root
+        self.ahead, self.ahead_root = ahead, ahead_root
         return True

@@ -154,7 +154,8 @@ def sights(
             left.append(one)
             continue
         name, edge = _bounded_by(family, one.there, circles), _seen(family, one, previous)
-        (low, high), (first, last) = one.source, one.surely
+        low, high = one.source
+        first, last = one.surely
         if first > last:
             cut = _cut(one, family, is_way, (edge, name), leg, curves, reach, count)
             if cut is None:
@@ -236,7 +237,8 @@ def normal_sights(
         one: Extent | None = None
         if family.is_known:
             a, b, c, d = family.fraction
-            (x, y, _, _, p, _), (u, v, _, _, q, _) = family.first, family.last
+            x, y, _, _, p, _ = family.first
+            u, v, _, _, q, _ = family.last
             source = (a, b, x, y, p), (c, d, u, v, q)
             shown = family.places(AHEAD)
             slack = bent(family, AHEAD, shown, curves) + 2.0 * (p + q)

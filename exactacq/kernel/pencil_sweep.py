@@ -82,17 +82,14 @@ class PencilSweep:
     def order(self, found: list[BoundLine]) -> None:
         """Put the lines in order, with those *found* of which it was open whether they exist."""
         self.stage = ORDER
+        every = clusters([*self._sure, *found, self.low, self.high], self.low, self.high)
+        parted = [cluster if len(cluster) == 1 else self._parted(cluster) for cluster in every]
+        if all(len(lines) > 0 for lines in parted):
+            self.part([line for lines in parted for line in lines])
+            return
         self.clusters = []
-        bounds: list[BoundLine] = []
-        for cluster in clusters([*self._sure, *found, self.low, self.high], self.low, self.high):
-            lines = cluster if len(cluster) == 1 else self._parted(cluster)
-            if lines:
-                self.clusters += [[line] for line in lines]
-                bounds += lines
-            else:
-                self.clusters.append(cluster)
-        if len(bounds) == len(self.clusters):
-            self.part(bounds)
+        for k in range(len(every)):
+            self.clusters += [[line] for line in parted[k]] if parted[k] else [every[k]]
 
     def _parted(self, cluster: list[BoundLine]) -> list[BoundLine]:
         """The distinct lines of a cluster, in order; none where that stays open."""

@@ -121,7 +121,8 @@ def extents_along_normals(
             extents.append(unknown(edge, family, CONTACT, AHEAD))
             continue
         a, b, c, d = family.fraction
-        (ax, ay, _, _, p, _), (bx, by, _, _, q, _) = family.first, family.last
+        ax, ay, _, _, p, _ = family.first
+        bx, by, _, _, q, _ = family.last
         slack = bent(family, AHEAD, family.ahead, curves) + 2.0 * (p + q)
         spots = (a, b, ax, ay, p), (c, d, bx, by, q)
         one = extent(edge, spots, family.ahead, slack, ([], []), reach, family, CONTACT, AHEAD)

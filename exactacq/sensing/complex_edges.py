@@ -10,10 +10,9 @@ from __future__ import annotations
 from bisect import bisect_left
 from collections.abc import Iterator
 from functools import cached_property, partial
-from math import hypot, inf
+from math import inf
 from typing import TypeAlias
 
-import numpy as np
 from flint import fmpq
 
 from exactacq.geometry.coordinates import minus, raw
@@ -22,16 +21,14 @@ from exactacq.geometry.curves import Curve, Segment
 from exactacq.kernel.bound_lines import BoundLine
 from exactacq.kernel.family_images import ANYWHERE, NONE, FamilyImage, by_edge
 from exactacq.kernel.line_keys import key_of_normal
-from exactacq.kernel.near_edges import NearEdges
 from exactacq.kernel.shadows import Spot
-from exactacq.numbers.rationals import nearest_float
 from exactacq.scene.edge_table import CONVEX, EdgeTable
 from exactacq.sensing.family_clipper import FamilyClipper
 from exactacq.sensing.followed_lines import FeatureLine, FollowedLine, LineFollower, Met
 from exactacq.sensing.line_family import PencilFamilies, Reached, SingleLine
 from exactacq.sensing.line_images import LineImages
 from exactacq.sensing.line_points import Role, Side
-from exactacq.visibility.end_rays import EndRays, end_rays
+from exactacq.visibility.end_rays import end_rays
 from exactacq.visibility.features import Feature, features, leaving, parallel
 from exactacq.visibility.line_families import Sector, Sliding, Spokes, corner_sectors, quarters
 from exactacq.visibility.line_names import Namer
@@ -113,7 +110,8 @@ class FamilySweeper:
                     keys = self._numbers.keys(self._namer.number(feature), [*passed])
                     # Neighbouring sectors share a line.
                     if followed.isdisjoint(keys) and may_be_pinched(self.table, feature, s.sector, t, passed):
-                        single_lines += self._pinched(FeatureLine(feature, s.sector, t, passed, near), keys)
+                        at = FeatureLine(feature, s.sector, t, passed, frozenset(near))
+                        single_lines += self._pinched(at, keys)
                         followed.update(keys)
             single_lines += self._end_on(feature, sweeps[0], sweeps[-1], near)
             if not feature.round:
@@ -126,7 +124,7 @@ class FamilySweeper:
         images: list[FamilyImage] = []
         for end in end_rays(self.table, e):
             vertex = end.own[1]
-            near = self._ahead(end)
+            near = self._near((self.table.curves[vertex].start.xy,))
             contact = Side(e, Role.CONTACT, fixed=True, at_end=vertex != e)
             _, found = self._add(
                 images, end.sector, near, end.own, contact, None, end.passed, goes_back=False
@@ -136,26 +134,9 @@ class FamilySweeper:
             keys.append(key_of_normal(e, vertex, self._numbers.count))
         return EdgeFamilies(images, [])
 
-    def _near(self, places: tuple[Spot, ...]) -> NearEdges:
+    def _near(self, places: tuple[Spot, ...]) -> list[int]:
         """The edges that may be seen within reach of somewhere between some places."""
-        return NearEdges(self.table.images, self.table.lit(places, self.range.above))
-
-    def _ahead(self, rays: EndRays) -> NearEdges:
-        """The edges that rays may meet, with those at their vertex.
-
-        Floats leave out the boxes that lie right of the first or left of the last ray, which are less than a
-        half turn apart. For coordinates of size m at most an offset is off by 2^-50 m, and is below 3 m; a
-        product with a direction h adds roundings of 2^-50 times 3 m |h|. The slack is far more.
-        """
-        table, (x, y) = self.table, self.table.curves[rays.own[1]].start.xy
-        near = table.near((x, y), (x, y), self.range.above)
-        (ax, ay), (bx, by) = ((nearest_float(dx), nearest_float(dy)) for dx, dy in rays.bounds)
-        left, bottom, right, top = (table.boxes[near] - (x, y, x, y)).T
-        slack, ahead = 64 * table.roundoff_at((x, y)), np.ones(len(near), bool)
-        for hx, hy in ((-ay, ax), (by, -bx)):
-            most = np.maximum(hx * left, hx * right) + np.maximum(hy * bottom, hy * top)
-            ahead &= most >= -slack * hypot(hx, hy)
-        return NearEdges(table.images, sorted({*near[ahead].tolist(), *rays.own}))
+        return self.table.lit(places, self.range.above)
 
     def _corners_beside(self, feature: Feature) -> tuple[int, int]:
         """The other ends of the straight edges at a corner: its first and its last tangent pass them."""
@@ -177,7 +158,7 @@ class FamilySweeper:
         self,
         images: list[FamilyImage],
         sector: Sector,
-        near: NearEdges,
+        near: list[int],
         own: tuple[int, ...],
         contact: Side,
         feature: Feature | None,
@@ -186,7 +167,7 @@ class FamilySweeper:
     ) -> Swept:
         """Sweep a sector, of which the first and the last line pass vertices *ends*, and add its families."""
         vertex = own[1] if contact.fixed else contact.edge if isinstance(sector, Sliding) else NONE
-        lines = swept(self.table, sector, own, near, ends=ends, vertex=vertex)
+        lines = swept(self.table, sector, own, near, ends=ends, vertex=vertex, goes_back=goes_back)
         families = PencilFamilies(lines, contact, self._namer, feature, goes_back)
         imaged = families.imaged(self.images, self._numbers)
         images += imaged
@@ -194,7 +175,7 @@ class FamilySweeper:
 
     # -- single lines ------------------------------------------------------------------------------
 
-    def _end_on(self, feature: Feature, first: Swept, last: Swept, near: NearEdges) -> Iterator[SingleLine]:
+    def _end_on(self, feature: Feature, first: Swept, last: Swept, near: list[int]) -> Iterator[SingleLine]:
         """The straight edges beside a feature as seen along their own lines, from where these first end."""
         incoming, outgoing = self._beside(feature)
         for e, (sweep, images), role in ((incoming, first, Role.AHEAD), (outgoing, last, Role.BEHIND)):
@@ -209,7 +190,9 @@ class FamilySweeper:
             run = (ends[1], ends[0]) if ahead else ends
             if any(side or number not in (e, self.table.next[e]) for number, side, _ in bound.passed):
                 # The line grazes what may block its neighbours: it goes on by itself.
-                at = FeatureLine(feature, sweep.sector, sweep.value(bound), tuple(bound.passed), near)
+                at = FeatureLine(
+                    feature, sweep.sector, sweep.value(bound), tuple(bound.passed), frozenset(near)
+                )
                 end = self.follower.follow(at).end(role)
                 reached = (self.follower.at_range(at, role), None) if end is None else end.pin
                 yield SingleLine(reached, None if end is None else end.edge, run, e)

@@ -15,7 +15,6 @@ from flint import arb
 from exactacq.geometry.late import Pin, late_point
 from exactacq.geometry.points import Point
 from exactacq.kernel.line_walks import Hit
-from exactacq.kernel.near_edges import NearEdges
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import CONVEX, EdgeTable
 from exactacq.sensing.line_points import Role, Side
@@ -41,7 +40,7 @@ class FeatureLine:
     sector: Sector
     t: Real
     passed: Passed
-    near: NearEdges | None = None
+    near: frozenset[int] | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,6 +12,7 @@ Which lines may be pinched floats tell mostly, and what such a line meets, by th
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from functools import cached_property, partial
 
 from exactacq.geometry.coordinates import cross, sign
@@ -20,7 +21,6 @@ from exactacq.geometry.points import Point
 from exactacq.kernel.images import STRAIGHT
 from exactacq.kernel.line_walks import WalkedLine
 from exactacq.kernel.lines import line_at, rounding, side_of
-from exactacq.kernel.near_edges import NearEdges
 from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
@@ -62,7 +62,7 @@ def walked(
     t: Real,
     passed: Passed,
     reach: float,
-    near: NearEdges | None = None,
+    near: Collection[int] | None = None,
 ) -> WalkedLine | None:
     """What the tangent line of a feature at a parameter of one of its sectors meets, up to what blocks it.
 
@@ -79,7 +79,7 @@ def walked(
     walk = WalkedLine(
         table.images,
         table.curve_images,
-        [e for e in table.along(line, reach) if near is None or near.edge(e) >= 0],
+        [e for e in table.along(line, reach) if near is None or e in near],
         line,
         vertices,
         arcs,

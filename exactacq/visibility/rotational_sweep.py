@@ -34,6 +34,7 @@ from exactacq.kernel.images import SLIDING, SPOKES, TURNING
 from exactacq.kernel.lattice import LatticeLines
 from exactacq.kernel.near_edges import NearEdges
 from exactacq.kernel.pencil_sweep import DONE, EDGES, EVENTS, MIDDLES, ORDER, PencilSweep
+from exactacq.kernel.sector_edges import may_be_met
 from exactacq.kernel.surroundings import Surroundings
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
@@ -155,24 +156,29 @@ def pencil(
     """
     (x, y), extent = map(float, sector.center), sector.extent
     edges = table.around((x - extent, y - extent), (x + extent, y + extent), reach)
-    return swept(table, sector, own, NearEdges(table.images, edges), breaks, vertex=vertex)
+    return swept(table, sector, own, edges, breaks, vertex=vertex)
 
 
 def swept(
     table: EdgeTable,
     sector: Sector,
     own: tuple[int, ...],
-    near: NearEdges,
+    edges: list[int],
     breaks: tuple[Vector, ...] = (),
     ends: tuple[int, int] = (NOTHING, NOTHING),
     vertex: int = NOTHING,
+    goes_back: bool = True,
 ) -> Pencil:
-    """Sweep one sector among the edges that are *near* its contact.
+    """Sweep one sector among the edges near its contact.
 
     *ends* are vertices that the first and the last line of the sector pass: to find that out would take exact
-    numbers. *vertex* is that in the sector's centre, if it is known.
+    numbers. *vertex* is that in the sector's centre, if it is known. Unless it *goes_back* nothing is asked
+    of what is behind the contact.
     """
     images = table.images
+    if sector.is_rational:
+        edges = may_be_met(images, edges, sector.image, held(sector.low), held(sector.high), goes_back)
+    near = NearEdges(images, edges)
     frame = sector.frame(None if vertex == NOTHING else images.place(vertex))
     # The edges through the centre of an arc whose normals go there: all of these pass that point.
     is_inward = frame.kind == SPOKES and frame.sense < 0
