@@ -155,3 +155,34 @@ def test_ways_that_touch_a_circle_between(first: int) -> None:
 def test_a_map_on_a_way_that_touches_a_circle() -> None:
     """The view from an event's place past the circle lies between others; the way's own line bounds them."""
     xa.audit(xa.sightseer(past_a_circle(40)))
+
+
+def test_a_map_at_a_place_of_high_degree() -> None:
+    """Where two circles hide a third one from a way that touches a fourth, and show it again at once.
+
+    The way is the shortest link past a circle: its numbers are those of a root of degree 20. A map at the
+    event looks along it once more, and finds the line of sight by the other one of the two circles that it
+    touches: it is the same place by the line's name, but not by any number that could be compared.
+    """
+    scene = xa.Scene(
+        [
+            xa.Circle((0, "9/4"), "43/20"),
+            xa.Circle((6, 4), "39/10"),
+            xa.Circle((8, "1/4"), "1/4"),
+            xa.Circle((20, 2), 2),
+        ],
+        start=(13, 3),
+        radius=20,
+    )
+    run = xa.sightseer(scene)
+    maps = [run.map_at(event) for event in run.events]
+    lengths = [sum(float(chart.known_length(k)) for k in range(4)) for chart in maps]
+    assert lengths == sorted(lengths) and lengths[-1] < float(run.map.known_length()) + 1e-9
+
+
+def test_an_end_that_was_seen_at_the_range_from_the_same_line() -> None:
+    """Sights past a rounded corner come down to the range at the very place from which a known end was seen.
+
+    That place is known by two roots of degree 12, one of the end and one of the sights.
+    """
+    assert xa.seed_spreader(xa.load(DATA / "thickened.json")).complete

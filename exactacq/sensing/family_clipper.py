@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import overload
 
 from exactacq.geometry.curve_parameter import Rail
@@ -16,6 +16,7 @@ from exactacq.numbers.float_bounds import float_ball, margin
 from exactacq.numbers.real import Real
 from exactacq.sensing.line_points import Role
 from exactacq.sensing.line_views import LineViews
+from exactacq.sensing.named_pins import PinName
 from exactacq.sensing.range_ends import RangeEnds
 from exactacq.sensing.view_families import End, FreeViews, ViewFamily
 from exactacq.visibility.sensor_range import Range
@@ -53,14 +54,23 @@ class FamilyClipper:
         numbers: LineNumbers,
         base: FamilyClipper | None = None,
         touched: Collection[int] = (),
+        known: Mapping[PinName, Pin] | None = None,
     ) -> None:
-        """*base* are the rails without a way, *touched* the numbers of the features that it touches."""
+        """*base* are the rails without a way, *touched* the numbers of the features that it touches.
+
+        Some of its points are *known*.
+        """
         self.rails, self.range, self.roundoff = rails, range_, roundoff
-        self.views: LineViews = LineViews(rails, numbers, None if base is None else base.views)
+        self.views: LineViews = LineViews(rails, numbers, None if base is None else base.views, known)
         self._ends = RangeEnds(self.views, range_, touched)
 
-    def with_way(self, way: Rail, touches: Collection[int] = ()) -> FamilyClipper:
-        """These and one more curve, a way through free space, with the numbers of the features it touches."""
+    def with_way(
+        self, way: Rail, touches: Collection[int] = (), known: Mapping[PinName, Pin] | None = None
+    ) -> FamilyClipper:
+        """These and one more curve, a way through free space, with the numbers of the features it touches.
+
+        Some of its points are *known*.
+        """
         extent = max(abs(v) for p in (way.curve.start, way.curve.end) for v in p.xy)
         return FamilyClipper(
             RailsAndWay(self.rails, way),
@@ -69,6 +79,7 @@ class FamilyClipper:
             self.views.numbers,
             self,
             touches,
+            known,
         )
 
     def curve(self, e: int) -> Curve:

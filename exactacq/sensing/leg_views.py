@@ -24,6 +24,7 @@ from exactacq.sensing.family_clipper import FamilyClipper
 from exactacq.sensing.family_filter import FamilyFilter
 from exactacq.sensing.free_way import WayViews
 from exactacq.sensing.legs import Leg
+from exactacq.sensing.named_pins import NamedPins
 from exactacq.sensing.targets import Targets
 from exactacq.sensing.view_families import End, ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
@@ -83,6 +84,7 @@ class Shares:
         self.complex, self.targets, self.leg = complex_, targets, leg
         self.obstacles, self.view = obstacles, view
         self.in_sight: Mapping[int, Sequence[Interval]] = {}
+        self._pins: NamedPins | None = None
         self.of = self._found(known) if of is None else of
         self.ends = self._seen_ends() if ends is None else ends
 
@@ -146,6 +148,7 @@ class Shares:
             near = complex_.table.lit(leg.spots, complex_.range.above)
             edges = chain.from_iterable(self.targets.edges[k] for k in obstacles)
             crossing = WayViews(complex_, leg, frozenset(near).intersection(edges), self.view)
+            self._pins = crossing.way.clipper.views.pins
             yield from ((family, 0) for family in crossing.families(choose))
         else:
             extents = complex_.extents(leg.edge)
@@ -241,6 +244,12 @@ class Shares:
         """What is seen from the first and from the last place of the leg."""
         leg = self.leg
         return self.view(leg.start, leg.own(leg.first)), self.view(leg.end, leg.own(leg.last))
+
+    def note(self, places: Iterable[Real]) -> None:
+        """Keep the names of places of a straight way, of which something is reported."""
+        if self._pins is not None:
+            for u in places:
+                self.leg.named.update(self._pins.at(u))
 
     def shown(self) -> set[int]:
         """The obstacles of which something may be in sight somewhere on the leg."""

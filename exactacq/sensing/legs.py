@@ -16,10 +16,12 @@ from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import ContactKind, contacts
 from exactacq.geometry.interval_union import Interval
+from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
 from exactacq.kernel.shadows import Spot
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable, Floats, Ints, corners
+from exactacq.sensing.named_pins import PinName
 
 BITS = 256
 """Precision of the balls that tell which corners a way may touch, and which places are inside an edge."""
@@ -66,6 +68,15 @@ class Leg:
         """The part of the rail's curve that the leg covers, in the curve's direction."""
         whole = self.span.low.sign() == 0 and self.span.high.compare(self.rail.top) == 0
         return self.rail.curve if whole else self.rail.curve.part(self.span.start, self.span.end)
+
+    @cached_property
+    def named(self) -> dict[PinName, Pin]:
+        """Where named lines meet a straight way at places of which something was reported.
+
+        Where the way is looked along once more they are the same points: their numbers may be of a degree at
+        which nobody can prove that they are equal.
+        """
+        return {}
 
     @cached_property
     def box(self) -> tuple[float, float, float, float]:

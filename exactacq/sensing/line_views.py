@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 
 from exactacq.geometry.curve_images import curve_image
@@ -15,7 +15,7 @@ from exactacq.kernel.line_keys import LineNumbers
 from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.sensing.line_points import LinePoints, Role, Side, along_normal
-from exactacq.sensing.named_pins import NamedPins
+from exactacq.sensing.named_pins import NamedPins, PinName
 from exactacq.sensing.view_families import End, FreeViews, SidePin, ViewFamily
 from exactacq.visibility.line_balls import CurveBalls, Line, line, through
 from exactacq.visibility.line_families import Rolling, Sector, Spokes
@@ -26,12 +26,18 @@ from exactacq.visibility.rotational_sweep import Passed
 class LineViews:
     """Makes the views of families along single lines; holds the rails of the scene's edges by number.
 
-    *base* are those that it adds a way to.
+    *base* are those that it adds a way to, of which some points are *known*.
     """
 
-    def __init__(self, rails: Sequence[Rail], numbers: LineNumbers, base: LineViews | None = None) -> None:
+    def __init__(
+        self,
+        rails: Sequence[Rail],
+        numbers: LineNumbers,
+        base: LineViews | None = None,
+        known: Mapping[PinName, Pin] | None = None,
+    ) -> None:
         self.rails, self.numbers = rails, numbers
-        self.pins: NamedPins = NamedPins(None if base is None else base.pins)
+        self.pins: NamedPins = NamedPins(None if base is None else base.pins, known)
         self._points = LinePoints(rails)
         self._base = base
         self._balls: dict[int, CurveBalls] = {}

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Mapping
 from typing import TypeAlias
 
 from exactacq.geometry.late import Pin
+from exactacq.numbers.real import Real
 
 PINS_KEPT = 10_000
 """Points of named lines that are remembered: those of a wide neighbourhood."""
@@ -19,14 +20,14 @@ RimName: TypeAlias = "tuple[Hashable, Hashable, int]"
 class NamedPins:
     """Points in which named lines, and circles about named places, meet edges.
 
-    What a way adds is its own. When there are `PINS_KEPT` all are forgotten: a point that is then made again
-    is recognised by its numbers.
+    What a way adds is its own; some of it may be *known*. When there are `PINS_KEPT` all are forgotten: a
+    point that is then made again is recognised by its numbers.
     """
 
     __slots__ = ("_base", "_of", "_rims")
 
-    def __init__(self, base: NamedPins | None = None) -> None:
-        self._of: dict[PinName, Pin] = {}
+    def __init__(self, base: NamedPins | None = None, known: Mapping[PinName, Pin] | None = None) -> None:
+        self._of: dict[PinName, Pin] = dict(known or {})
         self._rims: dict[RimName, list[Pin]] = {}
         self._base = base
 
@@ -40,6 +41,10 @@ class NamedPins:
         if len(self._of) >= PINS_KEPT:
             self._of.clear()
         self._of[name] = pin
+
+    def at(self, u: Real) -> dict[PinName, Pin]:
+        """The points that have a number as their parameter, not counting those of the base."""
+        return {name: pin for name, pin in self._of.items() if pin[1] is u}
 
     def rim(self, name: RimName, make: Callable[[], list[Pin]]) -> list[Pin]:
         """The points of an edge at a distance from a centre, made at the first call.

@@ -130,6 +130,7 @@ class Sensor:
                     notices.append(notice)
             if whole is not None:
                 notices.append(whole)
+        shares.note(notice.u for notice in notices)
         notices.sort(key=cmp_to_key(lambda a, b: leg.order(a.u, b.u) or ORDER[a.kind] - ORDER[b.kind]))
         return notices, learned
 

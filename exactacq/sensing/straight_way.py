@@ -35,7 +35,7 @@ class StraightWay:
         self.line, self.spots = leg.rail.curve, leg.spots
         self.touches: frozenset[int] = frozenset(leg.touches)
         self.piece = Segment(leg.span.start, leg.span.end)
-        self.clipper = complex_.clipper.with_way(leg.rail, leg.touches)
+        self.clipper = complex_.clipper.with_way(leg.rail, leg.touches, leg.named)
         self.number = len(self.clipper.rails) - 1
 
     @property

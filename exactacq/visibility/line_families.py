@@ -39,6 +39,7 @@ from exactacq.visibility.quadratic_roots import QuadraticRoot, root_of
 Vector: TypeAlias = "tuple[Any, Any]"
 ZERO, ONE = fmpq(0), fmpq(1)
 EAST: Vector = (ONE, ZERO)
+WEST: Vector = (-ONE, ZERO)
 BITS = 64
 """Precision of the balls from which floats are taken."""
 

@@ -16,12 +16,13 @@ from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
 from exactacq.visibility.chords import of_length
-from exactacq.visibility.line_families import EAST, Sector, corner_sectors, round_sectors
+from exactacq.visibility.line_families import EAST, WEST, Sector, corner_sectors, round_sectors
 
 
 def ordinates_at_range(x: fmpq, feature: Point | Arc, target: Curve, radius: fmpq) -> list[Real] | None:
     """A finite superset of the ordinates from which a line that touches a feature is as long as the range.
 
+    One for each such line.
     It goes from the vertical line at *x* to the line or circle of the target. None where no closed form is
     known: where the feature, or the line that the target is part of, is not seen to be rational.
     """
@@ -34,15 +35,16 @@ def ordinates_at_range(x: fmpq, feature: Point | Arc, target: Curve, radius: fmp
     for sector in sectors:
         for t in of_length(sector, way, target, radius * radius):
             contact, direction = sector.touch(t)
-            if direction.x.sign():
+            # Other sectors find the same lines.
+            if sector.low <= t < sector.high and direction.x.sign():
                 found.append(contact.y + direction.y * ((x - contact.x) / direction.x))
     return found
 
 
 def _sectors(feature: Point | Arc) -> list[Sector] | None:
-    """All lines that touch a feature."""
+    """All lines that touch a feature, each of them once: about a corner those of half a turn."""
     if isinstance(feature, Point):
-        return None if feature.rational is None else [*corner_sectors(feature.rational, EAST, None)]
+        return None if feature.rational is None else [*corner_sectors(feature.rational, EAST, WEST)]
     center = feature.center.rational
     assert center is not None, "arcs of boundaries have rational centres"
     spoke = next(_rational_spokes(feature, center), None)

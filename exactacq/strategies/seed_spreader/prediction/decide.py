@@ -495,7 +495,7 @@ class _LineBatch:
             tested = [(z, order is not None) for z, order in ends]
             in_range = self._is_in_range_between(cell, *tested, stretches=FEW)
             if in_range is None:
-                in_range = self._comes_down_to_range(cell, low, high)
+                in_range = self._comes_down_to_range(cell, *ends)
             if in_range is None:
                 in_range = self._is_in_range_between(cell, *tested, stretches=MANY)
             if in_range:
@@ -530,16 +530,23 @@ class _LineBatch:
                 open_ones += [(ends[0], (y, True)), ((y, True), ends[1])]
         return None
 
-    def _comes_down_to_range(self, cell: LineCell, low: Real, high: Real) -> bool | None:
+    def _comes_down_to_range(self, cell: LineCell, *ends: tuple[Real, int | None]) -> bool | None:
         """Like `_is_in_range_between`, by all ordinates strictly between two from which a line is as long.
 
-        Next to them, and where there are none, all lines are longer or all are shorter.
+        Next to them, and where there are none, all lines are longer or all are shorter. The ends are given
+        with their `_order`: if that is 0, the line there is one of those that are found.
         """
+        (low, _), (high, _) = ends
         feature = self.proposals.features[self.proposals.feature[cell.touch]].shape
         target = self.search.known[cell.target]
         found = ordinates_at_range(self.walk.x, feature, target, self.walk.radius)
         if found is None:
             return None
+        for z, order in ends:
+            same = [y for y in found if y.overlaps(z)]
+            if order == 0 and len(same) == 1:
+                # What is left open by balls may be far to prove: the end may have another form.
+                found.remove(same[0])
         inside = sorted(y for y in found if low.compare(y) < 0 < high.compare(y))
         bounds = [low, *inside, high]
         between = [Real(rational_between(a, b)) for a, b in pairwise(bounds) if a.compare(b)]
