@@ -11,7 +11,7 @@ from exactacq.kernel.lines import Frame, Line, line_at, rounding
 
 NO_VERTEX: Final = -1
 BEHIND: Final = 2
-"""Certainly behind the contacts of all lines; besides the sides 1 and -1 of `side_of_all`, and 0."""
+"""Certainly ahead of the contact on no line; besides the sides 1 and -1 of `side_of_all`, and 0."""
 
 
 def may_be_met(
@@ -57,13 +57,13 @@ def _where_is(images: EdgeImages, v: int, frame: Frame, first: Line, last: Line,
 def _where(frame: Frame, first: Line, last: Line, x: float, y: float, error: float, goes_back: bool) -> int:
     """1 or -1 if a place certainly lies left or right of all lines, `BEHIND` if behind, 0 if that is open.
 
-    Directions between two others are sums of these with weights that are not negative, and the contact stays,
-    or slides across the direction: so what is behind the first and the last line is behind all.
+    Lines turn by a quarter at most, about a contact that stays, or slide across their direction: so what is
+    behind the first line lies ahead of the contact on none.
     """
     side = side_of_all(frame, first, last, x, y, error)
     if side or goes_back or frame[0] not in (TURNING, SLIDING):
         return side
-    return BEHIND if _is_behind(first, x, y, error) and _is_behind(last, x, y, error) else 0
+    return BEHIND if _is_behind(first, x, y, error) else 0
 
 
 def _is_behind(line: Line, x: float, y: float, error: float) -> bool:
