@@ -14,7 +14,7 @@ from exactacq.geometry.coordinates import minus, raw
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.late import Balls, ball_of, balls
 from exactacq.numbers.rationals import ball_sign
-from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes
+from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes, Turning
 
 Line: TypeAlias = "tuple[arb, arb, arb, arb]"
 """Contact and direction."""
@@ -23,6 +23,9 @@ Line: TypeAlias = "tuple[arb, arb, arb, arb]"
 def line(sector: Sector, t: arb) -> Line:
     """The line of a sector at a parameter, as `Sector.touch` gives it."""
     cx, cy, ex, ey = sector.balls
+    if type(sector) is Turning:
+        # Of this kind are most.
+        return cx, cy, ex - t * ey, ey + t * ex
     if isinstance(sector, Sliding):
         dx, dy = (-ey, ex) if sector.leftward else (ey, -ex)
         return cx + ex * t, cy + ey * t, dx, dy
@@ -32,12 +35,11 @@ def line(sector: Sector, t: arb) -> Line:
         cosine, sine = (1 - square) / growth, 2 * t / growth
         vx, vy = cosine * ex - sine * ey, cosine * ey + sine * ex
         return cx + vx, cy + vy, -vy, vx
+    assert isinstance(sector, Spokes), "there are four kinds of sectors"
     dx, dy = ex - t * ey, ey + t * ex
-    if isinstance(sector, Spokes):
-        away = (ball_of(sector.radius_sq) / (dx * dx + dy * dy)).sqrt()
-        x, y = cx + dx * away, cy + dy * away
-        return (x, y, dx, dy) if sector.outward else (x, y, -dx, -dy)
-    return cx, cy, dx, dy
+    away = (ball_of(sector.radius_sq) / (dx * dx + dy * dy)).sqrt()
+    x, y = cx + dx * away, cy + dy * away
+    return (x, y, dx, dy) if sector.outward else (x, y, -dx, -dy)
 
 
 def through(sector: Sector, point: Balls) -> list[arb] | None:
