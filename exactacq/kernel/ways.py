@@ -64,13 +64,17 @@ class WayImage:
         return 0.0
 
 
-def crossings(families: list[FamilyImage], wanted: set[int], way: WayImage) -> list[Crossing]:
-    """The families with a *wanted* edge that do not leave the whole way on one side."""
+def crossings(families: list[FamilyImage], wanted: set[int], count: int, way: WayImage) -> list[Crossing]:
+    """The families with a *wanted* edge, of *count* ones, that do not leave the whole way on one side."""
     ax, ay, bx, by, error = way.ends
+    # One more for `NONE`, which counts from the end.
+    is_wanted = [False] * (count + 1)
+    for e in wanted:
+        is_wanted[e] = True
     found: list[Crossing] = []
     for k in range(len(families)):
         behind, contact, ahead = families[k].edges
-        if behind not in wanted and contact not in wanted and ahead not in wanted:
+        if not (is_wanted[behind] or is_wanted[contact] or is_wanted[ahead]):
             continue
         one = families[k].side(ax, ay, error)
         other = families[k].side(bx, by, error)

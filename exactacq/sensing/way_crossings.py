@@ -41,7 +41,8 @@ class WayCrossings:
 
     @cached_property
     def _found(self) -> list[Crossing]:
-        found = crossings(self._families, set(self.wanted), self.way.image)
+        count = len(self.way.table.curves)
+        found = crossings(self._families, set(self.wanted), count, self.way.image)
         left = [
             (k, certain)
             for k, certain in found
