@@ -26,13 +26,20 @@ signs of coordinates, so none leaves (-pi, pi]."""
 class Direction:
     """A direction: a float unit vector within 2^-50 of it, and the exact vector, made on demand.
 
-    ``aim`` is the number of the point that is one such vector away, if it has one.
+    ``aim`` is the number of the point that is one such vector away, if it has one. What the ray leads to is
+    at least about ``far`` away.
     """
 
-    def __init__(self, unit: tuple[float, float], exact: Callable[[], Point], aim: int | None = None) -> None:
+    def __init__(
+        self,
+        unit: tuple[float, float],
+        exact: Callable[[], Point],
+        aim: int | None = None,
+        far: float = 0.0,
+    ) -> None:
         self.unit, self.exact = unit, exact
         self.angle = atan2(unit[1], unit[0])
-        self.aim = aim
+        self.aim, self.far = aim, far
 
 
 def rounded(value: Real | fmpq) -> float:
@@ -46,11 +53,11 @@ def unit_vector(x: float, y: float) -> tuple[float, float] | None:
     return (x / size, y / size) if size else None
 
 
-def ray_along(vector: Point) -> Direction:
+def ray_along(vector: Point, far: float = 0.0) -> Direction:
     """The ray in a direction that is not 0."""
     unit = unit_vector(rounded(vector.x), rounded(vector.y))
     assert unit is not None
-    return Direction(unit, lambda: vector)
+    return Direction(unit, lambda: vector, far=far)
 
 
 def tangent_directions(q: Point, arc: Arc) -> list[Point]:

@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
-from math import atan2, pi, tan
+from math import atan2, hypot, pi, tan
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -48,6 +48,8 @@ EPS = 2.0**-48
 """Relative error of a product with an offset from q (rounded once: 2^-53) and a ray (2^-50), with room."""
 TINY = 1e-290
 """Added to margins: covers what underflow loses."""
+MANY_RAYS = 64
+"""Of so many critical rays it is worth while to leave out those to what is hidden."""
 
 
 class Forms(NamedTuple):
@@ -309,7 +311,7 @@ class _View:
         self.forms = world.forms.rows(near).and_rows(self.lookout.forms.rows(self.near))
         self.offsets = {k: self._offset(world.points[k]) for k in np.unique(self.forms.ends).tolist()}
         self.circles = [k for k in np.unique(self.forms.circle).tolist() if k >= 0]
-        self.rays = with_cells(self._critical())
+        self.rays = with_cells(self._not_hidden(self._critical()))
 
     # -- rays --------------------------------------------------------------------------------------
 
@@ -322,13 +324,28 @@ class _View:
             rays += self._ray_to(point, self._offset(point))
         for k in self.circles:
             circle = self.lookout.world.circles[k]
-            rays += [ray_along(vector) for vector in tangent_directions(self.q, circle)]
+            # Not nearer than the circle itself.
+            far = hypot(*self._offset(circle.center)) * (1 - EPS) - float(circle.radius) * (1 + EPS)
+            rays += [ray_along(vector, far) for vector in tangent_directions(self.q, circle)]
         return rays
+
+    def _not_hidden(self, rays: list[Direction]) -> list[Direction]:
+        """Those of many rays that are not certainly blocked before what they lead to.
+
+        Where a curve begins or ceases to be seen there is a critical ray on which it is seen, and what makes
+        the ray critical is seen as well. So a ray to what is hidden is as good as none.
+        """
+        if len(rays) < MANY_RAYS:
+            return rays
+        units, far = np.array([ray.unit for ray in rays]), np.array([ray.far for ray in rays])
+        edges, _ = self._hits(units, self.forms.rows(np.arange(len(self.edges))))
+        _, certain = self._blocks(units, edges)
+        return [ray for ray, hidden in zip(rays, certain < far * (1 - EPS), strict=True) if not hidden]
 
     def _ray_to(self, point: Point, offset: tuple[float, float], aim: int | None = None) -> list[Direction]:
         """The ray to a point; none to q itself."""
         unit, q = unit_vector(*offset), self.q
-        return [] if unit is None else [Direction(unit, lambda: point - q, aim)]
+        return [] if unit is None else [Direction(unit, lambda: point - q, aim, hypot(*offset))]
 
     def _range_crossings(self) -> Iterator[Point]:
         q, radius = self.q, self.lookout.radius
@@ -350,7 +367,7 @@ class _View:
     def verdicts(self) -> tuple[Bools, Bools]:
         """Which curves certainly see q, and which pairs (ray, curve) floats leave open."""
         units = np.array([ray.unit for ray in self.rays])
-        edges, curves = self._hits(units)
+        edges, curves = self._hits(units, self.forms)
         possible, certain = self._blocks(units, edges)
         nearest = np.argmin(possible, axis=1)[:, None]
         rest = possible.copy()
@@ -410,9 +427,9 @@ class _View:
 
     # -- contacts in floats ------------------------------------------------------------------------
 
-    def _hits(self, units: Floats) -> tuple[Hits, Hits]:
+    def _hits(self, units: Floats, forms: Forms) -> tuple[Hits, Hits]:
         """Contacts of all rays with edges, but for those of q's own edges at q itself, and with curves."""
-        forms, count = self.forms, len(self.edges)
+        count = len(self.edges)
         own = np.zeros(len(forms.circle), dtype=bool)
         own[[self.edge_numbers.index(e) for e in self.own]] = True
         straight, bent = np.flatnonzero(forms.circle < 0), np.flatnonzero(forms.circle >= 0)
