@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import pairwise
 from random import Random
@@ -17,12 +17,20 @@ from strategies import EPS, box, build
 from test_audit import EXAMPLES, Q, terrain_of
 from test_laws_of_runs import run_of
 
-from exactacq.auditing import rays
+from exactacq.auditing import rays, visibility
 from exactacq.auditing.rays import Direction
 from exactacq.auditing.visibility import Viewpoints, World, point_at, point_near, visible
 from exactacq.errors import Undecided
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.points import Point
+
+
+@pytest.fixture(autouse=True, scope="module")
+def no_ray_to_what_is_hidden() -> Iterator[None]:
+    """Small scenes have few rays: here those to what is hidden are left out of few as well."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(visibility, "MANY_RAYS", 0)
+        yield
 
 
 def rational_points(curve: object, world: World, count: int = 5) -> list[Point]:
