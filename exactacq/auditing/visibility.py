@@ -335,7 +335,7 @@ class _View:
         Where a curve begins or ceases to be seen there is a critical ray on which it is seen, and what makes
         the ray critical is seen as well. So a ray to what is hidden is as good as none.
         """
-        if len(rays) < MANY_RAYS:
+        if len(rays) < MANY_RAYS or not self.edges:
             return rays
         units, far = np.array([ray.unit for ray in rays]), np.array([ray.far for ray in rays])
         edges, _ = self._hits(units, self.forms.rows(np.arange(len(self.edges))))
