@@ -142,6 +142,12 @@ class TestLookout:
         shapes = [Disc(3, 1, 1), Disc(6, -1 + EPS, 1)]
         assert not self._sees(shapes, Segment(Point(9, Q(-1, 10)), Point(9, Q(1, 10))), 20)
 
+    def test_between_two_circles_before_a_wall(self) -> None:
+        """The only free line, northward, ends soon after it touches both."""
+        tenth = Q(1, 10)
+        shapes = [Disc(tenth, Q(29, 5), tenth), Disc(-tenth, 6, tenth), box(-1, 1, Q(32, 5), 7)]
+        assert self._sees(shapes, Segment(Point(-tenth, Q(63, 10)), Point(tenth, Q(63, 10))), 20)
+
     def test_first(self) -> None:
         """Numbers count the curves as given, also if one comes twice."""
         far, near = Segment(Point(3, 9), Point(4, 9)), Segment(Point(1, 0), Point(2, 0))
