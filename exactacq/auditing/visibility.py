@@ -15,12 +15,21 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
 from math import atan2, hypot, pi, tan
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 from flint import fmpq
-from numpy.typing import NDArray
 
+from exactacq.auditing.ray_hits import (
+    EPS,
+    Bools,
+    Floats,
+    Hits,
+    Ints,
+    arc_hits,
+    cross,
+    segment_hits,
+)
 from exactacq.auditing.rays import (
     Direction,
     ray_along,
@@ -38,16 +47,8 @@ from exactacq.numbers.rationals import nearest_float, rational
 from exactacq.numbers.real import Real
 from exactacq.scene.scene import Scene
 
-Floats: TypeAlias = NDArray[np.float64]
-Bools: TypeAlias = NDArray[np.bool_]
-Ints: TypeAlias = NDArray[np.int64]
-
 TIE_BITS = 256
 """Numbers that differ by less are taken for candidates of a tie."""
-EPS = 2.0**-48
-"""Relative error of a product with an offset from q (rounded once: 2^-53) and a ray (2^-50), with room."""
-TINY = 1e-290
-"""Added to margins: covers what underflow loses."""
 MANY_RAYS = 64
 """Of so many critical rays it is worth while to leave out those to what is hidden."""
 
@@ -162,28 +163,6 @@ class World:
         boxes = self.boxes[list(near)]
         inside = (boxes[:, 0] <= x) & (x <= boxes[:, 2]) & (boxes[:, 1] <= y) & (y <= boxes[:, 3])
         return [e for e, box in zip(near, inside, strict=True) if box and self.edges[e].passes(point)]
-
-
-class HitDistances(NamedTuple):
-    """Float bounds of the distances at which rays meet curves; arrays of shape (rays, columns).
-
-    ``low`` is infinite where there is certainly no contact ahead; ``sure`` says that the curve is certainly
-    crossed, between its ends, ahead.
-    """
-
-    low: Floats
-    high: Floats
-    sure: Bools
-
-
-class Hits(NamedTuple):
-    """`HitDistances` for curves of mixed kinds, with each column's ``curve``; ``far``: an arc's far root."""
-
-    low: Floats
-    high: Floats
-    sure: Bools
-    curve: Ints
-    far: Bools
 
 
 class Viewpoints:
@@ -418,7 +397,7 @@ class _View:
             turn = -turn
         if turn.sign() == 0 and tangents[0].dot(tangents[-1]).sign() < 0:
             return np.zeros(count, dtype=bool), np.zeros(count, dtype=bool)
-        sides = _cross(np.array([ray_along(tangent).unit for tangent in tangents])[:, None], units)
+        sides = cross(np.array([ray_along(tangent).unit for tangent in tangents])[:, None], units)
         left: Bools = sides > EPS
         right: Bools = sides < -EPS
         if turn.sign() > 0:
@@ -434,14 +413,14 @@ class _View:
         own[[self.edge_numbers.index(e) for e in self.own]] = True
         straight, bent = np.flatnonzero(forms.circle < 0), np.flatnonzero(forms.circle >= 0)
         spots = np.array([[self.offsets[k] for k in pair] for pair in forms.ends.tolist()])
-        parts = [_segment_hits(units, spots[straight, 0], spots[straight, 1])]
+        parts = [segment_hits(units, spots[straight, 0], spots[straight, 1])]
         parts[0].low[:, own[straight]] = np.inf
         parts[0].sure[:, own[straight]] = False
         if len(bent):
             centers = {k: self._offset(self.lookout.world.circles[k].center) for k in self.circles}
             of_arcs = np.array([centers[k] for k in forms.circle[bent].tolist()])
             chords = spots[bent, 0], forms.chord[bent]
-            parts += _arc_hits(units, of_arcs, forms.shape[bent], chords, own[bent])
+            parts += arc_hits(units, of_arcs, forms.shape[bent], chords, own[bent])
         low, high, sure = (np.hstack(columns) for columns in zip(*parts, strict=True))
         curve = np.concatenate((straight, *[bent] * (len(parts) - 1)))
         far = np.arange(len(curve)) >= len(forms.circle)
@@ -478,98 +457,6 @@ class _View:
 
 def _tangent(edge: Curve, q: Point) -> Point:
     return edge.direction if isinstance(edge, Segment) else edge.tangent(q)
-
-
-def _cross(a: Floats, b: Floats) -> Floats:
-    found: Floats = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
-    return found
-
-
-def _segment_hits(units: Floats, starts: Floats, ends: Floats) -> HitDistances:
-    """Where rays meet segments; most pairs are clear, as a segment lies on one side of the ray's line."""
-    s, e = _cross(units[:, None], starts), _cross(units[:, None], ends)
-    ds, de = EPS * np.hypot(*starts.T) + TINY, EPS * np.hypot(*ends.T) + TINY
-    missed = ((s > ds) & (e > de)) | ((s < -ds) & (e < -de))
-    pairs = np.nonzero(~missed)
-    rays, columns = pairs
-    some = _possible_hits(units[rays], starts[columns], ends[columns], s[pairs], e[pairs])
-    found = HitDistances(
-        np.full(missed.shape, np.inf), np.full(missed.shape, np.inf), np.zeros(missed.shape, dtype=bool)
-    )
-    for whole, part in zip(found, some, strict=True):
-        whole[pairs] = part
-    return found
-
-
-def _possible_hits(units: Floats, starts: Floats, ends: Floats, s: Floats, e: Floats) -> HitDistances:
-    """Where a ray meets a segment from s to e: t = s x e / (u x e - u x s); for pairs of a ray and a segment.
-
-    If one of the two signs of *s*, u x s, and *e*, u x e, is uncertain, the contact is near that end; if both
-    are, anywhere between.
-    """
-    a, b = np.hypot(*starts.T), np.hypot(*ends.T)
-    ds, de = EPS * a + TINY, EPS * b + TINY
-    unsure_s, unsure_e = np.abs(s) <= ds, np.abs(e) <= de
-    crossed = ~unsure_s & ~unsure_e
-    with np.errstate(all="ignore"):
-        t = _cross(starts, ends) / (e - s)
-        slack = (EPS * a * b + np.abs(t) * (ds + de)) / (np.abs(e - s) - ds - de) + TINY
-        chord = np.hypot(*(ends - starts).T) * (1 + EPS)
-        near_s, near_e = 2 * ds * chord / (np.abs(e) - de), 2 * de * chord / (np.abs(s) - ds)
-    # Where neither end is certain the segment points at q, or away from it.
-    both = unsure_s & unsure_e
-    at_s, at_e = unsure_s & ~both, unsure_e & ~both
-    ahead_s, ahead_e = (units * starts).sum(axis=1) > 0, (units * ends).sum(axis=1) > 0
-    facing = np.where(ahead_s & ahead_e, np.minimum(a, b) * (1 - EPS), 0.0)
-    with np.errstate(invalid="ignore"):
-        low = np.where(crossed, t - slack, np.where(at_s, a - near_s, np.where(at_e, b - near_e, facing)))
-        high = np.where(crossed, t + slack, np.inf)
-    gone = np.where(crossed, high < 0, np.where(at_s, ~ahead_s & (near_s < a / 2), False))
-    gone |= (at_e & ~ahead_e & (near_e < b / 2)) | (both & ~ahead_s & ~ahead_e & (a > 0) & (b > 0))
-    low = np.where(np.isnan(low), -np.inf, low)
-    high = np.where(np.isnan(high), np.inf, high)
-    return HitDistances(
-        np.where(gone, np.inf, low), np.where(gone, np.inf, high), crossed & ~gone & (low > 0)
-    )
-
-
-def _arc_hits(
-    units: Floats, centers: Floats, shape: Floats, chords: tuple[Floats, Floats], own: Bools
-) -> list[HitDistances]:
-    """Where rays meet arcs, for the near and for the far roots t = u.c -+ sqrt(r^2 - (u x c)^2).
-
-    A contact is on the arc if it lies on the arc's side of the chord. On an own circle the roots are 0,
-    which is left out, and 2 u.c.
-    """
-    radius, sense, full = shape[:, 0], shape[:, 1], shape[:, 2] > 0
-    starts, along = chords
-    size = np.hypot(*centers.T) + radius
-    b, h = units @ centers.T, _cross(units[:, None], centers)
-    error = 4 * EPS * size * size + TINY
-    square = (radius - h) * (radius + h)
-    real = square > error
-    root = np.sqrt(np.maximum(square, 0.0))
-    with np.errstate(all="ignore"):
-        slack = np.where(real, error / root, np.sqrt(np.maximum(square, 0.0) + error)) + 4 * EPS * size
-    if own.any():
-        slack = np.where(own, 8 * EPS * size, slack)
-    width, across = np.hypot(*along.T), _cross(along, starts)
-    turn, base = _cross(along, units[:, None]), 4 * EPS * np.hypot(*starts.T)
-    found = []
-    for far in (False, True):
-        t = np.where(real, b + (root if far else -root), b)
-        if own.any():
-            t = np.where(own, 2 * b, t)
-        side = sense * (turn * t - across)
-        margin = width * (slack + 4 * EPS * np.abs(t) + base) + TINY
-        low, high = t - slack, t + slack
-        beside = ~full & (side > margin)
-        gone = (square < -error) | (high < 0) | beside
-        if own.any():
-            gone = np.where(own, (high < 0) | beside | (not far), gone)
-        sure = (real | own) & (full | (side < -margin)) & (low > 0) & ~gone
-        found.append(HitDistances(np.where(gone, np.inf, low), np.where(gone, np.inf, high), sure))
-    return found
 
 
 # -- targets ---------------------------------------------------------------------------------------
