@@ -20,7 +20,7 @@ from typing import NamedTuple
 import numpy as np
 from flint import fmpq
 
-from exactacq.auditing.ray_hits import (
+from exactacq.auditing.hits import (
     EPS,
     Bools,
     Floats,
