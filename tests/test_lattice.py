@@ -21,7 +21,9 @@ from exactacq.sensing.complex_edges import normals
 from exactacq.visibility import rotational_sweep
 from exactacq.visibility.features import features
 from exactacq.visibility.line_families import Sliding
+from exactacq.visibility.radial_sweep import RadialSweep
 from exactacq.visibility.rotational_sweep import Pencil, pencil
+from exactacq.visibility.sensor_range import Range
 
 REACH = 7.3
 
@@ -180,3 +182,40 @@ def test_normals_by_hand() -> None:
 
 def passed(lines: list[BoundLine]) -> list[set[int]]:
     return [{number for number, *_ in line.passed} for line in lines]
+
+
+FAR = 10**16
+FAR_CORNERS = xa.Scene(
+    [
+        xa.Polygon([(0, 0), (-1, 0), (-1, -1)]),
+        xa.Polygon([(FAR, 1), (FAR + 2, 2), (FAR + 1, 3)]),
+        xa.Polygon([(FAR, -1), (FAR + 1, -3), (FAR + 2, -2)]),
+    ]
+)
+"""From near the origin floats do not part the corners that are far."""
+
+
+@pytest.mark.parametrize("name", ["squares", "decimals", "far corners"])
+def test_directions_about_a_corner(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """By integers the events about a corner come in the order of their exact directions."""
+    obstacles, reach = (FAR_CORNERS.obstacles, 2 * FAR) if name not in SCENES else (SCENES[name].obstacles, 7)
+    by_integers, exact = EdgeTable(obstacles), EdgeTable(obstacles)
+    vars(exact)["lattice"] = None
+    asked: list[EdgeTable] = []
+    by_values = RadialSweep._sorted
+
+    def noted(self: RadialSweep, slots: list[int]) -> list[list[int]]:
+        asked.append(self.table)
+        return by_values(self, slots)
+
+    monkeypatch.setattr(RadialSweep, "_sorted", noted)
+    several = 0
+    for e, curve in enumerate(by_integers.curves):
+        own = (int(by_integers.previous[e]), e)
+        groups = []
+        for table in (by_integers, exact):
+            sweep = RadialSweep(table, curve.start, Range(fmpq(reach)), own)
+            groups.append([sorted(sweep.events(rank)) for rank in range(sweep.count)])
+        assert groups[0] == groups[1]
+        several += any(len(group) > 1 for group in groups[0])
+    assert (several or name == "far corners") and asked.count(by_integers) < asked.count(exact)

@@ -13,6 +13,7 @@ from math import inf
 from typing import Final, final
 
 from exactacq.kernel.bounded import TINY, UNIT, WIDEN, cross
+from exactacq.kernel.lattice import Lattice
 from exactacq.kernel.radial_faces import RadialFaces
 
 NOTHING: Final = -1
@@ -101,6 +102,31 @@ class FaceSweep:
                     self.open_groups.append(len(groups) - 1)
                 groups[-1].append(k)
                 reached = max(reached, most[k])
+
+    def parted(self, slots: list[int], lattice: Lattice, center: int) -> list[list[int]]:
+        """The slots of a group by direction about a vertex, as whole numbers tell it, counterclockwise.
+
+        None at all if one of them is no vertex.
+        """
+        events = self.faces.events
+        vectors: list[tuple[int, int]] = []
+        groups: list[list[int]] = []
+        for event, k in sorted([(events[k], k) for k in slots]):
+            if event >= len(lattice.x):
+                return []
+            x, y = lattice.x[event] - lattice.x[center], lattice.y[event] - lattice.y[center]
+            at, turn = 0, -1
+            for other_x, other_y in vectors:
+                turn = other_x * y - other_y * x
+                if turn <= 0:
+                    break
+                at += 1
+            if at < len(groups) and turn == 0:
+                groups[at].append(k)
+            else:
+                vectors.insert(at, (x, y))
+                groups.insert(at, [k])
+        return groups
 
     def rank(self) -> None:
         """Number the directions, after every group is one."""

@@ -84,8 +84,13 @@ class RadialSweep:
             upper = (sign(y) or (0 if sign(x) > 0 else -1)) >= 0
             sweep.put(slot, upper)
         sweep.group()
+        lattice, own = self.table.lattice, faces.own
         for k in reversed(sweep.open_groups):
-            sweep.groups[k : k + 1] = self._sorted(sweep.groups[k])
+            slots, parted = sweep.groups[k], list[list[int]]()
+            if lattice is not None and len(own) == 2:
+                # Two edges meet at the vertex at which the second one begins.
+                parted = sweep.parted(slots, lattice[1], own[1])
+            sweep.groups[k : k + 1] = parted or self._sorted(slots)
         sweep.rank()
         self.rank: dict[int, int] = {}
         """Of the events that matter by themselves."""
