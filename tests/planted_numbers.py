@@ -19,6 +19,7 @@ from exactacq.numbers import (
     angles,
     between,
     exact,
+    function_zeros,
     length,
     linear_forms,
     quotient,
@@ -151,7 +152,7 @@ NUMBER_FAULTS = [
         ROOTS,
         ([Fraction(1), Fraction(-2), Fraction(1)], [mp.mpf(1)]),
         Fault(
-            real,
+            function_zeros,
             "roots",
             "for factor, _ in whole.factor()[1] for",
             "for factor, n in whole.factor()[1] for _ in range(n) for",
@@ -161,7 +162,7 @@ NUMBER_FAULTS = [
         "roots of different factors are not sorted",
         ROOTS,
         ([Fraction(-6), Fraction(3), Fraction(2), Fraction(-1)], [-mp.sqrt(3), mp.sqrt(3), mp.mpf(2)]),
-        Fault(real, "roots", "return sorted(", "return list("),
+        Fault(function_zeros, "roots", "return sorted(", "return list("),
     ),
     Planted(
         "a tie is rounded up",

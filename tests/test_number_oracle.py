@@ -30,7 +30,8 @@ from nightly import examples
 from sympy.polys.matrices.exceptions import DMNonInvertibleMatrixError
 
 from exactacq.numbers.between import rational_between
-from exactacq.numbers.real import Real, roots
+from exactacq.numbers.function_zeros import roots
+from exactacq.numbers.real import Real
 
 POLYNOMIALS = [
     *((-2, 0, 0, 1), (1, -3, 0, 1), (-1, -1, 0, 1), (1, 0, -10, 0, 1), (1, -4, 0, 2)),

@@ -19,7 +19,8 @@ from exactacq import kernel
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.points import Point
-from exactacq.numbers.real import Real, fmpq, roots
+from exactacq.numbers.function_zeros import roots
+from exactacq.numbers.real import Real, fmpq
 from exactacq.strategies.seed_spreader.prediction.decide import sees_later
 from exactacq.strategies.seed_spreader.prediction.sight import growth
 

@@ -21,9 +21,10 @@ from hypothesis import strategies as st
 
 from exactacq.errors import FormatError, Undecided
 from exactacq.numbers import sign
+from exactacq.numbers.function_zeros import roots
 from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import rational, round_to_float
-from exactacq.numbers.real import Real, roots
+from exactacq.numbers.real import Real
 
 ORACLE_BITS = 4400
 # The expressions below have small height and degree: what is smaller than this is 0.

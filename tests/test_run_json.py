@@ -32,8 +32,8 @@ from exactacq import (
 from exactacq.errors import Undecided
 from exactacq.files import gallery
 from exactacq.files.octagons import random_octagons
+from exactacq.numbers.function_zeros import roots
 from exactacq.numbers.number_json import Decoder, Encoder
-from exactacq.numbers.real import roots
 from exactacq.output.run_json import VERSION
 from exactacq.study.claims.model import Subject
 from exactacq.study.random_scenes import random_scene

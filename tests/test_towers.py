@@ -12,8 +12,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from exactacq.geometry.points import Point
+from exactacq.numbers.function_zeros import roots
 from exactacq.numbers.number_field import NumberField
-from exactacq.numbers.real import Real, roots
+from exactacq.numbers.real import Real
 from exactacq.numbers.tower import Tower, vanishes, vanishes_about
 from exactacq.numbers.transcendental import generic_in, sign_at, transcendental
 

@@ -14,9 +14,9 @@ from flint import arb, ctx, fmpq
 from exactacq.errors import FormatError, Undecided
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
-from exactacq.numbers.function_zeros import Zero, zeros_between
+from exactacq.numbers.function_zeros import Zero, roots, zeros_between
 from exactacq.numbers.number_json import Encoder
-from exactacq.numbers.real import Real, roots
+from exactacq.numbers.real import Real
 from exactacq.sensing.view_length import of_length_on
 from exactacq.visibility.chords import chord_at, of_length
 from exactacq.visibility.line_families import Rolling, Sector, Turning

@@ -45,8 +45,8 @@ class Point:
     __slots__ = ("x", "y")
 
     def __init__(self, x: object, y: object) -> None:
-        self.x = x if type(x) is Real else real(x) if type(x) is fmpq else Real(x)
-        self.y = y if type(y) is Real else real(y) if type(y) is fmpq else Real(y)
+        self.x = x if isinstance(x, Real) else real(x) if type(x) is fmpq else Real(x)
+        self.y = y if isinstance(y, Real) else real(y) if type(y) is fmpq else Real(y)
 
     @classmethod
     def of(cls, value: Point | Sequence[object]) -> Point:

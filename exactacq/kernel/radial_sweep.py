@@ -115,9 +115,11 @@ class FaceSweep:
             if event >= len(lattice.x):
                 return []
             x, y = lattice.x[event] - lattice.x[center], lattice.y[event] - lattice.y[center]
-            at, turn = 0, -1
+            is_upper, at, turn = _is_upper(x, y), 0, -1
             for other_x, other_y in vectors:
                 turn = other_x * y - other_y * x
+                if _is_upper(other_x, other_y) != is_upper:
+                    turn = -1 if is_upper else 1
                 if turn <= 0:
                     break
                 at += 1
@@ -266,3 +268,8 @@ class FaceSweep:
             if low < 0 or 0 < (rank - low) % cells < (high - low) % cells:
                 found.append(f)
         return found
+
+
+def _is_upper(x: int, y: int) -> bool:
+    """Whether a direction is less than half a turn counterclockwise of the east, or the east itself."""
+    return y > 0 or (y == 0 and x > 0)

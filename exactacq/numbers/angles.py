@@ -15,8 +15,9 @@ from weakref import WeakValueDictionary
 from flint import arb, fmpq, fmpz_poly
 
 from exactacq.errors import Undecided
+from exactacq.numbers.function_zeros import roots
 from exactacq.numbers.precision import LOCK, workprec
-from exactacq.numbers.real import Real, roots
+from exactacq.numbers.real import Real
 
 MAX_DENOMINATOR = 30
 """Angles p pi/q up to this q are recognised when they are made; others stay angles and compare exactly."""

@@ -1,23 +1,24 @@
-"""Simple zeros of algebraic functions that have no convenient polynomial: found and refined by balls.
+"""Zeros of rational polynomials, and of algebraic functions that have no convenient polynomial.
 
-Eliminating the radicals of a function over a field of high degree would take polynomials that nobody can
-factor. Its simple zeros need none: where the slope has a sign, a change of the function's own sign proves
-exactly one zero, and interval Newton steps refine it (Moore, Kearfott, Cloud, Introduction to Interval
-Analysis, chapter 8). Intervals are dyadic cells, whatever the range that is asked for, so that one zero is
-one number.
+Of polynomials `roots` gives all. Eliminating the radicals of a function over a field of high degree would
+take polynomials that nobody can factor. Its simple zeros need none: where the slope has a sign, a change of
+the function's own sign proves exactly one zero, and interval Newton steps refine it (Moore, Kearfott, Cloud,
+Introduction to Interval Analysis, chapter 8). Intervals are dyadic cells, whatever the range that is asked
+for, so that one zero is one number.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator
 from typing import TYPE_CHECKING, Any, Protocol
 
-from flint import arb, arb_series, fmpq
+from flint import arb, arb_series, fmpq, fmpz, fmpz_poly
 
 from exactacq.errors import Undecided
 from exactacq.numbers.atoms import Generators, Node
+from exactacq.numbers.linear_forms import irreducible_roots
 from exactacq.numbers.precision import workprec
-from exactacq.numbers.rationals import ball_sign, decimal_string
+from exactacq.numbers.rationals import ball_sign, decimal_string, rational
 from exactacq.numbers.real import Real
 
 if TYPE_CHECKING:
@@ -30,6 +31,22 @@ FINENESS = 100
 width w < 1 cells are searched down to 2^-100 w^3."""
 SHOWN_DIGITS = 30
 """Decimals that stand for a zero where a closed form is asked for."""
+
+
+def roots(coefficients: Iterable[object]) -> list[Real]:
+    """All distinct real roots, ascending, of ``c_0 + c_1 x + ...`` with rational coefficients.
+
+    Rational and quadratic roots come in closed form.  ValueError for the zero polynomial.
+    """
+    values = [rational(c) for c in coefficients]
+    common = fmpz(1)
+    for c in values:
+        common = common.lcm(c.q)
+    whole = fmpz_poly([(c * common).p for c in values])
+    if whole.degree() < 0:
+        raise ValueError("every number is a root of the zero polynomial")
+    forms = (root for factor, _ in whole.factor()[1] for root in irreducible_roots(factor))
+    return sorted(Real.sum(c * Real.of_atom(atom) for atom, c in form.items()) for form in forms)
 
 
 class Function(Protocol):

@@ -21,7 +21,8 @@ from flint import fmpz
 
 from exactacq.errors import FormatError
 from exactacq.numbers.atoms import Inverse, Node, Product, Root, Sqrt
-from exactacq.numbers.real import Real, fmpq, roots
+from exactacq.numbers.function_zeros import roots
+from exactacq.numbers.real import Real, fmpq
 
 Number: TypeAlias = "str | int"
 MAX_DEGREE = 200

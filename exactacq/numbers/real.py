@@ -28,7 +28,7 @@ from fractions import Fraction
 from math import gcd, log2
 from typing import TYPE_CHECKING, Any
 
-from flint import arb, fmpq, fmpq_poly, fmpz, fmpz_poly
+from flint import arb, fmpq, fmpq_poly, fmpz
 
 from exactacq.numbers.atoms import (
     Atom,
@@ -49,7 +49,6 @@ from exactacq.numbers.linear_forms import (
     denested,
     field_element,
     field_of,
-    irreducible_roots,
     is_surd,
     polynomial,
     square_root,
@@ -70,7 +69,7 @@ from exactacq.numbers.sign import FILTER_BITS, ZERO_TEST_BITS, decided_sign
 if TYPE_CHECKING:
     import sympy
 
-__all__ = ["FILTER_BITS", "ZERO_TEST_BITS", "Real", "fmpq", "rational", "real", "roots"]
+__all__ = ["FILTER_BITS", "ZERO_TEST_BITS", "Real", "fmpq", "rational", "real"]
 
 LATE = 1
 """The working bits of a number that is only a ball so far; no computed ball has so few."""
@@ -96,7 +95,7 @@ class Real(Exact):
     True
     """
 
-    __slots__ = ("_ball", "_bits", "_make", "_sign", "_terms", "rational")
+    __slots__ = ("_ball", "_bits", "_linear", "_make", "_sign", "rational")
 
     rational: fmpq | None
     """The value if the form is rational, else None (a hidden rational stays hidden). Not to be assigned."""
@@ -104,7 +103,7 @@ class Real(Exact):
     _bits: int
     _make: Callable[[], Real]
     _sign: int | None
-    _terms: Mapping[Atom, fmpq]
+    _linear: Mapping[Atom, fmpq] | None
 
     def __new__(cls, value: object = 0) -> Real:
         return value if isinstance(value, Real) else real(rational(value))
@@ -113,8 +112,8 @@ class Real(Exact):
     def _form(cls, terms: Mapping[Atom, fmpq]) -> Real:
         if not terms or (len(terms) == 1 and 1 in terms):
             return real(terms.get(1, ZERO))
-        self = object.__new__(cls)
-        self.rational, self._terms, self._bits, self._sign = None, terms, 0, None
+        self = object.__new__(Real)
+        self.rational, self._linear, self._bits, self._sign = None, terms, 0, None
         return self
 
     @classmethod
@@ -132,7 +131,7 @@ class Real(Exact):
         >>> root < 2, root * root
         (True, Real('2'))
         """
-        self = object.__new__(cls)
+        self = object.__new__(_LateReal)
         self._ball, self._bits, self._make, self._sign = ball, LATE, make, None
         return self
 
@@ -140,20 +139,6 @@ class Real(Exact):
     def is_late(self) -> bool:
         """Whether the number is only a ball so far."""
         return self._bits == LATE
-
-    def _made(self) -> None:
-        """Turn a late number into what it stands for; the entry that tells other threads is set last."""
-        make = getattr(self, "_make", None)
-        value = None if make is None else make()
-        rational = None if value is None else value.rational
-        with LOCK:
-            if value is not None and self._bits == LATE:
-                if rational is None:
-                    self._terms = value._terms
-                if value._bits:
-                    self._ball = value._ball
-                self.rational, self._sign, self._bits = rational, value._sign, value._bits
-                del self._make
 
     @classmethod
     def sum(cls, values: Iterable[Real]) -> Real:
@@ -164,27 +149,24 @@ class Real(Exact):
         """
         terms: dict[Atom, fmpq] = {}
         for value in values:
-            add_to(terms, value._terms)
+            add_to(terms, value.terms)
         return cls._form(terms)
-
-    def __getattr__(self, name: str) -> Any:
-        # A late number is made when it is first looked into. Most rationals never need the form.
-        if name in ("rational", "_terms") and self._bits == LATE:
-            self._made()
-        if name == "_terms" and self.rational is not None:
-            self._terms = {1: self.rational} if self.rational else {}
-        return object.__getattribute__(self, name)
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Caches stay behind: balls cannot be pickled, and atoms must be interned where they arrive.
-        return Real._form, (dict(self._terms),)
+        return Real._form, (dict(self.terms),)
 
     # -- structure ---------------------------------------------------------------------------
 
     @property
     def terms(self) -> Mapping[Atom, fmpq]:
         """The linear form: coefficients by atom (1, the radicand of a square root, or a node)."""
-        return self._terms
+        terms = self._linear
+        if terms is None:
+            # Most rationals never need it.
+            assert self.rational is not None
+            terms = self._linear = {1: self.rational} if self.rational else {}
+        return terms
 
     @property
     def key(self) -> Hashable:
@@ -193,18 +175,18 @@ class Real(Exact):
         if q is not None:
             # Hashing a rational itself takes ten times as long.
             return q.p, q.q
-        return frozenset([(atom, c.p, c.q) for atom, c in self._terms.items()])
+        return frozenset([(atom, c.p, c.q) for atom, c in self.terms.items()])
 
     # -- arithmetic --------------------------------------------------------------------------
 
     def __add__(self, other: object) -> Real:
-        right = other if type(other) is Real else _coerce(other)
+        right = other if isinstance(other, Real) else _coerce(other)
         if right is None:
             return NotImplemented
         a, b = self.rational, right.rational
         if a is not None and b is not None:
             return real(a + b)
-        return Real._form(add_to({**self._terms}, right._terms))
+        return Real._form(add_to({**self.terms}, right.terms))
 
     __radd__ = __add__
 
@@ -218,13 +200,13 @@ class Real(Exact):
         return -self if self.sign() < 0 else self
 
     def __sub__(self, other: object) -> Real:
-        right = other if type(other) is Real else _coerce(other)
+        right = other if isinstance(other, Real) else _coerce(other)
         if right is None:
             return NotImplemented
         a, b = self.rational, right.rational
         if a is not None and b is not None:
             return real(a - b)
-        return Real._form(add_to({**self._terms}, right._terms, -ONE))
+        return Real._form(add_to({**self.terms}, right.terms, -ONE))
 
     def __rsub__(self, other: object) -> Real:
         left = _coerce(other)
@@ -233,7 +215,7 @@ class Real(Exact):
     def _scaled(self, q: fmpq) -> Real:
         if self.rational is not None:
             return real(self.rational * q)
-        return Real._form({a: c * q for a, c in self._terms.items()} if q else {})
+        return Real._form({a: c * q for a, c in self.terms.items()} if q else {})
 
     def affine(self, factor: fmpq, offset: fmpq) -> Real:
         """offset + factor * self, in one step."""
@@ -241,10 +223,10 @@ class Real(Exact):
             return real(offset + factor * self.rational)
         if not factor:
             return real(offset)
-        if len(self._terms) == 1 and offset:
-            ((atom, c),) = self._terms.items()
+        if len(self.terms) == 1 and offset:
+            ((atom, c),) = self.terms.items()
             return Real._form({atom: c * factor, 1: offset})
-        terms = {atom: c * factor for atom, c in self._terms.items()}
+        terms = {atom: c * factor for atom, c in self.terms.items()}
         whole = terms.pop(1, None)
         whole = offset if whole is None else whole + offset
         if whole:
@@ -252,7 +234,7 @@ class Real(Exact):
         return Real._form(terms)
 
     def __mul__(self, other: object) -> Real:
-        right = other if type(other) is Real else _coerce(other)
+        right = other if isinstance(other, Real) else _coerce(other)
         if right is None:
             return NotImplemented
         a, b = self.rational, right.rational
@@ -260,16 +242,16 @@ class Real(Exact):
             return real(a * b) if b is not None else right._scaled(a)
         if b is not None:
             return self._scaled(b)
-        surds = is_surd(self._terms) and is_surd(right._terms)
-        field = None if surds else field_of(self._terms)
-        if field is not None and field == field_of(right._terms):
-            product = polynomial(self._terms) * polynomial(right._terms)
+        surds = is_surd(self.terms) and is_surd(right.terms)
+        field = None if surds else field_of(self.terms)
+        if field is not None and field == field_of(right.terms):
+            product = polynomial(self.terms) * polynomial(right.terms)
             return Real._form(field_element(field, product % fmpq_poly(list(field[0]))))
-        few = len(self._terms) == 1 or len(right._terms) == 1
-        if len(self._terms) * len(right._terms) <= EXPAND_TERMS and (few or surds):
+        few = len(self.terms) == 1 or len(right.terms) == 1
+        if len(self.terms) * len(right.terms) <= EXPAND_TERMS and (few or surds):
             terms: dict[Atom, fmpq] = {}
-            for a, p in self._terms.items():
-                for b, q in right._terms.items():
+            for a, p in self.terms.items():
+                for b, q in right.terms.items():
                     form, scale = _atom_product(a, b)
                     add_to(terms, form, p * q * scale)
             return Real._form(terms)
@@ -278,7 +260,7 @@ class Real(Exact):
     __rmul__ = __mul__
 
     def __truediv__(self, other: object) -> Real:
-        right = other if type(other) is Real else _coerce(other)
+        right = other if isinstance(other, Real) else _coerce(other)
         if right is None:
             return NotImplemented
         a, b = self.rational, right.rational
@@ -286,7 +268,7 @@ class Real(Exact):
             if not b:
                 raise ZeroDivisionError("division of an exact real by zero")
             return real(a / b) if a is not None else self._scaled(1 / b)
-        if self._terms == right._terms:
+        if self.terms == right.terms:
             return real(ONE)
         return self * right._inverse()
 
@@ -297,18 +279,18 @@ class Real(Exact):
     def _inverse(self) -> Real:
         if self.sign() == 0:
             raise ZeroDivisionError("division of an exact real by zero")
-        if len(self._terms) <= 2 and is_surd(self._terms):
-            (a, p), (b, q) = (*self._terms.items(), (1, ZERO))[:2]
+        if len(self.terms) <= 2 and is_surd(self.terms):
+            (a, p), (b, q) = (*self.terms.items(), (1, ZERO))[:2]
             conjugate = Real._form({a: p, b: -q} if q else {a: p})
             norm = p * p * a - q * q * b
             if norm:  # 0 if a and b are one radical, with a square factor that trial division missed
                 return conjugate._scaled(1 / norm)
-        field = field_of(self._terms)
+        field = field_of(self.terms)
         if field is not None:
-            _, inverse, _ = polynomial(self._terms).xgcd(fmpq_poly(list(field[0])))
+            _, inverse, _ = polynomial(self.terms).xgcd(fmpq_poly(list(field[0])))
             return Real._form(field_element(field, inverse))
-        if len(self._terms) == 1:
-            ((atom, c),) = self._terms.items()
+        if len(self.terms) == 1:
+            ((atom, c),) = self.terms.items()
             if isinstance(atom, Inverse):
                 inner = atom.args[0]
                 assert isinstance(inner, Real)
@@ -340,7 +322,7 @@ class Real(Exact):
             raise ValueError(f"square root of the negative number {self.decimal(20)}")
         if sign == 0:
             return Real(0)
-        plain = denested(self._terms)
+        plain = denested(self.terms)
         return _sqrt_node(self) if plain is None else Real._form(plain)
 
     def rational_ratio(self, other: Real) -> fmpq | None:
@@ -349,15 +331,15 @@ class Real(Exact):
         >>> print(Real(8).sqrt().rational_ratio(Real(2).sqrt()))
         2
         """
-        if len(self._terms) != len(other._terms) and self._terms:
+        if len(self.terms) != len(other.terms) and self.terms:
             return None
         ratio = ZERO
-        for atom, c in self._terms.items():
-            below = other._terms.get(atom)
+        for atom, c in self.terms.items():
+            below = other.terms.get(atom)
             if below is None or (ratio and c != ratio * below):
                 return None
             ratio = c / below
-        return ratio if other._terms else None
+        return ratio if other.terms else None
 
     # -- order -------------------------------------------------------------------------------
 
@@ -379,14 +361,14 @@ class Real(Exact):
         """Upper bound of the absolute logarithmic height, base 2 (Waldschmidt, section 3.2)."""
         if self.rational is not None:
             return float(self.rational.height_bits())
-        parts = (c.height_bits() + atom_height(a) for a, c in self._terms.items())
-        return float(sum(parts)) + log2(len(self._terms))
+        parts = (c.height_bits() + atom_height(a) for a, c in self.terms.items())
+        return float(sum(parts)) + log2(len(self.terms))
 
     def generators(self) -> Generators:
         """The distinct radicals and roots of the expression, with their degrees."""
         if self.rational is not None:
             return frozenset()
-        return frozenset().union(*(atom_generators(a) for a in self._terms))
+        return frozenset().union(*(atom_generators(a) for a in self.terms))
 
     def compare(self, other: object) -> int:
         """-1, 0 or 1 as self is less than, equal to or greater than *other*, which may be infinite.
@@ -396,9 +378,14 @@ class Real(Exact):
         >>> Real(2).sqrt().compare(Real("1.41421356"))
         1
         """
-        if type(other) is Real:
+        if isinstance(other, Real):
             return 0 if self is other else self._against(other)
         return self._compared(other)
+
+    def _order(self, other: object) -> Any:
+        if isinstance(other, Real):
+            return 0 if self is other else self._against(other)
+        return super()._order(other)
 
     def _coerced(self, other: object) -> Real | None:
         return _coerce(other)
@@ -441,9 +428,9 @@ class Real(Exact):
     @property
     def _is_root(self) -> bool:
         """Whether the form is a positive multiple of one square root."""
-        if len(self._terms) != 1:
+        if len(self.terms) != 1:
             return False
-        ((atom, c),) = self._terms.items()
+        ((atom, c),) = self.terms.items()
         return isinstance(atom, Sqrt) and c > 0
 
     # -- values ------------------------------------------------------------------------------
@@ -464,13 +451,14 @@ class Real(Exact):
         if self._bits == LATE:
             if bits <= LATE_BITS:
                 return self._ball
+            assert isinstance(self, _LateReal), "no other number has such bits"
             self._made()
         if self._bits < bits:
             if self.rational is not None:
                 ball = arb(self.rational)
             else:
                 ball = arb(0)
-                for atom, c in self._terms.items():
+                for atom, c in self.terms.items():
                     ball += arb(c) if atom == 1 else atom_ball(atom, bits) * c
             self._ball, self._bits = ball, bits
         return self._ball
@@ -516,7 +504,7 @@ class Real(Exact):
         """
         from sympy import Add
 
-        return Add(*(sympy_rational(c) * atom_sympy(a) for a, c in self._terms.items()))
+        return Add(*(sympy_rational(c) * atom_sympy(a) for a, c in self.terms.items()))
 
     @property
     def numbers(self) -> tuple[Real]:
@@ -530,10 +518,37 @@ class Real(Exact):
         return f"Real({str(self)!r})" if self.rational is not None else f"<Real {self.decimal(15)}>"
 
 
+class _LateReal(Real):
+    """A number that is only a ball so far: a plain one, which is faster to read, once it is looked into."""
+
+    __slots__ = ()
+
+    def __getattr__(self, name: str) -> Any:
+        if name in ("rational", "_linear") and self._bits == LATE:
+            self._made()
+        return object.__getattribute__(self, name)
+
+    def _made(self) -> None:
+        make = getattr(self, "_make", None)
+        value = None if make is None else make()
+        rational = None if value is None else value.rational
+        with LOCK:
+            if value is not None and self._bits == LATE:
+                self._linear = None if rational is not None else value.terms
+                if value._bits:
+                    self._ball = value._ball
+                self.rational, self._sign, self._bits = rational, value._sign, value._bits
+                del self._make
+                self.__class__ = Real  # type: ignore[assignment]
+
+
+_LateReal.__name__ = _LateReal.__qualname__ = Real.__name__  # It is nothing else to those who read of it.
+
+
 def real(q: fmpq) -> Real:
     """A rational as a Real, without any check: the commonest of all steps."""
     self = object.__new__(Real)
-    self.rational, self._bits, self._sign = q, 0, None
+    self.rational, self._linear, self._bits, self._sign = q, None, 0, None
     return self
 
 
@@ -558,8 +573,8 @@ def _atom_product(a: Atom, b: Atom) -> tuple[Terms, fmpq | int]:
     if a is b and isinstance(a, Sqrt):
         square = a.args[0]
         assert isinstance(square, Real)
-        return square._terms, 1
-    return _node_product(Real.of_atom(a), Real.of_atom(b))._terms, 1
+        return square.terms, 1
+    return _node_product(Real.of_atom(a), Real.of_atom(b)).terms, 1
 
 
 def _node_product(a: Real, b: Real) -> Real:
@@ -569,30 +584,15 @@ def _node_product(a: Real, b: Real) -> Real:
 
 def _primitive(x: Real) -> tuple[fmpq, Real]:
     """(c, y) with x = c y, the same y for all rational multiples of x."""
-    divisor = content(x._terms)
-    if x._terms[min(x._terms, key=hash)] < 0:
+    divisor = content(x.terms)
+    if x.terms[min(x.terms, key=hash)] < 0:
         divisor = -divisor
     return divisor, x._scaled(1 / divisor)
 
 
 def _sqrt_node(x: Real) -> Real:
     """sqrt of a form, its rational content taken out as far as it is a square."""
-    divisor = content(x._terms)
+    divisor = content(x.terms)
     ((radicand, factor),) = square_root(divisor).items()
     assert isinstance(radicand, int)
     return Real.of_atom(Sqrt.make(x._scaled(fmpq(radicand) / divisor)))._scaled(factor)
-
-
-def roots(coefficients: Iterable[object]) -> list[Real]:
-    """All distinct real roots, ascending, of ``c_0 + c_1 x + ...`` with rational coefficients.
-
-    Rational and quadratic roots come in closed form.  ValueError for the zero polynomial.
-    """
-    values = [rational(c) for c in coefficients]
-    common = fmpz(1)
-    for c in values:
-        common = common.lcm(c.q)
-    whole = fmpz_poly([(c * common).p for c in values])
-    if whole.degree() < 0:
-        raise ValueError("every number is a root of the zero polynomial")
-    return sorted(Real._form(root) for factor, _ in whole.factor()[1] for root in irreducible_roots(factor))

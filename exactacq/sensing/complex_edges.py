@@ -84,11 +84,13 @@ class FamilySweeper:
         """
         images: list[FamilyImage] = []
         single_lines: list[SingleLine] = []
-        near = self._near(self.table.spots(e))
+        around = self._near(self.table.spots(e))
         for sector in normals(self.table.curves[e]):
             ends = (e, int(self.table.next[e])) if isinstance(sector, Sliding) else NO_ENDS
-            self._add(images, sector, near, (e,), Side(e, Role.CONTACT), None, ends, goes_back=False)
+            self._add(images, sector, around, (e,), Side(e, Role.CONTACT), None, ends, goes_back=False)
         for feature in self._features.get(e, ()):
+            # Edges out of reach of a corner would only divide its families further.
+            near = around if feature.round else self._near((self.table.curves[e].start.xy,))
             contact = Side(e, Role.CONTACT, fixed=not feature.round)
             first, last = self._corners_beside(feature)
             sweeps = [

@@ -18,8 +18,9 @@ from flint import fmpq, fmpq_poly
 from exactacq.geometry.coordinates import cross, dot
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Point
+from exactacq.numbers.function_zeros import roots
 from exactacq.numbers.rationals import rational
-from exactacq.numbers.real import Real, roots
+from exactacq.numbers.real import Real
 from exactacq.visibility.line_families import Sector, Vector
 
 X = fmpq_poly([0, 1])
