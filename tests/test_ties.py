@@ -186,3 +186,11 @@ def test_an_end_that_was_seen_at_the_range_from_the_same_line() -> None:
     That place is known by two roots of degree 12, one of the end and one of the sights.
     """
     assert xa.seed_spreader(xa.load(DATA / "thickened.json")).complete
+
+
+def test_a_crossing_point_is_on_the_edge_that_it_was_cut_from() -> None:
+    """Where a diversion's way meets an arc, nobody asks once more whether the point is on its circle.
+
+    Its numbers come from an end of what is known, and that from an earlier place: it is far to prove.
+    """
+    assert xa.seed_spreader(random_scene(Subject.SEED_SPREADER, 311001495)).complete

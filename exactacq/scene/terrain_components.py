@@ -82,6 +82,11 @@ class Component:
         """The numbers of the shore's curves that pass a point."""
         return tuple(k for k in self._index.may_pass(point) if self.edges[k].passes(point))
 
+    def edges_on(self, point: Point, edges: Container[int]) -> tuple[int, ...]:
+        """The same, if all *edges* of the obstacle that pass the point are known."""
+        shore = enumerate(self.shore)
+        return tuple(k for k, p in shore if p.edge in edges and (p.is_whole or p.curve.contains(point)))
+
     @cached_property
     def _index(self) -> BoundaryIndex:
         return BoundaryIndex(self.edges)

@@ -6,7 +6,7 @@ where they meet; both are decided exactly.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol, TypeAlias
@@ -141,7 +141,17 @@ class Map:
         >>> xa.sightseer(xa.load("squares")).map.spots(0, xa.Point(-9, -9))
         ()
         """
-        targets = (self._targets.of[i][k] for k in self.obstacles[i].edges_at(point))
+        return self.spots_on(i, point, self.obstacles[i].edges_at(point))
+
+    def spots_on(self, i: int, point: Point, edges: Iterable[int]) -> Spots:
+        """Where a point lies that is known to be on some edges of obstacle i, as `spots` tells it.
+
+        >>> import exactacq as xa
+        >>> run = xa.sightseer(xa.load("circles"))
+        >>> run.map.spots_on(0, xa.Point(7, 0), (0,)) == run.map.spots(0, xa.Point(7, 0))
+        True
+        """
+        targets = (self._targets.of[i][k] for k in edges)
         return tuple((target.edge, u) for target in targets for u in self._parameters(target, point))
 
     def _parameters(self, target: Target, point: Point) -> list[Real]:

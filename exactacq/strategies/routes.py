@@ -14,6 +14,7 @@ from itertools import pairwise
 from exactacq.errors import MoveError
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.points import Point
+from exactacq.scene.terrain_components import Component
 from exactacq.sensing.map import Map, Spots
 from exactacq.strategies.seed_spreader.blocked import Crossing
 from exactacq.strategies.walker import Walker
@@ -99,8 +100,10 @@ class Route:
     def _ashore(self, number: int, chart: Map) -> Spots:
         """Where a crossing point lies on the boundary that the robot can reach, if it does."""
         if number not in self._spots:
-            crossing = self._crossings[number]
-            self._spots[number] = chart.spots(crossing.component.index, crossing.stop.point)
+            # That the point lies on some edges is how it was found: it may be far to prove once more.
+            component, (_, point, on) = self._crossings[number].component, self._crossings[number].stop
+            edges = component.edges_on(point, on) if isinstance(component, Component) else sorted(on)
+            self._spots[number] = chart.spots_on(component.index, point, edges)
         return self._spots[number]
 
     def _exits(self, obstacle: int, chart: Map) -> Iterable[Exit]:
