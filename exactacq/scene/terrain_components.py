@@ -83,7 +83,7 @@ class Component:
         return tuple(k for k in self._index.may_pass(point) if self.edges[k].passes(point))
 
     def edges_on(self, point: Point, edges: Container[int]) -> tuple[int, ...]:
-        """The numbers of the shore's curves that pass a point, if the obstacle's *edges* that do are known."""
+        """The numbers of the shore's curves that pass a point, all *edges* of the obstacle that do given."""
         shore = enumerate(self.shore)
         return tuple(k for k, p in shore if p.edge in edges and (p.is_whole or p.curve.contains(point)))
 
