@@ -11,8 +11,6 @@ from flint import fmpq
 from nightly import some
 from strategies import arc_terrain, degenerate_terrain, random_terrain
 
-from exactacq.kernel.images import EdgeImages
-from exactacq.kernel.lines import Frame
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.complex_edges import FamilySweeper, normals
@@ -55,15 +53,8 @@ def test_sweeps_are_the_same(kind: str, seed: int, monkeypatch: pytest.MonkeyPat
     every, counts = list(range(len(table.curves))), []
     may_be_met = rotational_sweep.may_be_met
 
-    def counted(
-        images: EdgeImages,
-        edges: list[int],
-        frame: Frame,
-        low: tuple[float, float],
-        high: tuple[float, float],
-        goes_back: bool,
-    ) -> list[int]:
-        found = may_be_met(images, edges, frame, low, high, goes_back)
+    def counted(*args: object) -> list[int]:
+        found = may_be_met(*args)  # type: ignore[arg-type]
         counts.append(len(found))
         return found
 

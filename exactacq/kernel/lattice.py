@@ -23,6 +23,24 @@ class Lattice:
         self.x, self.y = x, y
 
 
+def place_among(vectors: list[tuple[int, int]], x: int, y: int) -> tuple[int, bool]:
+    """Where a direction comes among others, counterclockwise from the east; and whether it is one of them."""
+    is_upper = _is_upper(x, y)
+    for k in range(len(vectors)):
+        other_x, other_y = vectors[k]
+        turn = other_x * y - other_y * x
+        if _is_upper(other_x, other_y) != is_upper:
+            turn = -1 if is_upper else 1
+        if turn <= 0:
+            return k, turn == 0
+    return len(vectors), False
+
+
+def _is_upper(x: int, y: int) -> bool:
+    """Whether a direction is less than half a turn counterclockwise of the east, or the east itself."""
+    return y > 0 or (y == 0 and x > 0)
+
+
 @final
 class LatticeLines:
     """The lines about a vertex or, of *kind* sliding, the normals of a straight edge that starts there.
@@ -45,22 +63,18 @@ class LatticeLines:
         Lines before the first one, *low*, and after the last one, *high*, are left out. None at all are told
         if one of them touches an arc.
         """
-        ratios: list[Ratio] = []
+        vectors: list[tuple[int, int]] = []
         groups: list[list[BoundLine]] = []
         for line in cluster:
             top, below = self._ratio(line, low)
             if below == 0:
                 return []
-            at, order = 0, 1
-            for other_top, other_below in ratios:
-                order = other_top * below - top * other_below
-                if order >= 0:
-                    break
-                at += 1
-            if at < len(groups) and order == 0:
+            # Turned by a quarter, so that all lie on the upper side.
+            at, is_there = place_among(vectors, -top, below)
+            if is_there:
                 groups[at].append(line)
             else:
-                ratios.insert(at, (top, below))
+                vectors.insert(at, (-top, below))
                 groups.insert(at, [line])
         begin, end = 0, len(groups)
         for k in range(len(groups)):

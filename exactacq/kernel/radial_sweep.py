@@ -13,7 +13,7 @@ from math import inf
 from typing import Final, final
 
 from exactacq.kernel.bounded import TINY, UNIT, WIDEN, cross
-from exactacq.kernel.lattice import Lattice
+from exactacq.kernel.lattice import Lattice, place_among
 from exactacq.kernel.radial_faces import RadialFaces
 
 NOTHING: Final = -1
@@ -115,15 +115,8 @@ class FaceSweep:
             if event >= len(lattice.x):
                 return []
             x, y = lattice.x[event] - lattice.x[center], lattice.y[event] - lattice.y[center]
-            is_upper, at, turn = _is_upper(x, y), 0, -1
-            for other_x, other_y in vectors:
-                turn = other_x * y - other_y * x
-                if _is_upper(other_x, other_y) != is_upper:
-                    turn = -1 if is_upper else 1
-                if turn <= 0:
-                    break
-                at += 1
-            if at < len(groups) and turn == 0:
+            at, is_there = place_among(vectors, x, y)
+            if is_there:
                 groups[at].append(k)
             else:
                 vectors.insert(at, (x, y))
@@ -268,8 +261,3 @@ class FaceSweep:
             if low < 0 or 0 < (rank - low) % cells < (high - low) % cells:
                 found.append(f)
         return found
-
-
-def _is_upper(x: int, y: int) -> bool:
-    """Whether a direction is less than half a turn counterclockwise of the east, or the east itself."""
-    return y > 0 or (y == 0 and x > 0)
