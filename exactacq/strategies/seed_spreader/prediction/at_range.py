@@ -22,9 +22,9 @@ from exactacq.visibility.line_families import EAST, WEST, Sector, corner_sectors
 def ordinates_at_range(x: fmpq, feature: Point | Arc, target: Curve, radius: fmpq) -> list[Real] | None:
     """A finite superset of the ordinates from which a line that touches a feature is as long as the range.
 
-    One for each such line.
-    It goes from the vertical line at *x* to the line or circle of the target. None where no closed form is
-    known: where the feature, or the line that the target is part of, is not seen to be rational.
+    There is one for each such line, from the vertical line at *x* to the line or circle of the target.
+    None where no closed form is known: where the feature, or the line that the target is part of, is not seen
+    to be rational.
     """
     sectors = _sectors(feature)
     target = target if isinstance(target, Arc) else target.whole

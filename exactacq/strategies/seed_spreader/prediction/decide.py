@@ -546,7 +546,7 @@ class _LineBatch:
             same = [y for y in found if y.overlaps(z)]
             if order == 0 and len(same) == 1:
                 # What is left open by balls may be far to prove: the end may have another form.
-                found.remove(same[0])
+                found = [y for y in found if y is not same[0]]
         inside = sorted(y for y in found if low.compare(y) < 0 < high.compare(y))
         bounds = [low, *inside, high]
         between = [Real(rational_between(a, b)) for a, b in pairwise(bounds) if a.compare(b)]
