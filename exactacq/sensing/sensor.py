@@ -118,8 +118,8 @@ class Sensor:
         # None of the obstacles was whole before: only one of which more is known now can be.
         more = self.targets.near(learned)
         notices: list[Notice] = []
-        # Nothing is to be told of what is out of sight before and all along.
-        for k in sorted(shares.shown() | self.in_sight.intersection(shares.obstacles)):
+        # What is in sight at first is seen from the start: of what is not shown nothing is to be told.
+        for k in sorted(shares.shown()):
             whole = self._acquired(shares, k) if k in more and self.targets.is_whole(k, now) else None
             if whole is None and k in self.in_sight and shares.is_in_sight(k):
                 continue
