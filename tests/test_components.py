@@ -190,3 +190,12 @@ def test_ways_that_end_on_an_arc_meet_it_where_any_way_does(bulge: str, share: s
         found = [contact.start for contact in contacts(way, arc)]
         assert len(told) == len(found)
         assert all(any(p == q for q in found) for p in told)
+
+
+def test_an_edge_of_a_component_passes_points_of_hidden_shores_too() -> None:
+    """A disc across a terrain has one edge, and a shore on either side: only one is within reach."""
+    (component,) = Ground(Scene([Circle((1, 5), 3)]).obstacles, Terrain(2, 10)).of(0)
+    far, near = Point(1, 8), Point(1, 2)
+    assert (component.edges_on(far, {0}), component.edges_on(near, {0})) == ((), (0,))
+    assert (component.edges_at(far), component.edges_at(near)) == ((), (0,))
+    assert component.edges_on(near, ()) == ()
