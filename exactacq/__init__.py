@@ -48,10 +48,9 @@ if TYPE_CHECKING:
     from exactacq.strategies.run import OwnRun, Run, SeedSpreaderRun, SightseerRun
     from exactacq.strategies.seed_spreader.strategy import seed_spreader
     from exactacq.strategies.sightseer.strategy import sightseer
+    from exactacq.visibility.graphs import tangent_graph, visibility_graph
     from exactacq.visibility.isovist import Isovist, isovist
-    from exactacq.visibility.links import visibility_graph
     from exactacq.visibility.shortest_path import ShortestPath, shortest_path
-    from exactacq.visibility.tangent_graph import tangent_graph
 
 __all__ = [
     "Arc",
@@ -151,9 +150,9 @@ _HOMES = {
     "sightseer": "exactacq.strategies.sightseer.strategy",
     "strategy": "exactacq.strategies.registry",
     "sweep": "exactacq.sensing.view_events",
-    "tangent_graph": "exactacq.visibility.tangent_graph",
+    "tangent_graph": "exactacq.visibility.graphs",
     "terrain_around": "exactacq.scene.bounding",
-    "visibility_graph": "exactacq.visibility.links",
+    "visibility_graph": "exactacq.visibility.graphs",
     "write": "exactacq.output.results",
 }
 """Where the names live."""

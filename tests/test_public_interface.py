@@ -219,7 +219,10 @@ class TestImports:
     def test_a_length_needs_no_pictures_files_or_graphs(self) -> None:
         heavy = {"networkx", "sympy", "matplotlib", "ezdxf", "typer", "rich"}
         assert not self.loaded("xa.Length") & heavy
-        assert not self.loaded("xa.sightseer; xa.audit; xa.isovist") & (heavy - {"networkx"})
+        scene = "xa.Scene([xa.Circle((5, 5), 1)], terrain=xa.Terrain(9, 9), radius=3)"
+        run = f"xa.sightseer({scene}, start=(0, 0)); xa.seed_spreader({scene})"
+        assert not self.loaded(f"{run}; xa.isovist") & heavy
+        assert not self.loaded("xa.audit") & (heavy - {"networkx"})
 
     @pytest.mark.parametrize(
         "line", ["--help", "--version", "explore --help", "verify --help", "search --help"]

@@ -1,4 +1,4 @@
-"""Links: the shortest visible segments between boundaries, and the obstacle visibility graph.
+"""Links: the shortest visible segments between boundaries.
 
 v(i, j) is the least length of a free segment between the boundaries of obstacles i and j. There are three
 kinds of shortest segments. One touches no feature: it is a local minimum of the distance, from
@@ -13,12 +13,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property, cmp_to_key, partial
+from functools import cached_property, partial
 from heapq import heapify, heappop, heappush
 from itertools import count
 from typing import TypeAlias
 
-import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
 
@@ -27,7 +26,6 @@ from exactacq.geometry.nearest_points import Nearest, NearestFamily, NearestFami
 from exactacq.geometry.points import Point
 from exactacq.kernel.bound_lines import NOTHING
 from exactacq.numbers.float_bounds import margin
-from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import STRAIGHT, EdgeTable, Floats, Ints, quotient
 from exactacq.scene.scene import Scene, as_scene, radius_of
@@ -395,47 +393,6 @@ class _Best:
 
     def link(self, source: Node, target: int) -> Link | None:
         return Link(source, target, self.length, tuple(self.shortest)) if self.found else None
-
-
-def visibility_graph(scene: Scene, radius: object = None) -> nx.Graph:
-    """The obstacle visibility graph: nodes are obstacle indices, and "S" if the scene has a start.
-
-    The nodes sort, "S" first.
-
-    An edge joins two nodes that see each other within *radius* (the scene's own if None). Its ``weight`` is
-    v, the length of a shortest free segment between them (paper, section 3), as a `Length`; ``link`` is the
-    `Link` with all shortest segments; ``leave``, on the link's source, and ``hit`` are the ends of the
-    lexicographically least of them. Raises `InvalidScene` for a missing or illegal radius. Cost: near linear
-    in the number of obstacles at constant density.
-
-    >>> import exactacq as xa
-    >>> graph = visibility_graph(xa.load("circles"))
-    >>> [(i, j, str(v)) for i, j, v in graph.edges(data="weight")]
-    [(0, 1, '2'), (0, 'S', '3')]
-    >>> sorted(graph.nodes)
-    ['S', 0, 1]
-    """
-    return graph_of(Links(scene, radius))
-
-
-def graph_of(links: Links) -> nx.Graph:
-    """The obstacle visibility graph of links, as `visibility_graph` gives it."""
-    scene, graph = links.scene, nx.Graph()
-    graph.add_nodes_from(range(links.count))
-    for i in range(links.count):
-        for j in links.neighbours(i):
-            if j > i and (link := links.between(i, j)) is not None:
-                _add_edge(graph, link)
-    if scene.start is not None:
-        graph.add_node(START)
-        for link in links.from_point(scene.start).values():
-            _add_edge(graph, link)
-    return graph
-
-
-def _add_edge(graph: nx.Graph, link: Link) -> None:
-    leave, hit = min(link.segments(), key=cmp_to_key(lexicographic))
-    graph.add_edge(link.source, link.target, weight=Length(link.length), leave=leave, hit=hit, link=link)
 
 
 def pair_bounds(table: EdgeTable, a: Ints, b: Ints) -> Floats:

@@ -20,7 +20,8 @@ from exactacq.strategies.seed_spreader.strategy import seed_spreader
 from exactacq.strategies.sightseer.strategy import sightseer
 from exactacq.study.claims.farthest import farthest_first
 from exactacq.study.claims.formulas import spoken
-from exactacq.visibility.links import START, Links, graph_of
+from exactacq.visibility.graphs import graph_of
+from exactacq.visibility.links import START, Links
 
 Made = TypeVar("Made")
 

@@ -1,4 +1,8 @@
-"""The tangent graph of a scene: corners, contacts and given points, joined by free tangents and arcs."""
+"""Graphs of a scene, as networkx has them.
+
+The obstacle visibility graph joins obstacles that see each other. The tangent graph joins corners, contacts
+and given points by free tangents and arcs. Runs need neither: so they do not load networkx.
+"""
 
 from __future__ import annotations
 
@@ -16,11 +20,53 @@ from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
 from exactacq.scene.scene import Scene
 from exactacq.visibility.known_ground import Charted, Grounded, KnownGround
+from exactacq.visibility.links import START, Link, Links, lexicographic
 from exactacq.visibility.pegs import Peg
 from exactacq.visibility.scene_tables import place_in
 from exactacq.visibility.tangents import FreeTangent, Tangents
 
 BITS = 64
+
+
+def visibility_graph(scene: Scene, radius: object = None) -> nx.Graph:
+    """The obstacle visibility graph: nodes are obstacle indices, and "S" if the scene has a start.
+
+    The nodes sort, "S" first.
+
+    An edge joins two nodes that see each other within *radius* (the scene's own if None). Its ``weight`` is
+    v, the length of a shortest free segment between them (paper, section 3), as a `Length`; ``link`` is the
+    `Link` with all shortest segments; ``leave``, on the link's source, and ``hit`` are the ends of the
+    lexicographically least of them. Raises `InvalidScene` for a missing or illegal radius. Cost: near linear
+    in the number of obstacles at constant density.
+
+    >>> import exactacq as xa
+    >>> graph = visibility_graph(xa.load("circles"))
+    >>> [(i, j, str(v)) for i, j, v in graph.edges(data="weight")]
+    [(0, 1, '2'), (0, 'S', '3')]
+    >>> sorted(graph.nodes)
+    ['S', 0, 1]
+    """
+    return graph_of(Links(scene, radius))
+
+
+def graph_of(links: Links) -> nx.Graph:
+    """The obstacle visibility graph of links, as `visibility_graph` gives it."""
+    scene, graph = links.scene, nx.Graph()
+    graph.add_nodes_from(range(links.count))
+    for i in range(links.count):
+        for j in links.neighbours(i):
+            if j > i and (link := links.between(i, j)) is not None:
+                _add_edge(graph, link)
+    if scene.start is not None:
+        graph.add_node(START)
+        for link in links.from_point(scene.start).values():
+            _add_edge(graph, link)
+    return graph
+
+
+def _add_edge(graph: nx.Graph, link: Link) -> None:
+    leave, hit = min(link.segments(), key=cmp_to_key(lexicographic))
+    graph.add_edge(link.source, link.target, weight=Length(link.length), leave=leave, hit=hit, link=link)
 
 
 def tangent_graph(
