@@ -150,7 +150,7 @@ def test_an_end_keeps_little_alive() -> None:
 def without_balls(patch: pytest.MonkeyPatch) -> None:
     """Let balls decide nothing and make every point at once."""
     for module in (radial_sweep, front_faces, range_clip):
-        patch.setattr(module, "late_point", lambda around, make: make())
+        patch.setattr(module, "late_point", lambda around, make, *given: make(*given))
     for module in (late, front_faces, range_clip, end_names):
         patch.setattr(module, "ball_sign", lambda ball: 0)
 

@@ -7,7 +7,7 @@ boundary edges are points with rational coordinates.
 
 from __future__ import annotations
 
-from functools import cached_property, partial
+from functools import cached_property
 
 from flint import arb, fmpq
 
@@ -112,7 +112,7 @@ class _Along:
             return self.exact(point)
         start, growth = self._balls
         around = ((point.y if self.steep else point.x).ball(BITS) - start) / growth
-        return Real.late(around, partial(self.exact, point))
+        return Real.late(around, _Along.exact, self, point)
 
     def exact(self, point: Point) -> Real:
         """That of a point, which is made."""
@@ -145,7 +145,7 @@ class _Turns:
         for k, base in enumerate(bases):
             along, across = dot(base, radius), cross(base, radius) * self.sense
             if along > 0 and across > 0:
-                return Real.late(k + across / (radius_sq + along), partial(self.exact, point))
+                return Real.late(k + across / (radius_sq + along), _Turns.exact, self, point)
         return self.exact(point)
 
     def exact(self, point: Point) -> Real:

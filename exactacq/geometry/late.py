@@ -10,7 +10,7 @@ maker. What a maker holds lives as long as the point is not made, so it should h
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TypeAlias
+from typing import Any, TypeAlias, TypeVarTuple
 
 from flint import arb, fmpq
 
@@ -25,6 +25,7 @@ Balls: TypeAlias = "tuple[arb, arb]"
 """Balls around two coordinates."""
 Pin: TypeAlias = "tuple[Point, Real]"
 """A point of a curve with its parameter there."""
+Given = TypeVarTuple("Given")
 
 
 class _Once:
@@ -32,12 +33,13 @@ class _Once:
 
     __slots__ = ("_make", "_point")
 
-    def __init__(self, make: Callable[[], Point]) -> None:
-        self._make: Callable[[], Point] | None = make
+    def __init__(self, make: Callable[..., Point], given: tuple[Any, ...]) -> None:
+        self._make: tuple[Callable[..., Point], tuple[Any, ...]] | None = (make, given)
 
     def _made(self) -> Point:
         if self._make is not None:
-            self._point, self._make = self._make(), None
+            make, given = self._make
+            self._point, self._make = make(*given), None
         return self._point
 
     def x(self) -> Real:
@@ -47,8 +49,8 @@ class _Once:
         return self._made().y
 
 
-def late_point(around: Balls, make: Callable[[], Point]) -> Point:
-    """The point that *make* gives, whose coordinates lie in two balls.
+def late_point(around: Balls, make: Callable[[*Given], Point], *given: *Given) -> Point:
+    """The point that *make* makes of what is *given*, whose coordinates lie in two balls.
 
     *make* is called at most once. Where a ball is not finite it is called at once.
 
@@ -60,8 +62,8 @@ def late_point(around: Balls, make: Callable[[], Point]) -> Point:
     """
     x, y = around
     if not (x.is_finite() and y.is_finite()):
-        return make()
-    once = _Once(make)
+        return make(*given)
+    once = _Once(make, given)
     return Point(Real.late(x, once.x), Real.late(y, once.y))
 
 

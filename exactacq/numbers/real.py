@@ -26,7 +26,7 @@ from collections.abc import Callable, Hashable, Iterable, Mapping
 from decimal import Decimal
 from fractions import Fraction
 from math import gcd, log2
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVarTuple
 
 from flint import arb, fmpq, fmpq_poly, fmpz
 
@@ -78,6 +78,7 @@ LATE_BITS = 64
 EXPAND_TERMS = 64
 """A product of two radical sums is multiplied out up to this many terms."""
 ZERO, ONE = fmpq(0), fmpq(1)
+Given = TypeVarTuple("Given")
 
 
 class Real(Exact):
@@ -101,7 +102,7 @@ class Real(Exact):
     """The value if the form is rational, else None (a hidden rational stays hidden). Not to be assigned."""
     _ball: arb
     _bits: int
-    _make: Callable[[], Real]
+    _make: tuple[Callable[..., Real], tuple[Any, ...]]
     _sign: int | None
     _linear: Mapping[Atom, fmpq] | None
 
@@ -122,8 +123,8 @@ class Real(Exact):
         return cls._form({atom: ONE})
 
     @classmethod
-    def late(cls, ball: arb, make: Callable[[], Real]) -> Real:
-        """The number that *make* gives, which lies in *ball*: made when more than the ball is asked for.
+    def late(cls, ball: arb, make: Callable[[*Given], Real], *given: *Given) -> Real:
+        """The number that *make* makes of what is *given*, once more is asked for than *ball*, around it.
 
         Signs and comparisons that the ball decides cost no arithmetic. *make* is called at most once.
 
@@ -132,7 +133,7 @@ class Real(Exact):
         (True, Real('2'))
         """
         self = object.__new__(_LateReal)
-        self._ball, self._bits, self._make, self._sign = ball, LATE, make, None
+        self._ball, self._bits, self._make, self._sign = ball, LATE, (make, given), None
         return self
 
     @property
@@ -530,7 +531,7 @@ class _LateReal(Real):
 
     def _made(self) -> None:
         make = getattr(self, "_make", None)
-        value = None if make is None else make()
+        value = None if make is None else make[0](*make[1])
         rational = None if value is None else value.rational
         with LOCK:
             if value is not None and self._bits == LATE:

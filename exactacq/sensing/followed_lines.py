@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass
-from functools import partial
 
 from flint import arb
 
@@ -137,7 +136,7 @@ class LineFollower:
         """The end of a line that is as long as the range."""
         x, y, dx, dy = line(at.sector, at.t.ball(64))
         away = role * arb(self.range.radius) / (dx * dx + dy * dy).sqrt()
-        return late_point((x + dx * away, y + dy * away), partial(self._at_range, at, role))
+        return late_point((x + dx * away, y + dy * away), self._at_range, at, role)
 
     def _at_range(self, at: FeatureLine, role: Role) -> Point:
         contact, direction = at.sector.touch(at.t)

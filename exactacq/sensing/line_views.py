@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from functools import partial
 
 from exactacq.geometry.curve_images import curve_image
 from exactacq.geometry.curve_parameter import Rail
@@ -98,14 +97,17 @@ class LineViews:
         if side.role is Role.CONTACT and side.fixed:
             corner = side.corner(curve)
             return corner, self.rails[side.edge].parameter(corner)
-        rail, make = self.rails[side.edge], partial(self._points.exact, sector, t, side, passed)
+        rail, exact = self.rails[side.edge], self._points.exact
         at = line(sector, t.ball(64))
         is_told, found = self._points.passed_in_balls(side, at, passed)
         if isinstance(found, Point):
             return found, rail.parameter(found)
         if found is None and is_told:
             found = self.spot(at, side)
-        point = make() if found is None else late_point(found, make)
+        if found is None:
+            point = exact(sector, t, side, passed)
+        else:
+            point = late_point(found, exact, sector, t, side, passed)
         return point, rail.parameter(point)
 
     def spot(self, at: Line, side: Side) -> Balls | None:
@@ -148,7 +150,7 @@ class LineViews:
             ahead = ball_sign((x - at[0]) * at[2] + (y - at[1]) * at[3])
             is_open = not (after and before and (ahead or here.role is Role.CONTACT))
             if not is_open and here.role in (ahead, Role.CONTACT):
-                found = Real.late(t, partial(_line_through, sector, point, k))
+                found = Real.late(t, _line_through, sector, point, k)
                 far, _ = self._late_pin(sector, found, there, ())
                 points = (point, far) if side == 0 else (far, point)
                 one, other = (

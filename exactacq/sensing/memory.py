@@ -20,11 +20,11 @@ from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.scene import Scene
 from exactacq.scene.terrain_components import Ground
-from exactacq.sensing.event import EventKind, Reason
+from exactacq.sensing.event import Event, EventKind, Reason
 from exactacq.sensing.leg_views import Covers
 from exactacq.sensing.legs import Leg, legs_of, parts_of
 from exactacq.sensing.map import Body, Map
-from exactacq.sensing.path import Piece
+from exactacq.sensing.path import Path, Piece
 from exactacq.sensing.sensor import Ahead, Sensor
 from exactacq.sensing.targets import Targets
 from exactacq.visibility.sensor_range import Range
@@ -40,6 +40,10 @@ class Report:
     reason: Reason | None
     after: int
     inside: bool
+
+    def event(self, path: Path) -> Event:
+        """The event on the whole path."""
+        return Event(self.kind, self.place, self.obstacle, self.after, path, self.inside, reason=self.reason)
 
 
 class History:

@@ -120,8 +120,8 @@ class RangeEnds:
             spot = self.views.spot(at, side)
             if spot is None:
                 return exact()
-            late = partial(_point_of, exact, k)
-            points.append(side.corner(self.views.curve(side.edge)) if side.fixed else late_point(spot, late))
+            corner = side.corner(self.views.curve(side.edge)) if side.fixed else None
+            points.append(late_point(spot, _point_of, exact, k) if corner is None else corner)
         one, other = (
             self.views.rails[side.edge].parameter(point)
             for side, point in zip(free_views.sides, points, strict=True)

@@ -28,7 +28,8 @@ class Walker:
         self.memory = memory
         self._boundaries: dict[int, Boundary] = {}
         self.pieces: list[Piece] = []
-        self._marks: list[partial[Event]] = []
+        # What happened, as it was seen or told: events know the path, which goes on.
+        self._marks: list[Report | partial[Event]] = []
         # The number of the last mark, and the pieces before it.
         self._last_mark = 0, 0
         self.start = self.position = start
@@ -116,17 +117,17 @@ class Walker:
         """
         number, place = self._last_mark
         mark = self._marks[number]
+        assert not isinstance(mark, Report), "the last mark was told"
         if place != after or mark.keywords.get("decided") is not None:
             return False
         self._marks[number] = partial(mark, decided=decided)
         return True
 
     def _write(self, reports: list[Report]) -> None:
-        for r in reports:
-            seen = r.kind, r.place, r.obstacle, r.after
-            self._marks.append(partial(Event, *seen, inside=r.inside, reason=r.reason))
+        self._marks += reports
 
     def trace(self) -> tuple[Path, tuple[Event, ...], Memory]:
         """The path, the events and the memory so far."""
         path = Path(self.pieces)
-        return path, tuple(mark(path=path) for mark in self._marks), self.memory
+        events = (one.event(path) if isinstance(one, Report) else one(path=path) for one in self._marks)
+        return path, tuple(events), self.memory

@@ -9,7 +9,6 @@ the first face of every cell (`exactacq.kernel.radial_sweep`); what they leave o
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from functools import partial
 from itertools import groupby
 from operator import itemgetter
 from typing import TypeAlias
@@ -229,7 +228,7 @@ class RadialSweep:
             return self.hit(face, rank)
         vector, make = faces.late_offset(group[0])
         around = _ball_hit(curve, faces.around, own, vector)
-        return late_point(around, partial(_made_hit, curve, faces.point, own, make))
+        return late_point(around, _made_hit, curve, faces.point, own, make)
 
     def covering(self, rank: int) -> list[int]:
         """The faces that cover a rank's direction and do not end there."""

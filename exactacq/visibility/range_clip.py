@@ -8,7 +8,6 @@ Balls decide what they can, and the roots are late points: made when they are lo
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
 from typing import Any, TypeAlias
 
 from flint import arb, fmpq
@@ -167,7 +166,7 @@ class _Secant:
         """Where the line enters (-1) or leaves (1) the disc."""
         share = (self.foot + self.rest.sqrt() * side) / self.square
         around = self.start[0] + self.along[0] * share, self.start[1] + self.along[1] * share
-        return late_point(around, partial(_on_line, self.line, self.disc.center, self.disc.square, side))
+        return late_point(around, _on_line, self.line, self.disc.center, self.disc.square, side)
 
 
 def _foot(line: Segment, center: Vector, radius_sq: fmpq) -> tuple[Any, Any, Any]:
@@ -223,7 +222,7 @@ class _CircleCut:
         level = (self.disc.square_ball - square - radius_sq) / 2
         height = (radius_sq * square - level * level).sqrt() * side
         around = x + (u * level - v * height) / square, y + (v * level + u * height) / square
-        return late_point(around, partial(_crossing, self.arc, self.w, self.level, side))
+        return late_point(around, _crossing, self.arc, self.w, self.level, side)
 
     def is_point(self, point: Point, excess: int, side: int) -> bool:
         """Whether a point of the circle is its crossing of the range to the left (1) or right (-1) of w.

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property, cmp_to_key, partial
+from functools import cached_property, cmp_to_key
 from math import isnan
 from typing import TypeAlias
 
@@ -122,8 +122,8 @@ def value_of(table: EdgeTable, sector: Sector, bound: BoundLine) -> Real:
         made = Real(shared)
     else:
         circle = target(table, bound.number, bound.side)
-        make = partial(_exact, sector, *circle, bound.side, bound.sign)
-        made = Real.late(arb(bound.low).union(arb(bound.high)), make)
+        around = arb(bound.low).union(arb(bound.high))
+        made = Real.late(around, _exact, sector, *circle, bound.side, bound.sign)
     bound.value = made
     return made
 
