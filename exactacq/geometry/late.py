@@ -32,14 +32,15 @@ class _Once:
     """A point that is made when one of its coordinates is first asked for."""
 
     __slots__ = ("_make", "_point")
+    _point: Point
 
     def __init__(self, make: Callable[..., Point], given: tuple[Any, ...]) -> None:
-        self._make: tuple[Callable[..., Point], tuple[Any, ...]] | None = (make, given)
+        # One object and not two: there are many of them.
+        self._make: tuple[Any, ...] | None = (make, *given)
 
     def _made(self) -> Point:
         if self._make is not None:
-            make, given = self._make
-            self._point, self._make = make(*given), None
+            self._point, self._make = self._make[0](*self._make[1:]), None
         return self._point
 
     def x(self) -> Real:
@@ -64,7 +65,7 @@ def late_point(around: Balls, make: Callable[[*Given], Point], *given: *Given) -
     if not (x.is_finite() and y.is_finite()):
         return make(*given)
     once = _Once(make, given)
-    return Point(Real.late(x, once.x), Real.late(y, once.y))
+    return Point(Real.late(x, _Once.x, once), Real.late(y, _Once.y, once))
 
 
 def balls(point: Point) -> Balls:

@@ -102,7 +102,7 @@ class Real(Exact):
     """The value if the form is rational, else None (a hidden rational stays hidden). Not to be assigned."""
     _ball: arb
     _bits: int
-    _make: tuple[Callable[..., Real], tuple[Any, ...]]
+    _make: tuple[Any, ...]
     _sign: int | None
     _linear: Mapping[Atom, fmpq] | None
 
@@ -133,7 +133,7 @@ class Real(Exact):
         (True, Real('2'))
         """
         self = object.__new__(_LateReal)
-        self._ball, self._bits, self._make, self._sign = ball, LATE, (make, given), None
+        self._ball, self._bits, self._make, self._sign = ball, LATE, (make, *given), None
         return self
 
     @property
@@ -531,7 +531,7 @@ class _LateReal(Real):
 
     def _made(self) -> None:
         make = getattr(self, "_make", None)
-        value = None if make is None else make[0](*make[1])
+        value = None if make is None else make[0](*make[1:])
         rational = None if value is None else value.rational
         with LOCK:
             if value is not None and self._bits == LATE:

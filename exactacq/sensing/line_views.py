@@ -97,7 +97,7 @@ class LineViews:
         if side.role is Role.CONTACT and side.fixed:
             corner = side.corner(curve)
             return corner, self.rails[side.edge].parameter(corner)
-        rail, exact = self.rails[side.edge], self._points.exact
+        rail, points = self.rails[side.edge], self._points
         at = line(sector, t.ball(64))
         is_told, found = self._points.passed_in_balls(side, at, passed)
         if isinstance(found, Point):
@@ -105,9 +105,9 @@ class LineViews:
         if found is None and is_told:
             found = self.spot(at, side)
         if found is None:
-            point = exact(sector, t, side, passed)
+            point = points.exact(sector, t, side, passed)
         else:
-            point = late_point(found, exact, sector, t, side, passed)
+            point = late_point(found, LinePoints.exact, points, sector, t, side, passed)
         return point, rail.parameter(point)
 
     def spot(self, at: Line, side: Side) -> Balls | None:

@@ -9,7 +9,6 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass
-from typing import NamedTuple
 
 from flint import fmpq
 
@@ -25,18 +24,24 @@ from exactacq.sensing.leg_views import Covers
 from exactacq.sensing.legs import Leg, legs_of, parts_of
 from exactacq.sensing.map import Body, Map
 from exactacq.sensing.path import Path, Piece
-from exactacq.sensing.sensor import Ahead, Sensor
+from exactacq.sensing.sensor import Ahead, Notice, Sensor
 from exactacq.sensing.targets import Targets
 from exactacq.visibility.sensor_range import Range
 
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """A notice placed on the path: after ``after`` whole pieces, or inside the piece of that number."""
+    """A notice placed on the path: after ``after`` whole pieces, or inside the piece of that number.
+
+    Its place is that of parameter ``u`` on the piece's leg number ``leg``: numbers that families share, so
+    that ties are free.
+    """
 
     kind: EventKind
     obstacle: int
     place: Point
+    u: Real
+    leg: int
     reason: Reason | None
     after: int
     inside: bool
@@ -44,6 +49,10 @@ class Report:
     def event(self, path: Path) -> Event:
         """The event on the whole path."""
         return Event(self.kind, self.place, self.obstacle, self.after, path, self.inside, reason=self.reason)
+
+
+def _report(notice: Notice, leg: int, after: int, inside: bool) -> Report:
+    return Report(notice.kind, notice.obstacle, notice.place, notice.u, leg, notice.reason, after, inside)
 
 
 class History:
@@ -106,16 +115,6 @@ class Moment(Mapping[int, Cover]):
         return sum(1 for _ in self)
 
 
-class ReportedPlace(NamedTuple):
-    """A place of the path where something was reported: its parameter on which leg of the piece, and the
-    obstacle that was acquired there, if one was."""
-
-    place: Point
-    u: Real
-    leg: int
-    acquired: int | None
-
-
 class Memory:
     """What a robot has learned on its way so far, with all ``reports``. *radius* is rational and positive.
 
@@ -136,8 +135,8 @@ class Memory:
         targets = None if ground is None else Targets.of_components(ground.components, self._table, range_)
         self._sensor = Sensor(self._table, range_, targets)
         self.reports: list[Report] = []
-        # Of every piece the places of its reports: numbers that families share, so that ties are free.
-        self._reported_at: list[list[ReportedPlace]] = []
+        # The number of reports before every piece, and of all.
+        self._told: list[int] = []
         self._looked: tuple[Piece | None, Ahead | None] = None, None
         self._walked: set[tuple[object, object]] = set()
         self._retraced: set[int] = set()
@@ -167,28 +166,24 @@ class Memory:
         """Look around at the start."""
         notices, learned = self._sensor.look_around(start)
         self._learn(learned)
-        return self._reported([Report(n.kind, n.obstacle, n.place, n.reason, 0, False) for n in notices])
+        return self._reported([_report(n, 0, 0, False) for n in notices])
 
     def walk(self, piece: Piece) -> list[Report]:
         """Take in all that a piece of the path shows; the reports in the order in which they come."""
         known, ahead = self._looked
         legs = [ahead.leg] if ahead is not None and known is piece else self._legs_of(piece)
         count, reports, retraced = len(self._legs), [], self._is_retraced(piece)
-        places: list[ReportedPlace] = []
         for k, leg in enumerate(legs):
             took = ahead if ahead is not None and leg is ahead.leg else self._sensor.ahead(leg, retraced)
             notices, learned = self._sensor.follow(took)
             self._learn(learned)
             for n in notices:
-                acquired = n.obstacle if n.kind is EventKind.ACQUIRE else None
-                places.append(ReportedPlace(n.place, n.u, k, acquired))
                 at_start = k == 0 and leg.order(n.u, leg.first) == 0
                 at_end = k == len(legs) - 1 and leg.order(n.u, leg.last) == 0
                 after = count + 1 if at_end and not at_start else count
                 inside = not (at_start or at_end)
-                reports.append(Report(n.kind, n.obstacle, n.place, n.reason, after, inside))
+                reports.append(_report(n, k, after, inside))
         self._legs.append(legs)
-        self._reported_at.append(places)
         self._before.append(self._before[-1] + len(legs))
         if retraced:
             self._retraced.add(count)
@@ -296,7 +291,7 @@ class Memory:
             # What it shows is known, in other forms of the same numbers.
             return self._map(Moment(self._history, before, {}))
         # The last report there: where two legs meet there may be one of each.
-        told = [at for at in self._reported_at[count] if at.place is place]
+        told = [at for at in self._reports_of(count) if at.place is place]
         for k, leg in enumerate(legs):
             if told and k < told[-1].leg:
                 continue
@@ -304,7 +299,7 @@ class Memory:
             if leg.span.low.compare(u) <= 0 and leg.span.high.compare(u) >= 0:
                 known = Moment(self._history, before + k, {})
                 if leg.order(u, leg.first) > 0:
-                    acquired = [at.acquired for at in told if at.acquired is not None]
+                    acquired = [at.obstacle for at in told if at.kind is EventKind.ACQUIRE]
                     newer = self._sensor.known_within(leg, u, place, known, acquired)
                     known = Moment(self._history, before + k, newer)
                 return self._map(known)
@@ -312,7 +307,12 @@ class Memory:
 
     def _reported(self, reports: list[Report]) -> list[Report]:
         self.reports += reports
+        self._told.append(len(self.reports))
         return reports
+
+    def _reports_of(self, count: int) -> list[Report]:
+        """What was reported along a piece."""
+        return self.reports[self._told[count] : self._told[count + 1]]
 
     def _map(self, covers: Covers) -> Map:
         return Map(self.bodies, self._sensor.targets, self._sensor.rails, covers)
