@@ -15,7 +15,7 @@ from exactacq import Circle, Point, Polygon, Scene, kernel
 from exactacq.geometry.curve_images import held_point
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.intersections import ContactKind, contacts, line_contacts
-from exactacq.kernel.clearance import crossed, met
+from exactacq.kernel.clearance import crossed, met, met_ahead
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.free_segment import is_free
 
@@ -55,21 +55,25 @@ def test_verdicts_are_those_of_exact_contacts(number: int) -> None:
     edges = list(range(len(table.curves)))
     spots = list(places(scene, rng))
     pairs = [pair for pair in product(spots, spots) if pair[0] != pair[1]]
-    sure = 0
+    sure = beyond = 0
     for a, b in rng.sample(pairs, min(120, len(pairs))):
         sight = Segment(a, b)
         verdicts = crossed(table.images, edges, held_point(a), held_point(b))
         possible = met(table.images, edges, held_point(a), held_point(b - a))
+        ahead = met_ahead(table.images, edges, held_point(a), held_point(b - a))
+        assert set(ahead) <= set(possible)
+        beyond += len(possible) - len(ahead)
         for e, verdict in zip(edges, verdicts, strict=True):
             found = contacts(sight, table.curves[e])
             if verdict < 0:
                 assert not found
             elif verdict > 0:
                 assert any(one.kind is ContactKind.CROSSING for one in found)
-            if e not in possible:
-                assert not line_contacts(a, b - a, table.curves[e])
+            shares = line_contacts(a, b - a, table.curves[e])
+            assert e in possible or not shares
+            assert e in ahead or not any(share.sign() >= 0 for share in shares)
             sure += bool(verdict)
-    assert sure > 100
+    assert sure > 100 and beyond > 0
 
 
 def test_without_floats_everything_is_open(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -80,6 +84,6 @@ def test_without_floats_everything_is_open(monkeypatch: pytest.MonkeyPatch) -> N
         a, b = held_point(Point(-9, 1)), held_point(Point(9, 2))
         assert a[2] == inf
         assert set(crossed(table.images, edges, a, b)) == {0}
-        assert met(table.images, edges, a, b) == edges
+        assert met(table.images, edges, a, b) == met_ahead(table.images, edges, a, b) == edges
         assert not is_free(table, Point(-9, 1), Point(9, 1))
         assert is_free(table, Point(-9, 9), Point(9, 9))

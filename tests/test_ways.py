@@ -12,17 +12,13 @@ from nightly import NIGHTLY, some
 import exactacq as xa
 from exactacq.geometry.curve_images import curve_image
 from exactacq.geometry.curves import Segment
-from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.points import Point
 from exactacq.kernel.bounded import UNIT
 from exactacq.kernel.family_images import EndLine, FamilyImage
 from exactacq.kernel.images import ROLLING
 from exactacq.kernel.single_lines import SingleImage, crossing_lines
 from exactacq.kernel.ways import WayImage, _crossed
-from exactacq.numbers.real import Real
-from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.line_family import LineFamily
-from exactacq.sensing.own_line import on_line
 from exactacq.sensing.way_crossings import WayCrossings
 from exactacq.study.claims.model import Subject
 from exactacq.study.random_scenes import arc_scene
@@ -78,27 +74,6 @@ def test_lines_that_cross_a_way_are_found(seed: int) -> None:
             crossing += 1
         left_out += not found
     assert crossing >= 5 and (left_out >= 5 or far == 10**12)
-
-
-@pytest.mark.parametrize("name", ["figure2", "circles", "plate"])
-def test_edges_on_a_line(name: str) -> None:
-    """No edge that a line meets is left out, nor one that its ray meets; most others are."""
-    table, rng = EdgeTable(xa.load(name).obstacles), Random(name)
-    every = range(len(table.curves))
-    kept = 0
-    for _ in range(30):
-        a, b = (table.curves[rng.randrange(len(every))].start for _ in "ab")
-        along = b - a if a != b else Point(1, Real(2).sqrt())
-        found, ahead = (
-            on_line(table, every, a, along, 256 * table.roundoff, is_ray) for is_ray in (False, True)
-        )
-        assert set(ahead) <= set(found)
-        kept += len(found)
-        for e in every:
-            contacts = line_contacts(a, along, table.curves[e])
-            assert e in found or not contacts
-            assert e in ahead or not any(share.sign() >= 0 for share in contacts)
-    assert kept < 30 * len(every)
 
 
 def tangents(rng: Random) -> tuple[FamilyImage, list[tuple[Pair, Pair]]]:

@@ -1,6 +1,8 @@
-"""Which edges a segment, or a whole line, crosses, in floats with bounds (see `kernel.bounded`)."""
+"""Which edges a segment, a ray or a whole line crosses, in floats with bounds (see `kernel.bounded`)."""
 
 from __future__ import annotations
+
+from typing import Final
 
 from exactacq.kernel.bounded import (
     TINY,
@@ -18,36 +20,46 @@ from exactacq.kernel.images import STRAIGHT, EdgeImages
 
 Place = tuple[float, float, float]
 """A point, or a vector: two components that are held with one bound."""
+SEGMENT: Final = 0
+RAY: Final = 1
+LINE: Final = 2
 
 
 def crossed(images: EdgeImages, edges: list[int], start: Place, end: Place) -> list[int]:
     """For each of some edges 1 if a segment certainly crosses it between the ends of both, -1 if they
     certainly do not meet, else 0."""
     along = _offset(start, end)
-    return [_verdict(images, e, start, end, along, False) for e in edges]
+    return [_verdict(images, e, start, end, along, SEGMENT) for e in edges]
 
 
 def met(images: EdgeImages, edges: list[int], place: Place, along: Place) -> list[int]:
     """Those of some edges that a line through a place along a vector does not certainly miss."""
-    return [e for e in edges if _verdict(images, e, place, place, along, True) >= 0]
+    return [e for e in edges if _verdict(images, e, place, place, along, LINE) >= 0]
 
 
-def _verdict(images: EdgeImages, e: int, start: Place, end: Place, along: Place, whole: bool) -> int:
-    """The verdict of `crossed` for an edge and a segment or, if *whole*, the line along a vector."""
+def met_ahead(images: EdgeImages, edges: list[int], place: Place, along: Place) -> list[int]:
+    """Those of some edges that the ray from a place along a vector does not certainly miss."""
+    return [e for e in edges if _verdict(images, e, place, place, along, RAY) >= 0]
+
+
+def _verdict(images: EdgeImages, e: int, start: Place, end: Place, along: Place, extent: int) -> int:
+    """The verdict of `crossed` for an edge and a segment, or the ray or line along a vector."""
     if images.kind[e] == STRAIGHT:
-        return _straight(images, e, start, end, along, whole)
-    return _round(images, e, start, along, whole)
+        return _straight(images, e, start, end, along, extent)
+    return _round(images, e, start, along, extent)
 
 
-def _straight(images: EdgeImages, e: int, start: Place, end: Place, along: Place, whole: bool) -> int:
+def _straight(images: EdgeImages, e: int, start: Place, end: Place, along: Place, extent: int) -> int:
     """Of a straight edge: both its ends and both ends of the segment lie on different sides, or not."""
     vertex, following = _vertex(images, e), _vertex(images, images.following[e])
     one, other = _offset(start, vertex), _offset(start, following)
     first, last = _side(along, one), _side(along, other)
     if first and first == last:
         return -1
-    if whole:
-        return 1 if first and last else 0
+    if extent == RAY and _ahead(along, one) < 0 and _ahead(along, other) < 0:
+        return -1
+    if extent != SEGMENT:
+        return 1 if extent == LINE and first and last else 0
     edge = _offset(vertex, following)
     near, far = _side(edge, _offset(vertex, start)), _side(edge, _offset(vertex, end))
     if near and near == far:
@@ -60,7 +72,7 @@ def _straight(images: EdgeImages, e: int, start: Place, end: Place, along: Place
     return -1 if is_beyond else 0
 
 
-def _round(images: EdgeImages, e: int, start: Place, along: Place, whole: bool) -> int:
+def _round(images: EdgeImages, e: int, start: Place, along: Place, extent: int) -> int:
     """Of an arc: from p along d its circle is met at the (d . w -+ sqrt(|d|^2 r^2 - (d x w)^2)) / |d|^2-th
     parts of d, with w the way to the centre. A point of the circle is on the arc if it is on that side of the
     chord."""
@@ -84,7 +96,7 @@ def _round(images: EdgeImages, e: int, start: Place, along: Place, whole: bool) 
     for sign in (-1.0, 1.0):
         top, top_bound = total(h, h_bound, sign * half, half_bound)
         t, bound = quotient(top, top_bound, square, square_bound)
-        if not whole and (-t > bound or t - 1.0 > bound + UNIT):
+        if (extent != LINE and -t > bound) or (extent == SEGMENT and t - 1.0 > bound + UNIT):
             continue
         on = 1
         if not images.full[e]:
@@ -95,7 +107,7 @@ def _round(images: EdgeImages, e: int, start: Place, along: Place, whole: bool) 
             on = -images.kind[e] * _side(chord, _offset(vertex, (px, py, max(p, q))))
         if on < 0:
             continue
-        is_inside = whole or (t > bound and 1.0 - t > bound + UNIT)
+        is_inside = extent == LINE or (t > bound and (extent == RAY or 1.0 - t > bound + UNIT))
         if on > 0 and is_inside and under > under_bound:
             return 1
         found = 0

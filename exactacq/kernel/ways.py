@@ -10,7 +10,7 @@ from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import Extent, Span, bent, extent, unknown
 from exactacq.kernel.family_images import AHEAD, BEHIND, CONTACT, EdgePlace, FamilyImage, side_of_all
 from exactacq.kernel.images import ROLLING, SLIDING, SPOKES
-from exactacq.kernel.lines import Frame, Line, Meeting, line_at, meets, meets_straight
+from exactacq.kernel.lines import Frame, Line, Meeting, line_at, meets, meets_straight, side_of
 
 NEXT: Final = 2.0**-20
 """How far a line is from one next to it, as a part of their family: far more than floats are off."""
@@ -21,8 +21,10 @@ OPEN: Final = 2
 """Instead of a role or a part: floats cannot tell."""
 NOT_MET: EdgePlace = (0.0, 0.0, 0.0, 0.0, inf)
 
-Crossing = tuple[int, bool]
-"""The number of a family that may cross the way, and whether all its lines do."""
+Crossing = tuple[FamilyImage, bool]
+"""A family that may cross the way, and whether all its lines do."""
+LineAtEnd = tuple[FamilyImage, bool, bool]
+"""A family whose first line, or last one, may pass the way's start, or stop."""
 
 
 @final
@@ -64,7 +66,9 @@ class WayImage:
         return 0.0
 
 
-def crossings(families: list[FamilyImage], wanted: set[int], count: int, way: WayImage) -> list[Crossing]:
+def crossings(
+    families: list[list[FamilyImage]], wanted: set[int], count: int, way: WayImage
+) -> list[Crossing]:
     """The families with a *wanted* edge, of *count* ones, that do not leave the whole way on one side."""
     ax, ay, bx, by, error = way.ends
     # One more for `NONE`, which counts from the end.
@@ -72,19 +76,43 @@ def crossings(families: list[FamilyImage], wanted: set[int], count: int, way: Wa
     for e in wanted:
         is_wanted[e] = True
     found: list[Crossing] = []
-    for k in range(len(families)):
-        behind, contact, ahead = families[k].edges
-        if not (is_wanted[behind] or is_wanted[contact] or is_wanted[ahead]):
-            continue
-        one = families[k].side(ax, ay, error)
-        other = families[k].side(bx, by, error)
-        if one == 0 or one != other:
-            found.append((k, one != 0 and other != 0))
+    for some in families:
+        for family in some:
+            behind, contact, ahead = family.edges
+            if not (is_wanted[behind] or is_wanted[contact] or is_wanted[ahead]):
+                continue
+            one = family.side(ax, ay, error)
+            other = family.side(bx, by, error)
+            if one == 0 or one != other:
+                found.append((family, one != 0 and other != 0))
     return found
 
 
+def lines_at_ends(found: list[Crossing], way: WayImage, at_start: bool, at_stop: bool) -> list[LineAtEnd]:
+    """The lines with keys that bound families and may pass the start of a way, if asked *at_start*, or its
+    stop.
+
+    Of families all of whose lines cross the way none does.
+    """
+    ax, ay, bx, by, error = way.ends
+    ended: list[LineAtEnd] = []
+    for family, certain in found:
+        if certain:
+            continue
+        for is_last in (False, True):
+            line, keys = family.first, family.first_keys
+            if is_last:
+                line, keys = family.last, family.last_keys
+            if not keys:
+                continue
+            if at_start and side_of(line, ax, ay, error, 0.0) == 0:
+                ended.append((family, is_last, False))
+            if at_stop and side_of(line, bx, by, error, 0.0) == 0:
+                ended.append((family, is_last, True))
+    return ended
+
+
 def extents_from_way(
-    families: list[FamilyImage],
     found: list[Crossing],
     wanted: set[int],
     way: WayImage,
@@ -94,7 +122,7 @@ def extents_from_way(
     """What the families that were found show of wanted edges from a way; origins are places in *found*."""
     extents: list[Extent] = []
     for n in range(len(found)):
-        family = families[found[n][0]]
+        family = found[n][0]
         if family.corner >= 0 and (family.corner in way.starts or family.corner in way.stops):
             # All lines pass an end of the way and meet its line nowhere else: the view from there tells.
             continue

@@ -55,7 +55,7 @@ class WayViews:
     @cached_property
     def crossing(self) -> WayCrossings:
         """The line families that may cross the way."""
-        return WayCrossings(self.way, [image for edge in self._near for image in edge.images], self.wanted)
+        return WayCrossings(self.way, [edge.images for edge in self._near], self.wanted)
 
     def families(self, choose: Choose | None = None) -> Iterator[ViewFamily]:
         """All families at wanted edges whose first side lies on the way, or those that are chosen."""

@@ -159,7 +159,7 @@ class LegSights:
         self._clipper = way.clipper
         images = [image for near in complex_.near(way.spots) for image in near.images if _counts(image)]
         images += [image for near in complex_.rays(way.spots) for image in near.images]
-        self._crossings = WayCrossings(way, images, wanted)
+        self._crossings = WayCrossings(way, [images], wanted)
         self._crossing = list(self._crossings)
         yield from self._told(
             self._crossings.extents(), [image for image, _ in self._crossing], curve_image(leg.rail.curve)

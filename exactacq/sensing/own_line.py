@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Iterator
 from functools import cached_property
-from math import hypot
 
-import numpy as np
-
+from exactacq.geometry.curve_images import held_point
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.interval_union import Cover
 from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
-from exactacq.numbers.float_bounds import margin
+from exactacq.kernel.clearance import met, met_ahead
 from exactacq.numbers.real import Real
-from exactacq.scene.edge_table import STRAIGHT, EdgeTable
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.straight_way import StraightWay
 from exactacq.sensing.view_families import End, ViewFamily
@@ -30,12 +27,12 @@ class OwnLine:
     def __init__(self, way: StraightWay, wanted: frozenset[int], view: Callable[[Point, None], Seen]) -> None:
         self.way, self.wanted, self.view = way, wanted, view
         self.table, self.line = way.table, way.line
-        self._slack = margin(256 * way.clipper.roundoff)
 
     @cached_property
     def _near(self) -> list[int]:
         """The wanted edges that the way's line may meet."""
-        return on_line(self.table, self.wanted, self.line.start, self.line.end - self.line.start, self._slack)
+        start, along = held_point(self.line.start), held_point(self.line.end - self.line.start)
+        return met(self.table.images, [*self.wanted], start, along)
 
     def families(self) -> Iterator[ViewFamily]:
         """The views of the way's ends, of corners that it touches, and of what lies beyond."""
@@ -78,7 +75,7 @@ class OwnLine:
         """What the way's line meets beyond an end, as far as it is seen from there."""
         own, view = self._edges_near(end), self.view(end, None)
         edges = [e for e in self._near if e in view.edges]
-        for e in on_line(self.table, edges, end, onward, self._slack, ahead=True):
+        for e in met_ahead(self.table.images, edges, held_point(end), held_point(onward)):
             curve = self.table.curves[e]
             if e in own and isinstance(curve, Segment):
                 # The line meets it at its end only there, unless it runs along it.
@@ -134,28 +131,3 @@ def _again(place: Point, along: Point, curve: Curve) -> list[Real]:
 def _certainly(low: Real, high: Real) -> bool:
     """Whether balls tell that one number is less than another."""
     return (high - low).clear_sign(BITS) > 0
-
-
-def on_line(
-    table: EdgeTable, edges: Collection[int], origin: Point, along: Point, slack: float, ahead: bool = False
-) -> list[int]:
-    """Those of some edges that may have points on a line, or on its ray *ahead*.
-
-    Floats tell, of arcs by their boxes. *slack* is far more than what they are off.
-    """
-    numbers = np.fromiter(edges, np.intp, len(edges))
-    (x, y), (dx, dy) = origin.xy, along.xy
-    slack *= hypot(dx, dy)
-    boxes, here = table.boxes[numbers], np.array((x, y))
-    across, down = boxes[:, [0, 0, 2, 2]] - x, boxes[:, [1, 3, 1, 3]] - y
-    heights = across * dy - down * dx
-    start, end = table.start[numbers] - here, table.end[numbers] - here
-    ends = np.stack([start[:, 0] * dy - start[:, 1] * dx, end[:, 0] * dy - end[:, 1] * dx], axis=1)
-    is_straight = table.kind[numbers] == STRAIGHT
-    low = np.where(is_straight, ends.min(axis=1), heights.min(axis=1))
-    high = np.where(is_straight, ends.max(axis=1), heights.max(axis=1))
-    is_met = (low <= slack) & (high >= -slack)
-    if ahead:
-        is_met &= (across * dx + down * dy >= -slack).any(axis=1)
-    found: list[int] = numbers[is_met].tolist()
-    return found

@@ -182,11 +182,12 @@ class Sensor:
         self, place: Point, own: tuple[int, ...] | None = None, facts: PlaceFacts = NOTHING_KNOWN
     ) -> Seen:
         """What is seen from a place on edges *own*, if known; the last are kept, for legs share ends."""
-        kept = next((seen for seen in self._views if seen.place is place), None)
-        if kept is None:
-            kept = Seen(self.table, self.rails, place, self.range, own, facts)
-            self._views.appendleft(kept)
-        return kept
+        for kept in self._views:
+            if kept.place is place:
+                return kept
+        made = Seen(self.table, self.rails, place, self.range, own, facts)
+        self._views.appendleft(made)
+        return made
 
     def _with_view(self, view: Seen, obstacles: list[int]) -> dict[int, Cover]:
         """The covers that grow by what a view shows of some obstacles."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from functools import cached_property
 
 from flint import fmpq
@@ -12,9 +11,7 @@ from exactacq.geometry.curves import Segment
 from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
 from exactacq.kernel.bounded import TINY, UNIT
-from exactacq.kernel.family_images import FamilyImage
-from exactacq.kernel.lines import side_of
-from exactacq.kernel.ways import WayImage
+from exactacq.kernel.ways import Crossing, WayImage, lines_at_ends
 from exactacq.numbers.float_bounds import margin, rough
 from exactacq.numbers.real import Real
 from exactacq.sensing.legs import Leg
@@ -53,27 +50,21 @@ class StraightWay:
         low, high = bounds(self.span.low, None), bounds(self.span.high, None)
         return WayImage(curve_image(self.line), low, high, (ax, ay, bx, by, error), starts, stops)
 
-    def tell_lines_at_ends(self, families: Iterable[FamilyImage]) -> None:
+    def tell_lines_at_ends(self, found: list[Crossing]) -> None:
         """Tell the image which of the rational lines that bound some families pass an end of the way.
 
         Most often they touch the round obstacle there.
         """
-        image = self.image
-        ax, ay, bx, by, error = image.ends
-        both = (self.span.start, ax, ay, image.lines_at_start), (self.span.end, bx, by, image.lines_at_stop)
-        ends = [end for end in both if end[0].rational is not None]
-        for family in families:
-            for line, keys, at_high in (
-                (family.first, family.first_keys, False),
-                (family.last, family.last_keys, True),
-            ):
-                for point, x, y, passing in ends:
-                    if keys and side_of(line, x, y, error, 0.0) == 0:
-                        at = rational_line(family, at_high)
-                        if at is not None and at[1].cross(point - at[0]).sign() == 0:
-                            passing.update(keys)
-                            if at[0] == point:
-                                image.touching.update((key, family.edges[1]) for key in keys)
+        image, (start, stop) = self.image, (self.span.start, self.span.end)
+        at_start, at_stop = start.rational is not None, stop.rational is not None
+        for family, is_last, is_stop in lines_at_ends(found, image, at_start, at_stop):
+            point, passing = (stop, image.lines_at_stop) if is_stop else (start, image.lines_at_start)
+            at = rational_line(family, is_last)
+            if at is not None and at[1].cross(point - at[0]).sign() == 0:
+                keys = family.last_keys if is_last else family.first_keys
+                passing.update(keys)
+                if at[0] == point:
+                    image.touching.update((key, family.edges[1]) for key in keys)
 
     def _vertices_at(self, point: Point) -> list[int]:
         """The vertices at a point."""

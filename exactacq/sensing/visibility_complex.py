@@ -22,7 +22,7 @@ from exactacq.sensing.line_images import LineImages
 from exactacq.sensing.view_families import ViewFamily
 from exactacq.visibility.sensor_range import Range
 
-KEPT = 256
+KEPT = 512
 """When the families of so many edges are remembered, or of twice those of a neighbourhood if these are more,
 the others are dropped that were not used meanwhile. So no way makes a family twice, and memory is bounded by
 what is near."""

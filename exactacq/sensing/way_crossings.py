@@ -32,9 +32,9 @@ from exactacq.visibility.line_families import Sector, Sliding
 
 
 class WayCrossings:
-    """Those of some *families* that may cross a way and meet *wanted* edges."""
+    """Those of some *families*, in lists, that may cross a way and meet *wanted* edges."""
 
-    def __init__(self, way: StraightWay, families: list[FamilyImage], wanted: frozenset[int]) -> None:
+    def __init__(self, way: StraightWay, families: list[list[FamilyImage]], wanted: frozenset[int]) -> None:
         self.way, self.wanted = way, wanted
         self._families, self._cuts = families, WayCuts(way)
         self._is_through: dict[int, bool] = {}
@@ -43,12 +43,8 @@ class WayCrossings:
     def _found(self) -> list[Crossing]:
         count = len(self.way.table.curves)
         found = crossings(self._families, set(self.wanted), count, self.way.image)
-        left = [
-            (k, certain)
-            for k, certain in found
-            if certain or self._families[k].fixed or not self._are_round(self._families[k])
-        ]
-        self.way.tell_lines_at_ends(self._families[k] for k, certain in left if not certain)
+        left = [at for at in found if at[1] or at[0].fixed or not self._are_round(at[0])]
+        self.way.tell_lines_at_ends(left)
         return left
 
     def _are_round(self, family: FamilyImage) -> bool:
@@ -69,12 +65,12 @@ class WayCrossings:
 
     def __iter__(self) -> Iterator[tuple[FamilyImage, bool]]:
         """The line families, and whether all their lines cross the way."""
-        return ((self._families[k], certain) for k, certain in self._found)
+        return iter(self._found)
 
     def extents(self) -> list[Extent]:
         """What they show, in floats; the origins are their places here."""
         curves, reach = self.way.table.curve_images, self.way.complex.images.reach
-        return extents_from_way(self._families, self._found, set(self.wanted), self.way.image, curves, reach)
+        return extents_from_way(self._found, set(self.wanted), self.way.image, curves, reach)
 
     def views(
         self, line_family: LineFamily, certain: bool, wanted: frozenset[int], told: Role | None = None
