@@ -26,8 +26,10 @@ from exactacq.sensing.event import Reason
 from exactacq.sensing.free_way import WayViews
 from exactacq.sensing.legs import Leg, legs_of
 from exactacq.sensing.line_family import SingleLine, family_of
+from exactacq.sensing.straight_way import StraightWay
 from exactacq.sensing.view_families import ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
+from exactacq.visibility.place_facts import PlaceFacts
 from exactacq.visibility.sensor_range import Range
 
 Told = tuple[tuple[Span, Span, Span, Span] | None, list[tuple[Real, Real, Rail, Real, Real, Rail]]]
@@ -52,10 +54,10 @@ def told(complex_: VisibilityComplex, leg: Leg, run: xa.SightseerRun) -> Iterato
             yield (one.source, one.surely, one.shown, one.told) if one.is_known else None, exact
         return
 
-    def view(place: xa.Point, own: tuple[int, ...] | None) -> Seen:
-        return Seen(complex_.table, rails, place, complex_.range, own)
+    def view(place: xa.Point, own: tuple[int, ...] | None, facts: PlaceFacts) -> Seen:
+        return Seen(complex_.table, rails, place, complex_.range, own, facts)
 
-    way = WayViews(complex_, leg, wanted, view)
+    way = WayViews(StraightWay(complex_, leg), wanted, view)
     extents, clipper = way.crossing.extents(), way.way.clipper
 
     def told_of(one: Extent, families: Iterator[ViewFamily]) -> Told:

@@ -152,6 +152,48 @@ def test_ways_that_touch_a_circle_between(first: int) -> None:
     assert done > 1
 
 
+@pytest.mark.parametrize("seed", some([1, 2, 3, *range(4, 30)], 3))
+def test_the_cells_of_a_way_that_touches_a_circle_between(seed: int) -> None:
+    """What is seen along the way and from its ends meets in the circle, and where the way ends.
+
+    Nine of twenty maps were `Undecided`: the tangent of the circle from an end of the way, the point in which its
+    own line touches it and where tangents and normals of the circle cross it are one point, in five forms.
+    """
+    try:
+        run = xa.sightseer(past_a_circle(seed))
+    except xa.InvalidScene:
+        return
+    for piece in run.path:
+        if piece.obstacle is None:
+            for cell in xa.sweep(run.scene, piece.curve, run.radius).cells:
+                assert cell.map.known_length() > 0
+
+
+def slot(x: fmpq, y: int, side: int) -> xa.Outline:
+    """A slot with its straight sides from (x, y - 5/2) and 3 further to one *side*, and its ends round."""
+    low, high, far = y - fmpq(5, 2), y + fmpq(5, 2), x + 3 * side
+    return xa.Outline([(x, low), (x, high, -side), (far, high), (far, low, -side)])
+
+
+def test_the_cells_of_a_way_among_slots() -> None:
+    """It begins where its line touches a slot's end, and ends where a view past another one does."""
+    left, right = ([slot(fmpq(3 * side, 4), y, side) for y in (0, 9, 18)] for side in (-1, 1))
+    circles = [xa.Circle((fmpq(41 * side, 4), -8), 2) for side in (-1, 1)]
+    scene = xa.Scene([*left, circles[0], *right, circles[1]], start=(0, fmpq(59, 4)))
+    way = xa.sightseer(scene, 23).path[45]
+    swept = xa.sweep(scene, way.curve, 23)
+    assert all(cell.map.known_length() > 0 for cell in swept.cells[:4])
+
+
+def test_a_map_inside_an_arc_among_equal_circles() -> None:
+    """What is seen from a transcendental place ends where what was known does: for all numbers alike."""
+    rows = (0, 0), (fmpq(3, 2), fmpq(25981, 10000))
+    circles = [xa.Circle((x + 3 * k, y), fmpq(5, 4)) for x, y in rows for k in range(3)]
+    terrain = xa.Terrain(15, fmpq(78481, 10000), (-4, -4))
+    run = xa.seed_spreader(xa.Scene(circles, terrain=terrain), 25, target="visible")
+    assert run.map_at(fmpq(221, 4)).known_length() > 0
+
+
 def test_a_map_on_a_way_that_touches_a_circle() -> None:
     """The view from an event's place past the circle lies between others; the way's own line bounds them."""
     xa.audit(xa.sightseer(past_a_circle(40)))

@@ -12,10 +12,10 @@ from functools import cached_property
 from math import inf
 
 from exactacq.geometry.curve_parameter import Rail
-from exactacq.geometry.curves import Arc
+from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.late import BITS as LATE_BITS
-from exactacq.geometry.late import Pin, balls
+from exactacq.geometry.late import Balls, Pin, balls
 from exactacq.geometry.points import Point
 from exactacq.kernel.extents import Span
 from exactacq.kernel.view_parts import Part
@@ -23,6 +23,7 @@ from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.view_families import End, FreeViews, ViewFamily
+from exactacq.visibility.line_balls import line
 from exactacq.visibility.place_facts import NOTHING_KNOWN, Hold, PlaceFacts
 from exactacq.visibility.sensor_range import Range
 from exactacq.visibility.visible_boundary import BoundaryView
@@ -121,14 +122,40 @@ class Seen:
     def pinned(self, end: End, family: ViewFamily, side: int) -> End:
         """An extreme view of a family from this place, its other end the view's own point if it is one."""
         e, point = family.edges[1 - side], end.points[1 - side]
-        for hold in self._holds(e, point, end.tight, family.free_views):
-            pin = self.held(e).get(hold)
+        for pin in self._pins(e, point, end, family.free_views, side):
             # A full circle's start has two parameters: a family over it keeps the one on its side.
-            if pin is not None and not _apart(pin[1], end.places[1 - side]):
+            if not _apart(pin[1], end.places[1 - side]):
                 here = end.points[side], end.places[side]
                 (p, u), (q, v) = (here, pin) if side == 0 else (pin, here)
                 return End(end.t, (p, q), (u, v), end.tight)
         return end
+
+    def _pins(self, e: int, point: Point, end: End, free_views: FreeViews | None, side: int) -> Iterator[Pin]:
+        """What a point of an edge that is seen along an extreme view may be."""
+        if free_views is not None and self._is_here(e, point, end.t, free_views, side):
+            yield self.place, self._rails[e].parameter(self.place)
+        for hold in self._holds(e, point, end.tight, free_views):
+            if hold in self.held(e):
+                yield self.held(e)[hold]
+
+    def _is_here(self, e: int, point: Point, t: Real, free_views: FreeViews, side: int) -> bool:
+        """Whether this place lies on an edge, and a line from it certainly meets the edge just here.
+
+        It does if the point may be here, and cannot be where the line meets the edge's circle again.
+        """
+        here, there, curve = balls(self.place), balls(point), self.table.curves[e]
+        if e not in self._view.own or not _overlap(here, there):
+            return False
+        *_, u, v = line(free_views.sector, t.ball(LATE_BITS))
+        if isinstance(curve, Segment):
+            x, y = balls(curve.direction)
+            return ball_sign(u * y - v * x) != 0
+        if free_views.anchor == self.table.line_numbers.feature(e, True):
+            # The tangent of a circle in a point of it.
+            return True
+        (x, y), (cx, cy) = here, balls(curve.center)
+        again = 2 * ((cx - x) * u + (cy - y) * v) / (u * u + v * v)
+        return not _overlap((x + u * again, y + v * again), there)
 
     def held(self, e: int) -> dict[Hold, Pin]:
         """The ends of what is seen of an edge, by what holds them."""
@@ -191,6 +218,11 @@ def _is_in(bracket: Span, spans: Iterable[Span]) -> bool:
     """Whether a bracket lies in one of some intervals."""
     low, high = bracket
     return any(a <= low and high <= b for a, b in spans)
+
+
+def _overlap(a: Balls, b: Balls) -> bool:
+    """Whether two points may be one."""
+    return bool(a[0].overlaps(b[0]) and a[1].overlaps(b[1]))
 
 
 def _apart(a: Real, b: Real) -> bool:

@@ -11,19 +11,16 @@ from functools import cached_property
 from typing import TypeAlias
 
 from exactacq.geometry.intersections import line_contacts
-from exactacq.geometry.points import Point
 from exactacq.kernel.extents import Extent
 from exactacq.kernel.family_images import FamilyImage
 from exactacq.kernel.single_lines import crossing_lines
 from exactacq.sensing.complex_edges import EdgeFamilies
 from exactacq.sensing.end_names import Seen
-from exactacq.sensing.legs import Leg
 from exactacq.sensing.line_family import SingleLine, family_of
 from exactacq.sensing.line_points import Role
 from exactacq.sensing.own_line import OwnLine
 from exactacq.sensing.straight_way import StraightWay
 from exactacq.sensing.view_families import ViewFamily
-from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.sensing.way_crossings import WayCrossings
 from exactacq.sensing.way_normals import WayNormals
 
@@ -37,14 +34,8 @@ class WayViews:
     *view* tells what is seen from an end of the way.
     """
 
-    def __init__(
-        self,
-        complex_: VisibilityComplex,
-        leg: Leg,
-        wanted: frozenset[int],
-        view: Callable[[Point, None], Seen],
-    ) -> None:
-        self.wanted, self.way = wanted, StraightWay(complex_, leg)
+    def __init__(self, way: StraightWay, wanted: frozenset[int], view: Callable[..., Seen]) -> None:
+        self.wanted, self.way = wanted, way
         self.normals = WayNormals(self.way, wanted)
         self.own_line = OwnLine(self.way, wanted, view)
 

@@ -16,7 +16,13 @@ from exactacq.sensing.end_names import holds
 from exactacq.sensing.leg_views import Share, Shares
 from exactacq.sensing.line_points import Role
 from exactacq.sensing.view_families import End
-from exactacq.visibility.place_facts import NOTHING_KNOWN, Alignment, Hold, PlaceFacts, alignments
+from exactacq.visibility.place_facts import (
+    NOTHING_KNOWN,
+    Alignment,
+    Hold,
+    PlaceFacts,
+    tangents_from,
+)
 
 
 class LegFacts:
@@ -24,6 +30,12 @@ class LegFacts:
 
     def __init__(self, shares: Shares) -> None:
         self._shares = shares
+
+    def tell(self, u: Real, place: Point) -> None:
+        """Tell the view from a place what is known of it, as it is made: its numbers may not."""
+        facts = self.at(u, place)
+        if facts is not NOTHING_KNOWN:
+            self._shares.view(place, self._shares.leg.own(u), facts)
 
     def at(self, u: Real, place: Point) -> PlaceFacts:
         """What is known of a place, with parameter *u*; `NOTHING_KNOWN` if no family ends there."""
@@ -36,7 +48,8 @@ class LegFacts:
                 continue
             if not end.tight:
                 features = views.touched(end.t, table.line_numbers)
-                rays += alignments(table, around, views.sector, end.t, features)
+                if features:
+                    rays += tangents_from(table, around, views.sector, end.t, features)
                 continue
             e, point, curve = share.edge, end.points[1 - share.side], table.curves[share.edge]
             if point is curve.start or point is curve.end:
@@ -45,6 +58,8 @@ class LegFacts:
                 tangent[table.line_numbers.circles[e]] = point
             else:
                 held.update(holds(table, place, e, point, views))
+        # Last: of several forms of one ray that of the way counts, which `OwnLine` uses too.
+        rays += self._shares.leg.facts(table, place).rays
         if not (rays or held or corners or tangent):
             return NOTHING_KNOWN
         return PlaceFacts(rays, held, corners, tangent)

@@ -65,13 +65,18 @@ WAY_KEYS = -(2**60)
 class LegSights:
     """All from where edges are seen on one leg, obstacles with their whole boundaries.
 
-    *view* gives what is seen from a point, with the edges through it if these are known.
+    *view* gives what is seen from a point, with the edges through it if these are known. *way* is a straight
+    leg as a way, if it is there.
     """
 
     def __init__(
-        self, complex_: VisibilityComplex, leg: Leg, view: Callable[[Point, tuple[int, ...] | None], Seen]
+        self,
+        complex_: VisibilityComplex,
+        leg: Leg,
+        view: Callable[..., Seen],
+        way: StraightWay | None = None,
     ) -> None:
-        self.complex, self.leg = complex_, leg
+        self.complex, self.leg, self._given = complex_, leg, way
         self._view, self._clipper = view, complex_.clipper
         self._rail = None if leg.edge is None else leg.rail
         self._previous = complex_.table.images.previous
@@ -172,7 +177,7 @@ class LegSights:
     @cached_property
     def _way(self) -> StraightWay:
         """The leg, if it is straight, as a way through free space."""
-        return StraightWay(self.complex, replace(self.leg, edge=None))
+        return StraightWay(self.complex, replace(self.leg, edge=None)) if self._given is None else self._given
 
     @cached_property
     def _near(self) -> frozenset[int]:

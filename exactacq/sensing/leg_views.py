@@ -25,6 +25,7 @@ from exactacq.sensing.family_filter import FamilyFilter
 from exactacq.sensing.free_way import WayViews
 from exactacq.sensing.legs import Leg
 from exactacq.sensing.named_pins import NamedPins
+from exactacq.sensing.straight_way import StraightWay
 from exactacq.sensing.targets import Targets
 from exactacq.sensing.view_families import End, ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
@@ -67,7 +68,8 @@ class Share:
 class Shares:
     """What a leg shows of some obstacles.
 
-    *view* gives what is seen from a point, with the edges through it if these are known.
+    *view* gives what is seen from a point, with the edges through it if these are known. A given *way*
+    shares its points by name.
     """
 
     def __init__(
@@ -80,11 +82,13 @@ class Shares:
         known: Mapping[int, Sequence[Span]] | None = None,
         of: dict[int, list[Share]] | None = None,
         ends: dict[int, list[tuple[CutEnd, Interval]]] | None = None,
+        way: StraightWay | None = None,
     ) -> None:
         self.complex, self.targets, self.leg = complex_, targets, leg
         self.obstacles, self.view = obstacles, view
         self.in_sight: Mapping[int, Sequence[Interval]] = {}
         self._pins: NamedPins | None = None
+        self._way = way
         self.of = self._found(known) if of is None else of
         self.ends = self._seen_ends() if ends is None else ends
 
@@ -147,8 +151,9 @@ class Shares:
         if leg.edge is None:
             near = complex_.table.lit(leg.spots, complex_.range.above)
             edges = chain.from_iterable(self.targets.edges[k] for k in obstacles)
-            crossing = WayViews(complex_, leg, frozenset(near).intersection(edges), self.view)
-            self._pins = crossing.way.clipper.views.pins
+            way = StraightWay(complex_, leg) if self._way is None else self._way
+            crossing = WayViews(way, frozenset(near).intersection(edges), self.view)
+            self._pins = way.clipper.views.pins
             yield from ((family, 0) for family in crossing.families(choose))
         else:
             extents = complex_.extents(leg.edge)
@@ -242,8 +247,11 @@ class Shares:
     @cached_property
     def _end_views(self) -> tuple[Seen, Seen]:
         """What is seen from the first and from the last place of the leg."""
-        leg = self.leg
-        return self.view(leg.start, leg.own(leg.first)), self.view(leg.end, leg.own(leg.last))
+        leg, table = self.leg, self.complex.table
+        return (
+            self.view(leg.start, leg.own(leg.first), leg.facts(table, leg.start)),
+            self.view(leg.end, leg.own(leg.last), leg.facts(table, leg.end)),
+        )
 
     def note(self, places: Iterable[Real]) -> None:
         """Keep the names of places of a straight way, of which something is reported."""

@@ -16,12 +16,13 @@ from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import ContactKind, contacts
 from exactacq.geometry.interval_union import Interval
-from exactacq.geometry.late import Pin
+from exactacq.geometry.late import Pin, balls
 from exactacq.geometry.points import Point
 from exactacq.kernel.shadows import Spot
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable, Floats, Ints, corners
 from exactacq.sensing.named_pins import PinName
+from exactacq.visibility.place_facts import NOTHING_KNOWN, PlaceFacts, along_way
 
 BITS = 256
 """Precision of the balls that tell which corners a way may touch, and which places are inside an edge."""
@@ -77,6 +78,13 @@ class Leg:
         which nobody can prove that they are equal.
         """
         return {}
+
+    def facts(self, table: EdgeTable, place: Point) -> PlaceFacts:
+        """What is known of the view from a place of a straight way by the features that its line touches."""
+        if not self.touches:
+            return NOTHING_KNOWN
+        assert isinstance(self.rail.curve, Segment), "only lines touch features"
+        return PlaceFacts([*along_way(table, balls(place), self.rail.curve, self.touches)])
 
     @cached_property
     def box(self) -> tuple[float, float, float, float]:

@@ -24,7 +24,7 @@ BITS = 256
 class OwnLine:
     """The views along a way's own line; *view* tells what is seen from an end of it."""
 
-    def __init__(self, way: StraightWay, wanted: frozenset[int], view: Callable[[Point, None], Seen]) -> None:
+    def __init__(self, way: StraightWay, wanted: frozenset[int], view: Callable[..., Seen]) -> None:
         self.way, self.wanted, self.view = way, wanted, view
         self.table, self.line = way.table, way.line
 
@@ -39,7 +39,7 @@ class OwnLine:
         if not self._near:
             return
         span, rails = self.way.span, self.way.clipper.rails
-        shown = [(e, p) for p in (span.start, span.end) for e in self._edges_near(p)]
+        shown = [(e, p) for p in (span.start, span.end) for e in self.table.edges_near(p)]
         along = self.line.end - self.line.start
         shown += [*self._beyond(span.end, along), *self._beyond(span.start, -along)]
         for e, point in self._touched():
@@ -67,13 +67,14 @@ class OwnLine:
             if isinstance(curve, Arc):
                 named = numbers.feature(e, True) in touches
                 if named or self.way.is_tangent(curve.center, curve.radius_sq):
-                    foot = self.way.foot(curve.center)
+                    circle = numbers.feature(e, True)
+                    foot = self.way.foot_on(circle)[0] if named else self.way.foot(curve.center)
                     if curve.contains(foot):
                         yield e, foot
 
     def _beyond(self, end: Point, onward: Point) -> Iterator[tuple[int, Point]]:
         """What the way's line meets beyond an end, as far as it is seen from there."""
-        own, view = self._edges_near(end), self.view(end, None)
+        own, view = self.table.edges_near(end), self._view(end)
         edges = [e for e in self._near if e in view.edges]
         for e in met_ahead(self.table.images, edges, held_point(end), held_point(onward)):
             curve = self.table.curves[e]
@@ -94,6 +95,10 @@ class OwnLine:
                     if any(Cover(tuple(view.spans[e])).contains(place) for place in places):
                         yield e, point
 
+    def _view(self, end: Point) -> Seen:
+        """What is seen from an end of the way."""
+        return self.view(end, None, self.way.leg.facts(self.table, end))
+
     def _within(self, point: Point) -> list[Pin]:
         """The ends of the part of the way within range of a point of its line."""
         span, range_ = self.way.span, self.way.clipper.range
@@ -110,11 +115,6 @@ class OwnLine:
                     return []
                 ends[k] = place, u
         return ends
-
-    def _edges_near(self, point: Point) -> list[int]:
-        """The edges that balls do not part from a point: it lies on a boundary, or it does not."""
-        near = self.table.around(point.xy, point.xy, 0.0)
-        return [e for e in near if self.table.curves[e].may_pass(point, BITS)]
 
 
 def _again(place: Point, along: Point, curve: Curve) -> list[Real]:

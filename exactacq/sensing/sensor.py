@@ -24,6 +24,7 @@ from exactacq.sensing.family_filter import KnownSpans, inside
 from exactacq.sensing.leg_sights import LegSights
 from exactacq.sensing.leg_views import Covers, Shares, add
 from exactacq.sensing.legs import Leg
+from exactacq.sensing.straight_way import StraightWay
 from exactacq.sensing.targets import Targets
 from exactacq.sensing.underway import LegNews, Underway
 from exactacq.sensing.visibility_complex import VisibilityComplex
@@ -147,13 +148,13 @@ class Sensor:
             self._last = LegNews(shares, covers)
         return self._last.upto(u, place, acquired)
 
-    def shares(self, leg: Leg) -> Shares:
-        """All that a leg shows, also of acquired obstacles."""
-        return Shares(self.complex, self.targets, leg, self._near(leg), self._view)
+    def shares(self, leg: Leg, way: StraightWay | None = None) -> Shares:
+        """All that a leg shows, also of acquired obstacles; of a straight one as a *way* if that is there."""
+        return Shares(self.complex, self.targets, leg, self._near(leg), self._view, way=way)
 
-    def sights(self, leg: Leg) -> LegSights:
+    def sights(self, leg: Leg, way: StraightWay | None = None) -> LegSights:
         """From where on a leg edges are seen, also those of acquired obstacles."""
-        return LegSights(self.complex, leg, self._view)
+        return LegSights(self.complex, leg, self._view, way)
 
     def _settle(
         self, notices: list[Notice], learned: dict[int, Cover]

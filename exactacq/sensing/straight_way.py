@@ -7,7 +7,7 @@ from functools import cached_property
 from flint import fmpq
 
 from exactacq.geometry.curve_images import curve_image
-from exactacq.geometry.curves import Segment
+from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
 from exactacq.kernel.bounded import TINY, UNIT
@@ -18,6 +18,10 @@ from exactacq.sensing.legs import Leg
 from exactacq.sensing.line_family import rational_line
 from exactacq.sensing.line_images import bounds
 from exactacq.sensing.visibility_complex import VisibilityComplex
+from exactacq.visibility.line_names import Names
+
+OWN = -8
+"""The name of a way's own line among those of its clipper: no number of a line (see `line_keys`)."""
 
 
 class StraightWay:
@@ -27,19 +31,40 @@ class StraightWay:
     """
 
     def __init__(self, complex_: VisibilityComplex, leg: Leg) -> None:
-        self.complex, self.table = complex_, complex_.table
+        self.complex, self.table, self.leg = complex_, complex_.table, leg
         self.span, self.rail = leg.span, leg.rail
         self.line, self.spots = leg.rail.curve, leg.spots
         self.touches: frozenset[int] = frozenset(leg.touches)
         self.piece = Segment(leg.span.start, leg.span.end)
         self.clipper = complex_.clipper.with_way(leg.rail, leg.touches, leg.named)
         self.number = len(self.clipper.rails) - 1
+        self._feet: dict[int, Pin] = {}
 
     @property
     def ends(self) -> tuple[Pin, Pin]:
         """Its ends: points and parameters."""
         span = self.span
         return (span.start, span.low), (span.end, span.high)
+
+    def own_names(self, direction: Point) -> Names:
+        """The name of the way's own line, for lines in a direction along it or against it."""
+        along = self.line.end - self.line.start
+        return ((OWN, 1 if direction.dot(along).rough() > 0 else -1),)
+
+    def foot_on(self, circle: int) -> Pin:
+        """Where the way's line touches a circle that it is known to touch: one point on all arcs."""
+        pin = self._feet.get(circle)
+        if pin is None:
+            first = self.table.line_numbers.first_arc(circle)
+            arc = self.table.curves[first]
+            assert isinstance(arc, Arc), "only arcs have circles"
+            place = self.foot(arc.center)
+            pin = self._feet[circle] = place, self.rail.parameter(place)
+            for e in self.table.on_circle_of(first):
+                if self.table.curves[e].contains(place):
+                    on_arc = place, self.clipper.rails[e].parameter(place)
+                    self.clipper.views.pins.put((OWN, e, 0), on_arc)
+        return pin
 
     @cached_property
     def image(self) -> WayImage:

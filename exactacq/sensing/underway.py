@@ -25,6 +25,8 @@ class LegNews:
     def __init__(self, shares: Shares, covers: Covers) -> None:
         self.shares, self.covers = shares, covers
         self.facts = LegFacts(shares)
+        if shares.leg.touches:
+            self.facts.tell(shares.leg.first, shares.leg.start)
         self._on: dict[int, EdgeNews] = {}
 
     def upto(self, u: Real, place: Point, acquired: Collection[int] = ()) -> Underway:

@@ -26,6 +26,7 @@ from exactacq.kernel.leg_changes import BEGINS, TURNS, AtEnd, Turn
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.scene import Scene, radius_of
+from exactacq.sensing.leg_facts import LegFacts
 from exactacq.sensing.leg_sights import LegSights
 from exactacq.sensing.leg_views import Shares
 from exactacq.sensing.legs import Leg, legs_of
@@ -33,6 +34,7 @@ from exactacq.sensing.line_points import Role
 from exactacq.sensing.map import Map
 from exactacq.sensing.path import Piece
 from exactacq.sensing.sensor import Sensor
+from exactacq.sensing.straight_way import StraightWay
 from exactacq.visibility.sensor_range import Range
 
 Place: TypeAlias = "tuple[Real, Point]"
@@ -104,8 +106,10 @@ class SweepCell:
     @cached_property
     def map(self) -> Map:
         """The map of a robot that has walked this cell only: all that is seen from it, its ends included."""
-        shares = self.views.shares
-        part = shares.leg.between(self.begin, self.end)
+        shares, leg = self.views.shares, self.views.leg
+        for u, place in (self.begin, self.end):
+            self.views.facts.tell(u, place)
+        part = leg.between(self.begin, self.end)
         rails = shares.complex.clipper.rails
         return Map(self.scene.obstacles, shares.targets, rails, shares.cut(part).taught({}))
 
@@ -136,14 +140,24 @@ class LegViews:
         self.leg, self._sensor = leg, sensor
 
     @cached_property
+    def _way(self) -> StraightWay | None:
+        """A straight leg as a way: where named lines cross it there is one point, whoever asks."""
+        return StraightWay(self._sensor.complex, self.leg) if self.leg.edge is None else None
+
+    @cached_property
     def sights(self) -> LegSights:
         """From where edges are seen."""
-        return self._sensor.sights(self.leg)
+        return self._sensor.sights(self.leg, self._way)
 
     @cached_property
     def shares(self) -> Shares:
         """All that the leg shows."""
-        return self._sensor.shares(self.leg)
+        return self._sensor.shares(self.leg, self._way)
+
+    @cached_property
+    def facts(self) -> LegFacts:
+        """What is known of the views from the places of events."""
+        return LegFacts(self.shares)
 
     def events(self, number: int) -> Iterator[SweepEvent]:
         """The events inside the leg of that number; those of one place by edge."""

@@ -30,7 +30,7 @@ class WayCuts:
 
     def of(self, line_family: LineFamily) -> list[Cut]:
         """The ends of a family and, between them, the lines through the way's ends: parameters in order."""
-        lines: list[tuple[Real, Pin]] = []
+        lines: list[tuple[Real, Pin, Names]] = []
         ends = self._through_ends(line_family.sector)
         # All normals of an arc pass its centre. If one end of the way is there, the line through the other
         # one is the way's own, and its neighbours cross the way in the centre.
@@ -39,25 +39,27 @@ class WayCuts:
             ends = [(centers[0], through) for _, through in ends]
         for pin, through in ends:
             for t in through:
-                same = next((k for k, (known, _) in enumerate(lines) if known.overlaps(t)), None)
+                same = next((k for k, (known, *_) in enumerate(lines) if known.overlaps(t)), None)
                 if same is None:
-                    lines.append((t, pin))
+                    lines.append((t, pin, ()))
                 elif line_family.anchor in self.way.touches or self._is_own(
                     line_family.sector, t, lines[same][0]
                 ):
-                    lines[same] = t, self._pin_of_own(line_family, line_family.sector.touch(t)[0])
+                    contact, direction = line_family.sector.touch(t)
+                    names = self.way.own_names(direction)
+                    lines[same] = t, self._pin_of_own(line_family, contact), names
                 else:
-                    lines.append((t, pin))
+                    lines.append((t, pin, ()))
         low, high = (
             (t, self._pin_at(line_family, t, names), names)
             for t, names in zip((line_family.low, line_family.high), line_family.names, strict=True)
         )
-        inner = [line for line in lines if self._is_inside(line_family, *line)]
+        inner = [line for line in lines if self._is_inside(line_family, line[0], line[1])]
         inner.sort(key=cmp_to_key(_by_parameter))
-        cuts = [low]
-        for t, pin in inner:
-            if t.compare(cuts[-1][0]) != 0:
-                cuts.append((t, pin, ()))
+        cuts: list[Cut] = [low]
+        for cut in inner:
+            if cut[0].compare(cuts[-1][0]) != 0:
+                cuts.append(cut)
         return [*cuts, high]
 
     def _through_ends(self, sector: Sector) -> list[tuple[Pin, list[Real]]]:
@@ -126,6 +128,8 @@ class WayCuts:
 
         Tangents do so near their contact, normals of an arc in its centre.
         """
+        if isinstance(line_family.sector, Rolling) and line_family.anchor in self.way.touches:
+            return self.way.foot_on(line_family.anchor)
         place = Point(*line_family.sector.center) if isinstance(line_family.sector, Spokes) else contact
         return place, self.way.rail.parameter(place)
 
@@ -135,5 +139,5 @@ def _is_center(sector: Sector, point: Point) -> bool:
     return isinstance(sector, Spokes) and point == Point(*sector.center)
 
 
-def _by_parameter(a: tuple[Real, Pin], b: tuple[Real, Pin]) -> int:
+def _by_parameter(a: Cut, b: Cut) -> int:
     return a[0].compare(b[0])

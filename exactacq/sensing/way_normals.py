@@ -6,12 +6,14 @@ from collections.abc import Iterator
 from functools import cached_property
 
 from exactacq.geometry.coordinates import minus, raw
+from exactacq.geometry.late import Pin
 from exactacq.kernel.extents import Extent
 from exactacq.kernel.family_images import NONE, FamilyImage
 from exactacq.kernel.images import SLIDING
 from exactacq.kernel.line_keys import LineNumbers
 from exactacq.kernel.pencil_images import pencil_images
 from exactacq.kernel.ways import extents_along_normals
+from exactacq.numbers.real import Real
 from exactacq.sensing.line_points import Role, Side
 from exactacq.sensing.straight_way import StraightWay
 from exactacq.sensing.view_families import FreeViews, ViewFamily
@@ -52,5 +54,12 @@ class WayNormals:
         assert isinstance(sweep, Pencil), "normals come from pencils"
         cell = sweep.cell(sweep.rows[image.number])
         sides = Side(self.way.number, Role.CONTACT), Side(image.edge(Role.AHEAD), Role.AHEAD)
-        free_views = FreeViews(sweep.sector, cell.low, cell.high, sides, passed=cell.bounds)
+        pinned = self._pin(cell.low), self._pin(cell.high)
+        free_views = FreeViews(sweep.sector, cell.low, cell.high, sides, pinned=pinned, passed=cell.bounds)
         yield from self.way.clipper.families(free_views)
+
+    def _pin(self, t: Real) -> Pin | None:
+        """The end of the way from which a normal goes, if it is one."""
+        if t.is_late:
+            return None
+        return next((pin for pin in self.way.ends if t is pin[1] or t.key == pin[1].key), None)

@@ -7,18 +7,18 @@ was found does, and a line through features has simpler numbers than the way fro
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
-from functools import cached_property
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property, partial
 from typing import TypeAlias
 
 from exactacq.geometry.coordinates import Vector, cross, dot, raw
-from exactacq.geometry.curves import Arc
+from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.late import BITS, Balls, balls, from_to
 from exactacq.geometry.points import Point
 from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
-from exactacq.scene.edge_table import EdgeTable
+from exactacq.scene.edge_table import CONCAVE, EdgeTable
 from exactacq.visibility.line_balls import line
 from exactacq.visibility.line_families import Sector
 
@@ -31,20 +31,21 @@ Hold: TypeAlias = "tuple[int, int, int]"
 
 @dataclass(frozen=True, eq=False)
 class Alignment:
-    """A ray from a place along the line of a sector at *t*, in its direction or (*sense* -1) against it.
+    """A ray from a place along a line, in its direction or (*sense* -1) against it.
 
-    ``anchor`` is the number of the feature whose tangents the sector's lines are.
+    *exact* gives a point of the line and its direction. If there is an ``anchor``, the line touches that
+    feature there. Where it meets edges for the only time, by their numbers, is ``met`` as far as it is known.
     """
 
-    sector: Sector
-    t: Real
+    exact: Callable[[], tuple[Point, Point]]
     sense: int
-    anchor: int
+    anchor: int | None
     touched: frozenset[Touched]
+    met: Mapping[int, Point] = field(default_factory=dict)
 
     @cached_property
     def _line(self) -> tuple[Point, Point]:
-        return self.sector.touch(self.t)
+        return self.exact()
 
     @property
     def contact(self) -> Point:
@@ -83,24 +84,45 @@ class PlaceFacts:
 NOTHING_KNOWN = PlaceFacts()
 
 
-def alignments(
+def tangents_from(
     table: EdgeTable, place: Balls, sector: Sector, t: Real, features: Sequence[int]
 ) -> Iterator[Alignment]:
-    """The two rays from a place on the line of a sector at *t*, which touches *features*, its own the first.
-
-    What is too near to the place for balls to tell on which ray it lies is left out.
-    """
+    """The two rays from a place on the line of a sector at *t*, which touches *features*, its own first."""
     *_, u, v = line(sector, t.ball(BITS))
+    return _alignments(table, place, (u, v), partial(sector.touch, t), features, features[0])
+
+
+def along_way(table: EdgeTable, place: Balls, way: Segment, features: Sequence[int]) -> Iterator[Alignment]:
+    """The two rays from a place on a straight way along it, whose line touches *features*.
+
+    Beyond that line's ends they meet the edges there no more, unless these are concave.
+    """
+    along = way.end - way.start
+    for ray in _alignments(table, place, balls(along), lambda: (way.start, along), features, None):
+        end = way.end if ray.sense > 0 else way.start
+        convex = (e for e in table.edges_near(end) if table.images.kind[e] != CONCAVE)
+        yield replace(ray, met=dict.fromkeys(convex, end))
+
+
+def _alignments(
+    table: EdgeTable,
+    place: Balls,
+    direction: Balls,
+    exact: Callable[[], tuple[Point, Point]],
+    features: Sequence[int],
+    anchor: int | None,
+) -> Iterator[Alignment]:
+    """What is too near to the place for balls to tell on which ray it lies is left out."""
     rays: dict[int, set[Touched]] = {1: set(), -1: set()}
     for feature in features:
         is_round = table.line_numbers.is_circle(feature)
         curve = table.curves[table.line_numbers.first_arc(feature) if is_round else feature]
         # The line touches a circle in the foot of its centre, so that both lie on one ray.
         way = from_to(place, balls(curve.center if is_round and isinstance(curve, Arc) else curve.start))
-        ahead = ball_sign(dot(way, (u, v)))
-        side = ball_sign(cross((u, v), way)) * ahead if is_round else 0
+        ahead = ball_sign(dot(way, direction))
+        side = ball_sign(cross(direction, way)) * ahead if is_round else 0
         if ahead and bool(side) == is_round:
             rays[ahead].add((feature, side))
     for sense, touched in rays.items():
         if touched:
-            yield Alignment(sector, t, sense, features[0], frozenset(touched))
+            yield Alignment(exact, sense, anchor, frozenset(touched))

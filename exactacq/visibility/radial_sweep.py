@@ -216,7 +216,8 @@ class RadialSweep:
         faces, e = self.faces, self.edges[face]
         curve = self.table.curves[e]
         if (ray := faces.ray(self.events(rank))) is not None:
-            return _hit(curve, ray.contact, False, ray.direction)
+            known = ray.met.get(e)
+            return _hit(curve, ray.contact, False, ray.direction) if known is None else known
         return _hit(curve, faces.point, e in faces.own, self.direction(rank))
 
     def late_hit(self, face: int, rank: int) -> Point:
