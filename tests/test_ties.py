@@ -156,8 +156,8 @@ def test_ways_that_touch_a_circle_between(first: int) -> None:
 def test_the_cells_of_a_way_that_touches_a_circle_between(seed: int) -> None:
     """What is seen along the way and from its ends meets in the circle, and where the way ends.
 
-    Nine of twenty maps were `Undecided`: the circle's tangent from an end of the way, where the way's own line
-    touches the circle and where tangents and normals of the circle cross the way are one point, in five forms.
+    Nine of twenty maps were `Undecided`: the circle's tangent from an end of the way, where the way's line
+    touches the circle, and where tangents and normals of the circle cross it are one point, in five forms.
     """
     try:
         run = xa.sightseer(past_a_circle(seed))
