@@ -20,12 +20,14 @@ from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.scene import Scene
 from exactacq.scene.terrain_components import Ground
 from exactacq.sensing.event import Event, EventKind, Reason
+from exactacq.sensing.leg_facts import LegFacts
 from exactacq.sensing.leg_views import Covers
 from exactacq.sensing.legs import Leg, legs_of, parts_of
 from exactacq.sensing.map import Body, Map
 from exactacq.sensing.path import Path, Piece
 from exactacq.sensing.sensor import Ahead, Notice, Sensor
 from exactacq.sensing.targets import Targets
+from exactacq.visibility.place_facts import NOTHING_KNOWN, PlaceFacts
 from exactacq.visibility.sensor_range import Range
 
 
@@ -290,29 +292,56 @@ class Memory:
         if count in self._retraced:
             # What it shows is known, in other forms of the same numbers.
             return self._map(Moment(self._history, before, {}))
+        found = self._leg_at(count, place)
+        if found is None:
+            return self._map(Moment(self._history, before + len(legs), {}))
+        k, u = found
+        known = Moment(self._history, before + k, {})
+        if legs[k].order(u, legs[k].first) > 0:
+            told = self._told_at(count, place)
+            acquired = [at.obstacle for at in told if at.kind is EventKind.ACQUIRE]
+            newer = self._sensor.known_within(legs[k], u, place, known, acquired)
+            known = Moment(self._history, before + k, newer)
+        return self._map(known)
+
+    def facts(self, count: int, place: Point) -> PlaceFacts:
+        """What is known of the view from a place inside piece number *count*, where its numbers may not tell.
+
+        That is so on a way that touches something between its ends. Costs what all views of a leg cost.
+        """
+        found = self._leg_at(count, place)
+        if found is None or not self._legs[count][found[0]].touches:
+            return NOTHING_KNOWN
+        k, u = found
+        return LegFacts(self._sensor.shares(self._legs[count][k])).at(u, place)
+
+    def facts_between(self, count: int, place: Point) -> PlaceFacts:
+        """What is known of the view from the place after the first *count* pieces, an end of such ways."""
+        beside = [legs[-1] for legs in self._legs[:count][-1:]] + [legs[0] for legs in self._legs[count:][:1]]
+        rays = [ray for leg in beside for ray in leg.facts(self._table, place).rays]
+        return PlaceFacts(rays) if rays else NOTHING_KNOWN
+
+    def _leg_at(self, count: int, place: Point) -> tuple[int, Real] | None:
+        """The number of a leg of a piece on which a place is, and its parameter there."""
         # The last report there: where two legs meet there may be one of each.
-        told = [at for at in self._reports_of(count) if at.place is place]
-        for k, leg in enumerate(legs):
+        told = self._told_at(count, place)
+        for k, leg in enumerate(self._legs[count]):
             if told and k < told[-1].leg:
                 continue
             u = told[-1].u if told else leg.rail.parameter(place)
             if leg.span.low.compare(u) <= 0 and leg.span.high.compare(u) >= 0:
-                known = Moment(self._history, before + k, {})
-                if leg.order(u, leg.first) > 0:
-                    acquired = [at.obstacle for at in told if at.kind is EventKind.ACQUIRE]
-                    newer = self._sensor.known_within(leg, u, place, known, acquired)
-                    known = Moment(self._history, before + k, newer)
-                return self._map(known)
-        return self._map(Moment(self._history, before + len(legs), {}))
+                return k, u
+        return None
 
     def _reported(self, reports: list[Report]) -> list[Report]:
         self.reports += reports
         self._told.append(len(self.reports))
         return reports
 
-    def _reports_of(self, count: int) -> list[Report]:
-        """What was reported along a piece."""
-        return self.reports[self._told[count] : self._told[count + 1]]
+    def _told_at(self, count: int, place: Point) -> list[Report]:
+        """What was reported from a place of a piece."""
+        reports = self.reports[self._told[count] : self._told[count + 1]]
+        return [at for at in reports if at.place is place]
 
     def _map(self, covers: Covers) -> Map:
         return Map(self.bodies, self._sensor.targets, self._sensor.rails, covers)

@@ -26,7 +26,7 @@ from exactacq.sensing.map import Body, Map
 from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Path
 from exactacq.strategies.tables import Table, event_table
-from exactacq.visibility.isovist import Isovist, isovist
+from exactacq.visibility.isovist import Isovist
 
 CLOSED_FORM = 60
 """Closed forms of at most this many characters stand in tables."""
@@ -176,7 +176,10 @@ class Run:
                 if count
                 else self.start
             )
-        return isovist(self.scene, place, self.radius)
+            facts = self.memory.facts_between(count, place)
+        else:
+            facts = self.memory.facts(count, place)
+        return Isovist(self.scene, place, self.radius, facts=facts)
 
     def moment(self, moment: Event | Length | object) -> tuple[int, Point | None]:
         """The number of whole pieces before a moment, and the place in the next one if it lies inside it.

@@ -26,6 +26,7 @@ from exactacq.scene.scene import Scene, as_scene, radius_of
 from exactacq.scene.validation import place_text
 from exactacq.visibility.free_segment import is_free
 from exactacq.visibility.outline import ViewKind, ViewPiece, outline
+from exactacq.visibility.place_facts import NOTHING_KNOWN, PlaceFacts
 from exactacq.visibility.range_clip import Span
 from exactacq.visibility.scene_tables import SceneTables
 from exactacq.visibility.sensor_range import Range
@@ -49,9 +50,16 @@ class Isovist:
     'Polygon'
     """
 
-    def __init__(self, scene: Scene, point: Point, radius: fmpq, own: tuple[int, ...] | None = None) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        point: Point,
+        radius: fmpq,
+        own: tuple[int, ...] | None = None,
+        facts: PlaceFacts = NOTHING_KNOWN,
+    ) -> None:
         self.scene, self.point, self.radius = scene, point, radius
-        self._view = BoundaryView(SceneTables.of(scene).edges, point, Range(radius), own)
+        self._view = BoundaryView(SceneTables.of(scene).edges, point, Range(radius), own, facts)
 
     @cached_property
     def pieces(self) -> tuple[ViewPiece, ...]:

@@ -32,7 +32,7 @@ class Disc:
     __slots__ = ("around", "center", "on_rim", "square", "square_ball")
 
     def __init__(self, point: Point, square: fmpq, on_rim: Sequence[Point] = ()) -> None:
-        self.center, self.square, self.on_rim = raw(point), square, on_rim
+        self.center, self.square, self.on_rim = raw(point), square, [*on_rim]
         self.around, self.square_ball = balls(point), arb(square)
 
     def excess(self, point: Point) -> int:
@@ -52,16 +52,14 @@ def within(
     start: Point,
     end: Point,
     disc: Disc,
-    on_rim: tuple[bool, bool] = (False, False),
     touch: Point | None = None,
 ) -> list[Span]:
     """The parts of the piece of a curve from *start* to *end* in a disc, in order.
 
     At most two parts, each perhaps a single point. *start* and *end* may be one point of a segment, but on an
-    arc they are distinct. Those that are known to lie *on_rim* are not compared with the radius. *touch* is
-    where the curve is known to touch the disc's circle, not at its own ends.
+    arc they are distinct. *touch* is where the curve is known to touch the circle, not at its own ends.
     """
-    excess = 0 if on_rim[0] else disc.excess(start), 0 if on_rim[1] else disc.excess(end)
+    excess = disc.excess(start), disc.excess(end)
     if isinstance(curve, Segment):
         return _of_segment(curve, (start, end), excess, disc, touch)
     ends, flipped = ((start, end), excess), not curve.ccw

@@ -101,8 +101,9 @@ class BoundaryView:
             face = sweep.sights[n][0]
             e, (start, end) = sweep.edges[face], parts.ends[n]
             whole = ends.point(start), ends.point(end)
-            on_rim = self._is_at_rim(e, ends.rank(start)), self._is_at_rim(e, ends.rank(end))
-            spans = self._clipped(e, whole, on_rim)
+            at = zip(whole, (start, end), strict=True)
+            self.disc.on_rim += [point for point, k in at if self._is_at_rim(e, ends.rank(k))]
+            spans = self._clipped(e, whole)
             parts.parts[n] = [self._known(e, span, whole, (start, end), ends) for span in spans]
         return ends
 
@@ -211,7 +212,7 @@ class BoundaryView:
         holds = self._facts.holds
         return rank is not None and bool(holds) and any(hold in holds for hold in self._holds(e, rank))
 
-    def _clipped(self, e: int, ends: Span, on_rim: tuple[bool, bool]) -> list[Span]:
+    def _clipped(self, e: int, ends: Span) -> list[Span]:
         """The parts within range of what a sight sees; ends within range stay the same objects."""
         curve, (start, end) = self.table.curves[e], ends
         touch = self._facts.tangent.get(self.table.line_numbers.circles[e])
@@ -220,7 +221,7 @@ class BoundaryView:
             assert isinstance(curve, Arc)
             opposite = curve.center + (curve.center - start)
             return within(curve, start, opposite, self.disc) + within(curve, opposite, end, self.disc)
-        return within(curve, start, end, self.disc, on_rim, touch)
+        return within(curve, start, end, self.disc, touch)
 
     # -- single rays -------------------------------------------------------------------------------
 
