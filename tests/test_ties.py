@@ -236,3 +236,22 @@ def test_a_crossing_point_is_on_the_edge_that_it_was_cut_from() -> None:
     Its numbers come from an end of what is known, and that from an earlier place: it is far to prove.
     """
     assert xa.seed_spreader(random_scene(Subject.SEED_SPREADER, 311001495)).complete
+
+
+def test_a_normal_of_a_corner_that_touches_a_circle_is_a_tangent_of_both() -> None:
+    """From a way that touches that circle the corner is seen along it last, as tangents and normals tell.
+
+    Only tangents had a name for that line. So its place on the way, of degree 20, was found twice.
+    """
+    scene = xa.Scene(
+        [
+            xa.Outline([(1, "11/2", "1/4"), (3, 5)]),
+            xa.Circle((0, "1341/260"), 1),
+            xa.Outline([(-1, "909/260"), ("-138/125", 1, "67/250")]),
+            xa.Outline([("-3/2", "29/4", 1), (-3, "79/10")]),
+        ],
+        start=(-3, 5),
+    )
+    run = xa.sightseer(scene, 4)
+    assert run.complete
+    xa.audit(run, samples=4)

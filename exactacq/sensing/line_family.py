@@ -111,7 +111,7 @@ class PencilFamilies:
     def imaged(self, images: LineImages, numbers: LineNumbers) -> list[FamilyImage]:
         """The families in floats, with *numbers* for their lines. They know this; it does not keep them."""
         lines, feature, contact = self.lines, self._feature, self.contact
-        own = NONE if feature is None or not self.goes_back else self._namer.number(feature)
+        own = NONE if feature is None else self._namer.number(feature)
         frame, at = lines.sector.image, (contact.edge, self._corner)
         curves, following = images.curves, images.table.images.following
         found = pencil_images(lines.rows, frame, at, self.goes_back, own, numbers, curves, following, self)
@@ -136,7 +136,7 @@ class PencilFamilies:
         behind = None if cell.behind is None or not self.goes_back else Side(cell.behind, Role.BEHIND)
         ahead = None if cell.ahead is None else Side(cell.ahead, Role.AHEAD)
         names: tuple[Names, Names] = (), ()
-        if feature is not None and self.goes_back:
+        if feature is not None:
             first, last = (
                 self._namer.names(feature, self.lines.sector, t, passed)
                 for t, passed in zip((cell.low, cell.high), cell.bounds, strict=True)
