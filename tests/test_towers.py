@@ -192,7 +192,7 @@ def anything() -> Real:
 def is_identity(value: Real) -> bool:
     tau = generic_in(value)
     assert tau is not None
-    return vanishes_about(value, tau)
+    return vanishes_about(value, [tau])
 
 
 @given(SMALL, SMALL, st.integers(1, 9), st.tuples(SMALL, SMALL))
@@ -227,8 +227,17 @@ def test_what_vanishes_by_chance_is_no_identity() -> None:
     tau = transcendental(Real, lambda bits: arb(2).sqrt())
     node = generic_in(tau)
     assert node is not None
-    assert not vanishes_about(tau * tau - 2, node)
-    assert not vanishes_about((tau * tau + 7).sqrt() - 3, node)
-    assert vanishes_about((tau * tau).sqrt() - tau, node)
-    assert not vanishes_about((tau * tau).sqrt() + tau, node)
-    assert vanishes_about(((1 - tau) * (1 - tau)).sqrt() + 1 - tau, node), "1 - tau is negative"
+    assert not vanishes_about(tau * tau - 2, [node])
+    assert not vanishes_about((tau * tau + 7).sqrt() - 3, [node])
+    assert vanishes_about((tau * tau).sqrt() - tau, [node])
+    assert not vanishes_about((tau * tau).sqrt() + tau, [node])
+    assert vanishes_about(((1 - tau) * (1 - tau)).sqrt() + 1 - tau, [node]), "1 - tau is negative"
+
+
+def test_functions_of_two_numbers() -> None:
+    """A place inside an arc that begins in the root of a polynomial: what vanishes for all numbers is 0."""
+    tau, root = anything(), first_root(HIGH)
+    value = ((tau + root) * (tau + root)).sqrt() - tau - root
+    assert value.sign() == 0
+    assert ((tau * root) ** 2 + HAIR).sqrt().compare(tau * root) > 0
+    assert (root * tau - tau * root + (tau * tau).sqrt() - tau).sign() == 0

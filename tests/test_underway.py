@@ -97,7 +97,7 @@ def cuts(monkeypatch: pytest.MonkeyPatch) -> list[int]:
 def test_one_obstacle_in_every_map_of_a_long_leg_costs_linear_time(cuts: list[int]) -> None:
     """What is cut is what is near, however many obstacles the leg passes."""
     spent = []
-    for n in (4, 8, 16):
+    for n in (8, 16, 32):
         memory = row(n)
         places = [report.place for report in memory.reports if report.inside]
         cuts.clear()

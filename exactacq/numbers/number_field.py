@@ -8,11 +8,12 @@ it is, which itself comes in only where its ball tells which of two square roots
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property, lru_cache
 from itertools import count, product
 from typing import TypeAlias
 
-from flint import acb, arb, fmpq, fmpq_mat, fmpq_poly, fmpz, fmpz_poly
+from flint import Ordering, acb, arb, fmpq, fmpq_mat, fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly, fmpz, fmpz_poly
 
 from exactacq.numbers.atoms import Atom, Node, Root
 from exactacq.numbers.precision import workprec
@@ -28,8 +29,6 @@ WIDE = 0.25
 
 RootKey: TypeAlias = "tuple[tuple[int, ...], int]"
 """Ascending coefficients of an irreducible integer polynomial, and which of its real roots is meant."""
-
-UNIT, X = fmpq_poly([1]), fmpq_poly([0, 1])
 
 
 class NumberField:
@@ -179,7 +178,7 @@ class JoinedRoots(NumberField):
         self._k = k
         super().__init__(tuple(int(c) for c in self._own_factor(characteristic).coeffs()))
         x = self._in_powers(matrix, second.degree())
-        self._images = dict(zip((one, other), (x, (X - x) / k), strict=True))
+        self._images = dict(zip((one, other), (x, (fmpq_poly([0, 1]) - x) / k), strict=True))
 
     def of_atom(self, atom: Atom) -> fmpq_poly | None:
         """A power of a root; None for what is not in the field."""
@@ -243,15 +242,15 @@ def _next(polynomial: fmpq_poly, i: int) -> list[tuple[int, fmpq]]:
 
 
 class RationalFunction:
-    """A rational function over Q."""
+    """A rational function over Q, of one or more variables."""
 
     __slots__ = ("bottom", "top")
 
-    def __init__(self, top: fmpq_poly, bottom: fmpq_poly = UNIT) -> None:
+    def __init__(self, top: fmpq_mpoly, bottom: fmpq_mpoly) -> None:
         # In lowest terms, monic below: equal ones are equal term by term.
-        if bottom.degree() > 0:
+        if not bottom.is_constant():
             common = top.gcd(bottom)
-            if common.degree() > 0:
+            if not common.is_constant():
                 top, bottom = top // common, bottom // common
         lead = bottom.leading_coefficient()
         self.top, self.bottom = (top, bottom) if lead == 1 else (top / lead, bottom / lead)
@@ -276,28 +275,39 @@ class RationalFunction:
 
 
 class RationalFunctions:
-    """The field over Q of a number *tau*, of which nothing is known but balls.
+    """The field over Q of some numbers, of which nothing is known but balls: *numbers* are nodes, or roots.
 
     >>> from exactacq.numbers.atoms import Root
     >>> atom = Root.make((-2, 0, 0, 1), 0, 1)
-    >>> field = RationalFunctions(atom)
+    >>> field = RationalFunctions([((-2, 0, 0, 1), 0)])
     >>> tau = field.of_atom(atom)
     >>> field.square_root(tau * tau + 2 * tau + field.constant(1)).top, field.square_root(tau)
-    (x + 1, None)
+    (x0 + 1, None)
     """
 
     degree = 1
 
-    def __init__(self, tau: Node) -> None:
-        self.tau = tau
+    def __init__(self, numbers: Sequence[Node | RootKey]) -> None:
+        names = tuple(f"x{k}" for k in range(len(numbers)))
+        self._ring = fmpq_mpoly_ctx.get(names, Ordering.degrevlex)
+        self._numbers = [one if isinstance(one, Node) else Root.make(one[0], one[1], 1) for one in numbers]
+        self._variables = dict(zip(self._numbers, self._ring.gens(), strict=True))
+
+    def _whole(self, top: fmpq_mpoly) -> RationalFunction:
+        return RationalFunction(top, self._ring.constant(1))
 
     def constant(self, value: fmpq | int) -> RationalFunction:
         """A rational as an element."""
-        return RationalFunction(fmpq_poly([value]))
+        return self._whole(self._ring.constant(value))
 
     def of_atom(self, atom: Atom) -> RationalFunction | None:
-        """The number itself; None for others, which are not in the field."""
-        return RationalFunction(X) if atom is self.tau else None
+        """A number or a power of a root; None for others, which are not in the field."""
+        if isinstance(atom, Root):
+            coefficients, index, power = atom.args
+            variable = self._variables.get(Root.make(coefficients, index, 1))
+            return None if variable is None else self._whole(variable**power)
+        own = self._variables.get(atom) if isinstance(atom, Node) else None
+        return None if own is None else self._whole(own)
 
     def times(self, a: RationalFunction, b: RationalFunction) -> RationalFunction:
         """The product of two elements."""
@@ -313,20 +323,19 @@ class RationalFunctions:
         content = fmpq(content)
         if content < 0 or not (content.p * content.q).is_square() or any(e % 2 for _, e in factors):
             return None
-        root = fmpq_poly([fmpq((content.p * content.q).isqrt(), content.q)])
+        root = self._ring.constant(fmpq((content.p * content.q).isqrt(), content.q))
         for factor, exponent in factors:
-            root *= fmpq_poly(factor) ** (exponent // 2)
+            root *= factor ** (int(exponent) // 2)
         return RationalFunction(root, a.bottom)
 
     def size(self, a: RationalFunction) -> int:
         """Bits of an element, roughly."""
-        parts = (a.top, a.bottom)
-        return sum(len(p) * int(p.numer().height_bits() + p.denom().bit_length()) for p in parts)
+        return sum(int(c.height_bits()) for part in (a.top, a.bottom) for c in part.coeffs())
 
     def ball(self, a: RationalFunction, bits: int) -> arb:
         """An enclosure of an element, with *bits* working bits that the caller has set."""
-        tau = self.tau.ball(bits)
-        return _at(a.top, tau) / _at(a.bottom, tau)
+        places = [number.ball(bits) for number in self._numbers]
+        return _at_places(a.top, places) / _at_places(a.bottom, places)
 
 
 def _at(polynomial: fmpq_poly, place: arb) -> arb:
@@ -334,3 +343,13 @@ def _at(polynomial: fmpq_poly, place: arb) -> arb:
     for coefficient in reversed(polynomial.numer().coeffs()):
         total = total * place + coefficient
     return total / polynomial.denom()
+
+
+def _at_places(polynomial: fmpq_mpoly, places: Sequence[arb]) -> arb:
+    total = arb(0)
+    for exponents, coefficient in polynomial.terms():
+        term = arb(coefficient)
+        for place, exponent in zip(places, exponents, strict=True):
+            term *= place ** int(exponent)
+        total += term
+    return total

@@ -35,7 +35,7 @@ def decided_sign(value: Any) -> int:
         if len(fewer) < len(terms):
             return int(type(value)._form(fewer).sign())
     elif (tau := generic_in(value)) is not None:
-        return sign_at(value, tau)
+        return 0 if vanishes_about(value, _numbers_in(value)) else sign_at(value, tau)
     elif field_of(terms) is None:
         limit = _separation_bits(value)
         zero = vanishes(value) if limit > TOWER_BITS else None
@@ -49,7 +49,7 @@ def decided_sign(value: Any) -> int:
             if ball.abs_upper() < arb(2) ** -limit:
                 return 0
             if limit > ZERO_TEST_BITS and bits >= TRIAL_BITS:
-                if (zero_of := _zero_in(value)) is not None and vanishes_about(value, zero_of):
+                if (zero_of := _zero_in(value)) is not None and vanishes_about(value, [zero_of]):
                     return 0
                 raise Undecided(
                     f"sign of {decimal_string(value.ball, 20)}...: excluding 0 would take {limit} bits, "
@@ -60,6 +60,11 @@ def decided_sign(value: Any) -> int:
     while not (sign := ball_sign(value.ball(bits))):
         bits *= 2
     return sign
+
+
+def _numbers_in(value: Any) -> list[Any]:
+    """The numbers that a real is made of by arithmetic and square roots."""
+    return [key for key, _ in value.generators() if not isinstance(key, int | Sqrt)]
 
 
 def _zero_in(value: Any) -> Node | None:

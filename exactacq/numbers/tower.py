@@ -15,6 +15,7 @@ The root of A + B t is x + y t only if the norm A^2 - B^2 t^2 is a square n^2 an
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import inf, prod
 from typing import Any, TypeAlias
 
@@ -54,10 +55,10 @@ def vanishes(value: Form) -> bool | None:
         return None
 
 
-def vanishes_about(value: Form, tau: Node) -> bool:
-    """Whether a real that is made of *tau* is surely 0 whatever number near it *tau* is; then it is 0."""
+def vanishes_about(value: Form, numbers: Sequence[Node | RootKey]) -> bool:
+    """Whether a real that is made of some numbers is surely 0 whatever they are, near these; then it is 0."""
     try:
-        return not FormalTower(value, tau).element(value)
+        return not FormalTower(value, numbers).element(value)
     except _TooLong:
         return False
 
@@ -227,15 +228,15 @@ class Tower:
 
 
 class FormalTower(Tower):
-    """A tower over the rational functions of a number: an element without terms is 0 whatever the number.
+    """A tower over the rational functions of some numbers: without terms an element is 0 whatever they are.
 
     One with terms may be 0 as well, by chance. Nothing is asked of it but the signs of square roots.
     """
 
     most_terms, most_bits = 1 << 12, 1 << 14
 
-    def __init__(self, value: Form, tau: Node) -> None:
-        super().__init__(value, RationalFunctions(tau))
+    def __init__(self, value: Form, numbers: Sequence[Node | RootKey]) -> None:
+        super().__init__(value, RationalFunctions(numbers))
 
     def is_zero(self, a: Element) -> bool:
         """Whether an element has no terms."""
