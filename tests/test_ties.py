@@ -255,3 +255,42 @@ def test_a_normal_of_a_corner_that_touches_a_circle_is_a_tangent_of_both() -> No
     run = xa.sightseer(scene, 4)
     assert run.complete
     xa.audit(run, samples=4)
+
+
+@pytest.mark.parametrize("seed", some(range(12), 3))
+def test_views_at_events_on_a_way_that_touches_a_circle(seed: int) -> None:
+    """Which lines meet there, and what is as far away as the range, is what the event is about."""
+    try:
+        run = xa.sightseer(past_a_circle(seed))
+    except xa.InvalidScene:
+        return
+    for event in run.events:
+        view = run.view_at(event)
+        assert view.pieces and view.seen()
+
+
+def test_the_view_at_an_event_on_an_arc() -> None:
+    """The robot walks along it: that its place is on the arc is known, and its numbers need not tell."""
+    shapes = [
+        xa.Circle(("25/2", 19), 5),
+        xa.Outline([(3, 2, 1), (-3, -2)]),
+        xa.Outline([(7, 4), (2, 6, -1), (3, 8)]),
+    ]
+    run = xa.sightseer(xa.Scene(shapes, start=(12, 1)), 20)
+    assert run.view_at(run.events[19]).area > 0
+
+
+@pytest.mark.parametrize("length", [9, 10, 11])
+def test_a_map_among_concentric_rings(length: int) -> None:
+    """As far from an arc as the range are all places of another one, also those with transcendental numbers.
+
+    Some 8,000 places were to be tried. A tower of square roots shows at once that it is so at all of them.
+    """
+    about, back = xa.Around((0, 0)), xa.Around((0, 0), False)
+    rings = [
+        xa.Circle((0, 0), 1),
+        xa.Outline([("8/5", "6/5"), ("12/5", "9/5", about), (0, 3), (0, 2, back)]),
+        xa.Outline([(5, 0), (6, 0, about), (-6, 0), (-5, 0, back)]),
+    ]
+    run = xa.sightseer(xa.Scene(rings, start=(1, 0)), 4)
+    assert run.map_at(length).known_length() > 0

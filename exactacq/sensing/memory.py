@@ -9,6 +9,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from flint import fmpq
 
@@ -29,6 +30,9 @@ from exactacq.sensing.sensor import Ahead, Notice, Sensor
 from exactacq.sensing.targets import Targets
 from exactacq.visibility.place_facts import NOTHING_KNOWN, PlaceFacts
 from exactacq.visibility.sensor_range import Range
+
+Own: TypeAlias = "tuple[int, ...] | None"
+"""The edges through a place, if they are known."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -304,22 +308,27 @@ class Memory:
             known = Moment(self._history, before + k, newer)
         return self._map(known)
 
-    def facts(self, count: int, place: Point) -> PlaceFacts:
-        """What is known of the view from a place inside piece number *count*, where its numbers may not tell.
+    def view_within(self, count: int, place: Point) -> tuple[Own, PlaceFacts]:
+        """The edges through a place inside piece number *count*, and what else is known of the view from it.
 
-        That is so on a way that touches something between its ends. Costs what all views of a leg cost.
+        Its numbers may not tell, as on a way that touches something between its ends. There it costs what all
+        views of a leg cost.
         """
         found = self._leg_at(count, place)
-        if found is None or not self._legs[count][found[0]].touches:
-            return NOTHING_KNOWN
-        k, u = found
-        return LegFacts(self._sensor.shares(self._legs[count][k])).at(u, place)
+        if found is None:
+            return None, NOTHING_KNOWN
+        leg, u = self._legs[count][found[0]], found[1]
+        if not leg.touches:
+            return leg.own(u), NOTHING_KNOWN
+        return leg.own(u), LegFacts(self._sensor.shares(leg)).at(u, place)
 
-    def facts_between(self, count: int, place: Point) -> PlaceFacts:
-        """What is known of the view from the place after the first *count* pieces, an end of such ways."""
-        beside = [legs[-1] for legs in self._legs[:count][-1:]] + [legs[0] for legs in self._legs[count:][:1]]
-        rays = [ray for leg in beside for ray in leg.facts(self._table, place).rays]
-        return PlaceFacts(rays) if rays else NOTHING_KNOWN
+    def view_after(self, count: int, place: Point) -> tuple[Own, PlaceFacts]:
+        """The edges through the place after the first *count* pieces, and what is known of the view there."""
+        at = [(legs[-1], legs[-1].last) for legs in self._legs[:count][-1:]]
+        at += [(legs[0], legs[0].first) for legs in self._legs[count:][:1]]
+        own = next((own for leg, u in at if (own := leg.own(u)) is not None), None)
+        rays = [ray for leg, _ in at for ray in leg.facts(self._table, place).rays]
+        return own, PlaceFacts(rays) if rays else NOTHING_KNOWN
 
     def _leg_at(self, count: int, place: Point) -> tuple[int, Real] | None:
         """The number of a leg of a piece on which a place is, and its parameter there."""

@@ -176,10 +176,10 @@ class Run:
                 if count
                 else self.start
             )
-            facts = self.memory.facts_between(count, place)
+            own, facts = self.memory.view_after(count, place)
         else:
-            facts = self.memory.facts(count, place)
-        return Isovist(self.scene, place, self.radius, facts=facts)
+            own, facts = self.memory.view_within(count, place)
+        return Isovist(self.scene, place, self.radius, own, facts)
 
     def moment(self, moment: Event | Length | object) -> tuple[int, Point | None]:
         """The number of whole pieces before a moment, and the place in the next one if it lies inside it.
