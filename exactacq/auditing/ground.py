@@ -11,10 +11,9 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterator, Sequence
 from functools import cached_property, cmp_to_key
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from flint import arb
-from networkx.utils import UnionFind
 
 from exactacq.auditing.comparisons import (
     BITS,
@@ -39,6 +38,9 @@ from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import Real
 from exactacq.scene.scene import Obstacle
 from exactacq.strategies.run import Run, SeedSpreaderRun
+
+if TYPE_CHECKING:
+    from networkx.utils import UnionFind
 
 
 class Stretch(NamedTuple):
@@ -473,6 +475,8 @@ def _joined(field: Field, parts: Sequence[_EdgePart]) -> tuple[UnionFind, UnionF
 
     A boundary that touches the border goes on there; so does the free border on its sides.
     """
+    from networkx.utils import UnionFind  # networkx takes long to import
+
     free, solid = UnionFind(), UnionFind()
     stops = field.stops
     blocked = [field.is_border_blocked(a, b) for a, b in zip(stops, [*stops[1:], stops[0]], strict=True)]
