@@ -29,7 +29,7 @@ from exactacq.sensing.line_family import PencilFamilies, Reached, SingleLine
 from exactacq.sensing.line_images import LineImages
 from exactacq.sensing.line_points import Role, Side
 from exactacq.visibility.end_rays import end_rays
-from exactacq.visibility.features import Feature, features, leaving, parallel
+from exactacq.visibility.features import Feature, corner_at, features, leaving, parallel
 from exactacq.visibility.line_families import Sector, Sliding, Spokes, corner_sectors, quarters
 from exactacq.visibility.line_names import Namer
 from exactacq.visibility.pinched_lines import may_be_pinched
@@ -127,8 +127,9 @@ class FamilySweeper:
             vertex = end.own[1]
             near = self._near((self.table.curves[vertex].start.xy,))
             contact = Side(e, Role.CONTACT, fixed=True, at_end=vertex != e)
+            corner = corner_at(self.table, end.own, (end.sector,))
             _, found = self._add(
-                images, end.sector, near, end.own, contact, None, end.passed, goes_back=False
+                images, end.sector, near, end.own, contact, corner, end.passed, goes_back=False
             )
             # The normal of the edge there bounds them.
             keys = found[-1].last_keys if vertex == e else found[0].first_keys

@@ -77,6 +77,9 @@ class LineViews:
         A line that touches the edge's circle meets it at the contact, in either sense.
         """
         role = side.role
+        if role is Role.CONTACT and side.fixed:
+            corner = side.corner(self.curve(side.edge))
+            return corner, self.rails[side.edge].parameter(corner)
         touches = any(touching and number == side.edge for number, touching, _ in passed)
         keys = [
             (name, side.edge, 0 if touches or self.numbers.touches(name, side.edge) else role * sense)
@@ -92,11 +95,7 @@ class LineViews:
         return pin
 
     def _late_pin(self, sector: Sector, t: Real, side: Side, passed: Passed) -> Pin:
-        """Where a line meets an edge: a corner if it is one, else a place that is made when it is read."""
-        curve = self.curve(side.edge)
-        if side.role is Role.CONTACT and side.fixed:
-            corner = side.corner(curve)
-            return corner, self.rails[side.edge].parameter(corner)
+        """Where a line meets an edge: a corner if it passes one, else a place that is made when it is read."""
         rail, points = self.rails[side.edge], self._points
         at = line(sector, t.ball(64))
         is_told, found = self._points.passed_in_balls(side, at, passed)
@@ -151,7 +150,7 @@ class LineViews:
             is_open = not (after and before and (ahead or here.role is Role.CONTACT))
             if not is_open and here.role in (ahead, Role.CONTACT):
                 found = Real.late(t, _line_through, sector, point, k)
-                far, _ = self._late_pin(sector, found, there, ())
+                far, _ = self.pin(sector, found, there, (), ())
                 points = (point, far) if side == 0 else (far, point)
                 one, other = (
                     self.rails[s.edge].parameter(p) for s, p in zip(free_views.sides, points, strict=True)

@@ -89,9 +89,14 @@ def _corner_feature(table: EdgeTable, e: int, following: int) -> Feature | None:
     first, last = leaving(incoming, at_end=True), leaving(outgoing, at_end=False)
     if joint(incoming, outgoing, first, last) is not Joint.CONVEX:
         return None
-    center = table.vertices[following]
-    sectors = tuple(corner_sectors(center, first, last))
-    return Feature(int(table.owner[e]), False, center, fmpq(0), (e, following), sectors)
+    sectors = tuple(corner_sectors(table.vertices[following], first, last))
+    return corner_at(table, (e, following), sectors)
+
+
+def corner_at(table: EdgeTable, edges: tuple[int, int], sectors: tuple[Sector, ...]) -> Feature:
+    """The corner between two edges, convex or not, with the sectors of some lines through it."""
+    e, following = edges
+    return Feature(int(table.owner[e]), False, table.vertices[following], fmpq(0), edges, sectors)
 
 
 def is_spike(incoming: Curve, outgoing: Curve) -> bool:
