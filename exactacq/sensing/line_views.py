@@ -95,7 +95,7 @@ class LineViews:
         return pin
 
     def _late_pin(self, sector: Sector, t: Real, side: Side, passed: Passed) -> Pin:
-        """Where a line meets an edge: a corner if it passes one, else a place that is made when it is read."""
+        """Where a line meets an edge: a corner that it passes, else a place that is made when it is read."""
         rail, points = self.rails[side.edge], self._points
         at = line(sector, t.ball(64))
         is_told, found = self._points.passed_in_balls(side, at, passed)
