@@ -136,7 +136,7 @@ def event_position(run: Run, event: Event) -> tuple[int, arb]:
 def is_part(curve: Curve, edge: Curve) -> bool:
     """Whether a curve is a part of an edge, longer than a point, in the edge's sense."""
     if isinstance(curve, Segment) and isinstance(edge, Segment):
-        ends_match = all(edge.may_pass(p, 64) and edge.passes(p) for p in (curve.start, curve.end))
+        ends_match = all(edge.may_pass(p, 64) and passes(edge, p) for p in (curve.start, curve.end))
         return ends_match and curve.direction.dot(edge.direction).sign() > 0
     if isinstance(curve, Segment) or isinstance(edge, Segment):
         return False
@@ -144,7 +144,7 @@ def is_part(curve: Curve, edge: Curve) -> bool:
         return False
     if same(curve.start, edge.start) and same(curve.end, edge.end):
         return curve.full == edge.full
-    if curve.full or not all(edge.may_pass(p, 64) and edge.passes(p) for p in (curve.start, curve.end)):
+    if curve.full or not all(edge.may_pass(p, 64) and passes(edge, p) for p in (curve.start, curve.end)):
         return edge.full and edge.on_circle(curve.start)
     if edge.full or same(curve.start, edge.start) or same(curve.end, edge.end):
         return True

@@ -155,13 +155,13 @@ class Field:
             body: Any = component
             if body.obstacle.index == obstacle:
                 shores = (body.shore, *body.hidden)
-                if any(part.curve.passes(point) for shore in shores for part in shore):
+                if any(passes(part.curve, point) for shore in shores for part in shore):
                     return k
         return None
 
     def is_ashore(self, component: int, point: Point) -> bool:
         """Whether a point lies on a component's walkable boundary."""
-        return any(edge.passes(point) for edge in self.run.obstacles[component].edges)
+        return any(passes(edge, point) for edge in self.run.obstacles[component].edges)
 
     # -- blocked ways ------------------------------------------------------------------------------
 
@@ -238,7 +238,7 @@ class Field:
     def _is_sealed_on_boundary(self, obstacle: Obstacle, point: Point) -> bool:
         """Whether a point of the boundary beside a blocked stretch is blocked, as `_is_sealed` asks it."""
         inward = self.inward(point)
-        edges = (edge for edge in obstacle.edges if edge.passes(point))
+        edges = (edge for edge in obstacle.edges if passes(edge, point))
         return bool(inward) and not any(_runs_into(edge, point, inward) for edge in edges)
 
     def contains(self, point: Point) -> bool:

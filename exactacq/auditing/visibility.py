@@ -20,6 +20,7 @@ from typing import NamedTuple
 import numpy as np
 from flint import fmpq
 
+from exactacq.auditing.comparisons import passes
 from exactacq.auditing.hits import (
     EPS,
     Bools,
@@ -162,7 +163,7 @@ class World:
         x, y = point.xy
         boxes = self.boxes[list(near)]
         inside = (boxes[:, 0] <= x) & (x <= boxes[:, 2]) & (boxes[:, 1] <= y) & (y <= boxes[:, 3])
-        return [e for e, box in zip(near, inside, strict=True) if box and self.edges[e].passes(point)]
+        return [e for e, box in zip(near, inside, strict=True) if box and passes(self.edges[e], point)]
 
 
 class Viewpoints:
@@ -234,6 +235,21 @@ def visible(world: World, radius: fmpq, a: Point, b: Point) -> bool:
     if offset.norm_sq().compare(radius * radius) > 0:
         return False
     return a == b or world.blocker(a, offset, 1) is None
+
+
+def _crossings(curve: Curve, circle: Arc) -> Iterator[Point]:
+    """Where a curve meets a full circle, and perhaps where its line or its own circle does beside its ends.
+
+    A ray more changes nothing: so it is not proved that such a point is the curve's end.
+    """
+    if isinstance(curve, Segment):
+        for t in line_contacts(curve.start, curve.direction, circle):
+            if t.clear_sign(TIE_BITS) >= 0 and (1 - t).clear_sign(TIE_BITS) >= 0:
+                yield curve.start + curve.direction * t
+        return
+    start = curve.start
+    whole = Arc(start, start, curve.center, curve.radius_sq, ccw=curve.ccw, full=True)
+    yield from (at.start for at in contacts(whole, circle) if curve.may_pass(at.start, TIE_BITS))
 
 
 def _identity(curve: Curve) -> object:
@@ -334,7 +350,7 @@ class _View:
         extent = np.hypot(*np.maximum(np.abs(boxes[:, :2] - xy), np.abs(boxes[:, 2:] - xy)).T)
         size = np.abs(boxes).max(axis=1) + np.abs(xy).max()
         for k in np.flatnonzero(extent + size * EPS >= self.reach * (1 - EPS)):
-            yield from (contact.start for contact in contacts(self.curves[k], circle))
+            yield from _crossings(self.curves[k], circle)
 
     def _offset(self, point: Point) -> tuple[float, float]:
         """point - q, exactly, then rounded once."""
