@@ -117,7 +117,7 @@ def side_of_all(frame: Frame, first: Line, last: Line, x: float, y: float, error
     if frame[0] == ROLLING:
         least = ROUNDED * (frame[3] * frame[3] + frame[4] * frame[4])
     one = side_of(first, x, y, error, least)
-    return one if one == side_of(last, x, y, error, least) else 0
+    return one if one and one == side_of(last, x, y, error, least) else 0
 
 
 ByEdge = dict[int, list[FamilyImage]]
