@@ -95,7 +95,7 @@ def tangents_from(
 def along_way(table: EdgeTable, place: Balls, way: Segment, features: Sequence[int]) -> Iterator[Alignment]:
     """The two rays from a place on a straight way along it, whose line touches *features*.
 
-    Beyond that line's ends they meet the edges there no more, unless these are concave.
+    A line enters a straight edge or a convex arc once: so where an end of the way lies on one, it does there.
     """
     along = way.end - way.start
     for ray in _alignments(table, place, balls(along), lambda: (way.start, along), features, None):
