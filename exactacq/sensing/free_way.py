@@ -6,11 +6,13 @@ with the piece. The normals of the piece itself and the views along its own line
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cached_property
 from typing import TypeAlias
 
 from exactacq.geometry.intersections import line_contacts
+from exactacq.geometry.late import Pin
+from exactacq.geometry.points import Point
 from exactacq.kernel.extents import Extent
 from exactacq.kernel.family_images import FamilyImage
 from exactacq.kernel.single_lines import crossing_lines
@@ -94,10 +96,21 @@ class WayViews:
     def along(self, single: SingleLine) -> Iterator[ViewFamily]:
         """A single line that crosses the way between its place and the run that it shows."""
         direction = single.points[0] - single.place
-        for place in line_contacts(single.place, direction, self.way.piece):
+        places = line_contacts(single.place, direction, self.way.piece)
+        for place in places:
             if place.sign() < 0 or place.compare(1) > 0:
                 continue
-            point = single.place + direction * place
-            pin = point, self.way.rail.parameter(point)
+            # Lines along the way meet it in both ends.
+            names = single.keys if len(places) == 1 else ()
+            pin = self._pin(names, single.place + direction * place)
             for first, last in self.way.clipper.along(pin, single.run, single.shown):
                 yield ViewFamily((self.way.number, single.shown), first, last)
+
+    def _pin(self, names: Sequence[int], point: Point) -> Pin:
+        """Where a line crosses the way: the same point as of families that its names tell of."""
+        pins, number = self.way.clipper.views.pins, self.way.number
+        known = next((pin for name in names if (pin := pins.get((name, number, 0))) is not None), None)
+        pin = (point, self.way.rail.parameter(point)) if known is None else known
+        for name in names:
+            pins.put((name, number, 0), pin)
+        return pin

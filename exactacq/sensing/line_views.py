@@ -39,6 +39,8 @@ class LineViews:
         self.pins: NamedPins = NamedPins(None if base is None else base.pins, known)
         self._points = LinePoints(rails)
         self._base = base
+        self.way: int | None = None if base is None else len(rails) - 1
+        """The number of the way that is added."""
         self._balls: dict[int, CurveBalls] = {}
         self._images: dict[int, CurveImage] = {}
 
@@ -74,15 +76,15 @@ class LineViews:
     def pin(self, sector: Sector, t: Real, side: Side, names: Names, passed: Passed) -> Pin:
         """Where a line meets an edge: the same point as on the same line under another name.
 
-        A line that touches the edge's circle meets it at the contact, in either sense.
+        A line that touches the edge's circle meets it at the contact, in either sense, and the way once.
         """
         role = side.role
         if role is Role.CONTACT and side.fixed:
             corner = side.corner(self.curve(side.edge))
             return corner, self.rails[side.edge].parameter(corner)
-        touches = any(touching and number == side.edge for number, touching, _ in passed)
+        once = side.edge == self.way or any(touching and e == side.edge for e, touching, _ in passed)
         keys = [
-            (name, side.edge, 0 if touches or self.numbers.touches(name, side.edge) else role * sense)
+            (name, side.edge, 0 if once or self.numbers.touches(name, side.edge) else role * sense)
             for name, sense in names
         ]
         for key in keys:
