@@ -20,7 +20,7 @@ from typing import NamedTuple
 import numpy as np
 from flint import fmpq
 
-from exactacq.auditing.comparisons import passes
+from exactacq.auditing.comparisons import BITS, passes
 from exactacq.auditing.hits import (
     EPS,
     Bools,
@@ -449,9 +449,11 @@ class _View:
     # -- exact -------------------------------------------------------------------------------------
 
     def sees_along(self, ray: int, k: int) -> bool:
-        """Whether a curve has a point on a ray that sees q: exact."""
+        """Whether a curve has a point on a ray that sees q: exact, but where it passes q by 500 digits."""
         direction, curve, aim = self.rays[ray].exact(), self.curves[k], self.rays[ray].aim
         found = line_contacts(self.q, direction, curve)
+        if not all(t.clear_sign(TIE_BITS) or t.clear_sign(BITS) for t in found):
+            return True
         ending = set() if aim is None else self.lookout.at.get(aim, set())
         if aim in self.forms.ends[len(self.edges) + k]:
             found = [Real(1) if t is _single(found, Real(1)) else t for t in found]
