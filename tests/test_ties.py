@@ -319,3 +319,9 @@ def test_lines_along_rows_cross_a_way_in_one_point_each(monkeypatch: pytest.Monk
     slots = [xa.Outline([(x, y), (x + 1, y, 1), (x + 1, y + 1), (x, y + 1, 1)]) for x, y in places]
     assert xa.sightseer(xa.Scene(slots, start=("-4.42", "1.6997")), 10).complete
     assert len(asked) < 30
+
+
+def test_an_audit_of_a_way_through_a_sample() -> None:
+    """A sampled place lies on a way with numbers of degree 20: that the way passes it need not be proved."""
+    scene = xa.load(DATA / "rounded-squares.json")
+    xa.audit(xa.sightseer(scene, 10), samples=12, seed=110400)
