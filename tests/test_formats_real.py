@@ -27,7 +27,8 @@ READ: dict[str, int] = {
     "turtlebot3.yaml": 10, "extremity.json": 2, "arcs/samecircle-a10715.json": 1,
     "arcs/samecircle-a10738.json": 1, "arcs/samecircle-b182.json": 2, "arcs/samecircle-b193.json": 1,
     "arcs/samecircle-b196.json": 1, "arcs/samecircle-b225.json": 2, "undecided/arcs-1371.json": 4,
-    "undecided/arcs-3029.json": 3, "undecided/arcs-3358.json": 6, "undecided/rounded-squares.json": 8, "undecided/thickened.json": 2,
+    "undecided/arcs-3029.json": 3, "undecided/arcs-3358.json": 6, "undecided/rounded-squares.json": 8,
+    "undecided/thickened.json": 2,
 }  # fmt: skip
 REFUSED: dict[str, tuple[str, dict[str, object], int]] = {
     "issue39.dxf": (UNION, {"union": True}, 1),
