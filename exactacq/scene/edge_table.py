@@ -37,8 +37,6 @@ Ints = NDArray[np.intp]
 STRAIGHT, CONVEX, CONCAVE = images.STRAIGHT, images.CONVEX, images.CONCAVE
 NEAR_KEPT = 64
 LATTICE_BITS = 64
-PASS_BITS = 256
-"""Precision of the balls that tell which edges a point lies on."""
 """Up to this size of the common denominator vertices are looked at as integers."""
 CLOSE = 0.2
 """Within this part of the reach what hides much is looked for,"""
@@ -48,8 +46,6 @@ SAMPLES = 16
 """If it is so at none of so many edges, it is looked for nowhere."""
 BITS = 64
 """Precision of the balls that tell which edges are not near a point."""
-PASS_BITS = 256
-"""Precision of the balls that tell which edges a point lies on."""
 
 
 class EdgeTable:
@@ -231,11 +227,6 @@ class EdgeTable:
                 self._lit.clear()
             self._lit[places, reach] = found
         return found
-
-    def edges_near(self, point: Point) -> list[int]:
-        """The edges that balls do not part from a point: it lies on a boundary, or it does not."""
-        near = self.around(point.xy, point.xy, 0.0)
-        return [e for e in near if self.curves[e].may_pass(point, PASS_BITS)]
 
     def _is_dense(self, reach: float) -> bool:
         """Whether many edges are close to one of a few edges, spread over the scene."""

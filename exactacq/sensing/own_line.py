@@ -39,7 +39,7 @@ class OwnLine:
         if not self._near:
             return
         span, rails = self.way.span, self.way.clipper.rails
-        shown = [(e, p) for p in (span.start, span.end) for e in self.table.edges_near(p)]
+        shown = [(e, p) for p in (span.start, span.end) for e in self.table.edges_at(p)]
         along = self.line.end - self.line.start
         shown += [*self._beyond(span.end, along), *self._beyond(span.start, -along)]
         for e, point in self._touched():
@@ -74,7 +74,7 @@ class OwnLine:
 
     def _beyond(self, end: Point, onward: Point) -> Iterator[tuple[int, Point]]:
         """What the way's line meets beyond an end, as far as it is seen from there."""
-        own, view = self.table.edges_near(end), self._view(end)
+        own, view = self.table.edges_at(end), self._view(end)
         edges = [e for e in self._near if e in view.edges]
         for e in met_ahead(self.table.images, edges, held_point(end), held_point(onward)):
             curve = self.table.curves[e]
