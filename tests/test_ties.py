@@ -15,10 +15,12 @@ from flint import fmpq
 from nightly import some
 
 import exactacq as xa
+from exactacq.geometry.curve_parameter import Rail
 from exactacq.numbers import sign
 from exactacq.numbers.rationals import rational
 from exactacq.study.random_scenes import Subject, arc_scene, random_scene
 
+NEAR = 1e-9
 DATA = Path(__file__).parent / "data" / "undecided"
 WALKED = {5: "656.353119540", 14: "656.353119540", 20: "656.353119540", 30: "656.897193", 100: "656.897193"}
 """The laser plate's path by the radius, as the runs that never were in doubt (5, 10 and 12) walk it."""
@@ -169,6 +171,36 @@ def test_the_cells_of_a_way_that_touches_a_circle_between(seed: int) -> None:
         if piece.obstacle is None:
             for cell in xa.sweep(run.scene, piece.curve, run.radius).cells:
                 assert cell.map.known_length() > 0
+
+
+def spans(rail: Rail, start: xa.Point, end: xa.Point) -> list[tuple[float, float]]:
+    """A piece of an edge in parameters, rounded; in two if it passes the start of a full circle."""
+    low, high = (rail.parameter(place).rough() for place in (start, end))
+    if not rail.is_closed or low < high or start is end:
+        return [(low, high)]
+    return [(low, 4.0)] if high == 0 else [(low, 4.0), (0.0, high)]
+
+
+@pytest.mark.parametrize("seed", some([0, 3, *range(4, 30)], 2))
+def test_the_cells_of_a_way_that_touches_a_circle_know_what_isovists_see(seed: int) -> None:
+    """Points that are taken for one are one: else a map lacks a part of what is seen from inside its cell."""
+    try:
+        run = xa.sightseer(past_a_circle(seed))
+    except xa.InvalidScene:
+        return
+    compared = 0
+    for piece in (piece for piece in run.path if piece.obstacle is None):
+        for cell in xa.sweep(run.scene, piece.curve, run.radius).cells:
+            middle = fmpq(*((float(cell.low) + float(cell.high)) / 2).as_integer_ratio())
+            view = xa.isovist(run.scene, cell.point(middle), run.radius).seen()
+            for (k, e), seen in view.items():
+                rail = Rail(run.scene.obstacles[k].edges[e])
+                parts = [part for part in cell.map.known(k) if part.edge == e]
+                known = [span for part in parts for span in spans(rail, part.start, part.end)]
+                for low, high in (span for ends in seen for span in spans(rail, *ends)):
+                    assert any(a <= low + NEAR and high <= b + NEAR for a, b in known)
+                    compared += 1
+    assert compared > 20
 
 
 def slot(x: fmpq, y: int, side: int) -> xa.Outline:

@@ -17,10 +17,12 @@ from exactacq.geometry.curves import Segment
 from exactacq.geometry.interval_union import Cover
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.leg_views import Shares
 from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Piece
 from exactacq.strategies.run import Run
+from exactacq.study.random_scenes import Subject, random_scene
 
 
 def ends(cover: Cover | None) -> list[tuple[Real, Real]]:
@@ -125,3 +127,13 @@ def test_a_copied_map_says_the_same() -> None:
     chart = run.map_at(event)
     again = pickle.loads(pickle.dumps(chart))
     assert [again.known_length(i) for i in again.seen] == [chart.known_length(i) for i in chart.seen]
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_views_at_events_know_the_edges_through_their_places(seed: int) -> None:
+    """Taken from the way there, and asked exactly, they are the same, in the same order."""
+    for kind, explore in ((Subject.SIGHTSEER, xa.sightseer), (Subject.SEED_SPREADER, xa.seed_spreader)):
+        run = explore(random_scene(kind, 91000000 + seed))
+        table = EdgeTable(run.scene.obstacles)
+        for event in run.events:
+            assert run.view_at(event)._view.own == table.edges_at(event.point)

@@ -49,7 +49,7 @@ class StraightWay:
     def own_names(self, direction: Point) -> Names:
         """The name of the way's own line, for lines in a direction along it or against it."""
         along = self.line.end - self.line.start
-        return ((OWN, 1 if direction.dot(along).rough() > 0 else -1),)
+        return ((OWN, direction.dot(along).sign()),)
 
     def foot_on(self, circle: int) -> Pin:
         """Where the way's line touches a circle that it is known to touch: one point on all arcs."""
