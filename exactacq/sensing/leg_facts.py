@@ -35,7 +35,7 @@ class LegFacts:
         """Tell the view from a place what is known of it, as it is made: its numbers may not."""
         facts = self.at(u, place)
         if facts is not NOTHING_KNOWN:
-            self._shares.view(place, self._shares.leg.own(u), facts)
+            self._shares.view(place, self._shares.leg.own(u), lambda: facts)
 
     def at(self, u: Real, place: Point) -> PlaceFacts:
         """What is known of a place, with parameter *u*; `NOTHING_KNOWN` if no family ends there."""

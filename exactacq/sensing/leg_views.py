@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import chain
 from typing import TypeAlias
 
@@ -249,8 +249,8 @@ class Shares:
         """What is seen from the first and from the last place of the leg."""
         leg, table = self.leg, self.complex.table
         return (
-            self.view(leg.start, leg.own(leg.first), leg.facts(table, leg.start)),
-            self.view(leg.end, leg.own(leg.last), leg.facts(table, leg.end)),
+            self.view(leg.start, leg.own(leg.first), partial(leg.facts, table, leg.start)),
+            self.view(leg.end, leg.own(leg.last), partial(leg.facts, table, leg.end)),
         )
 
     def note(self, places: Iterable[Real]) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from functools import cached_property
+from functools import cached_property, partial
 
 from exactacq.geometry.curve_images import held_point
 from exactacq.geometry.curves import Arc, Curve, Segment
@@ -97,7 +97,7 @@ class OwnLine:
 
     def _view(self, end: Point) -> Seen:
         """What is seen from an end of the way."""
-        return self.view(end, None, self.way.leg.facts(self.table, end))
+        return self.view(end, None, partial(self.way.leg.facts, self.table, end))
 
     def _within(self, point: Point) -> list[Pin]:
         """The ends of the part of the way within range of a point of its line."""

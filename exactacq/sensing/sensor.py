@@ -8,7 +8,7 @@ its two ends (see `view_families`). Only obstacles that are not acquired yet are
 from __future__ import annotations
 
 from collections import ChainMap, deque
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 from functools import cmp_to_key
 
@@ -180,13 +180,19 @@ class Sensor:
         return self.targets.near(self.table.lit(leg.spots, self.range.above))
 
     def _view(
-        self, place: Point, own: tuple[int, ...] | None = None, facts: PlaceFacts = NOTHING_KNOWN
+        self,
+        place: Point,
+        own: tuple[int, ...] | None = None,
+        facts: Callable[[], PlaceFacts] = lambda: NOTHING_KNOWN,
     ) -> Seen:
-        """What is seen from a place on edges *own*, if known; the last are kept, for legs share ends."""
+        """What is seen from a place on edges *own*, if known; the last are kept, for legs share ends.
+
+        What else is known of the place is asked for where the view is made.
+        """
         for kept in self._views:
             if kept.place is place:
                 return kept
-        made = Seen(self.table, self.rails, place, self.range, own, facts)
+        made = Seen(self.table, self.rails, place, self.range, own, facts())
         self._views.appendleft(made)
         return made
 

@@ -16,7 +16,7 @@ from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real
 from exactacq.sensing.leg_facts import LegFacts
 from exactacq.sensing.leg_views import Covers, Share, Shares
-from exactacq.visibility.place_facts import NOTHING_KNOWN, PlaceFacts
+from exactacq.sensing.legs import Leg
 
 
 class LegNews:
@@ -76,15 +76,15 @@ class EdgeNews:
         self._lasts = [source.high if ahead else source.low for source in sources]
         self._brackets = [float_ball(last) for last in self._lasts]
 
-    def upto(self, u: Real, place: Point) -> Cover | None:
-        """The cover on the way to a place; None if it has not grown."""
-        return self.shares.cut(self.shares.leg.upto(u, place)).taught(self.covers).get(self.edge)
+    def within(self, part: Leg) -> Cover | None:
+        """The cover on the way along the first part of the leg; None if it has not grown."""
+        return self.shares.cut(part).taught(self.covers).get(self.edge)
 
-    def beyond(self, u: Real, place: Point) -> Cover | None:
-        """That for a place from which nothing of the edge is in sight, so that no view of it is under way."""
-        passed = self._count(u)
+    def beyond(self, part: Leg) -> Cover | None:
+        """That for a part from whose end nothing of the edge is in sight: no view of it is under way."""
+        passed = self._count(part.last)
         if passed not in self._passed:
-            self._passed[passed] = self.upto(u, place)
+            self._passed[passed] = self.within(part)
         return self._passed[passed]
 
     def _count(self, u: Real) -> int:
@@ -121,20 +121,20 @@ class Underway(Mapping[int, Cover]):
     def _cover(self, edge: int) -> Cover | None:
         if edge not in self._found:
             news = self._news.on(edge)
-            grown = news.upto if edge in self._near else news.beyond
+            grown = news.within if edge in self._near else news.beyond
             self._tell_view()
-            self._found[edge] = grown(self._u, self._place)
+            self._found[edge] = grown(self._part)
         return self._found[edge]
+
+    @cached_property
+    def _part(self) -> Leg:
+        """The leg as far as the place."""
+        return self._news.shares.leg.upto(self._u, self._place)
 
     def _tell_view(self) -> None:
         """Tell the view from the place what is known of it, as it is made: its numbers may not."""
-        shares, facts = self._news.shares, self._facts
-        if facts is not NOTHING_KNOWN:
-            shares.view(self._place, shares.leg.own(self._u), facts)
-
-    @cached_property
-    def _facts(self) -> PlaceFacts:
-        return self._news.facts.at(self._u, self._place)
+        shares, u, place = self._news.shares, self._u, self._place
+        shares.view(place, shares.leg.own(u), lambda: self._news.facts.at(u, place))
 
     def __getitem__(self, edge: int) -> Cover:
         found = self._cover(edge)
