@@ -17,6 +17,7 @@ from exactacq.files.octagons import random_octagons
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.kernel.extents import Extent, Span
+from exactacq.kernel.single_lines import SingleImage
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing import family_filter, visibility_complex
@@ -25,7 +26,7 @@ from exactacq.sensing.end_names import Seen
 from exactacq.sensing.event import Reason
 from exactacq.sensing.free_way import WayViews
 from exactacq.sensing.legs import Leg, legs_of
-from exactacq.sensing.line_family import SingleLine, family_of
+from exactacq.sensing.line_family import family_of, single_of
 from exactacq.sensing.straight_way import StraightWay
 from exactacq.sensing.view_families import ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
@@ -69,11 +70,12 @@ def told(complex_: VisibilityComplex, leg: Leg, run: xa.SightseerRun) -> Iterato
         yield told_of(one, way.normals.views(one.origin))
     crossing_lines = {id(one.origin): one for one in way.single_lines()}
     for edge in complex_.near(leg.spots):
-        for single in edge.single_lines:
-            if id(single) in crossing_lines:
-                yield told_of(crossing_lines[id(single)], way.along(single))
+        for image in edge.single_lines:
+            views = way.along(single_of(image))
+            if id(image) in crossing_lines:
+                yield told_of(crossing_lines[id(image)], views)
             else:
-                assert not list(way.along(single))
+                assert not list(views)
     for n, (image, certain) in enumerate(way.crossing):
         line_family = family_of(image)
         parts = {side.edge for side in line_family.sides if side is not None}
@@ -209,7 +211,7 @@ def test_leaving_out_changes_nothing_on_a_board(monkeypatch: pytest.MonkeyPatch)
 def keyed_views(complex_: VisibilityComplex, edge: int) -> Iterator[tuple[list[int], int, str, str]]:
     """The keys of extreme views from an edge, the edges that are seen, and the points from and to which."""
     for one in complex_.extents(edge):
-        is_single = isinstance(one.origin, SingleLine)
+        is_single = isinstance(one.origin, SingleImage)
         for family, side in complex_.views(one):
             first, last = sorted((family.first, family.last), key=lambda end: end.places[side])
             for end, keys in ((first, one.first_keys), (last, one.last_keys)):

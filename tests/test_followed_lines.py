@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from importlib.util import module_from_spec, spec_from_file_location
+from math import inf
+from pathlib import Path
 from random import Random
 
 import pytest
@@ -11,12 +14,16 @@ from nightly import some
 from strategies import arc_terrain, build, circle_grid, degenerate_terrain, square_grid
 
 import exactacq as xa
+from exactacq import kernel
+from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.points import Point
 from exactacq.kernel import line_walks
+from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.sensing import complex_edges
+from exactacq.sensing import followed_lines
 from exactacq.sensing.complex_edges import FamilySweeper
 from exactacq.sensing.followed_lines import FeatureLine, FollowedLine
+from exactacq.sensing.line_family import single_of
 from exactacq.sensing.line_points import Role
 from exactacq.study.claims.model import Subject
 from exactacq.study.random_scenes import random_scene
@@ -64,8 +71,8 @@ def lines(sweeper: FamilySweeper, reach: float) -> Iterator[FeatureLine]:
 def places(line: FollowedLine) -> list[set[tuple[int, str, str]]]:
     """What is met in each place, in order, in 30 digits."""
     found: dict[int, set[tuple[int, str, str]]] = {}
-    for met in line.met:
-        point: Point = met.pin[0]
+    for k, met in enumerate(line.met):
+        point: Point = line.pin(k)[0]
         found.setdefault(met.place, set()).add((met.edge, point.x.decimal(30), point.y.decimal(30)))
     return [found[k] for k in sorted(found)]
 
@@ -83,15 +90,35 @@ def test_names_tell_what_exact_contacts_tell(name: str, monkeypatch: pytest.Monk
             with monkeypatch.context() as patch:
                 patch.setattr(pinched_lines, "WalkedLine", Untold)
                 exact = sweeper.follower.follow(line)
-            assert by_names.is_blocked == exact.is_blocked
+            assert by_names.image.is_blocked == exact.image.is_blocked
             assert places(by_names) == places(exact)
-            assert by_names.blind == exact.blind
+            assert by_names.image.blind == exact.image.blind
+            for line_ in (by_names, exact):
+                check_floats(table, line_)
             told += 1
             grazing += len(places(exact)) > 2
-            blocked += exact.is_blocked[0] + exact.is_blocked[1]
+            blocked += exact.image.is_blocked[0] + exact.image.is_blocked[1]
     assert told > 20
     assert blocked > 1
     assert grazing > 1
+
+
+def check_floats(table: EdgeTable, line: FollowedLine) -> None:
+    """The floats of what is met, and of the places as far away as the range, hold their numbers."""
+    for k, met in enumerate(line.met):
+        point, u = line.pin(k)
+        assert_held(met.spot, point)
+        low, high = (
+            0 if v == -inf else Rail(table.curves[met.edge]).top if v == inf else v for v in met.span
+        )
+        assert low <= u <= high or table.full[met.edge]
+    for spot, role in zip(line.image.ends, (Role.BEHIND, Role.AHEAD), strict=True):
+        assert_held(spot, line.ended(role))
+
+
+def assert_held(spot: tuple[float, float, float], point: Point) -> None:
+    x, y, error = spot
+    assert abs(point.x - Real(x)) <= error and abs(point.y - Real(y)) <= error
 
 
 class Untold:
@@ -156,8 +183,28 @@ def test_chords_along_lines_are_the_same_by_exact_contacts(
 def told_pairs(sweeper: FamilySweeper) -> set[tuple[object, ...]]:
     """All that single lines show within range: from which place of which edge, and of which edge what."""
     lone = [line for e in range(len(sweeper.table.curves)) for line in sweeper.of(e).single_lines]
-    near = [line for line in lone if sweeper.range.order(line.place, line.points[0]) <= 0]
+    made = map(single_of, lone)
+    near = [
+        line
+        for line in made
+        if line.place != line.points[0] and sweeper.range.order(line.place, line.points[0]) <= 0
+    ]
     return {(line.edge, str(line.place), line.shown, *map(str, line.points)) for line in near}
+
+
+def telling_all() -> type:
+    """Lines that tell what others tell too; of the module as it is not compiled, which can be changed."""
+    path = Path(kernel.__file__).parent / "grazing_lines.py"
+    spec = spec_from_file_location("grazing_lines", path)
+    assert spec is not None and spec.loader is not None
+    module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+
+    class TellingAll(module.GrazingLine):  # type: ignore[name-defined, misc]
+        def is_told_by_others(self, *_: int) -> bool:
+            return False
+
+    return TellingAll
 
 
 @pytest.mark.parametrize("name", ["squares", "a mill in a room", "sweep"])
@@ -166,7 +213,7 @@ def test_one_feature_tells_what_all_would(name: str, monkeypatch: pytest.MonkeyP
     scene = random_scene(Subject.SEED_SPREADER, 114) if name == "sweep" else SCENES[name]
     table, range_ = EdgeTable(scene.obstacles), Range(fmpq(3))
     found = told_pairs(FamilySweeper(table, range_))
-    monkeypatch.setattr(complex_edges, "_is_told_by_others", lambda *_: False)
+    monkeypatch.setattr(followed_lines, "GrazingLine", telling_all())
     every = told_pairs(FamilySweeper(table, range_))
     assert found == every
     assert len(every) > 20
@@ -188,7 +235,7 @@ def test_a_line_that_enters_its_own_obstacle_at_the_contact() -> None:
                 patch.setattr(pinched_lines, "WalkedLine", walked)
                 found = sweeper.follower.follow(line)
             forward = line.sector.touch(line.t)[1].x > 0
-            assert found.is_blocked == (not forward, forward)
+            assert found.image.is_blocked == (not forward, forward)
 
 
 def test_edges_that_are_crossed_almost_in_one_place() -> None:
@@ -202,6 +249,7 @@ def test_edges_that_are_crossed_almost_in_one_place() -> None:
     for line in lines(sweeper, sweeper.range.above):
         contact, direction = line.sector.touch(line.t)
         if contact == Point(8, fmpq(9, 2)):
-            end = sweeper.follower.follow(line).end(Role.AHEAD if direction.y < 0 else Role.BEHIND)
-            entered.append(end is not None and end.pin[0] == Point(8, 2))
+            followed = sweeper.follower.follow(line)
+            end = followed.end(Role.AHEAD if direction.y < 0 else Role.BEHIND)
+            entered.append(end is not None and followed.pin(end)[0] == Point(8, 2))
     assert entered and all(entered)

@@ -14,10 +14,12 @@ from strategies import arc_terrain, degenerate_terrain
 
 import exactacq as xa
 from exactacq.kernel.choice import LegSpan, mattering
-from exactacq.kernel.extents import Extent, Span
+from exactacq.kernel.extents import EVERYTHING, Extent, Span
+from exactacq.kernel.family_images import NONE
 from exactacq.kernel.images import ROLLING
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.complex_edges import FamilySweeper
+from exactacq.sensing.line_family import single_of
 from exactacq.visibility.sensor_range import Range
 
 
@@ -42,16 +44,20 @@ def test_what_is_at_an_edge(seed: int) -> None:
         for e in edges:
             assert found.at.get(e, []) == [one for one in found.images if e in one.edges]
             assert found.lines_at.get(e, []) == [
-                one for one in found.single_lines if one.edge is not None and e in (one.edge, one.shown)
+                one for one in found.single_lines if one.edge != NONE and e in (one.edge, one.shown)
             ]
         for one in found.single_lines:
-            if one.met is not None and one.edge is not None:
-                curve, u = sweeper.table.curves[one.edge], one.u
-                assert u is not None and curve.passes(one.place)
+            single = single_of(one)
+            x, y, error = one.place
+            offset = single.place - xa.Point(x, y)
+            assert error == inf or max(abs(offset.x), abs(offset.y)) <= error
+            if one.edge != NONE:
+                curve, u = sweeper.table.curves[one.edge], single.u
+                assert u is not None and curve.passes(single.place)
                 top = sweeper.clipper.rails[one.edge].top
-                low, high = (0 if v == -inf else top if v == inf else xa.Real(v) for v in one.met[:2])
+                low, high = (0 if v == -inf else top if v == inf else xa.Real(v) for v in one.source)
                 if sweeper.table.full[one.edge]:
-                    assert low <= u <= high or one.met[:2] in ((-inf, -inf), (inf, inf))
+                    assert low <= u <= high or one.source in (EVERYTHING, (-inf, -inf), (inf, inf))
                 else:
                     assert low <= u <= high
 

@@ -16,6 +16,7 @@ from exactacq.geometry.curve_images import curve_image
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.points import Point
 from exactacq.kernel.bounded import UNIT
+from exactacq.kernel.extents import EVERYTHING
 from exactacq.kernel.family_images import NONE, EndLine, FamilyImage
 from exactacq.kernel.single_lines import SingleImage
 from exactacq.numbers.float_bounds import float_ball, rough
@@ -54,7 +55,8 @@ def distances(lines: list[tuple[Point, Point]], place: Point) -> list[float]:
 
 def of_lines(start: Point, end: Point) -> SingleImage:
     """The line from one point through another."""
-    return SingleImage(NO_SPOT, NO_SPOT, curve_image(Segment(start, end)))
+    spans, segment = (EVERYTHING, EVERYTHING), curve_image(Segment(start, end))
+    return SingleImage((NONE, 0), spans, NO_SPOT, NO_SPOT, segment, [], None, (0, 0, 0))
 
 
 def family(sector: Sector, low: Real, high: Real) -> FamilyImage:

@@ -14,9 +14,10 @@ from exactacq.geometry.curve_images import curve_image
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.points import Point
 from exactacq.kernel.bounded import UNIT
-from exactacq.kernel.family_images import EndLine, FamilyImage
+from exactacq.kernel.extents import EVERYTHING
+from exactacq.kernel.family_images import NONE, EndLine, FamilyImage
 from exactacq.kernel.images import ROLLING
-from exactacq.kernel.single_lines import SingleImage, crossing_lines
+from exactacq.kernel.single_lines import SingleImage, extents_of_crossing_lines
 from exactacq.kernel.ways import WayImage, _crossed
 from exactacq.sensing.line_family import LineFamily
 from exactacq.sensing.way_crossings import WayCrossings
@@ -65,12 +66,14 @@ def test_lines_that_cross_a_way_are_found(seed: int) -> None:
         image = WayImage(
             curve_image(segments[1]), (0.0, 0.0), (1.0, 1.0), (ax, ay, bx, by, max(p, q)), [], []
         )
-        single = SingleImage(spot(line[0]), spot(line[1]), rng.choice([None, curve_image(segments[0])]))
-        found = crossing_lines([single], image)
+        shown = curve_image(segments[0])
+        ends, run = (spot(line[0]), spot(line[1])), rng.choice([None, shown])
+        single = SingleImage((NONE, 0), (EVERYTHING, EVERYTHING), *ends, run, [], None, (0, 0, 0))
+        found = extents_of_crossing_lines([[single]], {0}, image, [shown])
         exact = met(line, way)
         if exact is not None:
-            ((k, (low, high)),) = found
-            assert k == 0 and low <= exact[1] <= high
+            (one,) = found
+            assert one.origin is single and one.source[0] <= exact[1] <= one.source[1]
             crossing += 1
         left_out += not found
     assert crossing >= 5 and (left_out >= 5 or far == 10**12)

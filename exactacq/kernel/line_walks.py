@@ -25,8 +25,11 @@ from exactacq.kernel.bounded import (
     total,
 )
 from exactacq.kernel.curve_images import CurveImage
+from exactacq.kernel.extents import EVERYTHING
+from exactacq.kernel.grazing_lines import MetEdge
 from exactacq.kernel.images import CONVEX, STRAIGHT, EdgeImages
-from exactacq.kernel.lines import Line, meets_straight, rounding, side_of
+from exactacq.kernel.lines import QUARTERS, Line, meets_straight, parameter, rounding, side_of
+from exactacq.kernel.single_lines import Spot
 
 TOUCHED: Final = -1
 CROSSED: Final = -2
@@ -36,8 +39,6 @@ LEFT: Final = 1
 BEHIND: Final = 2
 RIGHT: Final = 3
 """Where an edge leaves from a vertex on the line: along it, or to a side; in the order of turning left."""
-Hit = tuple[int, int]
-"""An edge that is met, and the vertex where it is met, or how it is."""
 
 
 @final
@@ -85,8 +86,8 @@ class WalkedLine:
         self._at: dict[int, GrazedPlace] = {}
         self._spots: list[GrazedPlace] = []
         self.is_told = True
-        self.ahead: list[Hit] = []
-        self.behind: list[Hit] = []
+        self.ahead: list[MetEdge] = []
+        self.behind: list[MetEdge] = []
         self.is_blocked_ahead = False
         self.is_blocked_behind = False
         for e in edges:
@@ -199,17 +200,22 @@ class WalkedLine:
         """1 if a place of an arc's circle on the line certainly is on the arc, -1 if it is not, else 0."""
         if self._images.full[e]:
             return 1
+        px, py, error = self.spot(far, bound)
+        ax, ay = self._images.x[e], self._images.y[e]
+        ux, uy, u = self._vector(e, self._images.following[e])
+        vx, r = total(px, error, -ax, rounding(ax, ay))
+        vy, s = total(py, error, -ay, rounding(ax, ay))
+        return -self._images.kind[e] * cross_sign(ux, uy, u, vx, vy, max(r, s))
+
+    def spot(self, far: float, bound: float) -> Spot:
+        """A place of the line, so far along it, in lengths."""
         x, y, dx, dy, ce, de = self._line
         step, step_bound = self._in_lengths(far, bound)
         px, p = product(dx, de, step, step_bound)
         py, q = product(dy, de, step, step_bound)
         px, p = total(x, ce, px, p)
         py, q = total(y, ce, py, q)
-        ax, ay = self._images.x[e], self._images.y[e]
-        ux, uy, u = self._vector(e, self._images.following[e])
-        vx, r = total(px, p, -ax, rounding(ax, ay))
-        vy, s = total(py, q, -ay, rounding(ax, ay))
-        return -self._images.kind[e] * cross_sign(ux, uy, u, vx, vy, max(r, s))
+        return px, py, max(p, q)
 
     def _side(self, v: int) -> int:
         """1 or -1 for a vertex left or right of the line, 0 for one on it, or if that is open."""
@@ -261,7 +267,7 @@ class WalkedLine:
         """Whether the line enters an obstacle at its contact: it may at a vertex, at the tip of a cusp."""
         return not self._is_round and self._blocks(self._own, sense)
 
-    def _follow(self, sense: int, hits: list[Hit]) -> bool:
+    def _follow(self, sense: int, met: list[MetEdge]) -> bool:
         """Collect what is met ahead (1) or behind (-1) up to what blocks the line; whether anything does."""
         order = [
             (s.low if sense > 0 else -s.high, k) for k, s in enumerate(self._spots) if s.low * sense > 0.0
@@ -279,7 +285,7 @@ class WalkedLine:
             vertex = spot.vertex
             edges = spot.edges if sense > 0 else spot.edges[::-1]
             for e in edges:
-                hits.append((e, vertex))
+                met.append(self._met(e, spot, sense * (n + 1)))
             if is_far:
                 return False
             if vertex == CROSSED or (vertex >= 0 and self._blocks(vertex, sense)):
@@ -287,6 +293,28 @@ class WalkedLine:
             if vertex == TOUCHED and self._images.kind[spot.edges[0]] != CONVEX:
                 self.is_told = False
         return False
+
+    def contact(self, edges: list[int]) -> list[MetEdge]:
+        """The contact, as it is met with its edges."""
+        spot = GrazedPlace(0.0, 0.0, TOUCHED if self._is_round else self._own, NOTHING)
+        return [self._met(e, spot, 0) for e in edges]
+
+    def _met(self, e: int, spot: GrazedPlace, place: int) -> MetEdge:
+        """An edge as it is met in a place."""
+        if spot.vertex >= 0:
+            end = -inf if spot.vertex == e else inf
+            x, y = self._images.x[spot.vertex], self._images.y[spot.vertex]
+            return MetEdge(e, spot.vertex, place, (end, end), (x, y, rounding(x, y)))
+        curve = self._curves[e]
+        if self._images.kind[e] == STRAIGHT:
+            _, _, u, bound, x, y, error = meets_straight(self._line, curve)
+            return MetEdge(e, spot.vertex, place, (u - bound, u + bound), (x, y, error))
+        # Twice what seems to be enough: the bounds themselves are rounded.
+        at = self.spot((spot.low + spot.high) / 2.0, 2.0 * (spot.high - spot.low) * WIDEN)
+        u, bound = parameter(curve, at[0], at[1], at[2])
+        # At the start of a full circle parameters jump.
+        is_known = not self._images.full[e] or bound < u < QUARTERS - bound
+        return MetEdge(e, spot.vertex, place, (u - bound, u + bound) if is_known else EVERYTHING, at)
 
     def _are_joined(self, v: int, w: int) -> bool:
         """Whether a straight edge joins two vertices."""

@@ -1,13 +1,13 @@
-"""Single lines in floats, and which of them cross a straight way before they reach what they show."""
+"""Single lines in floats: what they show of edges from others, and from straight ways that they cross."""
 
 from __future__ import annotations
 
 from math import inf
 from typing import final
 
-from exactacq.kernel.bounded import TINY, UNIT, total
+from exactacq.kernel.bounded import TINY, UNIT, length, product, quotient, total
 from exactacq.kernel.curve_images import CurveImage
-from exactacq.kernel.extents import EVERYTHING, Span
+from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent, Span, view_keys
 from exactacq.kernel.lines import Line, meets_straight, side_of
 from exactacq.kernel.ways import WayImage
 
@@ -17,15 +17,46 @@ Spot = tuple[float, float, float]
 
 @final
 class SingleImage:
-    """A line from a place to the nearest point of what it shows: a run along a segment, or a point."""
+    """A line from a place to a run of edge ``shown``: one point of it, or all of it as seen along a segment.
 
-    def __init__(self, place: Spot, near: Spot, run: CurveImage | None) -> None:
+    The place lies on edge ``edge``, or in free space (`NONE`). ``source`` and ``seen`` bound parameters of
+    the place and of the run, ``near`` is the nearest point of the run; ``keys`` are numbers of the line (see
+    `line_keys`). Of its ``origin``, which makes it exact, it is the line with some ``numbers``.
+    """
+
+    def __init__(
+        self,
+        edges: tuple[int, int],
+        spans: tuple[Span, Span],
+        place: Spot,
+        near: Spot,
+        run: CurveImage | None,
+        keys: list[int],
+        origin: object,
+        numbers: tuple[int, int, int],
+    ) -> None:
+        """*run* is the segment that is shown, None if one point is."""
+        self.edge, self.shown = edges
+        self.source, self.seen = spans
         self.line = _line_through(place, near) if run is None else line_along(run)
         self.place, self.near = place, near
+        self.is_point, self.keys = run is None, keys
+        self.origin, self.numbers = origin, numbers
 
     def side(self, x: float, y: float, error: float) -> int:
         """1 or -1 if a place is certainly left or right of the line, else 0."""
         return side_of(self.line, x, y, error, 0.0)
+
+    def extent(self, leg: CurveImage, curves: list[CurveImage], is_back: bool) -> Extent:
+        """What is shown at most, and from where on a *leg*: of the run, or of the place if that *is_back*.
+
+        A view of more than a point has no keys.
+        """
+        edge, seen, source = self.shown, self.seen, self.source
+        if is_back:
+            edge, seen, source = self.edge, source, seen
+        keys = view_keys(self.keys, leg, edge, curves) if self.is_point else []
+        return Extent(edge, seen, source, NOTHING, keys, keys, self, int(is_back), int(not is_back), True)
 
 
 def _line_through(place: Spot, near: Spot) -> Line:
@@ -41,24 +72,93 @@ def line_along(segment: CurveImage) -> Line:
     return x, y, dx, dy, UNIT * max(abs(x), abs(y)) + TINY, UNIT * max(abs(dx), abs(dy)) + TINY
 
 
-def crossing_lines(lines: list[SingleImage], way: WayImage) -> list[tuple[int, Span]]:
-    """The lines that may cross a way between their two points: their numbers, and where they do.
+def place_beyond(near: Spot, segment: CurveImage, sense: int, reach: tuple[float, float]) -> Spot:
+    """The place as far away as the range from an end of a segment, on its line; *sense* is -1 at its start.
+
+    *reach* bounds the radius of vision from below and above.
+    """
+    below, above = reach
+    _, _, dx, dy, _, error = line_along(segment)
+    size, bound = length(dx, dy, error)
+    far, bound = quotient(sense * (below + above) / 2.0, above - below, size, bound)
+    x, p = product(dx, error, far, bound)
+    y, q = product(dy, error, far, bound)
+    x, p = total(near[0], near[2], x, p)
+    y, q = total(near[1], near[2], y, q)
+    return x, y, max(p, q)
+
+
+LinesByEdge = dict[int, list[SingleImage]]
+"""Single lines from edge to edge, by where they begin and by what they show."""
+
+
+def lines_by_edge(lines: list[SingleImage]) -> LinesByEdge:
+    """Those of some single lines that begin on edges, by their edges."""
+    found: LinesByEdge = {}
+    for one in lines:
+        if one.edge >= 0:
+            _note(found, one.edge, one)
+            if one.shown != one.edge:
+                _note(found, one.shown, one)
+    return found
+
+
+def _note(found: LinesByEdge, edge: int, line: SingleImage) -> None:
+    some = found.get(edge)
+    if some is None:
+        found[edge] = [line]
+    else:
+        some.append(line)
+
+
+def extents_of_lines(edge: int, groups: list[LinesByEdge], curves: list[CurveImage]) -> list[Extent]:
+    """What single lines, in some groups, show of others from an edge."""
+    found: list[Extent] = []
+    leg = curves[edge]
+    for group in groups:
+        some = group.get(edge)
+        if some is None:
+            continue
+        for one in some:
+            if one.edge == edge:
+                found.append(one.extent(leg, curves, False))
+            if one.shown == edge:
+                found.append(one.extent(leg, curves, True))
+    return found
+
+
+def extents_of_crossing_lines(
+    groups: list[list[SingleImage]], wanted: set[int], way: WayImage, curves: list[CurveImage]
+) -> list[Extent]:
+    """What lines that may cross a way between their two points show of *wanted* edges from it.
 
     Others leave the whole way on one side, or have both their points on one side of it.
     """
     ax, ay, bx, by, error = way.ends
     across = line_along(way.line)
-    found: list[tuple[int, Span]] = []
-    for k in range(len(lines)):
-        one = lines[k]
-        side = one.side(ax, ay, error)
-        if side and side == one.side(bx, by, error):
-            continue
-        px, py, p = one.place
-        qx, qy, q = one.near
-        side = side_of(across, px, py, p, 0.0)
-        if side and side == side_of(across, qx, qy, q, 0.0):
-            continue
-        _, _, u, bound, _, _, _ = meets_straight(one.line, way.line)
-        found.append((k, (u - bound, u + bound) if bound < inf else EVERYTHING))
+    found: list[Extent] = []
+    for group in groups:
+        for one in group:
+            if one.shown not in wanted:
+                continue
+            side = one.side(ax, ay, error)
+            if side and side == one.side(bx, by, error):
+                continue
+            px, py, p = one.place
+            qx, qy, q = one.near
+            side = side_of(across, px, py, p, 0.0)
+            if side and side == side_of(across, qx, qy, q, 0.0):
+                continue
+            extent = one.extent(way.line, curves, False)
+            extent.source = _crossing(one, way)
+            found.append(extent)
     return found
+
+
+def _crossing(one: SingleImage, way: WayImage) -> Span:
+    """Where a line crosses a way."""
+    end = way.end_of([], one.keys)
+    if end:
+        return end, end
+    _, _, u, bound, _, _, _ = meets_straight(one.line, way.line)
+    return (u - bound, u + bound) if bound < inf else EVERYTHING

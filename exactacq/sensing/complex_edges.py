@@ -7,10 +7,8 @@ sides and shows what no neighbouring line does.
 
 from __future__ import annotations
 
-from bisect import bisect_left
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cached_property, partial
-from math import inf
 from typing import TypeAlias
 
 from flint import fmpq
@@ -18,14 +16,17 @@ from flint import fmpq
 from exactacq.geometry.coordinates import minus, raw
 from exactacq.geometry.curve_parameter import ZERO, Rail
 from exactacq.geometry.curves import Curve, Segment
+from exactacq.geometry.late import Pin
 from exactacq.kernel.bound_lines import BoundLine
+from exactacq.kernel.extents import EVERYTHING
 from exactacq.kernel.family_images import ANYWHERE, NONE, FamilyImage, by_edge
 from exactacq.kernel.line_keys import key_of_normal
 from exactacq.kernel.shadows import Spot
-from exactacq.scene.edge_table import CONVEX, EdgeTable
+from exactacq.kernel.single_lines import SingleImage, lines_by_edge, place_beyond
+from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.family_clipper import FamilyClipper
-from exactacq.sensing.followed_lines import FeatureLine, FollowedLine, LineFollower, Met
-from exactacq.sensing.line_family import PencilFamilies, Reached, SingleLine
+from exactacq.sensing.followed_lines import FeatureLine, FollowedLine, LineFollower
+from exactacq.sensing.line_family import PencilFamilies, Reached, SingleLine, SingleLines
 from exactacq.sensing.line_images import LineImages
 from exactacq.sensing.line_points import Role, Side
 from exactacq.visibility.end_rays import end_rays
@@ -42,20 +43,29 @@ Swept: TypeAlias = "tuple[Pencil, list[FamilyImage]]"
 
 
 class EdgeFamilies:
-    """The line families of one edge, as float images, and the single lines.
+    """The line families of one edge and the single lines, as float images.
 
     By edges, ``at`` has the families that meet or touch them, and ``lines_at`` the single lines from edge to
     edge that begin there or show them.
     """
 
-    def __init__(self, images: list[FamilyImage], single_lines: list[SingleLine]) -> None:
+    def __init__(self, images: list[FamilyImage], single_lines: list[SingleImage]) -> None:
         self.images, self.single_lines = images, single_lines
-        self.at = by_edge(images)
-        self.lines_at: dict[int, list[SingleLine]] = {}
-        for single in single_lines:
-            if single.edge is not None:
-                for e in {single.edge, single.shown}:
-                    self.lines_at.setdefault(e, []).append(single)
+        self.at, self.lines_at = by_edge(images), lines_by_edge(single_lines)
+
+
+class EndOnLine(SingleLines):
+    """A line along a straight edge: from a place that is made when it is asked for, the edge is shown."""
+
+    def __init__(self, make: Callable[[], Reached], run: tuple[Pin, Pin]) -> None:
+        self._make, self._run = make, run
+        self._made: SingleLine | None = None
+
+    def single(self, image: SingleImage) -> SingleLine:
+        """The line."""
+        if self._made is None:
+            self._made = SingleLine(self._make, self._run, image)
+        return self._made
 
 
 class FamilySweeper:
@@ -67,7 +77,7 @@ class FamilySweeper:
         self.clipper = FamilyClipper(rails, range_, table.roundoff, table.line_numbers)
         self.images = LineImages(table, range_)
         self._namer, self._numbers = Namer(table), table.line_numbers
-        self.follower = LineFollower(table, range_, self.clipper.views, self._namer)
+        self.follower = LineFollower(table, range_, self.clipper.views, self._namer, self.images)
 
     @cached_property
     def _features(self) -> dict[int, list[Feature]]:
@@ -83,7 +93,7 @@ class FamilySweeper:
         With the single lines that join the tangents. A corner belongs to the edge that starts there.
         """
         images: list[FamilyImage] = []
-        single_lines: list[SingleLine] = []
+        single_lines: list[SingleImage] = []
         around = self._near(self.table.spots(e))
         for sector in normals(self.table.curves[e]):
             ends = (e, int(self.table.next[e])) if isinstance(sector, Sliding) else NO_ENDS
@@ -105,16 +115,16 @@ class FamilySweeper:
                 )
                 for k, s in enumerate(feature.sectors)
             ]
-            followed: set[int] = set()
+            followed, close = set[int](), frozenset(near)
             for s, _ in sweeps:
                 for t, passed in s.pinches:
                     keys = self._numbers.keys(self._namer.number(feature), [*passed])
                     # Neighbouring sectors share a line.
                     if followed.isdisjoint(keys) and may_be_pinched(self.table, feature, s.sector, t, passed):
-                        at = FeatureLine(feature, s.sector, t, passed, frozenset(near))
-                        single_lines += self._pinched(at, keys)
+                        line = self.follower.follow(FeatureLine(feature, s.sector, t, passed), close)
+                        single_lines += line.image.single_lines(keys, line)
                         followed.update(keys)
-            single_lines += self._end_on(feature, sweeps[0], sweeps[-1], near)
+            single_lines += self._end_on(feature, sweeps[0], sweeps[-1], close)
             if not feature.round:
                 for sector in self._corner_normals(feature):
                     self._add(images, sector, near, feature.edges, contact, feature, goes_back=False)
@@ -177,7 +187,9 @@ class FamilySweeper:
 
     # -- single lines ------------------------------------------------------------------------------
 
-    def _end_on(self, feature: Feature, first: Swept, last: Swept, near: list[int]) -> Iterator[SingleLine]:
+    def _end_on(
+        self, feature: Feature, first: Swept, last: Swept, near: frozenset[int]
+    ) -> Iterator[SingleImage]:
         """The straight edges beside a feature as seen along their own lines, from where these first end."""
         incoming, outgoing = self._beside(feature)
         for e, (sweep, images), role in ((incoming, first, Role.AHEAD), (outgoing, last, Role.BEHIND)):
@@ -190,26 +202,36 @@ class FamilySweeper:
             bound = row.first if ahead else row.last
             ends = (edge.start, ZERO), (edge.end, self.clipper.rails[e].top)
             run = (ends[1], ends[0]) if ahead else ends
+            segment, spot = self.table.curve_images[e], self.images.spot(run[0][0])
+            met, place = image.edge(role), ANYWHERE
             if any(side or number not in (e, self.table.next[e]) for number, side, _ in bound.passed):
                 # The line grazes what may block its neighbours: it goes on by itself.
-                at = FeatureLine(
-                    feature, sweep.sector, sweep.value(bound), tuple(bound.passed), frozenset(near)
-                )
-                end = self.follower.follow(at).end(role)
-                reached = (self.follower.at_range(at, role), None) if end is None else end.pin
-                yield SingleLine(reached, None if end is None else end.edge, run, e)
-                continue
-            met = image.edge(role) if image.edge(role) != NONE else None
-            make = partial(self._reached, feature, sweep, bound, role, met)
-            place = None if met is None else image.places(role)[0 if ahead else 1]
-            yield SingleLine(make, met, run, e, place if image.is_known else ANYWHERE)
+                at = FeatureLine(feature, sweep.sector, sweep.value(bound), tuple(bound.passed))
+                line = self.follower.follow(at, near)
+                end = line.end(role)
+                make = partial(self._ended, line, role)
+                if end is None:
+                    met = NONE
+                else:
+                    met, place = line.met[end].edge, (*line.met[end].span, *line.met[end].spot)
+            else:
+                make = partial(self._reached, feature, sweep, bound, role, met)
+                if met != NONE and image.is_known:
+                    place = image.places(role)[0 if ahead else 1]
+            if met == NONE:
+                place = *EVERYTHING, *place_beyond(spot, segment, int(role), self.images.reach)
+            origin, spans = EndOnLine(make, run), (place[:2], EVERYTHING)
+            yield SingleImage((met, e), spans, place[2:], spot, segment, [], origin, (0, 0, 0))
 
-    def _reached(
-        self, feature: Feature, sweep: Pencil, bound: BoundLine, role: Role, met: int | None
-    ) -> Reached:
+    def _ended(self, line: FollowedLine, role: Role) -> Reached:
+        """Where a line ends on one side, at what blocks it or as far away as the range."""
+        end = line.end(role)
+        return (line.ended(role), None) if end is None else line.pin(end)
+
+    def _reached(self, feature: Feature, sweep: Pencil, bound: BoundLine, role: Role, met: int) -> Reached:
         """Where a line that touches a feature meets an edge, or is as long as the range if it meets none."""
         at = FeatureLine(feature, sweep.sector, sweep.value(bound), tuple(bound.passed))
-        if met is None:
+        if met == NONE:
             return self.follower.at_range(at, role), None
         return self.follower.meeting(at, role, met)
 
@@ -228,61 +250,6 @@ class FamilySweeper:
         ends = leaving(curves[e], at_end=True), leaving(curves[after], at_end=False)
         return incoming, after if parallel(*ends) else e
 
-    def _pinched(self, at: FeatureLine, keys: list[int]) -> Iterator[SingleLine]:
-        """What the touched points and edges of a line that grazes several features show of each other.
-
-        Of the features between two places that which is nearest to what is seen tells of it.
-        """
-        line = self.follower.follow(at)
-        shown = list(self._runs(line))
-        ends = {end.place for end in map(line.end, (Role.BEHIND, Role.AHEAD)) if end is not None}
-        featured = sorted({met.place for met in line.met if self._is_featured(met)} - ends - {0})
-        gap = bisect_left(featured, 0)
-        low, high = featured[gap - 1] if gap else -inf, featured[gap] if gap < len(featured) else inf
-        # From a place with a feature, features tell of all but what is beyond place 0 and before the next.
-        inner = [run for run in shown if any(low < met.place < high for met in run)]
-        told = set(featured)
-        for here in line.met:
-            for first, last in inner if here.place in told else shown:
-                near, far = (first, last) if here.place <= first.place else (last, first)
-                if here.edge == first.edge or here.place == near.place:
-                    continue
-                if not _is_told_by_others(here.place, near.place, featured):
-                    yield SingleLine(here.pin, here.edge, (near.pin, far.pin), near.edge, keys=keys)
-        for role in (Role.BEHIND, Role.AHEAD):
-            if line.end(role) is None:
-                place = self.follower.at_range(at, role)
-                for first, last in shown:
-                    near, far = (first, last) if role is Role.BEHIND else (last, first)
-                    if place != near.pin[0]:
-                        yield SingleLine((place, None), None, (near.pin, far.pin), near.edge, keys=keys)
-
-    def _is_featured(self, met: Met) -> bool:
-        """Whether a line meets an edge in a corner of segments, or inside an arc, that tells of it too."""
-        curve, point = self.table.curves[met.edge], met.pin[0]
-        if not isinstance(curve, Segment):
-            is_inside = self.table.full[met.edge] or (point != curve.start and point != curve.end)
-            return bool(is_inside) and self.table.images.kind[met.edge] == CONVEX
-        before = self.table.curves[int(self.table.previous[met.edge])]
-        return (
-            point is curve.start
-            and isinstance(before, Segment)
-            and any(not feature.round for feature in self._features.get(met.edge, ()))
-        )
-
-    def _runs(self, line: FollowedLine) -> Iterator[tuple[Met, Met]]:
-        """The first and the last place of each edge that a line meets; of an arc place by place."""
-        at: dict[int, list[Met]] = {}
-        for met in line.met:
-            if met.edge not in line.blind:
-                at.setdefault(met.edge, []).append(met)
-        for e, places in at.items():
-            if isinstance(self.table.curves[e], Segment):
-                yield places[0], places[-1]
-            else:
-                for met in places:
-                    yield met, met
-
 
 def normals(curve: Curve) -> Iterator[Sector]:
     """The normals of a boundary edge on its free side."""
@@ -296,14 +263,3 @@ def normals(curve: Curve) -> Iterator[Sector]:
         first, last = last, first
     for base, low, high in quarters(first, last):
         yield Spokes(center, base, low, high, radius_sq=curve.radius_sq, outward=curve.ccw)
-
-
-def _is_told_by_others(here: int, near: int, featured: list[int]) -> bool:
-    """Whether a view from a place to another is told by features between them, not by that in place 0.
-
-    The one that is nearest to what is seen tells of it. The places of features are sorted.
-    """
-    is_between = min(here, near) <= 0 <= max(here, near)
-    low, high = sorted((0 if is_between else here, near))
-    first = bisect_left(featured, low)
-    return first < len(featured) and featured[first] <= high

@@ -6,19 +6,24 @@ open, `exactacq.visibility.free_segment.walk_line` does it by exact contacts.
 
 from __future__ import annotations
 
-from collections import Counter
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
 
 from flint import arb
 
+from exactacq.geometry.curves import Segment
 from exactacq.geometry.late import Pin, late_point
 from exactacq.geometry.points import Point
-from exactacq.kernel.line_walks import Hit
+from exactacq.kernel.grazing_lines import GrazingLine, MetEdge
+from exactacq.kernel.line_walks import CROSSED
+from exactacq.kernel.single_lines import SingleImage, Spot
 from exactacq.numbers.real import Real
-from exactacq.scene.edge_table import CONVEX, EdgeTable
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.sensing.line_family import SingleLine, SingleLines
+from exactacq.sensing.line_images import LineImages
 from exactacq.sensing.line_points import Role, Side
 from exactacq.sensing.line_views import LineViews
-from exactacq.visibility.features import Feature
+from exactacq.visibility.features import Feature, corners_of_segments
 from exactacq.visibility.free_segment import LineWalk, walk_line
 from exactacq.visibility.line_balls import line
 from exactacq.visibility.line_families import Sector
@@ -30,92 +35,131 @@ from exactacq.visibility.sensor_range import Range
 
 @dataclass(frozen=True, slots=True)
 class FeatureLine:
-    """The tangent line of a feature at a parameter of one of its sectors, with all that it passes.
-
-    That is of the edges *near* its contact, or of all within reach.
-    """
+    """The tangent line of a feature at a parameter of one of its sectors, with all that it passes."""
 
     feature: Feature
     sector: Sector
     t: Real
     passed: Passed
-    near: frozenset[int] | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Met:
-    """An edge that a line meets, and where: places are numbered from the contact on, equal ones alike."""
+@dataclass(slots=True)
+class FollowedLine(SingleLines):
+    """A line in floats, with what it meets from behind its contact to ahead of it, made exact when asked for.
 
-    edge: int
-    pin: Pin
-    place: int
-
-
-@dataclass(frozen=True, slots=True)
-class FollowedLine:
-    """What a line meets, from behind its contact to ahead of it, and whether its two ends are blocked.
-
-    The contact is among it. Of arcs that are ``blind`` nothing is told.
+    *pinned* makes the place where it meets an edge, *ended* that which is as far away as the range.
     """
 
-    met: list[Met]
-    is_blocked: tuple[bool, bool]
-    blind: set[int]
+    image: GrazingLine
+    pinned: Callable[[int], Pin]
+    ended: Callable[[Role], Point]
+    _pins: dict[int, Pin] = field(default_factory=dict)
+    _singles: dict[tuple[int, int, int], SingleLine] = field(default_factory=dict)
 
-    def end(self, role: Role) -> Met | None:
-        """What blocks the line on one side, if anything does."""
+    @property
+    def met(self) -> list[MetEdge]:
+        """What the line meets, the contact among it."""
+        return self.image.met
+
+    def pin(self, number: int) -> Pin:
+        """Where the line meets an edge, by its number."""
+        if number not in self._pins:
+            self._pins[number] = self.pinned(number)
+        return self._pins[number]
+
+    def end(self, role: Role) -> int | None:
+        """The number of what blocks the line on one side, if anything does."""
         ahead = role is Role.AHEAD
-        return self.met[-1 if ahead else 0] if self.is_blocked[ahead] else None
+        return (len(self.met) - 1 if ahead else 0) if self.image.is_blocked[ahead] else None
+
+    def single(self, image: SingleImage) -> SingleLine:
+        """One of the line's single lines, made when it is first asked for."""
+        if image.numbers not in self._singles:
+            here, near, far = image.numbers
+            is_free = not 0 <= here < len(self.met)
+            place = (self.ended(Role.BEHIND if here < 0 else Role.AHEAD), None) if is_free else self.pin(here)
+            self._singles[image.numbers] = SingleLine(place, (self.pin(near), self.pin(far)), image)
+        return self._singles[image.numbers]
 
 
 class LineFollower:
     """Follows tangent lines of the features of a scene as far as the range."""
 
-    def __init__(self, table: EdgeTable, range_: Range, views: LineViews, namer: Namer) -> None:
-        self.table, self.range, self.views, self._namer = table, range_, views, namer
+    def __init__(
+        self, table: EdgeTable, range_: Range, views: LineViews, namer: Namer, images: LineImages
+    ) -> None:
+        self.table, self.range, self.views = table, range_, views
+        self._namer, self._images = namer, images
 
-    def follow(self, at: FeatureLine) -> FollowedLine:
-        """What a line meets, as far as it is free."""
+    def follow(self, at: FeatureLine, near: frozenset[int] | None = None) -> FollowedLine:
+        """What a line meets as far as it is free, of the edges *near* its contact, or of all within reach."""
+        reach = self.range.above
+        walk = walked(self.table, at.feature, at.sector, at.t, at.passed, reach, near)
+        if walk is None:
+            return self._exactly(at)
+        met = [*reversed(walk.behind), *walk.contact([*at.feature.edges]), *walk.ahead]
         names = self._names(at)
-        behind, ahead, is_blocked = self._followed(at, names)
-        own = at.feature.edges[-1]
-        if at.feature.round:
-            here = [Met(own, self._pin(at, names, own, Role.CONTACT), 0)]
-        else:
-            here = [Met(e, self._vertex(own, e), 0) for e in at.feature.edges]
-        met = [*reversed(behind), *here, *ahead]
-        return FollowedLine(met, is_blocked, self._blind(behind, ahead, is_blocked) - {own})
+        below, above = self._images.reach
+        far, error = (below + above) / 2, above - below
 
-    def _followed(self, at: FeatureLine, names: Names) -> tuple[list[Met], list[Met], tuple[bool, bool]]:
-        """What a line meets behind and ahead, nearest first, and whether the last of it blocks the line."""
-        walk = walked(self.table, at.feature, at.sector, at.t, at.passed, self.range.above, at.near)
-        if walk is not None:
-            behind = self._named(walk.behind, at, names, Role.BEHIND)
-            ahead = self._named(walk.ahead, at, names, Role.AHEAD)
-            return behind, ahead, (walk.is_blocked_behind, walk.is_blocked_ahead)
+        def pinned(number: int) -> Pin:
+            one = met[number]
+            if one.vertex >= 0:
+                return self._vertex(one.vertex, one.edge)
+            return self._pin(at, names, one.edge, Role((one.place > 0) - (one.place < 0)))
+
+        ends = walk.spot(-far, error), walk.spot(far, error)
+        is_blocked = walk.is_blocked_behind, walk.is_blocked_ahead
+        return self._followed(at, met, ends, is_blocked, pinned)
+
+    def _followed(
+        self,
+        at: FeatureLine,
+        met: list[MetEdge],
+        ends: tuple[Spot, Spot],
+        is_blocked: tuple[bool, bool],
+        pinned: Callable[[int], Pin],
+    ) -> FollowedLine:
+        table, own = self.table, at.feature.edges[-1]
+        corners = corners_of_segments(table)
+        image = GrazingLine(table.images, table.curve_images, corners, met, ends, is_blocked, own)
+        return FollowedLine(image, pinned, lambda role: self.at_range(at, role))
+
+    def _exactly(self, at: FeatureLine) -> FollowedLine:
+        """A line by exact contacts: what it meets, as far as it is free."""
         walks = walk_line(self.table, at.sector, at.t, self.range.above)
-        behind, ahead = (self._exact(walk, at, role) for walk, role in zip(walks, (-1, 1), strict=True))
-        return behind, ahead, (walks[0].blocked, walks[1].blocked)
+        behind, ahead = (list(self._met(walk, at, role)) for walk, role in zip(walks, (-1, 1), strict=True))
+        found = [*reversed(behind), *self._contact(at), *ahead]
+        pins = [pin for _, pin, _ in found]
+        met = [self._image(e, pin[0], place) for e, pin, place in found]
+        far = self.at_range(at, Role.BEHIND), self.at_range(at, Role.AHEAD)
+        ends = self._images.spot(far[0]), self._images.spot(far[1])
+        return self._followed(at, met, ends, (walks[0].blocked, walks[1].blocked), pins.__getitem__)
 
-    def _named(self, hits: list[Hit], at: FeatureLine, names: Names, role: Role) -> list[Met]:
-        found: list[Met] = []
-        place, last = 0, -1
-        for e, vertex in hits:
-            if vertex < 0 or vertex != last:
-                place, last = place + role, vertex
-            pin = self._pin(at, names, e, role) if vertex < 0 else self._vertex(vertex, e)
-            found.append(Met(e, pin, place))
-        return found
+    def _contact(self, at: FeatureLine) -> Iterator[tuple[int, Pin, int]]:
+        own = at.feature.edges[-1]
+        for e in at.feature.edges:
+            is_round = at.feature.round
+            yield e, self._pin(at, self._names(at), e, Role.CONTACT) if is_round else self._vertex(own, e), 0
 
-    def _exact(self, walk: LineWalk, at: FeatureLine, role: int) -> list[Met]:
+    def _met(self, walk: LineWalk, at: FeatureLine, role: int) -> Iterator[tuple[int, Pin, int]]:
+        """What a line meets on one side: edges, where, and the numbers of the places."""
         contact, direction = at.sector.touch(at.t)
-        found: list[Met] = []
         place, before = 0, Real(0)
         for tau, e in walk.hits:
             if tau.compare(before) != 0:
                 place, before, point = place + role, tau, contact + direction * tau
-            found.append(Met(e, (point, self.views.rails[e].parameter(point)), place))
-        return found
+            yield e, (point, self.views.rails[e].parameter(point)), place
+
+    def _image(self, e: int, point: Point, place: int) -> MetEdge:
+        """An edge as it is met in an exact point: of corners of segments no feature is known there."""
+        curve, vertex = self.table.curves[e], CROSSED
+        if not isinstance(curve, Segment) and not self.table.full[e]:
+            if point == curve.start:
+                vertex = e
+            elif point == curve.end:
+                vertex = int(self.table.next[e])
+        return MetEdge(e, vertex, place, self._images.hull(e, (point,)), self._images.spot(point))
 
     def _vertex(self, vertex: int, e: int) -> Pin:
         """An end of an edge."""
@@ -142,15 +186,3 @@ class LineFollower:
         contact, direction = at.sector.touch(at.t)
         reached: Point = contact + direction * (int(role) * self.range.radius / direction.norm_sq().sqrt())
         return reached
-
-    def _blind(self, behind: list[Met], ahead: list[Met], is_blocked: tuple[bool, bool]) -> set[int]:
-        """The convex arcs that a line touches once, between their ends: they tell who sees them along it."""
-        times = Counter(met.edge for met in behind + ahead)
-        blocking = {
-            met[-1].edge for met, blocked in zip((behind, ahead), is_blocked, strict=True) if blocked and met
-        }
-        return {
-            e
-            for e, count in times.items()
-            if count == 1 and e not in blocking and self.table.images.kind[e] == CONVEX
-        }

@@ -15,10 +15,10 @@ from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
 from exactacq.kernel.extents import Extent
 from exactacq.kernel.family_images import FamilyImage
-from exactacq.kernel.single_lines import crossing_lines
+from exactacq.kernel.single_lines import SingleImage, extents_of_crossing_lines
 from exactacq.sensing.complex_edges import EdgeFamilies
 from exactacq.sensing.end_names import Seen
-from exactacq.sensing.line_family import SingleLine, family_of
+from exactacq.sensing.line_family import SingleLine, family_of, single_of
 from exactacq.sensing.line_points import Role
 from exactacq.sensing.own_line import OwnLine
 from exactacq.sensing.straight_way import StraightWay
@@ -67,21 +67,15 @@ class WayViews:
 
         Which of them pass the way's ends is known where families were asked for before.
         """
-        lines = [line for edge in self._near for line in edge.single_lines if line.shown in self.wanted]
-        found, images = [], self.way.complex.images
-        for k, source in crossing_lines([line.image(images) for line in lines], self.way.image):
-            one = lines[k].extent(images, self.way.image.line)
-            end = self.way.image.end_of([], lines[k].keys)
-            one.source = (end, end) if end else source
-            found.append(one)
-        return found
+        groups, curves = [edge.single_lines for edge in self._near], self.way.table.curve_images
+        return extents_of_crossing_lines(groups, set(self.wanted), self.way.image, curves)
 
     def _views(self, extents: Iterable[Extent]) -> Iterator[ViewFamily]:
         """The families that extents tell of."""
         crossing, roles = dict[int, set[int]](), dict[int, Role | None]()
         for one in extents:
-            if isinstance(one.origin, SingleLine):
-                yield from self.along(one.origin)
+            if isinstance(one.origin, SingleImage):
+                yield from self.along(single_of(one.origin))
             elif isinstance(one.origin, FamilyImage):
                 yield from self.normals.views(one.origin)
             elif isinstance(one.origin, int):
@@ -95,6 +89,9 @@ class WayViews:
 
     def along(self, single: SingleLine) -> Iterator[ViewFamily]:
         """A single line that crosses the way between its place and the run that it shows."""
+        if single.edge is None and single.place == single.points[0]:
+            # What is shown is itself as far from what the line touches as the range.
+            return
         direction = single.points[0] - single.place
         places = line_contacts(single.place, direction, self.way.piece)
         for place in places:

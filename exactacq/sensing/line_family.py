@@ -7,20 +7,18 @@ behind to the contact, from the contact to the edge ahead, and from the one edge
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
 from exactacq.kernel.cells import LineCells
-from exactacq.kernel.curve_images import CurveImage
-from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent, Span, view_keys
-from exactacq.kernel.family_images import NONE, EdgePlace, FamilyImage
+from exactacq.kernel.family_images import NONE, FamilyImage
 from exactacq.kernel.line_keys import LineNumbers
 from exactacq.kernel.pencil_images import pencil_images
-from exactacq.kernel.single_lines import SingleImage, Spot
-from exactacq.numbers.float_bounds import float_ball
+from exactacq.kernel.single_lines import SingleImage
 from exactacq.numbers.real import Real
 from exactacq.sensing.family_clipper import FamilyClipper
 from exactacq.sensing.line_images import LineImages
@@ -178,26 +176,19 @@ class SingleLine:
     """A single line: from ``place`` it shows edge ``shown`` from one point of a run to the other.
 
     The place lies on edge ``edge``, with parameter ``u`` if known, or in free space within reach (None);
-    what lies between sees the run too. It may be given as what makes it; ``met`` then tells in floats where
-    it is. *keys* are numbers of the line (see `line_keys`).
+    what lies between sees the run too. It may be given as what makes it. ``keys`` are numbers of the line
+    (see `line_keys`).
     """
 
-    __slots__ = ("_hulls", "_image", "_reached", "_views", "edge", "keys", "met", "run", "shown")
+    __slots__ = ("_reached", "_views", "edge", "keys", "run", "shown")
 
     def __init__(
-        self,
-        reached: Reached | Callable[[], Reached],
-        edge: int | None,
-        run: tuple[Pin, Pin],
-        shown: int,
-        met: EdgePlace | None = None,
-        keys: Sequence[int] = (),
+        self, reached: Reached | Callable[[], Reached], run: tuple[Pin, Pin], image: SingleImage
     ) -> None:
-        self._reached = reached
-        self.edge, self.run, self.shown, self.met, self.keys = edge, run, shown, met, [*keys]
+        self._reached, self.run = reached, run
+        self.edge = None if image.edge == NONE else image.edge
+        self.shown, self.keys = image.shown, image.keys
         self._views: list[ViewFamily] | None = None
-        self._image: SingleImage | None = None
-        self._hulls: tuple[Span, Span] | None = None
 
     @property
     def place(self) -> Point:
@@ -221,34 +212,7 @@ class SingleLine:
             self._reached = self._reached()
         return self._reached
 
-    def image(self, images: LineImages) -> SingleImage:
-        """The line in floats, from a segment on it: a run is the whole edge that is shown, or one point."""
-        if self._image is None:
-            first, last = self.points
-            run = None if first is last else images.table.curve_images[self.shown]
-            place = _spot(self.place) if self.met is None else self.met[2:]
-            self._image = SingleImage(place, _spot(first), run)
-        return self._image
-
-    def extent(self, images: LineImages, leg: CurveImage, here: int = 0) -> Extent:
-        """What is shown at most, and from where: of the run from the place, or if *here* of the place.
-
-        That is seen from a *leg* on that curve. A view of more than a point has no keys.
-        """
-        if self._hulls is None:
-            if self.met is not None:
-                place = self.met[:2]
-            else:
-                place = EVERYTHING if self.edge is None else images.hull(self.edge, (self.place,))
-            self._hulls = images.hull(self.shown, self.points), place
-        (shown, source), edge = self._hulls, self.shown
-        if here and self.edge is not None:
-            edge, shown, source = self.edge, source, shown
-        first, last = self.points
-        keys = view_keys(self.keys, leg, edge, images.table.curve_images) if first is last else []
-        return Extent(edge, shown, source, NOTHING, keys, keys, self, here, 1 - here, True)
-
-    def views(self, here: int, there: int, clipper: FamilyClipper) -> tuple[list[ViewFamily], int]:
+    def views(self, here: int, clipper: FamilyClipper) -> tuple[list[ViewFamily], int]:
         """The views from the place, which lies on an edge, within range; and on which side of them is *here*.
 
         They are made when they are first asked for.
@@ -261,7 +225,15 @@ class SingleLine:
         return self._views, here
 
 
-def _spot(point: Point) -> Spot:
-    """A point in floats."""
-    (x, p), (y, q) = float_ball(point.x), float_ball(point.y)
-    return x, y, max(p, q)
+class SingleLines(ABC):
+    """What makes single lines from their images, of which it is the origin."""
+
+    @abstractmethod
+    def single(self, image: SingleImage) -> SingleLine:
+        """A single line, made when it is first asked for."""
+
+
+def single_of(image: SingleImage) -> SingleLine:
+    """The single line of an image."""
+    assert isinstance(image.origin, SingleLines), "single lines come from lines"
+    return image.origin.single(image)

@@ -15,9 +15,10 @@ from functools import lru_cache
 from exactacq.kernel.extents import Extent, extents_from
 from exactacq.kernel.family_images import FamilyImage
 from exactacq.kernel.shadows import Spot
+from exactacq.kernel.single_lines import SingleImage, extents_of_lines
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.complex_edges import EdgeFamilies, FamilySweeper
-from exactacq.sensing.line_family import SingleLine, family_of
+from exactacq.sensing.line_family import family_of, single_of
 from exactacq.sensing.line_images import LineImages
 from exactacq.sensing.view_families import ViewFamily
 from exactacq.visibility.sensor_range import Range
@@ -67,8 +68,8 @@ class VisibilityComplex:
         if isinstance(source, FamilyImage):
             families, side = family_of(source).views(here, there, self.clipper, one.in_range)
         else:
-            assert isinstance(source, SingleLine), "families come from lines"
-            families, side = source.views(here, there, self.clipper)
+            assert isinstance(source, SingleImage), "families come from lines"
+            families, side = single_of(source).views(here, self.clipper)
         return ((family, side) for family in families)
 
 
@@ -100,11 +101,5 @@ class Neighbourhood:
     def extents(self, edge: int) -> list[Extent]:
         """What families show of others from an edge, and single lines that meet it."""
         near, curves, reach = self.near(self.table.spots(edge)), self.table.curve_images, self.images.reach
-        single_lines: list[Extent] = []
-        leg = curves[edge]
-        for single in (single for one in near if edge in one.lines_at for single in one.lines_at[edge]):
-            if single.edge == edge:
-                single_lines.append(single.extent(self.images, leg))
-            if single.shown == edge:
-                single_lines.append(single.extent(self.images, leg, here=1))
+        single_lines = extents_of_lines(edge, [one.lines_at for one in near], curves)
         return extents_from(edge, [one.at for one in near], curves, reach) + single_lines

@@ -17,6 +17,7 @@ from flint import fmpq
 from exactacq.geometry.coordinates import cross, dot, raw, sign
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.points import Point
+from exactacq.kernel.images import STRAIGHT
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.line_families import Sector, Vector, corner_sectors, round_sectors
@@ -55,6 +56,7 @@ def joint(incoming: Curve, outgoing: Curve, before: Vector, after: Vector) -> Jo
 
 
 _kept: WeakKeyDictionary[EdgeTable, list[Feature]] = WeakKeyDictionary()
+_corners_kept: WeakKeyDictionary[EdgeTable, list[bool]] = WeakKeyDictionary()
 
 
 def features(table: EdgeTable) -> list[Feature]:
@@ -62,6 +64,18 @@ def features(table: EdgeTable) -> list[Feature]:
     if table not in _kept:
         _kept[table] = _features(table)
     return _kept[table]
+
+
+def corners_of_segments(table: EdgeTable) -> list[bool]:
+    """By vertices, whether a corner of two segments is there at which the obstacle is convex."""
+    if table not in _corners_kept:
+        kind, found = table.images.kind, [False] * len(table.curves)
+        for feature in features(table):
+            if not feature.round:
+                incoming, vertex = feature.edges
+                found[vertex] = kind[incoming] == STRAIGHT == kind[vertex]
+        _corners_kept[table] = found
+    return _corners_kept[table]
 
 
 def _features(table: EdgeTable) -> list[Feature]:

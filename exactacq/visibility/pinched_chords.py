@@ -8,7 +8,8 @@ from typing import TypeAlias, TypeVar
 
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.points import Point
-from exactacq.kernel.line_walks import CROSSED, Hit
+from exactacq.kernel.grazing_lines import MetEdge
+from exactacq.kernel.line_walks import CROSSED
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.chords import Chord, meet
@@ -18,9 +19,9 @@ from exactacq.visibility.line_families import Sector
 from exactacq.visibility.pinched_lines import walked
 from exactacq.visibility.rotational_sweep import Passed
 
-Place: TypeAlias = "Hit | Real"
+Place: TypeAlias = "MetEdge | Real"
 """Where a line meets an edge: by name, or by its own parameter."""
-Met = TypeVar("Met", Hit, Real)
+Met = TypeVar("Met", MetEdge, Real)
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +41,9 @@ class PinchedLine:
         """The line of a sector at a parameter, with all that it passes, as far as it is free within reach."""
         walk = walked(table, feature, sector, t, passed, reach)
         if walk is not None:
-            named = [first_met(table, ((hit[0], hit) for hit in side)) for side in (walk.behind, walk.ahead)]
+            named = [
+                first_met(table, ((met.edge, met) for met in side)) for side in (walk.behind, walk.ahead)
+            ]
             return cls(table, sector, t, *named)
         exact = [
             first_met(table, ((e, tau) for tau, e in side.hits))
@@ -62,8 +65,8 @@ class PinchedLine:
     def _parameter(self, place: Place, contact: Point, direction: Point, side: int) -> Real:
         if isinstance(place, Real):
             return place
-        (e, vertex), curves = place, self.table.curves
-        curve = curves[e]
+        curves, vertex = self.table.curves, place.vertex
+        curve = curves[place.edge]
         if vertex == CROSSED:
             return meet(contact, direction, curve, side)
         # A circle is touched at the foot of its centre.

@@ -13,18 +13,18 @@ Which lines may be pinched floats tell mostly, and what such a line meets, by th
 from __future__ import annotations
 
 from collections.abc import Collection
-from functools import cached_property, partial
 
 from exactacq.geometry.coordinates import cross, sign
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.points import Point
-from exactacq.kernel.images import STRAIGHT
+from exactacq.kernel.grazing_lines import OPEN, YES
+from exactacq.kernel.grazing_lines import may_be_pinched as pinched
 from exactacq.kernel.line_walks import WalkedLine
-from exactacq.kernel.lines import line_at, rounding, side_of
+from exactacq.kernel.lines import line_at
 from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.visibility.features import Feature, leaving
+from exactacq.visibility.features import Feature, corners_of_segments, leaving
 from exactacq.visibility.line_families import Sector
 from exactacq.visibility.rotational_sweep import Passed
 
@@ -34,12 +34,23 @@ BITS = 128
 
 def may_be_pinched(table: EdgeTable, feature: Feature, sector: Sector, t: Real, passed: Passed) -> bool:
     """Whether a tangent line of a feature may show, by what it passes, what no line beside it does."""
-    line = TangentLine(table, sector, t)
     if feature.round:
         is_arc = not table.full[feature.edges[0]]
         if is_arc and not t.is_late and t.rational in (sector.low, sector.high):
             return True
-    elif line.touched_side(feature.edges[1]) is None:
+    if sector.is_rational:
+        line = line_at(sector.image, *float_ball(t))
+        own, corners = feature.edges[-1], corners_of_segments(table)
+        told = pinched(table.images, corners, line, own, feature.round, [*passed])
+        if told != OPEN:
+            return told == YES
+    return _is_perhaps_pinched(table, feature, sector, t, passed)
+
+
+def _is_perhaps_pinched(table: EdgeTable, feature: Feature, sector: Sector, t: Real, passed: Passed) -> bool:
+    """Whether the exact line may show what no line beside it does; also where balls do not tell."""
+    line = TangentLine(table, sector, t)
+    if not feature.round and line.touched_side(feature.edges[1]) is None:
         return True
     sides, is_round = [1], feature.round
     for number, touching, _ in passed:
@@ -92,53 +103,27 @@ def walked(
 
 
 class TangentLine:
-    """A line of a sector: on which sides of it the obstacles lie that it touches.
-
-    Floats tell mostly; else the exact line is made, and balls around its numbers.
-    """
+    """A line of a sector: on which sides of it the obstacles lie that it touches, by balls."""
 
     def __init__(self, table: EdgeTable, sector: Sector, t: Real) -> None:
         self.table = table
-        self._image = line_at(sector.image, *float_ball(t)) if sector.is_rational else None
-        self._make = partial(sector.touch, t)
-
-    @cached_property
-    def _exact(self) -> tuple[Point, Point]:
-        """Contact and direction."""
-        return self._make()
-
-    def _side(self, x: float, y: float) -> int:
-        """1 or -1 for a place of the scene that certainly lies left or right of the line, else 0."""
-        return 0 if self._image is None else side_of(self._image, x, y, rounding(x, y), 0.0)
+        self.contact, self.direction = sector.touch(t)
 
     def arc_side(self, e: int) -> int | None:
         """1 or -1 as the centre of an arc lies left or right; None if balls do not tell."""
         curve = self.table.curves[e]
         assert isinstance(curve, Arc), "only arcs are touched between their ends"
-        images = self.table.images
-        if side := self._side(images.cx[e], images.cy[e]):
-            return side
-        contact, direction = self._exact
-        return direction.cross(curve.center - contact).clear_sign(BITS) or None
+        return self.direction.cross(curve.center - self.contact).clear_sign(BITS) or None
 
     def touched_side(self, vertex: int) -> int | None:
         """1 or -1 as the line touches a corner to its left or right, 0 if it enters the obstacle there.
 
         None if it runs along an edge there, or balls do not tell.
         """
-        images = self.table.images
-        first, last = images.previous[vertex], images.following[vertex]
-        back = on = 0
-        if images.kind[first] == STRAIGHT == images.kind[vertex]:
-            back, on = (self._side(images.x[v], images.y[v]) for v in (first, last))
-        incoming, outgoing = self.table.curves[first], self.table.curves[vertex]
-        if not (back and on):
-            before, after = Point(*leaving(incoming, at_end=True)), Point(*leaving(outgoing, at_end=False))
-            _, direction = self._exact
-            back, on = -direction.cross(before).clear_sign(BITS), direction.cross(after).clear_sign(BITS)
+        incoming, outgoing = self.table.curves[self.table.previous[vertex]], self.table.curves[vertex]
+        before, after = leaving(incoming, at_end=True), leaving(outgoing, at_end=False)
+        back = -self.direction.cross(Point(*before)).clear_sign(BITS)
+        on = self.direction.cross(Point(*after)).clear_sign(BITS)
         if not (back and on):
             return None
-        if back != on:
-            return 0
-        turn = cross(leaving(incoming, at_end=True), leaving(outgoing, at_end=False))
-        return on if sign(turn) > 0 else 0
+        return on if back == on and sign(cross(before, after)) > 0 else 0
