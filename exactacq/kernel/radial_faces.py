@@ -27,7 +27,7 @@ from exactacq.kernel.bounded import (
     total,
     verdict,
 )
-from exactacq.kernel.images import REST, STRAIGHT, EdgeImages
+from exactacq.kernel.images import CONVEX, REST, STRAIGHT, EdgeImages
 
 NONE: Final = -1
 """The slot of a face's end if it has none: a full circle around the place."""
@@ -61,6 +61,7 @@ class RadialFaces:
         self.low: list[int] = []
         self.high: list[int] = []
         self.within: list[bool] = []
+        self.circles: list[int] = []
 
     def offset(self, v: int) -> tuple[float, float, float]:
         """The vector from the place to a vertex, with a bound for both components: see `images`."""
@@ -158,6 +159,28 @@ class RadialFaces:
         """1 if the circle of an arc certainly comes within range, -1 if it certainly does not, else 0."""
         gap, bound = self.gap(e)
         return self.reach(gap, 0.0, bound)
+
+    def add_circles(self, edges: list[int]) -> list[int]:
+        """Add the faces of round obstacles that certainly come within range; returned are the other arcs.
+
+        Left out is what certainly lies beyond the range. Each of ``circles`` is added with two events: from
+        the number of edges on the left tangent point of the first one, its right one, and so on.
+        """
+        images, left = self.images, list[int]()
+        count = len(images.kind)
+        for e in edges:
+            gap, bound = self.gap(e)
+            reach = self.reach(gap, 0.0, bound)
+            if not (images.full[e] and images.kind[e] == CONVEX and reach and gap > bound):
+                left.append(e)
+            elif reach > 0:
+                event = count + 2 * len(self.circles)
+                self.circles.append(e)
+                for k in (0, 1):
+                    x, y, error = self.tangent(e, 1 - 2 * k)
+                    self.add_event(event + k, x, y, error)
+                self.add_arc(e, event + 1, event)
+        return left
 
     def add_arc(self, e: int, low: int, high: int) -> None:
         """Add a face of an arc between two events (`NONE` for none): vertices, or events that are added."""

@@ -141,8 +141,9 @@ class FrontFaces:
     ``edges``, ``ends_low`` and ``ends_high``: edge number and events of each face; it covers the directions
     counterclockwise from low to high, and runs from high to low. ``own`` are the edges through the point, at
     a vertex the incoming one first, found if not given; ``on_ray`` the other straight edges that the point
-    sees edge-on; ``floats`` are the faces as the sweep takes them. *facts* are what is known of the
-    point beforehand.
+    sees edge-on; ``here`` are the events that are the point itself, and ``count`` is more than their
+    numbers; ``floats`` are the faces as the sweep takes them. *facts* are what is known of the point
+    beforehand.
     """
 
     def __init__(
@@ -156,14 +157,16 @@ class FrontFaces:
         self.table, self.point, self.range, self.facts = table, point, range_, facts
         self._rays = {touched: ray for ray in facts.rays for touched in ray.touched}
         self.origin, self.around = raw(point), balls(point)
-        self.marks: list[SweepEnd] = []
+        self._marks: dict[int, SweepEnd] = {}
+        self.here: list[int] = []
         self.on_ray: list[int] = []
         self.special: list[int] = []
         self._offsets: dict[int, Vector] = {}
         self.floats = faces = RadialFaces(table.images, _image(self.origin), held(range_.square))
         near = table.lit((point.xy,), range_.above)
         open_ = faces.add_straight(near)
-        round_ = faces.arcs(near) if table.curved else []
+        round_ = faces.add_circles(faces.arcs(near)) if table.curved else []
+        self.count = len(table.vertices) + 2 * len(faces.circles)
         if own is None:
             own = self._edges_at_point(open_, round_)
         self.own = own
@@ -217,7 +220,7 @@ class FrontFaces:
         if known is None:
             vertices = self.table.vertices
             if event >= len(vertices):
-                known = self.marks[event - len(vertices)].vector()
+                known = self.mark(event).vector()
             elif (ray := self._rays.get((event, 0))) is not None:
                 known = ray.direction
             else:
@@ -234,7 +237,7 @@ class FrontFaces:
         if event < len(vertices):
             x, y = balls(self.table.curves[event].start)
             return (x - self.around[0], y - self.around[1]), partial(minus, vertices[event], self.origin)
-        mark = self.marks[event - len(vertices)]
+        mark = self.mark(event)
         return mark.around, mark.vector
 
     def ray(self, events: Iterable[int]) -> Alignment | None:
@@ -246,20 +249,27 @@ class FrontFaces:
 
     def _touched(self, event: int) -> Touched:
         """What a ray to an event touches."""
-        count = len(self.table.vertices)
-        if event < count:
+        if event < len(self.table.vertices):
             return event, 0
-        mark = self.marks[event - count]
+        mark = self.mark(event)
         return self.table.line_numbers.feature(mark.edge, True), mark.side
 
     def place(self, event: int) -> Point:
         """The point where an event lies."""
-        count = len(self.table.vertices)
-        return self.table.curves[event].start if event < count else self.marks[event - count].point
+        is_vertex = event < len(self.table.vertices)
+        return self.table.curves[event].start if is_vertex else self.mark(event).point
 
-    def _mark(self, mark: SweepEnd, image: tuple[float, float, float]) -> int:
-        event = len(self.table.vertices) + len(self.marks)
-        self.marks.append(mark)
+    def mark(self, event: int) -> SweepEnd:
+        """An event that is no vertex; a tangent of a round obstacle is made when it is first asked for."""
+        made = self._marks.get(event)
+        if made is None:
+            k = event - len(self.table.vertices)
+            made = self._marks[event] = self._touching(self.floats.circles[k // 2], 1 - 2 * (k % 2))
+        return made
+
+    def _add_mark(self, mark: SweepEnd, image: tuple[float, float, float]) -> int:
+        event, self.count = self.count, self.count + 1
+        self._marks[event] = mark
         self.floats.add_event(event, *image)
         return event
 
@@ -337,11 +347,15 @@ class FrontFaces:
 
     def _tangent(self, e: int, side: int) -> int:
         """The event of the left (1) or right (-1) tangent from the point to the circle of an arc."""
+        return self._add_mark(self._touching(e, side), self.floats.tangent(e, side))
+
+    def _touching(self, e: int, side: int) -> SweepEnd:
+        """Where the left (1) or right (-1) tangent from the point touches the circle of an arc."""
         arc = self.table.curves[e]
         assert isinstance(arc, Arc)
         circle = self.table.line_numbers.feature(e, True)
         touch = _Touch(self.origin, self.around, arc, side, circle, self._rays.get((circle, -side)))
-        return self._mark(SweepEnd(touch.found, touch.vector, e, -side), self.floats.tangent(e, side))
+        return SweepEnd(touch.found, touch.vector, e, -side)
 
     # -- the point's own edges ---------------------------------------------------------------------
 
@@ -376,7 +390,9 @@ class FrontFaces:
         around = ball_of(vector[0]), ball_of(vector[1])
         side = sense if curve.ccw else -sense
         here = self.point, around
-        return self._mark(SweepEnd(lambda: here, lambda: vector, e, side), _held(vector))
+        event = self._add_mark(SweepEnd(lambda: here, lambda: vector, e, side), _held(vector))
+        self.here.append(event)
+        return event
 
 
 def _held(vector: Vector) -> tuple[float, float, float]:

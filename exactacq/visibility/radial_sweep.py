@@ -62,9 +62,6 @@ class RadialSweep:
         self.faces = faces = FrontFaces(table, point, range_, own, facts)
         self.edges, self.ends_low, self.ends_high = faces.edges, faces.ends_low, faces.ends_high
         """The edge of every face, and the events that end it."""
-        count = len(table.vertices)
-        self.here = [count + k for k, mark in enumerate(faces.marks) if mark.point is point]
-        """Events that are the point itself."""
         self._floats = floats.FaceSweep(faces.floats)
         self._order_events()
         self.count = len(self._floats.groups)
@@ -191,8 +188,7 @@ class RadialSweep:
 
     def parts(self) -> ViewParts:
         """What the range leaves of the sights, as far as floats tell."""
-        faces, count = self.faces, len(self.table.vertices)
-        return ViewParts(self._floats, self.sights, count + len(faces.marks), self.here)
+        return ViewParts(self._floats, self.sights, self.faces.count, self.faces.here)
 
     def rank_of(self, event: int) -> int:
         """The rank of an event's direction."""
@@ -239,7 +235,7 @@ class RadialSweep:
         """What a ray in the direction of events meets (see `exactacq.kernel.single_rays`); None if that is
         open."""
         count = len(self.table.vertices)
-        sure, struck, events, inside = single_rays.met(self._floats, rank, self.here, count)
+        sure, struck, events, inside = single_rays.met(self._floats, rank, self.faces.here, count)
         return (struck, events, inside) if sure else None
 
     def blocks(self, event: int, rank: int, own: tuple[int, ...]) -> bool:

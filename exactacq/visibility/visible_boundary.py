@@ -201,11 +201,11 @@ class BoundaryView:
 
     def _touched(self, rank: int) -> list[tuple[int, int]]:
         """What a ray touches: vertices with 0, arcs with 1 if the circle is to its left, else -1."""
-        count, marks = len(self.table.vertices), self.sweep.faces.marks
-        return [
-            (event, 0) if event < count else (marks[event - count].edge, marks[event - count].side)
-            for event in self.sweep.events(rank)
-        ]
+        count, faces, found = len(self.table.vertices), self.sweep.faces, list[tuple[int, int]]()
+        for event in self.sweep.events(rank):
+            mark = None if event < count else faces.mark(event)
+            found.append((event, 0) if mark is None else (mark.edge, mark.side))
+        return found
 
     def _is_at_rim(self, e: int, rank: int | None) -> bool:
         """Whether the end of a sight, made on the ray of a rank, is known to be as far away as the range."""
