@@ -380,31 +380,26 @@ class Real(Exact):
         1
         """
         if isinstance(other, Real):
-            return 0 if self is other else self._against(other)
+            if self is other:
+                return 0
+            parted = self._bits and other._bits and _parted(self._ball, other._ball)
+            return parted or self._against(other)
         return self._compared(other)
 
     def _order(self, other: object) -> Any:
-        if isinstance(other, Real):
-            return 0 if self is other else self._against(other)
-        return super()._order(other)
+        return self.compare(other) if isinstance(other, Real) else super()._order(other)
 
     def _coerced(self, other: object) -> Real | None:
         return _coerce(other)
 
     def _against(self, right: Real) -> int:
-        if self._bits == LATE or right._bits == LATE:
-            left_ball, right_ball = self.ball(LATE_BITS), right.ball(LATE_BITS)
-            if left_ball < right_ball:
-                return -1
-            if left_ball > right_ball:
-                return 1
+        is_late = self._bits == LATE or right._bits == LATE
+        if is_late and (order := _parted(self.ball(LATE_BITS), right.ball(LATE_BITS))):
+            return order
         if self.rational is not None and right.rational is not None:
             return rational_sign(self.rational - right.rational)
-        left_ball, right_ball = self.ball(64), right.ball(64)
-        if left_ball < right_ball:
-            return -1
-        if left_ball > right_ball:
-            return 1
+        if order := _parted(self.ball(64), right.ball(64)):
+            return order
         if self._is_root and right._is_root:
             # Two positive roots that 64 bits cannot tell apart: their squares have a quarter of the degree.
             return (self * self - right * right).sign()
@@ -544,6 +539,11 @@ class _LateReal(Real):
 
 
 _LateReal.__name__ = _LateReal.__qualname__ = Real.__name__  # It is nothing else to those who read of it.
+
+
+def _parted(a: arb, b: arb) -> int:
+    """-1 or 1 as one ball lies below another or above it, else 0."""
+    return -1 if a < b else 1 if a > b else 0
 
 
 def real(q: fmpq) -> Real:

@@ -10,11 +10,9 @@ from exactacq.geometry.curves import Curve
 from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.late import Pin
 from exactacq.kernel.line_keys import LineNumbers
-from exactacq.kernel.lines import line_at, meets, parameter_round
 from exactacq.numbers.between import rational_between
-from exactacq.numbers.float_bounds import float_ball, margin
+from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.real import Real
-from exactacq.sensing.line_points import Role
 from exactacq.sensing.line_views import LineViews
 from exactacq.sensing.named_pins import PinName
 from exactacq.sensing.range_ends import RangeEnds
@@ -90,14 +88,14 @@ class FamilyClipper:
         """The parts of a free views that lie within range, as closed families; single views count."""
         found = list(self._ends.within(free_views))
         for k, side in enumerate(free_views.sides):
-            if getattr(self.curve(side.edge), "full", False):
+            if not side.clear and getattr(self.curve(side.edge), "full", False):
                 found = [part for family in found for part in self._unrolled(family, k)]
         return found
 
     def _unrolled(self, family: ViewFamily, k: int) -> Iterator[ViewFamily]:
         """On a full circle: cut where a side passes the circle's start, whose parameter is 0 or 4."""
         first, last, free_views = family.first, family.last, family.free_views
-        if free_views is None or first is last or self._is_on_one_side(family, free_views, k):
+        if free_views is None or first is last:
             yield family
             return
         a, b = first.places[k], last.places[k]
@@ -114,28 +112,6 @@ class FamilyClipper:
         before, after = (Real(4), Real(0)) if a > b else (Real(0), Real(4))
         yield ViewFamily(family.edges, first, seam.placed(k, before), free_views)
         yield ViewFamily(family.edges, seam.placed(k, after), last, free_views)
-
-    def _is_on_one_side(self, family: ViewFamily, free_views: FreeViews, k: int) -> bool:
-        """Whether a side on a full circle surely does not pass its start, as a line between tells in floats.
-
-        Differences of floats are off by far less than half of themselves.
-        """
-        sector, side = free_views.sector, free_views.sides[k]
-        if not sector.is_rational:
-            return False
-        ends = family.first, family.last
-        (low, p), (high, q) = (float_ball(end.t) for end in ends)
-        t = (low + high) / 2.0
-        if not (t - low > 2.0 * p and high - t > 2.0 * q):
-            return False
-        line_, image = line_at(sector.image, t, 0.0), self.views.image(side.edge)
-        if side.role is Role.CONTACT:
-            x, y, _, _, e, _ = line_
-            u, r = parameter_round(image, x, y, e)
-        else:
-            _, _, u, r, *_ = meets(line_, image, side.role)
-        (a, p), (b, q) = sorted(float_ball(end.places[k]) for end in ends)
-        return u - a > 2.0 * (p + r) and b - u > 2.0 * (q + r)
 
     def along(self, pin: Pin, run: tuple[Pin, Pin], shown: int) -> Iterator[tuple[End, End]]:
         """The views along one line from a place to a run on an edge, as far as it is within range."""

@@ -10,16 +10,17 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from math import inf
 from typing import TypeAlias
 
 from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
-from exactacq.kernel.cells import LineCells
 from exactacq.kernel.family_images import NONE, FamilyImage
 from exactacq.kernel.line_keys import LineNumbers
 from exactacq.kernel.pencil_images import pencil_images
 from exactacq.kernel.single_lines import SingleImage
 from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.family_clipper import FamilyClipper
 from exactacq.sensing.line_images import LineImages
 from exactacq.sensing.line_points import Role, Side
@@ -126,13 +127,13 @@ class PencilFamilies:
         """The family of an image, made when it is first asked for."""
         k = image.number
         if k not in self._made:
-            self._made[k] = self._family(self.lines.rows[k])
+            self._made[k] = self._family(image)
         return self._made[k]
 
-    def _family(self, row: LineCells) -> LineFamily:
-        cell, feature, corner = self.lines.cell(row), self._feature, self._corner
-        behind = None if cell.behind is None or not self.goes_back else Side(cell.behind, Role.BEHIND)
-        ahead = None if cell.ahead is None else Side(cell.ahead, Role.AHEAD)
+    def _family(self, image: FamilyImage) -> LineFamily:
+        cell, feature, corner = self.lines.cell(self.lines.rows[image.number]), self._feature, self._corner
+        behind = None if cell.behind is None or not self.goes_back else self._side(image, Role.BEHIND)
+        ahead = None if cell.ahead is None else self._side(image, Role.AHEAD)
         names: tuple[Names, Names] = (), ()
         if feature is not None:
             first, last = (
@@ -145,13 +146,23 @@ class PencilFamilies:
             cell.low,
             cell.high,
             behind,
-            self.contact,
+            self._side(image, Role.CONTACT) if self.lines.sector.round else self.contact,
             ahead,
             self.goes_back,
             corner if corner != NONE else None if feature is None else self._namer.number(feature),
             names,
             cell.bounds,
         )
+
+    def _side(self, image: FamilyImage, role: Role) -> Side:
+        return Side(image.edge(role), role, clear=is_clear(image, role, self.lines.table))
+
+
+def is_clear(image: FamilyImage, role: Role, table: EdgeTable) -> bool:
+    """Whether lines surely meet a full circle away from its start, where parameters jump."""
+    if not (image.is_known and table.images.full[image.edge(role)]):
+        return False
+    return all(-inf < low and high < inf for low, high, *_ in image.places(role))
 
 
 def family_of(image: FamilyImage) -> LineFamily:

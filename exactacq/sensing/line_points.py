@@ -34,13 +34,15 @@ class Role(IntEnum):
 class Side:
     """One end of a family of views: the edge it runs on and its role on the lines.
 
-    A ``fixed`` end stays at the contact: a corner, the start of its edge or, if ``at_end``, its end.
+    A ``fixed`` end stays at the contact: a corner, the start of its edge or, if ``at_end``, its end. On a
+    full circle it may be known to be ``clear`` of the circle's start, where parameters jump.
     """
 
     edge: int
     role: Role
     fixed: bool = False
     at_end: bool = False
+    clear: bool = False
 
     def corner(self, curve: Curve) -> Point:
         """Where a fixed end stays, on the curve of its edge."""

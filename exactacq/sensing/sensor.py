@@ -132,6 +132,8 @@ class Sensor:
             if whole is not None:
                 notices.append(whole)
         shares.note(notice.u for notice in notices)
+        # Nearly in order exact numbers are compared about once for each.
+        notices.sort(key=lambda notice: notice.u.rough(), reverse=not leg.ahead)
         notices.sort(key=cmp_to_key(lambda a, b: leg.order(a.u, b.u) or ORDER[a.kind] - ORDER[b.kind]))
         return notices, learned
 
