@@ -82,9 +82,9 @@ NUMBER_FAULTS = [
         tied(NESTED, NESTED, made=3),
         Fault(
             real,
-            "Real._against",
-            "ball(LATE_BITS)\n        if left_ball < right_ball:\n            return -1",
-            "ball(LATE_BITS)\n        if left_ball < right_ball:\n            return 1",
+            "Real.compare",
+            "_parted(self._ball, other._ball)",
+            "-_parted(self._ball, other._ball)",
         ),
     ),
     Planted(

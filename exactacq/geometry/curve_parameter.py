@@ -13,7 +13,7 @@ from flint import arb, fmpq
 
 from exactacq.geometry.coordinates import Vector, cross, dot, minus, raw, sign
 from exactacq.geometry.curves import Arc, Curve, Segment
-from exactacq.geometry.late import BITS, Balls, ball_of, balls
+from exactacq.geometry.late import BITS, Balls, ball_of, balls, from_to
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
 
@@ -140,21 +140,23 @@ class _Turns:
         """That of a point, as late if it is irrational or late and balls tell the quarter turn."""
         if not point.is_late and point.rational is not None:
             return self.exact(point)
-        (x, y), (cx, cy) = balls(point), balls(self.center)
-        radius, (radius_sq, bases) = (x - cx, y - cy), self._balls
-        for k, base in enumerate(bases):
-            along, across = dot(base, radius), cross(base, radius) * self.sense
+        radius, (radius_sq, base) = from_to(balls(self.center), balls(point)), self._balls
+        along, across = dot(base, radius), cross(base, radius) * self.sense
+        for k in range(4):
             if along > 0 and across > 0:
                 return Real.late(k + across / (radius_sq + along), _Turns.exact, self, point)
+            along, across = across, -along
         return self.exact(point)
 
     def exact(self, point: Point) -> Real:
         """That of a point, which is made."""
-        radius = minus(raw(point), raw(self.center))
-        for k, base in enumerate(self.bases):
-            along, across = dot(base, radius), cross(base, radius) * self.sense
+        radius, base = minus(raw(point), raw(self.center)), self.bases[0]
+        along, across = dot(base, radius), cross(base, radius) * self.sense
+        for k in range(4):
             if sign(along) > 0 and sign(across) >= 0:
                 return Real(k + across / (self.radius_sq + along))
+            # As seen from where the next quarter begins.
+            along, across = across, -along
         # The four half-open quarters are disjoint and cover the plane but for its origin, the centre, which
         # is not on the circle.
         raise AssertionError("one of four quarter turns contains every direction")
@@ -165,6 +167,6 @@ class _Turns:
         return [(ball_of(x), ball_of(y)) for x, y in self.bases]
 
     @cached_property
-    def _balls(self) -> tuple[arb, list[Balls]]:
-        """Balls around the squared radius and the radii."""
-        return arb(self.radius_sq), self.around
+    def _balls(self) -> tuple[arb, Balls]:
+        """Balls around the squared radius and the radius of the start."""
+        return arb(self.radius_sq), self.around[0]

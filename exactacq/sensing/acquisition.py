@@ -93,11 +93,12 @@ class Acquisition:
         The view from its end is taken only if the families leave a gap.
         """
         shares = self.shares.cut(part, {self.k})
-        for from_ends in (False, True):
-            known = ChainMap(shares.taught(self.before, from_ends=from_ends), *self.before.maps)
-            if self._is_whole(known):
-                return None
-        return known
+        learned = shares.taught_between(self.before)
+        known = ChainMap(learned, *self.before.maps)
+        if self._is_whole(known):
+            return None
+        shares.add_views_from_ends(learned, self.before)
+        return None if self._is_whole(known) else known
 
     def _is_whole(self, covers: ChainMap[int, Cover]) -> bool:
         return self.shares.targets.is_whole(self.k, covers)

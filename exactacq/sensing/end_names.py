@@ -143,8 +143,10 @@ class Seen:
 
         It does if the point may be here, and cannot be where the line meets the edge's circle again.
         """
+        if e not in self._view.own:
+            return False
         here, there, curve = balls(self.place), balls(point), self.table.curves[e]
-        if e not in self._view.own or not _overlap(here, there):
+        if not _overlap(here, there):
             return False
         *_, u, v = line(free_views.sector, t.ball(LATE_BITS))
         if isinstance(curve, Segment):

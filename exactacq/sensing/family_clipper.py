@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import overload
 
-from exactacq.geometry.curve_parameter import Rail
+from exactacq.geometry.curve_parameter import ZERO, Rail
 from exactacq.geometry.curves import Curve
 from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.late import Pin
@@ -18,6 +18,9 @@ from exactacq.sensing.named_pins import PinName
 from exactacq.sensing.range_ends import RangeEnds
 from exactacq.sensing.view_families import End, FreeViews, ViewFamily
 from exactacq.visibility.sensor_range import Range
+
+TOP = Real(4)
+"""The parameter of a full circle's start where the circle ends."""
 
 
 class RailsAndWay(Sequence[Rail]):
@@ -88,7 +91,7 @@ class FamilyClipper:
         """The parts of a free views that lie within range, as closed families; single views count."""
         found = list(self._ends.within(free_views))
         for k, side in enumerate(free_views.sides):
-            if not side.clear and getattr(self.curve(side.edge), "full", False):
+            if side.start != 0 and getattr(self.curve(side.edge), "full", False):
                 found = [part for family in found for part in self._unrolled(family, k)]
         return found
 
@@ -99,17 +102,22 @@ class FamilyClipper:
             yield family
             return
         a, b = first.places[k], last.places[k]
+        if free_views.sides[k].start is not None:
+            first = first.placed(k, TOP) if a.sign() == 0 else first
+            last = last.placed(k, TOP) if b.sign() == 0 else last
+            yield ViewFamily(family.edges, first, last, free_views)
+            return
         middle = self.views.end(free_views, Real(rational_between(first.t, last.t))).places[k]
         if a.sign() == 0 and middle.compare(b) > 0:
-            a = Real(4)
+            a = TOP
         if b.sign() == 0 and middle.compare(a) > 0:
-            b = Real(4)
+            b = TOP
         first, last = first.placed(k, a), last.placed(k, b)
         if min(a, b) <= middle <= max(a, b):
             yield ViewFamily(family.edges, first, last, free_views)
             return
         seam = self.views.view_from(family, k, self.curve(family.edges[k]).start)
-        before, after = (Real(4), Real(0)) if a > b else (Real(0), Real(4))
+        before, after = (TOP, ZERO) if a > b else (ZERO, TOP)
         yield ViewFamily(family.edges, first, seam.placed(k, before), free_views)
         yield ViewFamily(family.edges, seam.placed(k, after), last, free_views)
 

@@ -110,11 +110,16 @@ class Shares:
     ) -> dict[int, list[Share]]:
         """What of some families, or of their shares, is seen from a leg; views from its ends share points."""
         found: dict[int, list[Share]] = {k: [] for k in obstacles}
+        begin, end = leg.first, leg.last
         for k, family, side, whole in parts:
             cut = self._clipper.clipped(family, side, leg.span)
             if cut is None:
                 continue
-            first, last = (self._pinned(end, cut, side, leg) for end in (cut.first, cut.last))
+            first, last = cut.first, cut.last
+            if first.places[side] is begin or first.places[side] is end:
+                first = self._pinned(first, cut, side, leg)
+            if last.places[side] is begin or last.places[side] is end:
+                last = self._pinned(last, cut, side, leg)
             part = ViewFamily(cut.edges, first, last, cut.free_views)
             found[k].append(Share.of(part, side) if whole is None else whole.cut(part))
         return found
@@ -129,18 +134,15 @@ class Shares:
         }
 
     def _pinned(self, end: End, family: ViewFamily, side: int, leg: Leg) -> End:
-        view = self._view_from(end, side, leg)
-        return end if view is None else view.pinned(end, family, side)
-
-    def _view_from(self, end: End, side: int, leg: Leg) -> Seen | None:
-        """What is seen from where an extreme view begins, if that is an end of the leg."""
+        """An extreme view that begins at an end of the leg, as what is seen from there has its other end."""
         u = end.places[side]
-        if u is leg.first and leg.first is self.leg.first:
-            return self._end_views[0]
-        if u is leg.last and leg.last is self.leg.last:
-            return self._end_views[1]
-        place = leg.start if u is leg.first else leg.end if u is leg.last else None
-        return None if place is None else self.view(place, leg.own(u))
+        if u is self.leg.first:
+            view = self._end_views[0]
+        elif u is self.leg.last:
+            view = self._end_views[1]
+        else:
+            view = self.view(leg.start if u is leg.first else leg.end, leg.own(u))
+        return view.pinned(end, family, side)
 
     def _families(self, known: Mapping[int, Sequence[Span]] | None) -> Iterator[tuple[ViewFamily, int]]:
         """The families at the leg; only those that matter if it is told what is *known*."""
@@ -205,31 +207,39 @@ class Shares:
             inside = inside and source.high.compare(part.high) < 0
         return inside or None
 
-    def taught(
-        self, covers: Covers, known: Mapping[int, Sequence[Span]] | None = None, *, from_ends: bool = True
-    ) -> dict[int, Cover]:
+    def taught(self, covers: Covers, known: Mapping[int, Sequence[Span]] | None = None) -> dict[int, Cover]:
         """The covers that grow along the leg, if *covers* are known before it.
 
-        *known* has them in floats, rounded inward: then less is to be made. They grow perhaps by less where
-        the views *from_ends* of the leg are left out.
+        *known* has them in floats, rounded inward: then less is to be made.
         """
+        learned = self.taught_between(covers)
+        self.add_views_from_ends(learned, covers, known)
+        return learned
+
+    def taught_between(self, covers: Covers) -> dict[int, Cover]:
+        """The covers that grow, perhaps by less where the views from the ends of the leg tell more."""
         learned: dict[int, Cover] = {}
         leg = self.leg
         for shares in self.of.values():
             for share in sorted(shares, key=lambda share: size(share.shown), reverse=True):
                 add(learned, covers, share.edge, share.shown)
-        for view in self._end_views if from_ends else ():
-            spans: Mapping[int, Sequence[Interval]] = view.spans
-            if known is not None:
-                spans = view.beyond(known, self.targets.counting(view.edges, self.obstacles))
-            for _, (e, interval) in self.targets.within(self.obstacles, spans):
-                add(learned, covers, e, interval)
         for seen in self.ends.values():
             for end, _ in seen:
                 add(learned, covers, end.edge, end.pin)
         if leg.edge is not None and self._along:
             add(learned, covers, leg.edge, leg.span)
         return learned
+
+    def add_views_from_ends(
+        self, learned: dict[int, Cover], covers: Covers, known: Mapping[int, Sequence[Span]] | None = None
+    ) -> None:
+        """Add to the covers that have grown what the views from the ends of the leg show; see `taught`."""
+        for view in self._end_views:
+            spans: Mapping[int, Sequence[Interval]] = view.spans
+            if known is not None:
+                spans = view.beyond(known, self.targets.counting(view.edges, self.obstacles))
+            for _, (e, interval) in self.targets.within(self.obstacles, spans):
+                add(learned, covers, e, interval)
 
     def _is_along(self, k: int) -> bool:
         """Whether the leg is on the boundary of an obstacle."""

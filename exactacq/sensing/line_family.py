@@ -15,6 +15,7 @@ from typing import TypeAlias
 
 from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
+from exactacq.kernel.extents import EVERYTHING
 from exactacq.kernel.family_images import NONE, FamilyImage
 from exactacq.kernel.line_keys import LineNumbers
 from exactacq.kernel.pencil_images import pencil_images
@@ -155,14 +156,15 @@ class PencilFamilies:
         )
 
     def _side(self, image: FamilyImage, role: Role) -> Side:
-        return Side(image.edge(role), role, clear=is_clear(image, role, self.lines.table))
+        return Side(image.edge(role), role, start=start_of(image, role, self.lines.table))
 
 
-def is_clear(image: FamilyImage, role: Role, table: EdgeTable) -> bool:
-    """Whether lines surely meet a full circle away from its start, where parameters jump."""
+def start_of(image: FamilyImage, role: Role, table: EdgeTable) -> int | None:
+    """What parameters are at the start of the full circle that lines meet, if surely none passes it."""
     if not (image.is_known and table.images.full[image.edge(role)]):
-        return False
-    return all(-inf < low and high < inf for low, high, *_ in image.places(role))
+        return None
+    ends = [(low, high) for low, high, *_ in image.places(role)]
+    return None if EVERYTHING in ends else 4 if (inf, inf) in ends else 0
 
 
 def family_of(image: FamilyImage) -> LineFamily:

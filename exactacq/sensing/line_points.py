@@ -35,14 +35,15 @@ class Side:
     """One end of a family of views: the edge it runs on and its role on the lines.
 
     A ``fixed`` end stays at the contact: a corner, the start of its edge or, if ``at_end``, its end. On a
-    full circle it may be known to be ``clear`` of the circle's start, where parameters jump.
+    full circle, where parameters jump at the start, ``start`` is what they are there, 0 or 4, for these views
+    if it is known that none passes the start.
     """
 
     edge: int
     role: Role
     fixed: bool = False
     at_end: bool = False
-    clear: bool = False
+    start: int | None = None
 
     def corner(self, curve: Curve) -> Point:
         """Where a fixed end stays, on the curve of its edge."""

@@ -67,11 +67,11 @@ class LineViews:
         given = {} if pin is None else {0: pin}
         if known is not None:
             given[known[0]] = known[1]
-        pins = [
+        one, other = (
             given[k] if k in given else self.pin(free_views.sector, t, side, names, passed)
             for k, side in enumerate(free_views.sides)
-        ]
-        return End(t, (pins[0][0], pins[1][0]), (pins[0][1], pins[1][1]))
+        )
+        return End(t, (one[0], other[0]), (one[1], other[1]))
 
     def pin(self, sector: Sector, t: Real, side: Side, names: Names, passed: Passed) -> Pin:
         """Where a line meets an edge: the same point as on the same line under another name.

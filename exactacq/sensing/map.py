@@ -85,6 +85,7 @@ class Map:
     ) -> None:
         self.obstacles = obstacles
         self._targets, self._rails, self._covers = targets, rails, covers
+        self._known: dict[int, tuple[Known, ...]] = {}
 
     def __repr__(self) -> str:
         return f"<Map: {len(self.seen)} of {len(self.obstacles)} obstacles seen>"
@@ -117,7 +118,10 @@ class Map:
         >>> [(part.edge, str(part.length)) for part in run.map_at(2).known(0)]
         [(0, '2*acos(-17/25)')]
         """
-        return tuple(part for k in range(len(self.obstacles[i].edges)) for part in self._on_edge(i, k))
+        if i not in self._known:
+            edges = range(len(self.obstacles[i].edges))
+            self._known[i] = tuple(part for k in edges for part in self._on_edge(i, k))
+        return self._known[i]
 
     def knows(self, i: int, point: Point | Sequence[object]) -> bool:
         """Whether a point of the boundary of obstacle i is known; ValueError if it is not on the boundary.

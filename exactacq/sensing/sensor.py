@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections import ChainMap, deque
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
-from functools import cmp_to_key
+from functools import cmp_to_key, partial
 
 from exactacq.geometry.interval_union import Cover, Interval
 from exactacq.geometry.points import Point
@@ -46,6 +46,11 @@ class Notice:
     u: Real
     place: Point
     reason: Reason | None = None
+
+
+def _in_order(leg: Leg, a: Notice, b: Notice) -> int:
+    """Of two reports along a leg the first: at one place an earlier kind, then a lower obstacle."""
+    return leg.order(a.u, b.u) or ORDER[a.kind] - ORDER[b.kind] or a.obstacle - b.obstacle
 
 
 @dataclass(frozen=True)
@@ -132,9 +137,9 @@ class Sensor:
             if whole is not None:
                 notices.append(whole)
         shares.note(notice.u for notice in notices)
-        # Nearly in order exact numbers are compared about once for each.
+        # In this order exact numbers are compared about once for each.
         notices.sort(key=lambda notice: notice.u.rough(), reverse=not leg.ahead)
-        notices.sort(key=cmp_to_key(lambda a, b: leg.order(a.u, b.u) or ORDER[a.kind] - ORDER[b.kind]))
+        notices.sort(key=cmp_to_key(partial(_in_order, leg)))
         return notices, learned
 
     def known_within(

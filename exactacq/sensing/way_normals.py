@@ -14,7 +14,7 @@ from exactacq.kernel.line_keys import LineNumbers
 from exactacq.kernel.pencil_images import pencil_images
 from exactacq.kernel.ways import extents_along_normals
 from exactacq.numbers.real import Real
-from exactacq.sensing.line_family import is_clear
+from exactacq.sensing.line_family import start_of
 from exactacq.sensing.line_points import Role, Side
 from exactacq.sensing.straight_way import StraightWay
 from exactacq.sensing.view_families import FreeViews, ViewFamily
@@ -54,8 +54,8 @@ class WayNormals:
         sweep = image.origin
         assert isinstance(sweep, Pencil), "normals come from pencils"
         cell = sweep.cell(sweep.rows[image.number])
-        clear = is_clear(image, Role.AHEAD, self.way.table)
-        sides = Side(self.way.number, Role.CONTACT), Side(image.edge(Role.AHEAD), Role.AHEAD, clear=clear)
+        start = start_of(image, Role.AHEAD, self.way.table)
+        sides = Side(self.way.number, Role.CONTACT), Side(image.edge(Role.AHEAD), Role.AHEAD, start=start)
         pinned = self._pin(cell.low), self._pin(cell.high)
         free_views = FreeViews(sweep.sector, cell.low, cell.high, sides, pinned=pinned, passed=cell.bounds)
         yield from self.way.clipper.families(free_views)
