@@ -73,11 +73,17 @@ class WayCrossings:
         return extents_from_way(self._found, set(self.wanted), self.way.image, curves, reach)
 
     def views(
-        self, line_family: LineFamily, certain: bool, wanted: frozenset[int], told: Role | None = None
+        self,
+        line_family: LineFamily,
+        certain: bool,
+        wanted: frozenset[int],
+        told: Role | None = None,
+        near: frozenset[int] = frozenset(),
     ) -> Iterator[ViewFamily]:
         """Views along the lines of a family; *certain* if each line passes between the ends of the way.
 
-        *told* is on which side of the contact they do, if that is known.
+        *told* is on which side of the contact they do, if that is known, and those of *near* edges are known
+        to be within range.
         """
         if not any(side is not None and side.edge in wanted for side in line_family.sides):
             return
@@ -107,8 +113,9 @@ class WayCrossings:
                     line_family.passed[1] if high is line_family.high else (),
                 )
                 anchor = line_family.anchor if line_family.goes_back else None
+                in_range = other.edge in near
                 free_views = FreeViews(
-                    line_family.sector, low, high, (here, other), names, pins, passed, anchor
+                    line_family.sector, low, high, (here, other), names, pins, passed, anchor, in_range
                 )
                 yield from self.way.clipper.families(free_views)
 
