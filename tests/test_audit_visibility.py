@@ -60,6 +60,37 @@ class TestLookout:
         world = World(build(shapes))
         return Viewpoints(world, fmpq(*Q(radius).as_integer_ratio()), [curve]).first(Point(*q)) is not None
 
+    def test_a_curve_that_comes_within_range_between_its_ends(self) -> None:
+        """Neither the rays to its ends nor those of the cells beside them meet it within range."""
+        far = box(50, 51, 50, 51)
+        way = Segment(Point(-10, Q("3.9")), Point(10000, Q("3.9")))
+        assert self._sees([far], way, "3.95")
+        assert not self._sees([far], way, "3.899")
+
+    @pytest.mark.parametrize("seed", range(20))
+    def test_rays_to_where_segments_pass_the_range(self, seed: int) -> None:
+        """Told by balls they are those that exact contacts tell; of tangents balls tell nothing."""
+        rng = Random(seed)
+        told = 0
+        for _ in range(20):
+            x, y, *ends = (rng.randrange(-6, 7) for _ in range(6))
+            if ends[:2] == ends[2:]:
+                continue
+            east = Point(x + 3, y)
+            circle = Arc(east, east, Point(x, y), fmpq(9), ccw=True, full=True)
+            segment = Segment(Point(*ends[:2]), Point(*ends[2:]))
+            rays = visibility._clear_crossings(segment, circle)
+            places = list(visibility._crossings(segment, circle))
+            if rays is None:
+                assert len(places) <= 1
+                continue
+            assert [ray.exact() for ray in rays] == [place - circle.center for place in places]
+            for ray in rays:
+                (u, v), (a, b) = ray.exact().xy, ray.unit
+                assert math.hypot(u / 3 - a, v / 3 - b) < 1e-14 and abs(ray.far - 3) < 1e-14
+            told += len(rays)
+        assert told > 2
+
     @EXAMPLES
     @given(st.randoms(use_true_random=False))
     def test_points_and_parts(self, rng: Random) -> None:

@@ -13,12 +13,13 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import accumulate, pairwise
 from math import atan2, hypot, pi, tan
 from typing import NamedTuple
 
 import numpy as np
-from flint import fmpq
+from flint import arb, fmpq
 
 from exactacq.auditing.comparisons import BITS, passes
 from exactacq.auditing.hits import (
@@ -44,6 +45,7 @@ from exactacq.geometry.coordinates import raw
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import contacts, line_contacts
 from exactacq.geometry.points import Location, Point
+from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import nearest_float, rational
 from exactacq.numbers.real import Real
 from exactacq.scene.scene import Scene
@@ -237,6 +239,39 @@ def visible(world: World, radius: fmpq, a: Point, b: Point) -> bool:
     return a == b or world.blocker(a, offset, 1) is None
 
 
+def _clear_crossings(segment: Segment, circle: Arc) -> list[Direction] | None:
+    """The rays from a circle's centre to where a segment passes it; None if balls leave that open.
+
+    Made exact when they are asked for. As in `_crossings` there may be rays beside the segment's ends.
+    """
+    with workprec(TIE_BITS):
+        (x, y), (p, q), (u, v) = (
+            (at.x.ball(TIE_BITS), at.y.ball(TIE_BITS))
+            for at in (segment.start, circle.center, segment.direction)
+        )
+        x, y = x - p, y - q
+        size, half = u * u + v * v, u * x + v * y
+        square = half * half - size * (x * x + y * y - arb(circle.radius_sq))
+        if square < 0:
+            return []
+        if not square > 0:
+            return None
+        root, found = square.sqrt(), list[Direction]()
+        for k, t in enumerate(((-half - root) / size, (-half + root) / size)):
+            if not (t < 0 or t > 1):
+                offset = float((x + u * t).mid()), float((y + v * t).mid())
+                unit = unit_vector(*offset)
+                assert unit is not None, "a centre is not on its circle"
+                found.append(Direction(unit, partial(_crossing, segment, circle, k), far=hypot(*offset)))
+        return found
+
+
+def _crossing(segment: Segment, circle: Arc, k: int) -> Point:
+    """The way from a circle's centre to where a segment's line passes it first or last."""
+    t = line_contacts(segment.start, segment.direction, circle)[k]
+    return segment.start + segment.direction * t - circle.center
+
+
 def _crossings(curve: Curve, circle: Arc) -> Iterator[Point]:
     """Where a curve meets a full circle, and perhaps where its line or its own circle does beside its ends.
 
@@ -315,8 +350,7 @@ class _View:
         rays = [Direction((1.0, 0.0), lambda: Point(1, 0))]
         for number, offset in self.offsets.items():
             rays += self._ray_to(self.lookout.world.points[number], offset, number)
-        for point in self._range_crossings():
-            rays += self._ray_to(point, self._offset(point))
+        rays += self._rays_to_range()
         for k in self.circles:
             circle = self.lookout.world.circles[k]
             # Not nearer than the circle itself.
@@ -342,7 +376,8 @@ class _View:
         unit, q = unit_vector(*offset), self.q
         return [] if unit is None else [Direction(unit, lambda: point - q, aim, hypot(*offset))]
 
-    def _range_crossings(self) -> Iterator[Point]:
+    def _rays_to_range(self) -> Iterator[Direction]:
+        """The rays to where curves pass the range."""
         q, radius = self.q, self.lookout.radius
         east = Point(q.x + radius, q.y)
         circle = Arc(east, east, q, radius * radius, ccw=True, full=True)
@@ -350,7 +385,13 @@ class _View:
         extent = np.hypot(*np.maximum(np.abs(boxes[:, :2] - xy), np.abs(boxes[:, 2:] - xy)).T)
         size = np.abs(boxes).max(axis=1) + np.abs(xy).max()
         for k in np.flatnonzero(extent + size * EPS >= self.reach * (1 - EPS)):
-            yield from _crossings(self.curves[k], circle)
+            curve = self.curves[k]
+            clear = _clear_crossings(curve, circle) if isinstance(curve, Segment) else None
+            if clear is not None:
+                yield from clear
+                continue
+            for point in _crossings(curve, circle):
+                yield from self._ray_to(point, self._offset(point))
 
     def _offset(self, point: Point) -> tuple[float, float]:
         """point - q, exactly, then rounded once."""
