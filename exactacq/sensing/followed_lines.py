@@ -27,7 +27,7 @@ from exactacq.visibility.features import Feature, corners_of_segments
 from exactacq.visibility.free_segment import LineWalk, walk_line
 from exactacq.visibility.line_balls import line
 from exactacq.visibility.line_families import Sector
-from exactacq.visibility.line_names import Namer, Names
+from exactacq.visibility.line_names import Namer
 from exactacq.visibility.pinched_lines import walked
 from exactacq.visibility.rotational_sweep import Passed
 from exactacq.visibility.sensor_range import Range
@@ -98,7 +98,6 @@ class LineFollower:
         if walk is None:
             return self._exactly(at)
         met = [*reversed(walk.behind), *walk.contact([*at.feature.edges]), *walk.ahead]
-        names = self._names(at)
         below, above = self._images.reach
         far, error = (below + above) / 2, above - below
 
@@ -106,7 +105,7 @@ class LineFollower:
             one = met[number]
             if one.vertex >= 0:
                 return self._vertex(one.vertex, one.edge)
-            return self._pin(at, names, one.edge, Role((one.place > 0) - (one.place < 0)))
+            return self.meeting(at, Role((one.place > 0) - (one.place < 0)), one.edge)
 
         ends = walk.spot(-far, error), walk.spot(far, error)
         is_blocked = walk.is_blocked_behind, walk.is_blocked_ahead
@@ -140,7 +139,7 @@ class LineFollower:
         own = at.feature.edges[-1]
         for e in at.feature.edges:
             is_round = at.feature.round
-            yield e, self._pin(at, self._names(at), e, Role.CONTACT) if is_round else self._vertex(own, e), 0
+            yield e, self.meeting(at, Role.CONTACT, e) if is_round else self._vertex(own, e), 0
 
     def _met(self, walk: LineWalk, at: FeatureLine, role: int) -> Iterator[tuple[int, Pin, int]]:
         """What a line meets on one side: edges, where, and the numbers of the places."""
@@ -166,15 +165,10 @@ class LineFollower:
         point = self.table.curves[e].start if vertex == e else self.table.curves[e].end
         return point, self.views.rails[e].parameter(point)
 
-    def _pin(self, at: FeatureLine, names: Names, e: int, role: Role) -> Pin:
-        return self.views.pin(at.sector, at.t, Side(e, role), names, at.passed)
-
-    def _names(self, at: FeatureLine) -> Names:
-        return self._namer.names(at.feature, at.sector, at.t, at.passed)
-
     def meeting(self, at: FeatureLine, role: Role, edge: int) -> Pin:
-        """Where a line enters an obstacle through an edge."""
-        return self._pin(at, self._names(at), edge, role)
+        """Where a line meets an edge on one side of its contact, or has its contact."""
+        names = self._namer.names(at.feature, at.sector, at.t, at.passed)
+        return self.views.pin(at.sector, at.t, Side(edge, role), names, at.passed)
 
     def at_range(self, at: FeatureLine, role: Role) -> Point:
         """The end of a line that is as long as the range."""
