@@ -13,7 +13,7 @@ from flint import arb, fmpq
 
 from exactacq.geometry.coordinates import Vector, cross, dot, minus, raw, sign
 from exactacq.geometry.curves import Arc, Curve, Segment
-from exactacq.geometry.late import BITS, Balls, ball_of, balls, from_to
+from exactacq.geometry.late import BITS, Balls, ball_of, balls
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
 
@@ -140,8 +140,9 @@ class _Turns:
         """That of a point, as late if it is irrational or late and balls tell the quarter turn."""
         if not point.is_late and point.rational is not None:
             return self.exact(point)
-        radius, (radius_sq, base) = from_to(balls(self.center), balls(point)), self._balls
-        along, across = dot(base, radius), cross(base, radius) * self.sense
+        (x, y), (radius_sq, (cx, cy), (a, b)) = balls(point), self._balls
+        u, v = x - cx, y - cy
+        along, across = a * u + b * v, (a * v - b * u) * self.sense
         for k in range(4):
             if along > 0 and across > 0:
                 return Real.late(k + across / (radius_sq + along), _Turns.exact, self, point)
@@ -167,6 +168,6 @@ class _Turns:
         return [(ball_of(x), ball_of(y)) for x, y in self.bases]
 
     @cached_property
-    def _balls(self) -> tuple[arb, Balls]:
-        """Balls around the squared radius and the radius of the start."""
-        return arb(self.radius_sq), self.around[0]
+    def _balls(self) -> tuple[arb, Balls, Balls]:
+        """Balls around the squared radius, the centre, and the radius of the start."""
+        return arb(self.radius_sq), balls(self.center), self.around[0]

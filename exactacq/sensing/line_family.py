@@ -147,7 +147,7 @@ class PencilFamilies:
             cell.low,
             cell.high,
             behind,
-            self._side(image, Role.CONTACT) if self.lines.sector.round else self.contact,
+            self.contact if self.contact.fixed else self._side(image, Role.CONTACT),
             ahead,
             self.goes_back,
             corner if corner != NONE else None if feature is None else self._namer.number(feature),

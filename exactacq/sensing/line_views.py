@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from flint import arb
+
 from exactacq.geometry.curve_images import curve_image
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Curve
@@ -43,6 +45,7 @@ class LineViews:
         """The number of the way that is added."""
         self._balls: dict[int, CurveBalls] = {}
         self._images: dict[int, CurveImage] = {}
+        self._last: tuple[Sector | None, Real | None, Line] = (None, None, (arb(), arb(), arb(), arb()))
 
     def curve(self, e: int) -> Curve:
         """The curve of a number."""
@@ -99,7 +102,7 @@ class LineViews:
     def _late_pin(self, sector: Sector, t: Real, side: Side, passed: Passed) -> Pin:
         """Where a line meets an edge: a corner that it passes, else a place that is made when it is read."""
         rail, points = self.rails[side.edge], self._points
-        at = line(sector, t.ball(64))
+        at = self._line(sector, t)
         is_told, found = self._points.passed_in_balls(side, at, passed)
         if isinstance(found, Point):
             return found, rail.parameter(found)
@@ -110,6 +113,12 @@ class LineViews:
         else:
             point = late_point(found, LinePoints.exact, points, sector, t, side, passed)
         return point, rail.parameter(point)
+
+    def _line(self, sector: Sector, t: Real) -> Line:
+        """A line in balls; the last one is kept, for a view has two ends."""
+        if self._last[0] is not sector or self._last[1] is not t:
+            self._last = sector, t, line(sector, t.ball(64))
+        return self._last[2]
 
     def spot(self, at: Line, side: Side) -> Balls | None:
         """Where a line meets an edge, in balls; None if no ball holds it."""
