@@ -9,6 +9,7 @@ from random import Random
 import pytest
 from nightly import some
 from strategies import arc_terrain, degenerate_terrain, random_terrain
+from test_ties import past_a_circle
 
 import exactacq as xa
 from exactacq.kernel.curve_images import CurveImage
@@ -84,3 +85,28 @@ def test_views_at_the_range_are_those_of_polynomials(monkeypatch: pytest.MonkeyP
     by_floats = [told(families) for families in found]
     monkeypatch.setattr(range_ends, "parted_lines", lambda *_: (UNSURE, 0.0, 0.0))
     assert by_floats == [told(one.within(free_views)) for one, free_views in asked]
+
+
+@pytest.mark.parametrize("seed", [36, 40, 47, 52])
+def test_what_is_told_to_be_in_range_is(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Views that are made without asking whether they are too long.
+
+    Lines through a corner where a concave arc begins may meet that arc ahead too. From a way across them the
+    corner was in range and the arc not: as both are on one edge, the views of the arc were taken for short.
+    """
+    try:
+        scene = past_a_circle(seed)
+    except xa.InvalidScene:
+        pytest.skip("no scene")
+    told, within = [0], RangeEnds.within
+
+    def checked(self: RangeEnds, free_views: FreeViews) -> Iterator[ViewFamily]:
+        for family in within(self, free_views):
+            if free_views.in_range:
+                told[0] += 1
+                assert all(self.range.order(*end.points) <= 0 for end in (family.first, family.last))
+            yield family
+
+    monkeypatch.setattr(RangeEnds, "within", checked)
+    xa.audit(xa.sightseer(scene), samples=4)
+    assert told[0] > 20

@@ -244,11 +244,9 @@ def _clear_crossings(segment: Segment, circle: Arc) -> list[Direction] | None:
 
     Made exact when they are asked for. As in `_crossings` there may be rays beside the segment's ends.
     """
+    places = segment.start, circle.center, segment.direction
+    (x, y), (p, q), (u, v) = ((at.x.ball(TIE_BITS), at.y.ball(TIE_BITS)) for at in places)
     with workprec(TIE_BITS):
-        (x, y), (p, q), (u, v) = (
-            (at.x.ball(TIE_BITS), at.y.ball(TIE_BITS))
-            for at in (segment.start, circle.center, segment.direction)
-        )
         x, y = x - p, y - q
         size, half = u * u + v * v, u * x + v * y
         square = half * half - size * (x * x + y * y - arb(circle.radius_sq))

@@ -28,6 +28,7 @@ from exactacq.kernel.bounded import (
     verdict,
 )
 from exactacq.kernel.images import CONVEX, REST, STRAIGHT, EdgeImages
+from exactacq.kernel.lattice import Lattice
 
 NONE: Final = -1
 """The slot of a face's end if it has none: a full circle around the place."""
@@ -128,6 +129,17 @@ class RadialFaces:
             else:
                 open_.append(e)
         return open_
+
+    def sides(self, edges: list[int], lattice: Lattice, place: int) -> list[int]:
+        """1 or -1 as straight edges turn left or right about the place, which is a vertex, 0 if neither."""
+        xs, ys, following = lattice.x, lattice.y, self.images.following
+        x, y = xs[place], ys[place]
+        found: list[int] = []
+        for e in edges:
+            v = following[e]
+            turn = (xs[e] - x) * (ys[v] - y) - (ys[e] - y) * (xs[v] - x)
+            found.append(1 if turn > 0 else -1 if turn < 0 else 0)
+        return found
 
     def add_open(self, e: int) -> None:
         """Add the face that a straight edge is, though its side was open."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import inf
 
-from exactacq.kernel.bounded import UNIT, WIDEN, cross_sign, dot, product, quotient
+from exactacq.kernel.bounded import UNIT, WIDEN, cross_sign, dot, dot_sign, product, quotient
 from exactacq.kernel.images import STRAIGHT
 from exactacq.kernel.radial_faces import RadialFaces
 from exactacq.kernel.radial_sweep import NOTHING, FaceSweep
@@ -72,12 +72,15 @@ def met(sweep: FaceSweep, rank: int, here: list[int], vertices: int) -> tuple[bo
     return True, struck, found, inside
 
 
-def blocks(faces: RadialFaces, vertex: int, x: float, y: float, b: float, along: bool) -> int:
-    """Whether a ray along (x, y) leads into the obstacle at a vertex between two straight edges; 0 if open.
+def blocks(sweep: FaceSweep, rank: int, vertex: int, along: bool) -> int:
+    """Whether the ray in a direction leads into the obstacle at a vertex between straight edges; 0 if open.
 
-    With *along* it comes along one of these edges: then it does if the corner is reflex. Otherwise it does if
-    it leaves between the way on and the way back.
+    With *along* it comes along one of these edges: then it does if the corner is reflex. So it does along an
+    edge of which both ends lie on it; along one that leads on it is free. Otherwise it is not if it leaves
+    between the way on and the way back.
     """
+    faces = sweep.faces
+    x, y, b = faces.vector(sweep.groups[rank][0])
     images = faces.images
     before, following = images.previous[vertex], images.following[vertex]
     if images.kind[vertex] != STRAIGHT or images.kind[before] != STRAIGHT:
@@ -85,14 +88,24 @@ def blocks(faces: RadialFaces, vertex: int, x: float, y: float, b: float, along:
     u, v, p = difference(faces, before, vertex)
     s, t, q = difference(faces, vertex, following)
     turn = cross_sign(u, v, p, s, t, q)
-    if along:
+    if along or turn == 0:
         return -turn
+    if _is_on(sweep, rank, before):
+        ahead = dot_sign(x, y, b, u, v, p)
+        return 0 if ahead == 0 else -turn if ahead > 0 else -1
+    if _is_on(sweep, rank, following):
+        ahead = dot_sign(x, y, b, s, t, q)
+        return 0 if ahead == 0 else -turn if ahead < 0 else -1
     left, right = cross_sign(s, t, q, x, y, b), cross_sign(x, y, b, -u, -v, p)
     if turn > 0:
         return min(left, right) if left and right else -1 if left < 0 or right < 0 else 0
-    if turn < 0:
-        return max(left, right) if left and right else 1 if left > 0 or right > 0 else 0
-    return 0
+    return max(left, right) if left and right else 1 if left > 0 or right > 0 else 0
+
+
+def _is_on(sweep: FaceSweep, rank: int, vertex: int) -> bool:
+    """Whether a vertex is known to lie in a direction."""
+    slot = sweep.faces.slots.get(vertex, -1)
+    return slot >= 0 and sweep.ranks[slot] == rank
 
 
 def difference(faces: RadialFaces, a: int, b: int) -> tuple[float, float, float]:

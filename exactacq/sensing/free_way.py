@@ -72,23 +72,26 @@ class WayViews:
 
     def _views(self, extents: Iterable[Extent]) -> Iterator[ViewFamily]:
         """The families that extents tell of."""
-        # By families the edges that they show, and whether all views of these are known to be in range.
-        crossing, roles = dict[int, dict[int, bool]](), dict[int, Role | None]()
+        # By families: the edges that they show, on which side of the contact they cross the way, and of which
+        # sides all views are known to be in range.
+        crossing, roles = dict[int, set[int]](), dict[int, Role | None]()
+        near: dict[int, set[int]] = {}
         for one in extents:
             if isinstance(one.origin, SingleImage):
                 yield from self.along(single_of(one.origin))
             elif isinstance(one.origin, FamilyImage):
                 yield from self.normals.views(one.origin)
             elif isinstance(one.origin, int):
-                edges = crossing.setdefault(one.origin, {})
-                edges[one.edge] = edges.get(one.edge, True) and one.in_range
+                crossing.setdefault(one.origin, set()).add(one.edge)
+                if one.in_range:
+                    near.setdefault(one.origin, set()).add(one.there)
                 roles[one.origin] = Role(one.here) if one.is_known else None
         if crossing:
             families = list(self.crossing)
             for n, edges in crossing.items():
                 image, certain = families[n]
-                near = frozenset(e for e, in_range in edges.items() if in_range)
-                yield from self.crossing.views(family_of(image), certain, frozenset(edges), roles[n], near)
+                wanted, sides = frozenset(edges), near.get(n, ())
+                yield from self.crossing.views(family_of(image), certain, wanted, roles[n], sides)
 
     def along(self, single: SingleLine) -> Iterator[ViewFamily]:
         """A single line that crosses the way between its place and the run that it shows."""

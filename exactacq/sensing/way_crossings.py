@@ -5,7 +5,7 @@ It sees past the contact, to the contact, or, on the normal of an edge, to the f
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from functools import cached_property
 from itertools import pairwise
 
@@ -78,12 +78,12 @@ class WayCrossings:
         certain: bool,
         wanted: frozenset[int],
         told: Role | None = None,
-        near: frozenset[int] = frozenset(),
+        near: Collection[int] = (),
     ) -> Iterator[ViewFamily]:
         """Views along the lines of a family; *certain* if each line passes between the ends of the way.
 
-        *told* is on which side of the contact they do, if that is known, and those of *near* edges are known
-        to be within range.
+        *told* is on which side of the contact they do, if that is known, and the views of *near* sides, by
+        their roles, are known to be within range.
         """
         if not any(side is not None and side.edge in wanted for side in line_family.sides):
             return
@@ -113,7 +113,7 @@ class WayCrossings:
                     line_family.passed[1] if high is line_family.high else (),
                 )
                 anchor = line_family.anchor if line_family.goes_back else None
-                in_range = other.edge in near
+                in_range = other.role in near
                 free_views = FreeViews(
                     line_family.sector, low, high, (here, other), names, pins, passed, anchor, in_range
                 )

@@ -171,10 +171,12 @@ class FrontFaces:
             own = self._edges_at_point(open_, round_)
         self.own = own
         faces.own = list(own)
-        for e in open_:
+        on_lattice = table.lattice is not None and len(own) == 2
+        sides = faces.sides(open_, table.lattice[1], own[1]) if table.lattice and on_lattice else []
+        for n, e in enumerate(open_):
             if e in own:
                 continue
-            side = sign(cross(self.offset(e), self.offset(int(table.next[e]))))
+            side = sides[n] if sides else sign(cross(self.offset(e), self.offset(int(table.next[e]))))
             if side < 0:
                 faces.add_open(e)
             elif side == 0:

@@ -128,8 +128,9 @@ class RadialSweep:
             return self.faces.offset(group[0])
         if (ray := self.faces.ray(group)) is not None:
             return ray.direction
-        vectors = [self.faces.offset(event) for event in group]
-        return next((v for v in vectors if isinstance(v[0], fmpq) and isinstance(v[1], fmpq)), vectors[0])
+        vectors = map(self.faces.offset, group)
+        rational = next((v for v in vectors if isinstance(v[0], fmpq) and isinstance(v[1], fmpq)), None)
+        return self.faces.offset(group[0]) if rational is None else rational
 
     # -- cells -------------------------------------------------------------------------------------
 
@@ -240,13 +241,11 @@ class RadialSweep:
 
     def blocks(self, event: int, rank: int, own: tuple[int, ...]) -> bool:
         """Whether a ray from the point in the direction of a vertex on it leads into the obstacle there."""
-        table, floats_ = self.table, self.faces.floats
+        table = self.table
         if event >= len(table.vertices):
             return False
-        slot = self._floats.groups[rank][0]
         before = table.images.previous[event]
-        vector = floats_.vector(slot)
-        if clear := single_rays.blocks(floats_, event, *vector, event in own or before in own):
+        if clear := single_rays.blocks(self._floats, rank, event, event in own or before in own):
             return clear > 0
         incoming, outgoing = table.curves[before], table.curves[event]
         ways = leaving(incoming, at_end=True), leaving(outgoing, at_end=False)

@@ -282,7 +282,8 @@ class BoundaryView:
             place = None if inside else sweep.hit(struck, rank)
             if inside > 0 or (place is not None and self.disc.excess(place) <= 0):
                 face = struck
-        along = tuple(e for e in (*sweep.faces.on_ray, *self.own) if self._runs_along(e, rank, met, blocker))
+        edges = *self._edge_on.get(rank, ()), *self.own
+        along = tuple(e for e in edges if self._runs_along(e, rank, met, blocker))
         return SingleRay(rank, tuple(met), along, blocker, face)
 
     def _met(self, rank: int) -> tuple[int, list[int], int]:
@@ -336,12 +337,19 @@ class BoundaryView:
 
     def _runs_along(self, e: int, rank: int, met: list[int], blocker: int | None) -> bool:
         """Whether a straight edge on the ray is seen along its length."""
-        ranks = self.sweep.rank
         ends = e, int(self.table.next[e])
         if e in self.own:
-            return any(ranks.get(end) == rank and self.runs_out(e, end) for end in ends)
+            return any(self.sweep.rank.get(end) == rank and self.runs_out(e, end) for end in ends)
         nearer = [event for event in met if event in ends][:1]
-        return ranks[e] == rank and bool(nearer) and nearer[0] != blocker
+        return bool(nearer) and nearer[0] != blocker
+
+    @cached_property
+    def _edge_on(self) -> dict[int, list[int]]:
+        """The straight edges that are seen edge-on, by direction."""
+        found: dict[int, list[int]] = {}
+        for e in self.sweep.faces.on_ray:
+            found.setdefault(self.sweep.rank[e], []).append(e)
+        return found
 
     def runs_out(self, e: int, vertex: int) -> bool:
         """Whether an edge through the point is straight and leads from there to a vertex, an end of it."""
