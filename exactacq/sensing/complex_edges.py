@@ -19,13 +19,13 @@ from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.late import Pin
 from exactacq.kernel.bound_lines import BoundLine
 from exactacq.kernel.extents import EVERYTHING
-from exactacq.kernel.family_images import ANYWHERE, NONE, FamilyImage, by_edge
+from exactacq.kernel.family_images import ANYWHERE, NONE, EdgePlace, FamilyImage, by_edge
 from exactacq.kernel.line_keys import key_of_normal
 from exactacq.kernel.shadows import Spot
 from exactacq.kernel.single_lines import SingleImage, lines_by_edge, place_beyond
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.family_clipper import FamilyClipper
-from exactacq.sensing.followed_lines import FeatureLine, FollowedLine, LineFollower
+from exactacq.sensing.followed_lines import FeatureLine, LineFollower
 from exactacq.sensing.line_family import PencilFamilies, Reached, SingleLine, SingleLines
 from exactacq.sensing.line_images import LineImages
 from exactacq.sensing.line_points import Role, Side
@@ -198,35 +198,36 @@ class FamilySweeper:
                 continue
             ahead = role is Role.AHEAD
             image = images[0] if ahead else images[-1]
-            row = sweep.rows[image.number]
-            bound = row.first if ahead else row.last
             ends = (edge.start, ZERO), (edge.end, self.clipper.rails[e].top)
             run = (ends[1], ends[0]) if ahead else ends
             segment, spot = self.table.curve_images[e], self.images.spot(run[0][0])
-            met, place = image.edge(role), ANYWHERE
-            if any(side or number not in (e, self.table.next[e]) for number, side, _ in bound.passed):
-                # The line grazes what may block its neighbours: it goes on by itself.
-                at = FeatureLine(feature, sweep.sector, sweep.value(bound), tuple(bound.passed))
-                line = self.follower.follow(at, near)
-                end = line.end(role)
-                make = partial(self._ended, line, role)
-                if end is None:
-                    met = NONE
-                else:
-                    met, place = line.met[end].edge, (*line.met[end].span, *line.met[end].spot)
-            else:
-                make = partial(self._reached, feature, sweep, bound, role, met)
-                if met != NONE and image.is_known:
-                    place = image.places(role)[0 if ahead else 1]
+            met, place, make = self._end(feature, sweep, image, role, e, near)
             if met == NONE:
                 place = *EVERYTHING, *place_beyond(spot, segment, int(role), self.images.reach)
             origin, spans = EndOnLine(make, run), (place[:2], EVERYTHING)
             yield SingleImage((met, e), spans, place[2:], spot, segment, [], origin, (0, 0, 0))
 
-    def _ended(self, line: FollowedLine, role: Role) -> Reached:
-        """Where a line ends on one side, at what blocks it or as far away as the range."""
+    def _end(
+        self, feature: Feature, sweep: Pencil, image: FamilyImage, role: Role, e: int, near: frozenset[int]
+    ) -> tuple[int, EdgePlace, Callable[[], Reached]]:
+        """Where the line along edge *e* ends, the first ahead or the last behind: what it meets, if anything,
+        where in floats, and what makes the place.
+        """
+        ahead = role is Role.AHEAD
+        row = sweep.rows[image.number]
+        bound = row.first if ahead else row.last
+        if all(not side and number in (e, self.table.next[e]) for number, side, _ in bound.passed):
+            met, place = image.edge(role), image.places(role)[0 if ahead else 1]
+            make = partial(self._reached, feature, sweep, bound, role, met)
+            return met, place if image.is_known else ANYWHERE, make
+        # The line grazes what may block its neighbours: it goes on by itself.
+        at = FeatureLine(feature, sweep.sector, sweep.value(bound), tuple(bound.passed))
+        line = self.follower.follow(at, near)
         end = line.end(role)
-        return (line.ended(role), None) if end is None else line.pin(end)
+        if end is None:
+            return NONE, ANYWHERE, lambda: (line.ended(role), None)
+        one = line.met[end]
+        return one.edge, (*one.span, *one.spot), partial(line.pin, end)
 
     def _reached(self, feature: Feature, sweep: Pencil, bound: BoundLine, role: Role, met: int) -> Reached:
         """Where a line that touches a feature meets an edge, or is as long as the range if it meets none."""
