@@ -18,13 +18,18 @@ from exactacq import kernel
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.points import Point
 from exactacq.kernel import line_walks
+from exactacq.kernel.single_lines import SingleImage
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing import followed_lines
 from exactacq.sensing.complex_edges import FamilySweeper
 from exactacq.sensing.followed_lines import FeatureLine, FollowedLine
+from exactacq.sensing.free_way import WayViews
+from exactacq.sensing.legs import legs_of
 from exactacq.sensing.line_family import single_of
 from exactacq.sensing.line_points import Role
+from exactacq.sensing.straight_way import StraightWay
+from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.study.claims.model import Subject
 from exactacq.study.random_scenes import random_scene
 from exactacq.visibility import pinched_lines
@@ -253,3 +258,35 @@ def test_edges_that_are_crossed_almost_in_one_place() -> None:
             end = followed.end(Role.AHEAD if direction.y < 0 else Role.BEHIND)
             entered.append(end is not None and followed.pin(end)[0] == Point(8, 2))
     assert entered and all(entered)
+
+
+def shown_to(way: WayViews, lines: list[SingleImage]) -> set[tuple[object, ...]]:
+    """What lines that cross a way show along it: edges, and the ends of the extreme views."""
+    return {
+        (
+            family.edges,
+            *(f"{c.decimal(30)}" for end in (family.first, family.last) for p in end.points for c in p),
+        )
+        for line in lines
+        for family in way.along(single_of(line))
+    }
+
+
+@pytest.mark.parametrize("name", ["squares", "discs", "a mill in a room", "slots", "random 1", "arcs 9"])
+def test_lines_that_begin_where_they_end_are_enough_for_ways(name: str) -> None:
+    """A way that crosses a line sees along it what it shows from farthest away, if that is in range."""
+    scene = SCENES[name]
+    run = xa.sightseer(scene, "17/2", start=None if scene.start is not None else (-2, "-7/3"))
+    complex_ = VisibilityComplex(EdgeTable(scene.obstacles), Range(run.radius))
+    rails, several = complex_.clipper.rails, 0
+    for piece in run.path:
+        if piece.kind != "straight":
+            continue
+        for leg in legs_of(complex_.table, rails, piece.obstacle, piece.curve):
+            if leg.edge is None:
+                way = WayViews(StraightWay(complex_, leg), frozenset(range(len(rails))), lambda *_: None)
+                near = complex_.near(leg.spots)
+                every = shown_to(way, [line for edge in near for line in edge.single_lines])
+                assert shown_to(way, [line for edge in near for line in edge.whole_lines]) == every
+                several += len(every)
+    assert several

@@ -129,7 +129,11 @@ class GrazingLine:
                 if here.edge == met[first].edge or here.place == met[near].place:
                     continue
                 if not self.is_told_by_others(here.place, met[near].place):
-                    found.append(self._from(here.edge, here.span, here.spot, number, near, far, keys, origin))
+                    one = self._from(here.edge, here.span, here.spot, number, near, far, keys, origin)
+                    # A way that crosses the line sees the run past all places that lie behind it.
+                    end = met[0] if here.place < met[near].place else met[-1]
+                    one.is_whole = here.place == end.place or end.edge == one.shown
+                    found.append(one)
         for side in (0, 1):
             if self.is_blocked[side]:
                 continue

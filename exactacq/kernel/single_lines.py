@@ -21,7 +21,8 @@ class SingleImage:
 
     The place lies on edge ``edge``, or in free space (`NONE`). ``source`` and ``seen`` bound parameters of
     the place and of the run, ``near`` is the nearest point of the run; ``keys`` are numbers of the line (see
-    `line_keys`). Of its ``origin``, which makes it exact, it is the line with some ``numbers``.
+    `line_keys`). Of its ``origin``, which makes it exact, it is the line with some ``numbers``. Unless it
+    ``is_whole``, another one leads to the same run from farther away.
     """
 
     def __init__(
@@ -42,6 +43,7 @@ class SingleImage:
         self.place, self.near = place, near
         self.is_point, self.keys = run is None, keys
         self.origin, self.numbers = origin, numbers
+        self.is_whole = True
 
     def side(self, x: float, y: float, error: float) -> int:
         """1 or -1 if a place is certainly left or right of the line, else 0."""

@@ -52,6 +52,7 @@ class EdgeFamilies:
     def __init__(self, images: list[FamilyImage], single_lines: list[SingleImage]) -> None:
         self.images, self.single_lines = images, single_lines
         self.at, self.lines_at = by_edge(images), lines_by_edge(single_lines)
+        self.whole_lines = [one for one in single_lines if one.is_whole]
 
 
 class EndOnLine(SingleLines):

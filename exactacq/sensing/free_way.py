@@ -67,7 +67,7 @@ class WayViews:
 
         Which of them pass the way's ends is known where families were asked for before.
         """
-        groups, curves = [edge.single_lines for edge in self._near], self.way.table.curve_images
+        groups, curves = [edge.whole_lines for edge in self._near], self.way.table.curve_images
         return extents_of_crossing_lines(groups, set(self.wanted), self.way.image, curves)
 
     def _views(self, extents: Iterable[Extent]) -> Iterator[ViewFamily]:

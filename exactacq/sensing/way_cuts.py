@@ -75,6 +75,8 @@ class WayCuts:
         Circles do not tell: two lines touch a corner and a circle, and up to four touch two circles.
         """
         numbers, touches = self.way.table.line_numbers, self.way.touches
+        if len(touches) < 2:
+            return False
         pairs = (numbers.features(key) for key, _ in names)
         return any(a in touches and b in touches and not numbers.is_circle(b) for a, b in pairs)
 
