@@ -338,6 +338,7 @@ class _View:
         self.own = world.passing(self.q, self.edge_numbers)
         self.forms = world.forms.rows(near).and_rows(self.lookout.forms.rows(self.near))
         self.offsets = {k: self._offset(world.points[k]) for k in np.unique(self.forms.ends).tolist()}
+        self.spots = np.array([[self.offsets[k] for k in pair] for pair in self.forms.ends.tolist()])
         self.circles = [k for k in np.unique(self.forms.circle).tolist() if k >= 0]
         self.rays = with_cells(self._not_hidden(self._critical()))
 
@@ -462,12 +463,15 @@ class _View:
     # -- contacts in floats ------------------------------------------------------------------------
 
     def _hits(self, units: Floats, forms: Forms) -> tuple[Hits, Hits]:
-        """Contacts of all rays with edges, but for those of q's own edges at q itself, and with curves."""
+        """Contacts of all rays with edges, but for those of q's own edges at q itself, and with curves.
+
+        The *forms* are all or the first of those of edges and curves.
+        """
         count = len(self.edges)
         own = np.zeros(len(forms.circle), dtype=bool)
         own[[self.edge_numbers.index(e) for e in self.own]] = True
         straight, bent = np.flatnonzero(forms.circle < 0), np.flatnonzero(forms.circle >= 0)
-        spots = np.array([[self.offsets[k] for k in pair] for pair in forms.ends.tolist()])
+        spots = self.spots[: len(forms.ends)]
         parts = [segment_hits(units, spots[straight, 0], spots[straight, 1])]
         parts[0].low[:, own[straight]] = np.inf
         parts[0].sure[:, own[straight]] = False
