@@ -75,10 +75,11 @@ def _check_straight(world: World, k: int, curve: Curve) -> None:
 
 def _track(world: World, body: AuditedBody, curve: Curve) -> Track | None:
     near = set(world.near(curve))
+    some = [pair for pair in zip(body.edges, body.curves, strict=True) if pair[0] in near]
     for forward in (True, False):
         walked = curve if forward else curve.reversed()
-        for number, edge in zip(body.edges, body.curves, strict=True):
-            if number in near and is_part(walked, edge):
+        for number, edge in some:
+            if is_part(walked, edge):
                 return Track(number, forward)
     return None
 

@@ -8,12 +8,13 @@ what is known of another one is the same at all places that have passed the same
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
-from functools import cached_property
+from functools import cached_property, partial
 
 from exactacq.geometry.interval_union import Cover
 from exactacq.geometry.points import Point
 from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real
+from exactacq.sensing.end_names import Seen
 from exactacq.sensing.leg_facts import LegFacts
 from exactacq.sensing.leg_views import Covers, Share, Shares
 from exactacq.sensing.legs import Leg
@@ -54,6 +55,16 @@ class LegNews:
             )
             self._on[edge] = EdgeNews(edge, some, self.covers)
         return self._on[edge]
+
+    @cached_property
+    def edges(self) -> set[int]:
+        """The edges to whose covers the leg may add anything before the robot is at its place."""
+        shares = self.shares
+        leg, facts = shares.leg, partial(shares.leg.facts, shares.complex.table, shares.leg.start)
+        start = shares.view(leg.start, leg.own(leg.first), facts)
+        along = set() if leg.edge is None else {leg.edge}
+        ends = (end.edge for found in shares.ends.values() for end, _ in found)
+        return {*self._by_edge, *start.edges, *along, *ends}
 
     @cached_property
     def _by_edge(self) -> dict[int, list[tuple[int, Share]]]:
@@ -120,21 +131,28 @@ class Underway(Mapping[int, Cover]):
 
     def _cover(self, edge: int) -> Cover | None:
         if edge not in self._found:
-            news = self._news.on(edge)
-            grown = news.within if edge in self._near else news.beyond
-            self._tell_view()
-            self._found[edge] = grown(self._part)
+            self._found[edge] = self._grown(edge) if edge in self._edges else None
         return self._found[edge]
+
+    def _grown(self, edge: int) -> Cover | None:
+        self._view()
+        news = self._news.on(edge)
+        return news.within(self._part) if edge in self._near else news.beyond(self._part)
+
+    @cached_property
+    def _edges(self) -> set[int]:
+        """The edges whose covers may have grown."""
+        return {*self._news.edges, *self._view().edges}
 
     @cached_property
     def _part(self) -> Leg:
         """The leg as far as the place."""
         return self._news.shares.leg.upto(self._u, self._place)
 
-    def _tell_view(self) -> None:
-        """Tell the view from the place what is known of it, as it is made: its numbers may not."""
+    def _view(self) -> Seen:
+        """The view from the place; as it is made it is told what is known of it: its numbers may not."""
         shares, u, place = self._news.shares, self._u, self._place
-        shares.view(place, shares.leg.own(u), lambda: self._news.facts.at(u, place))
+        return shares.view(place, shares.leg.own(u), partial(self._news.facts.at, u, place))
 
     def __getitem__(self, edge: int) -> Cover:
         found = self._cover(edge)
