@@ -71,6 +71,7 @@ class Knowledge:
     ) -> None:
         self.run, self.world, self.tracks, self.rng, self.meter = run, world, tracks, rng, meter
         self.bodies = bodies
+        self._sizes: dict[tuple[int, int], arb] = {}
         self.on = [None if track is None else track.edge for track in tracks]
         self.lookout = Viewpoints(world, run.radius, [piece.curve for piece in run.path], self.on)
         self.events = {
@@ -103,14 +104,18 @@ class Knowledge:
         """Parts of one obstacle are on their edges, in order and apart; returns what they make of it."""
         total, before = arb(0), (-1, arb(0))
         i, parts = body.number, chart.known(body.number)
-        ends = []
+        ends, whole = [], 0
         for part in parts:
             edge = body.curves[part.edge]
             ends_text = f"from {place_text(part.start)} to {place_text(part.end)}"
             where = f"{name}: the part of obstacle {i} {ends_text}"
             if not (passes(edge, part.start) and passes(edge, part.end)):
                 raise AuditError(f"{where} is not on edge {part.edge}")
-            low, high = span(edge, part)
+            if is_whole(edge, part):
+                low, high = arb(0), self._size(body, part.edge)
+                whole += 1
+            else:
+                low, high = span(edge, part)
             if high < low:
                 raise AuditError(f"{where} runs against edge {part.edge}")
             if part.edge < before[0] or (part.edge == before[0] and not before[1] < low):
@@ -120,14 +125,19 @@ class Knowledge:
             ends += [p for p in (part.start, part.end) if not (same(p, edge.start) or same(p, edge.end))]
         if not agrees(chart.known_length(i), total):
             raise AuditError(f"{name}: the known length of obstacle {i} is not that of its parts")
-        whole = [is_whole(body.curves[part.edge], part) for part in parts]
-        if len(whole) == len(body.curves) and all(whole):
+        if whole == len(parts) == len(body.curves):
             return "acquired"
         frontier = [point for k, point in chart.frontier if k == i]
         for end in ends:
             if not any(same(end, point) for point in frontier):
                 raise AuditError(f"{name}: {place_text(end)} of obstacle {i} is missing in the frontier")
         return "incomplete" if parts else "unseen"
+
+    def _size(self, body: AuditedBody, k: int) -> arb:
+        """The length of an edge, which many maps know."""
+        if (body.number, k) not in self._sizes:
+            self._sizes[body.number, k] = refined(lambda bits: ball_of(body.curves[k], bits))
+        return self._sizes[body.number, k]
 
     # -- maps against the path ---------------------------------------------------------------------
 
