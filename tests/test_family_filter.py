@@ -70,7 +70,7 @@ def told(complex_: VisibilityComplex, leg: Leg, run: xa.SightseerRun) -> Iterato
         yield told_of(one, way.normals.views(one.origin))
     crossing_lines = {id(one.origin): one for one in way.single_lines()}
     for edge in complex_.near(leg.spots):
-        for image in edge.single_lines:
+        for image in edge.whole_lines:
             views = way.along(single_of(image))
             if id(image) in crossing_lines:
                 yield told_of(crossing_lines[id(image)], views)

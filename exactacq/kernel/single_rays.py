@@ -75,9 +75,9 @@ def met(sweep: FaceSweep, rank: int, here: list[int], vertices: int) -> tuple[bo
 def blocks(sweep: FaceSweep, rank: int, vertex: int, along: bool) -> int:
     """Whether the ray in a direction leads into the obstacle at a vertex between straight edges; 0 if open.
 
-    With *along* it comes along one of these edges: then it does if the corner is reflex. So it does along an
-    edge of which both ends lie on it; along one that leads on it is free. Otherwise it is not if it leaves
-    between the way on and the way back.
+    With *along*, or past the other end of one of these edges, it comes along that edge: then it does if the
+    corner is reflex. Along an edge that leads on it is free. Otherwise it does if it leaves between the way
+    on and the way back.
     """
     faces = sweep.faces
     x, y, b = faces.vector(sweep.groups[rank][0])

@@ -14,6 +14,7 @@ from typing import TypeAlias
 from flint import fmpq
 
 from exactacq.geometry.coordinates import minus, raw
+from exactacq.geometry.curve_images import held_point
 from exactacq.geometry.curve_parameter import ZERO, Rail
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.late import Pin
@@ -46,7 +47,7 @@ class EdgeFamilies:
     """The line families of one edge and the single lines, as float images.
 
     By edges, ``at`` has the families that meet or touch them, and ``lines_at`` the single lines from edge to
-    edge that begin there or show them.
+    edge that begin there or show them. ``whole_lines`` are those that straight ways look at.
     """
 
     def __init__(self, images: list[FamilyImage], single_lines: list[SingleImage]) -> None:
@@ -201,7 +202,7 @@ class FamilySweeper:
             image = images[0] if ahead else images[-1]
             ends = (edge.start, ZERO), (edge.end, self.clipper.rails[e].top)
             run = (ends[1], ends[0]) if ahead else ends
-            segment, spot = self.table.curve_images[e], self.images.spot(run[0][0])
+            segment, spot = self.table.curve_images[e], held_point(run[0][0])
             met, place, make = self._end(feature, sweep, image, role, e, near)
             if met == NONE:
                 place = *EVERYTHING, *place_beyond(spot, segment, int(role), self.images.reach)

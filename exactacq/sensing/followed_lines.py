@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 from flint import arb
 
+from exactacq.geometry.curve_images import held_point
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.late import Pin, late_point
 from exactacq.geometry.points import Point
@@ -132,7 +133,7 @@ class LineFollower:
         pins = [pin for _, pin, _ in found]
         met = [self._image(e, pin[0], place) for e, pin, place in found]
         far = self.at_range(at, Role.BEHIND), self.at_range(at, Role.AHEAD)
-        ends = self._images.spot(far[0]), self._images.spot(far[1])
+        ends = held_point(far[0]), held_point(far[1])
         return self._followed(at, met, ends, (walks[0].blocked, walks[1].blocked), pins.__getitem__)
 
     def _contact(self, at: FeatureLine) -> Iterator[tuple[int, Pin, int]]:
@@ -158,7 +159,7 @@ class LineFollower:
                 vertex = e
             elif point == curve.end:
                 vertex = int(self.table.next[e])
-        return MetEdge(e, vertex, place, self._images.hull(e, (point,)), self._images.spot(point))
+        return MetEdge(e, vertex, place, self._images.hull(e, (point,)), held_point(point))
 
     def _vertex(self, vertex: int, e: int) -> Pin:
         """An end of an edge."""

@@ -14,7 +14,6 @@ from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import EVERYTHING, SURE, Span
 from exactacq.kernel.family_images import EdgePlace, FamilyImage
 from exactacq.kernel.lines import parameter
-from exactacq.kernel.single_lines import Spot
 from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
@@ -56,11 +55,6 @@ class LineImages:
                 return EVERYTHING
             places.append((u - error, u + error))
         return min(low for low, _ in places), max(high for _, high in places)
-
-    @staticmethod
-    def spot(point: Point) -> Spot:
-        """A point in floats; nothing late is made."""
-        return held_point(point)
 
     def unroll(self, families: list[FamilyImage], lines: Pencil) -> None:
         """Tell of those of a pencil's families that meet full circles where they may pass their start."""

@@ -116,9 +116,12 @@ class LineViews:
 
     def _line(self, sector: Sector, t: Real) -> Line:
         """A line in balls; the last one is kept, for a view has two ends."""
-        if self._last[0] is not sector or self._last[1] is not t:
-            self._last = sector, t, line(sector, t.ball(64))
-        return self._last[2]
+        # Read once: another thread may look at another line meanwhile.
+        last, u, at = self._last
+        if last is not sector or u is not t:
+            at = line(sector, t.ball(64))
+            self._last = sector, t, at
+        return at
 
     def spot(self, at: Line, side: Side) -> Balls | None:
         """Where a line meets an edge, in balls; None if no ball holds it."""

@@ -60,11 +60,9 @@ class LegNews:
     def edges(self) -> set[int]:
         """The edges to whose covers the leg may add anything before the robot is at its place."""
         shares = self.shares
-        leg, facts = shares.leg, partial(shares.leg.facts, shares.complex.table, shares.leg.start)
-        start = shares.view(leg.start, leg.own(leg.first), facts)
-        along = set() if leg.edge is None else {leg.edge}
+        along = set() if shares.leg.edge is None else {shares.leg.edge}
         ends = (end.edge for found in shares.ends.values() for end, _ in found)
-        return {*self._by_edge, *start.edges, *along, *ends}
+        return {*self._by_edge, *shares.first_view.edges, *along, *ends}
 
     @cached_property
     def _by_edge(self) -> dict[int, list[tuple[int, Share]]]:

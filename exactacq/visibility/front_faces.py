@@ -171,12 +171,8 @@ class FrontFaces:
             own = self._edges_at_point(open_, round_)
         self.own = own
         faces.own = list(own)
-        on_lattice = table.lattice is not None and len(own) == 2
-        sides = faces.sides(open_, table.lattice[1], own[1]) if table.lattice and on_lattice else []
-        for n, e in enumerate(open_):
-            if e in own:
-                continue
-            side = sides[n] if sides else sign(cross(self.offset(e), self.offset(int(table.next[e]))))
+        others = [e for e in open_ if e not in own]
+        for e, side in zip(others, self._sides(others), strict=True):
             if side < 0:
                 faces.add_open(e)
             elif side == 0:
@@ -213,6 +209,14 @@ class FrontFaces:
         if len(found) == 2 and curves[found[0]].start == point:
             found.reverse()
         return tuple(found)
+
+    def _sides(self, edges: list[int]) -> list[int]:
+        """1 or -1 as straight edges turn left or right about the point, 0 if it is on their line; exact."""
+        lattice = self.table.lattice
+        if lattice is not None and len(self.own) == 2:
+            # Two edges meet at the vertex at which the second one begins.
+            return self.floats.sides(edges, lattice[1], self.own[1])
+        return [sign(cross(self.offset(e), self.offset(int(self.table.next[e])))) for e in edges]
 
     # -- events ------------------------------------------------------------------------------------
 
