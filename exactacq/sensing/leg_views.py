@@ -257,15 +257,11 @@ class Shares:
     @cached_property
     def _end_views(self) -> tuple[Seen, Seen]:
         """What is seen from the first and from the last place of the leg."""
-        return self.first_view, self._view_at(self.leg.last, self.leg.end)
-
-    @cached_property
-    def first_view(self) -> Seen:
-        """What is seen from the first place of the leg."""
-        return self._view_at(self.leg.first, self.leg.start)
-
-    def _view_at(self, u: Real, place: Point) -> Seen:
-        return self.view(place, self.leg.own(u), partial(self.leg.facts, self.complex.table, place))
+        leg, table = self.leg, self.complex.table
+        return (
+            self.view(leg.start, leg.own(leg.first), partial(leg.facts, table, leg.start)),
+            self.view(leg.end, leg.own(leg.last), partial(leg.facts, table, leg.end)),
+        )
 
     def note(self, places: Iterable[Real]) -> None:
         """Keep the names of places of a straight way, of which something is reported."""

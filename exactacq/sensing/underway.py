@@ -58,11 +58,11 @@ class LegNews:
 
     @cached_property
     def edges(self) -> set[int]:
-        """The edges to whose covers the leg may add anything before the robot is at its place."""
+        """The edges to whose covers the leg itself may add: what its start sees is known before it."""
         shares = self.shares
         along = set() if shares.leg.edge is None else {shares.leg.edge}
         ends = (end.edge for found in shares.ends.values() for end, _ in found)
-        return {*self._by_edge, *shares.first_view.edges, *along, *ends}
+        return {*self._by_edge, *along, *ends}
 
     @cached_property
     def _by_edge(self) -> dict[int, list[tuple[int, Share]]]:
