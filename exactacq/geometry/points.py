@@ -42,7 +42,8 @@ class Point:
     Point(1, 1)
     """
 
-    __slots__ = ("x", "y")
+    __slots__ = ("_xy", "x", "y")
+    _xy: tuple[float, float]
 
     def __init__(self, x: object, y: object) -> None:
         self.x = x if isinstance(x, Real) else real(x) if type(x) is fmpq else Real(x)
@@ -77,7 +78,11 @@ class Point:
     @property
     def xy(self) -> tuple[float, float]:
         """The nearest floats: for drawing and pruning only."""
-        return float(self.x), float(self.y)
+        try:
+            return self._xy
+        except AttributeError:
+            self._xy = float(self.x), float(self.y)
+            return self._xy
 
     @property
     def __geo_interface__(self) -> Geo:

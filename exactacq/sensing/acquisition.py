@@ -45,7 +45,7 @@ class Acquisition:
     """Obstacle *k*, which is whole after a leg; *before* is known at its start, with the view from there."""
 
     def __init__(self, shares: Shares, k: int, before: ChainMap[int, Cover]) -> None:
-        self.shares, self.k, self.before = shares, k, before
+        self.shares, self.k, self.before = shares.teaching(k, before), k, before
 
     def place(self) -> Place:
         """The first place at which the obstacle is whole."""
@@ -92,7 +92,7 @@ class Acquisition:
 
         The view from its end is taken only if the families leave a gap.
         """
-        shares = self.shares.cut(part, {self.k})
+        shares = self.shares.cut(part)
         learned = shares.taught_between(self.before)
         known = ChainMap(learned, *self.before.maps)
         if self._is_whole(known):

@@ -40,20 +40,15 @@ class SeenSpans(Mapping[int, "list[Interval]"]):
 
     def __init__(self, view: BoundaryView, rails: Sequence[Rail]) -> None:
         self._parts, self._ends, self._rails = view.seen_parts, view.ends, rails
-        self._made: dict[int, list[tuple[Part, list[Interval]]]] = {}
+        self._made: dict[tuple[int, Part], list[Interval]] = {}
 
     def __getitem__(self, e: int) -> list[Interval]:
-        return [i for _, intervals in self._of(e) for i in intervals]
-
-    def _of(self, e: int) -> list[tuple[Part, list[Interval]]]:
-        found = self._made.get(e)
-        if found is None:
-            found = self._made[e] = [(part, self.intervals(e, [part])) for part in self._parts[e]]
-        return found
+        return self.intervals(e, self._parts[e])
 
     def ends_on(self, e: int) -> Iterator[tuple[int, Pin]]:
         """The ends of what is seen of an edge, by their numbers; a circle's start may stand for one."""
-        for part, intervals in self._of(e) if e in self._parts else ():
+        for part in self._parts.get(e, ()):
+            intervals = self._of(e, part)
             yield part[0], (intervals[0].start, intervals[0].low)
             yield part[1], (intervals[-1].end, intervals[-1].high)
 
@@ -68,7 +63,14 @@ class SeenSpans(Mapping[int, "list[Interval]"]):
 
     def intervals(self, e: int, parts: Iterable[Part]) -> list[Interval]:
         """Some parts of an edge, by the numbers of their ends, as intervals."""
-        return [i for part in parts for i in Interval.between(self._rails[e], *self._ends.span(part))]
+        return [i for part in parts for i in self._of(e, part)]
+
+    def _of(self, e: int, part: Part) -> list[Interval]:
+        found = self._made.get((e, part))
+        if found is None:
+            found = Interval.between(self._rails[e], *self._ends.span(part))
+            self._made[e, part] = found
+        return found
 
 
 class Seen:

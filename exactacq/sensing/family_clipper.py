@@ -9,10 +9,12 @@ from exactacq.geometry.curve_parameter import ZERO, Rail
 from exactacq.geometry.curves import Curve
 from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.late import Pin
+from exactacq.kernel.extents import SURE
 from exactacq.kernel.line_keys import LineNumbers
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.real import Real
+from exactacq.sensing.line_images import bounds
 from exactacq.sensing.line_views import LineViews
 from exactacq.sensing.named_pins import PinName
 from exactacq.sensing.range_ends import RangeEnds
@@ -101,25 +103,35 @@ class FamilyClipper:
         if free_views is None or first is last:
             yield family
             return
-        a, b = first.places[k], last.places[k]
-        if free_views.sides[k].start is not None:
-            first = first.placed(k, TOP) if a.sign() == 0 else first
-            last = last.placed(k, TOP) if b.sign() == 0 else last
-            yield ViewFamily(family.edges, first, last, free_views)
+        is_told = free_views.sides[k].start is not None
+        if not is_told and not self._passes_start(free_views, first, last, k):
+            yield family
             return
-        middle = self.views.end(free_views, Real(rational_between(first.t, last.t))).places[k]
-        if a.sign() == 0 and middle.compare(b) > 0:
-            a = TOP
-        if b.sign() == 0 and middle.compare(a) > 0:
-            b = TOP
-        first, last = first.placed(k, a), last.placed(k, b)
-        if min(a, b) <= middle <= max(a, b):
+        a, b = first.places[k], last.places[k]
+        if is_told or not (a.sign() and b.sign()):
+            first, last = (end if end.places[k].sign() else end.placed(k, TOP) for end in (first, last))
             yield ViewFamily(family.edges, first, last, free_views)
             return
         seam = self.views.view_from(family, k, self.curve(family.edges[k]).start)
         before, after = (TOP, ZERO) if a > b else (ZERO, TOP)
         yield ViewFamily(family.edges, first, seam.placed(k, before), free_views)
         yield ViewFamily(family.edges, seam.placed(k, after), last, free_views)
+
+    def _passes_start(self, free_views: FreeViews, first: End, last: End, k: int) -> bool:
+        """Whether a side passes the start of a full circle, or comes to it from the end.
+
+        Lines turn by a quarter at most, and a side moves by less than three quarters then: see `LineImages`.
+        Of its extreme places the parameters, which grow by 1 in a quarter, differ by less than 3, and where
+        it passes the start by more than 1.
+        """
+        a, b = first.places[k], last.places[k]
+        (low, high), (least, most) = bounds(a, None), bounds(b, None)
+        if max(high - least, most - low) < 1 - SURE:
+            return False
+        if max(low - most, least - high) > 3 + SURE:
+            return True
+        middle = self.views.end(free_views, Real(rational_between(first.t, last.t))).places[k]
+        return not min(a, b) <= middle <= max(a, b)
 
     def along(self, pin: Pin, run: tuple[Pin, Pin], shown: int) -> Iterator[tuple[End, End]]:
         """The views along one line from a place to a run on an edge, as far as it is within range."""
@@ -139,7 +151,10 @@ class FamilyClipper:
         if span.low.rational == 0 and span.high is self.rails[family.edges[side]].top:
             return family
         low, high = (a, b) if a.compare(b) <= 0 else (b, a)
-        if low.compare(span.high) > 0 or high.compare(span.low) < 0:
+        after, before = low.compare(span.low), high.compare(span.high)
+        if after > 0 > before:
+            return family
+        if (before > 0 and low.compare(span.high) > 0) or (after < 0 and high.compare(span.low) < 0):
             return None
         first = self._moved(family, family.first, family.last, side, span)
         last = self._moved(family, family.last, family.first, side, span)

@@ -191,6 +191,12 @@ class Shares:
         }
         return Shares(self.complex, self.targets, leg, obstacles, self.view, of=of, ends=ends)
 
+    def teaching(self, k: int, covers: Covers) -> Shares:
+        """What the leg shows of one obstacle without the families that show only what *covers* contain."""
+        of = [share for share in self.of[k] if _is_new(share, covers)]
+        ends = {k: self.ends[k]} if k in self.ends else {}
+        return Shares(self.complex, self.targets, self.leg, {k}, self.view, of={k: of}, ends=ends)
+
     def _is_inside(self, source: Interval, part: Interval) -> bool | None:
         """Whether a part of the leg contains the source of a share: True, False if it contains nothing of it.
 
@@ -353,6 +359,12 @@ class Shares:
 def size(interval: Interval) -> float:
     """Rough size. Large intervals are added first: equal ends inside them need not be compared."""
     return interval.high.rough() - interval.low.rough()
+
+
+def _is_new(share: Share, covers: Covers) -> bool:
+    """Whether a share shows more than covers contain."""
+    known = covers.get(share.edge, EMPTY)
+    return known.added(share.shown) is not known
 
 
 def add(learned: dict[int, Cover], covers: Covers, e: int, interval: Interval) -> None:

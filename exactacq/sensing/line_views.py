@@ -96,8 +96,14 @@ class LineViews:
                 return known
         pin = self._late_pin(sector, t, side, passed)
         for key in keys:
-            self.pins.put(key, pin)
+            self._pins_of(key).put(key, pin)
         return pin
+
+    def _pins_of(self, name: PinName) -> NamedPins:
+        """Where a point is kept: other ways share those of the scene's edges on the scene's lines."""
+        number, edge, _ = name
+        base = self._base
+        return self.pins if base is None or number < 0 or edge == self.way else base.pins
 
     def _late_pin(self, sector: Sector, t: Real, side: Side, passed: Passed) -> Pin:
         """Where a line meets an edge: a corner that it passes, else a place that is made when it is read."""
@@ -206,6 +212,14 @@ class LineViews:
         """Where the line at an exact parameter meets two sides."""
         contact, direction = sector.touch(t)
         return [self._points.at(sector, side, contact, direction) for side in sides]
+
+
+def lines_through(sector: Sector, point: Point) -> list[Real]:
+    """The parameters of the lines of a sector through a point; of a circle's tangents they are late."""
+    found = through(sector, balls(point)) if isinstance(sector, Rolling) else None
+    if found is None:
+        return sector.through(point)
+    return [Real.late(t, _line_through, sector, point, k) for k, t in enumerate(found)]
 
 
 def _line_through(sector: Sector, point: Point, k: int) -> Real:

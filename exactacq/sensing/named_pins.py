@@ -9,7 +9,7 @@ from exactacq.geometry.late import Pin
 from exactacq.numbers.real import Real
 
 PINS_KEPT = 10_000
-"""Points of named lines that are remembered: those of a wide neighbourhood."""
+"""Points of named lines that are remembered at most: those of a wide neighbourhood."""
 
 PinName: TypeAlias = "tuple[int, int, int]"
 """The number of a line, an edge, and where on the line it is met."""
@@ -20,31 +20,34 @@ RimName: TypeAlias = "tuple[Hashable, Hashable, int]"
 class NamedPins:
     """Points in which named lines, and circles about named places, meet edges.
 
-    What a way adds is its own; some of it may be *known*. When there are `PINS_KEPT` all are forgotten: a
-    point that is then made again is recognised by its numbers.
+    What a way adds is its own; some of it may be *known*. Those that were made or asked for last are kept,
+    `PINS_KEPT` at most: a point that was forgotten and is made again is recognised by its numbers.
     """
 
-    __slots__ = ("_base", "_of", "_rims")
+    __slots__ = ("_base", "_before", "_of", "_rims")
 
     def __init__(self, base: NamedPins | None = None, known: Mapping[PinName, Pin] | None = None) -> None:
         self._of: dict[PinName, Pin] = dict(known or {})
+        self._before: dict[PinName, Pin] = {}
         self._rims: dict[RimName, list[Pin]] = {}
         self._base = base
 
     def get(self, name: PinName) -> Pin | None:
         """The point of a name."""
         pin = self._of.get(name)
+        if pin is None and (pin := self._before.get(name)) is not None:
+            self.put(name, pin)
         return pin if pin is not None or self._base is None else self._base.get(name)
 
     def put(self, name: PinName, pin: Pin) -> None:
         """Give a point a name."""
-        if len(self._of) >= PINS_KEPT:
-            self._of.clear()
+        if len(self._of) >= PINS_KEPT // 2:
+            self._of, self._before = {}, self._of
         self._of[name] = pin
 
     def at(self, u: Real) -> dict[PinName, Pin]:
         """The points that have a number as their parameter, not counting those of the base."""
-        return {name: pin for name, pin in self._of.items() if pin[1] is u}
+        return {name: pin for some in (self._before, self._of) for name, pin in some.items() if pin[1] is u}
 
     def rim(self, name: RimName, make: Callable[[], list[Pin]]) -> list[Pin]:
         """The points of an edge at a distance from a centre, made at the first call.

@@ -13,6 +13,7 @@ from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
 from exactacq.sensing.line_family import LineFamily
+from exactacq.sensing.line_views import lines_through
 from exactacq.sensing.straight_way import StraightWay
 from exactacq.visibility.line_families import Rolling, Sector, Spokes
 from exactacq.visibility.line_names import Names
@@ -66,7 +67,7 @@ class WayCuts:
         """The way's ends, with the parameters of a sector's lines through them; families share sectors."""
         kept = self._through.get(sector)
         if kept is None:
-            kept = self._through[sector] = [(pin, sector.through(pin[0])) for pin in self.way.ends]
+            kept = self._through[sector] = [(pin, lines_through(sector, pin[0])) for pin in self.way.ends]
         return kept
 
     def _is_along(self, names: Names) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from dataclasses import dataclass
 
 from flint import fmpq
@@ -20,6 +21,12 @@ class QuadraticRoot:
     b: fmpq
     c: fmpq
     sign: int
+
+    @property
+    def key(self) -> Hashable:
+        """Equal keys mean equal roots: the quadratic divided by a, and the side of its axis."""
+        b, c = self.b / self.a, self.c / self.a
+        return b.p, b.q, c.p, c.q, self.sign if self.a > 0 else -self.sign
 
     def equals(self, other: QuadraticRoot) -> bool:
         """Whether two roots are one number.

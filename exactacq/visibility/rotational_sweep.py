@@ -15,7 +15,7 @@ again.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, cmp_to_key
 from math import isnan
@@ -272,7 +272,8 @@ class _Decisions:
     def _resolved(self, cluster: list[BoundLine], has_low: bool, has_high: bool) -> Iterator[BoundLine]:
         """The distinct lines of a cluster, from the low bound on or up to the high one, in exact order."""
         low, high = _Value(self.sector.low), _Value(self.sector.high)
-        values = [(self._valued(event), event) for event in cluster]
+        found: dict[Hashable, _Value] = {}
+        values = [(self._valued(event, found), event) for event in cluster]
         if any(isinstance(value.number, Real) for value, _ in values):
             values.sort(key=cmp_to_key(_by_value))
         else:
@@ -292,7 +293,8 @@ class _Decisions:
         if current is not None:
             yield _known(current.number, passed)
 
-    def _valued(self, event: BoundLine) -> _Value:
+    def _valued(self, event: BoundLine, found: dict[Hashable, _Value]) -> _Value:
+        """The parameter of a line; one object for equal roots, as circles in a row share many tangents."""
         value = self._rational(event)
         if value is not None:
             return _Value(value)
@@ -303,7 +305,12 @@ class _Decisions:
         if isinstance(root, fmpq):
             event.value = root
             return _Value(root)
-        return _Value(value_of(self.table, self.sector, event), root)
+        if root is None:
+            return _Value(value_of(self.table, self.sector, event))
+        key = root.key
+        if key not in found:
+            found[key] = _Value(value_of(self.table, self.sector, event), root)
+        return found[key]
 
     def _rational(self, event: BoundLine) -> fmpq | None:
         """The exact parameter of a line, if it is seen to be rational."""
@@ -424,6 +431,8 @@ class _Value:
 
     def compare(self, other: _Value) -> int:
         """-1, 0 or 1 as it is less than another one, equal to it or greater."""
+        if self is other:
+            return 0
         one, two = self.number, other.number
         if isinstance(one, fmpq) and isinstance(two, fmpq):
             return int(one > two) - int(one < two)
