@@ -14,7 +14,7 @@ from typing import TypeAlias
 from flint import fmpq
 
 from exactacq.geometry.curves import Curve, Segment
-from exactacq.geometry.interval_union import Cover
+from exactacq.geometry.interval_union import EMPTY, Cover
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
@@ -145,6 +145,7 @@ class Memory:
         self._told: list[int] = []
         self._looked: tuple[Piece | None, Ahead | None] = None, None
         self._walked: set[tuple[object, object]] = set()
+        self._walked_on: dict[int, Cover] = {}
         self._retraced: set[int] = set()
         self._history = History()
         self._news: set[int] = set()
@@ -178,7 +179,7 @@ class Memory:
         """Take in all that a piece of the path shows; the reports in the order in which they come."""
         known, ahead = self._looked
         legs = [ahead.leg] if ahead is not None and known is piece else self._legs_of(piece)
-        count, reports, retraced = len(self._legs), [], self._is_retraced(piece)
+        count, reports, retraced = len(self._legs), [], self._is_retraced(piece, legs)
         for k, leg in enumerate(legs):
             took = ahead if ahead is not None and leg is ahead.leg else self._sensor.ahead(leg, retraced)
             notices, learned = self._sensor.follow(took)
@@ -204,16 +205,24 @@ class Memory:
         news, self._news = self._news, set()
         return news
 
-    def _is_retraced(self, piece: Piece) -> bool:
-        """Whether a straight piece was walked before, the other way.
+    def _is_retraced(self, piece: Piece, legs: list[Leg]) -> bool:
+        """Whether all of a piece was walked before: of a straight one, if that was the other way.
 
         It shows what is known, in other forms of the same numbers: ties that need no proof.
         """
         if piece.obstacle is not None:
-            return False
+            return all([self._is_walked_on(leg) for leg in legs])
         start, end = piece.start.key, piece.end.key
         self._walked.add((start, end))
         return (end, start) in self._walked
+
+    def _is_walked_on(self, leg: Leg) -> bool:
+        """Whether the robot was on all of a leg on a boundary edge; from now on it was."""
+        if leg.edge is None:
+            return False
+        before = self._walked_on.get(leg.edge, EMPTY)
+        self._walked_on[leg.edge] = before.added(leg.span)
+        return self._walked_on[leg.edge] is before
 
     def _legs_of(self, piece: Piece) -> list[Leg]:
         owner = piece.obstacle

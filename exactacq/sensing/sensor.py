@@ -137,8 +137,9 @@ class Sensor:
             if whole is not None:
                 notices.append(whole)
         shares.note(notice.u for notice in notices)
+        sense = 1 if leg.ahead else -1
         # In this order exact numbers are compared about once for each.
-        notices.sort(key=lambda notice: notice.u.rough(), reverse=not leg.ahead)
+        notices.sort(key=lambda notice: (sense * notice.u.rough(), ORDER[notice.kind], notice.obstacle))
         notices.sort(key=cmp_to_key(partial(_in_order, leg)))
         return notices, learned
 
