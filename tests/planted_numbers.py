@@ -83,8 +83,8 @@ NUMBER_FAULTS = [
         Fault(
             real,
             "Real.compare",
-            "_parted(self._ball, other._ball)",
-            "-_parted(self._ball, other._ball)",
+            "if self._ball < other._ball",
+            "if self._ball > other._ball",
         ),
     ),
     Planted(

@@ -10,6 +10,7 @@ maker. What a maker holds lives as long as the point is not made, so it should h
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import inf
 from typing import Any, TypeAlias, TypeVarTuple
 
 from flint import arb, fmpq
@@ -18,6 +19,7 @@ from exactacq.geometry.points import Point
 from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 
+ANYWHERE = arb(0, inf)
 BITS = 64
 """Working bits of the balls that decide before anything is made."""
 
@@ -66,6 +68,12 @@ def late_point(around: Balls, make: Callable[[*Given], Point], *given: *Given) -
         return make(*given)
     once = _Once(make, given)
     return Point(Real.late(x, _Once.x, once), Real.late(y, _Once.y, once))
+
+
+def unmade_point(make: Callable[[*Given], Point], *given: *Given) -> Point:
+    """The point that *make* makes of what is *given* once anything of it is asked for: no ball is known."""
+    once = _Once(make, given)
+    return Point(Real.late(ANYWHERE, _Once.x, once), Real.late(ANYWHERE, _Once.y, once))
 
 
 def balls(point: Point) -> Balls:

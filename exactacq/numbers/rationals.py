@@ -110,6 +110,11 @@ def ends(ball: arb) -> tuple[fmpq, fmpq]:
     return middle - radius, middle + radius
 
 
+def parted(a: arb, b: arb) -> int:
+    """-1 or 1 as one ball lies below another or above it, else 0."""
+    return -1 if a < b else 1 if a > b else 0
+
+
 def ball_sign(ball: arb) -> int:
     """Sign of a ball that excludes 0, else 0; an exact zero ball also gives 0."""
     return 1 if ball > 0 else -1 if ball < 0 else 0

@@ -59,6 +59,7 @@ from exactacq.numbers.rationals import (
     decimal_string,
     enclose,
     nearest_float,
+    parted,
     rational,
     rational_sign,
     round_to_float,
@@ -382,8 +383,12 @@ class Real(Exact):
         if isinstance(other, Real):
             if self is other:
                 return 0
-            parted = self._bits and other._bits and _parted(self._ball, other._ball)
-            return parted or self._against(other)
+            if self._bits and other._bits:
+                if self._ball < other._ball:
+                    return -1
+                if self._ball > other._ball:
+                    return 1
+            return self._against(other)
         return self._compared(other)
 
     def _order(self, other: object) -> Any:
@@ -394,11 +399,11 @@ class Real(Exact):
 
     def _against(self, right: Real) -> int:
         is_late = self._bits == LATE or right._bits == LATE
-        if is_late and (order := _parted(self.ball(LATE_BITS), right.ball(LATE_BITS))):
+        if is_late and (order := parted(self.ball(LATE_BITS), right.ball(LATE_BITS))):
             return order
         if self.rational is not None and right.rational is not None:
             return rational_sign(self.rational - right.rational)
-        if order := _parted(self.ball(64), right.ball(64)):
+        if order := parted(self.ball(64), right.ball(64)):
             return order
         if self._is_root and right._is_root:
             # Two positive roots that 64 bits cannot tell apart: their squares have a quarter of the degree.
@@ -539,11 +544,6 @@ class _LateReal(Real):
 
 
 _LateReal.__name__ = _LateReal.__qualname__ = Real.__name__  # It is nothing else to those who read of it.
-
-
-def _parted(a: arb, b: arb) -> int:
-    """-1 or 1 as one ball lies below another or above it, else 0."""
-    return -1 if a < b else 1 if a > b else 0
 
 
 def real(q: fmpq) -> Real:

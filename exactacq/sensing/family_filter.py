@@ -12,6 +12,7 @@ from flint import fmpq
 
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.interval_union import EMPTY, Cover, Interval
+from exactacq.geometry.late import unmade_point
 from exactacq.geometry.points import Point
 from exactacq.kernel.choice import LegSpan, mattering
 from exactacq.kernel.extents import Extent, Span
@@ -90,4 +91,5 @@ class FamilyFilter:
         """A place in an interval that has a finite end: the middle, if both are finite."""
         ends = [end for end in span if abs(end) < inf]
         u = fmpq(*(sum(ends) / len(ends)).as_integer_ratio())
-        return Real(u), self.leg.rail.point(u)
+        # A family begins before it or ends after it, so that nobody asks for the point.
+        return Real(u), unmade_point(self.leg.rail.point, u)

@@ -67,13 +67,11 @@ class LineViews:
         for k, bound in enumerate((free_views.low, free_views.high)):
             if t is bound:
                 names, pin, passed = free_views.names[k], free_views.pinned[k], free_views.passed[k]
-        given = {} if pin is None else {0: pin}
-        if known is not None:
-            given[known[0]] = known[1]
-        one, other = (
-            given[k] if k in given else self.pin(free_views.sector, t, side, names, passed)
-            for k, side in enumerate(free_views.sides)
-        )
+        sector, (here, there) = free_views.sector, free_views.sides
+        one = known[1] if known is not None and known[0] == 0 else pin
+        other = known[1] if known is not None and known[0] == 1 else None
+        one = self.pin(sector, t, here, names, passed) if one is None else one
+        other = self.pin(sector, t, there, names, passed) if other is None else other
         return End(t, (one[0], other[0]), (one[1], other[1]))
 
     def pin(self, sector: Sector, t: Real, side: Side, names: Names, passed: Passed) -> Pin:
@@ -85,11 +83,9 @@ class LineViews:
         if role is Role.CONTACT and side.fixed:
             corner = side.corner(self.curve(side.edge))
             return corner, self.rails[side.edge].parameter(corner)
-        once = side.edge == self.way or any(touching and e == side.edge for e, touching, _ in passed)
-        keys = [
-            (name, side.edge, 0 if once or self.numbers.touches(name, side.edge) else role * sense)
-            for name, sense in names
-        ]
+        edge, touches = side.edge, self.numbers.touches
+        once = edge == self.way or edge in [e for e, touching, _ in passed if touching]
+        keys = [(name, edge, 0 if once or touches(name, edge) else role * sense) for name, sense in names]
         for key in keys:
             known = self.pins.get(key)
             if known is not None:

@@ -211,7 +211,8 @@ class Memory:
         It shows what is known, in other forms of the same numbers: ties that need no proof.
         """
         if piece.obstacle is not None:
-            return all([self._is_walked_on(leg) for leg in legs])
+            walked = [self._is_walked_on(leg) for leg in legs]
+            return all(walked)
         start, end = piece.start.key, piece.end.key
         self._walked.add((start, end))
         return (end, start) in self._walked

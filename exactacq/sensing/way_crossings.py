@@ -14,6 +14,7 @@ from flint import fmpq
 from exactacq.geometry.coordinates import dot, raw
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.intersections import line_contacts
+from exactacq.geometry.points import Point
 from exactacq.kernel.bounded import TINY, UNIT
 from exactacq.kernel.extents import Extent
 from exactacq.kernel.family_images import FamilyImage
@@ -43,25 +44,28 @@ class WayCrossings:
     def _found(self) -> list[Crossing]:
         count = len(self.way.table.curves)
         found = crossings(self._families, set(self.wanted), count, self.way.image)
-        left = [at for at in found if at[1] or at[0].fixed or not self._are_round(at[0])]
+        left = [at for at in found if at[1] or at[0].fixed or not self._are_of_own_circle(at[0])]
         self.way.tell_lines_at_ends(left)
         return left
 
-    def _are_round(self, family: FamilyImage) -> bool:
+    def _are_of_own_circle(self, family: FamilyImage) -> bool:
         """Whether lines are normals of a round boundary, outward, and the way's line passes its centre.
 
         No other line of them crosses it, and what is seen along itself is told by its own line.
         """
-        kind, *_, sense = family.frame
-        if kind != SPOKES or sense < 0:
-            return False
-        circle = self.way.table.line_numbers.circles[family.edges[1]]
+        circle = self.way.table.line_numbers.circles[family.edge(Role.CONTACT)]
         if circle not in self._is_through:
             arc = self.way.clipper.curve(circle)
-            assert isinstance(arc, Arc), "only arcs have circles"
-            offset = arc.center - self.way.piece.start
-            self._is_through[circle] = self.way.piece.direction.cross(offset).sign() == 0
-        return self._is_through[circle]
+            self._is_through[circle] = isinstance(arc, Arc) and self._is_on_line(arc.center)
+        if not self._is_through[circle]:
+            return False
+        kind, *_, sense = family.frame
+        return kind == SPOKES and sense > 0
+
+    def _is_on_line(self, place: Point) -> bool:
+        """Whether a place lies on the way's line."""
+        piece = self.way.piece
+        return piece.direction.cross(place - piece.start).sign() == 0
 
     def __iter__(self) -> Iterator[tuple[FamilyImage, bool]]:
         """The line families, and whether all their lines cross the way."""
