@@ -11,11 +11,12 @@ from functools import cached_property
 from typing import TypeAlias
 
 from exactacq.geometry.intersections import line_contacts
-from exactacq.geometry.late import Pin
+from exactacq.geometry.late import Pin, balls
 from exactacq.geometry.points import Point
 from exactacq.kernel.extents import Extent
 from exactacq.kernel.family_images import FamilyImage
 from exactacq.kernel.single_lines import SingleImage, extents_of_crossing_lines
+from exactacq.numbers.real import Real
 from exactacq.sensing.complex_edges import EdgeFamilies
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.line_family import SingleLine, family_of, single_of
@@ -26,6 +27,7 @@ from exactacq.sensing.view_families import ViewFamily
 from exactacq.sensing.way_crossings import WayCrossings
 from exactacq.sensing.way_normals import WayNormals
 
+ONE = Real(1)
 Choose: TypeAlias = "Callable[[list[Extent]], Iterable[Extent]]"
 """Chooses those of families that matter (see `exactacq.sensing.family_filter`)."""
 
@@ -95,17 +97,23 @@ class WayViews:
 
     def along(self, single: SingleLine) -> Iterator[ViewFamily]:
         """A single line that crosses the way between its place and the run that it shows."""
-        if single.edge is None and single.place == single.points[0]:
+        near, far = single.points
+        if single.edge is None and single.place == near:
             # What is shown is itself as far from what the line touches as the range.
             return
-        direction = single.points[0] - single.place
-        places = line_contacts(single.place, direction, self.way.piece)
+        if near is far:
+            back, limit = single.place - near, ONE
+        else:
+            # The run tells the line: in most scenes by rational numbers.
+            back = near - far
+            limit = _share(single.place, near, back)
+        places = line_contacts(near, back, self.way.piece)
         for place in places:
-            if place.sign() < 0 or place.compare(1) > 0:
+            if place.sign() < 0 or place.compare(limit) > 0:
                 continue
             # Lines along the way meet it in both ends.
             names = single.keys if len(places) == 1 else ()
-            pin = self._pin(names, single.place + direction * place)
+            pin = self._pin(names, near + back * place)
             for first, last in self.way.clipper.along(pin, single.run, single.shown):
                 yield ViewFamily((self.way.number, single.shown), first, last)
 
@@ -117,3 +125,13 @@ class WayViews:
         for name in names:
             pins.put((name, number, 0), pin)
         return pin
+
+
+def _share(place: Point, start: Point, along: Point) -> Real:
+    """How many times a vector leads from a start to a place on its line; late if the place is."""
+    (x, y), (a, b), (u, v) = balls(place), balls(start), balls(along)
+    return Real.late(((x - a) * u + (y - b) * v) / (u * u + v * v), _exact_share, place, start, along)
+
+
+def _exact_share(place: Point, start: Point, along: Point) -> Real:
+    return (place - start).dot(along) / along.norm_sq()
