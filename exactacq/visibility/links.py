@@ -63,6 +63,9 @@ class _Start(str):
         return "START"
 
 
+GAPS_AT_ONCE = 2**16
+"""Gaps of boxes that are computed in one array."""
+
 START = _Start("S")
 Node: TypeAlias = "int | str"
 Shortest: TypeAlias = "Chord | NearestFamily"
@@ -139,15 +142,17 @@ class Links:
 
         A box around all of i would be around all that i encloses.
         """
-        found = np.full(self.count, np.inf)
-        for e in self.table.edges_of(i):
-            found = np.minimum(found, self._gaps(self.table.boxes[e]))
+        found, step = np.full(self.count, np.inf), max(1, GAPS_AT_ONCE // max(self.count, 1))
+        edges = [*self.table.edges_of(i)]
+        for k in range(0, len(edges), step):
+            found = np.minimum(found, self._gaps(self.table.boxes[edges[k : k + step], None]).min(axis=0))
         return found
 
-    def _gaps(self, box: Floats) -> Floats:
+    def _gaps(self, boxes: Floats) -> Floats:
+        """Lower bounds of how far some boxes (rows) are from those of obstacles (columns)."""
         hulls = self.table.hulls
-        apart = np.maximum(np.maximum(hulls[:, :2] - box[2:], box[:2] - hulls[:, 2:]), 0.0)
-        gaps: Floats = np.hypot(apart[:, 0], apart[:, 1]) * (1 - 1e-14) - self.table.roundoff
+        apart = np.maximum(np.maximum(hulls[:, :2] - boxes[..., 2:], boxes[..., :2] - hulls[:, 2:]), 0.0)
+        gaps: Floats = np.hypot(apart[..., 0], apart[..., 1]) * (1 - 1e-14) - self.table.roundoff
         return np.maximum(gaps, 0.0)
 
     def neighbours(self, i: int) -> list[int]:
