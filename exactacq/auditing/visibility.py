@@ -41,7 +41,7 @@ from exactacq.auditing.rays import (
     with_cells,
 )
 from exactacq.geometry.box_index import BoxIndex, bounds
-from exactacq.geometry.coordinates import raw
+from exactacq.geometry.coordinates import Vector, raw
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import contacts, line_contacts
 from exactacq.geometry.points import Location, Point
@@ -87,6 +87,7 @@ class World:
         self.owner = [obstacle.index for obstacle in scene.obstacles for _ in obstacle.edges]
         self.first = [0, *accumulate(len(obstacle.edges) for obstacle in scene.obstacles)]
         self.points: list[Point] = []
+        self.coordinates: list[Vector] = []
         self.circles: list[Arc] = []
         self._numbers: dict[object, int] = {}
         self.forms = self.forms_of(self.edges)
@@ -115,6 +116,7 @@ class World:
         number = self._numbers.setdefault(point.key, len(self.points))
         if number == len(self.points):
             self.points.append(point)
+            self.coordinates.append(raw(point))
         return number
 
     def edges_of(self, i: int) -> list[int]:
@@ -331,49 +333,62 @@ class _View:
     def __post_init__(self) -> None:
         world, radius = self.lookout.world, self.lookout.radius
         self.reach = nearest_float(radius)
+        self.origin = raw(self.q)
         self.curves = [self.lookout.curves[k] for k in self.near]
         near = _within(world.boxes, self.q, radius)
         self.edge_numbers: list[int] = near.tolist()
         self.edges = [world.edges[e] for e in self.edge_numbers]
         self.own = world.passing(self.q, self.edge_numbers)
         self.forms = world.forms.rows(near).and_rows(self.lookout.forms.rows(self.near))
-        self.offsets = {k: self._offset(world.points[k]) for k in np.unique(self.forms.ends).tolist()}
-        self.spots = np.array([[self.offsets[k] for k in pair] for pair in self.forms.ends.tolist()])
+        numbers, places = np.unique(self.forms.ends, return_inverse=True)
+        self.numbers: list[int] = numbers.tolist()
+        self.offsets = np.array([self._offset(world.coordinates[k]) for k in self.numbers]).reshape(-1, 2)
+        self.spots = self.offsets[places.reshape(self.forms.ends.shape)]
         self.circles = [k for k in np.unique(self.forms.circle).tolist() if k >= 0]
-        self.rays = with_cells(self._not_hidden(self._critical()))
+        self.rays = with_cells(self._critical())
 
     # -- rays --------------------------------------------------------------------------------------
 
     def _critical(self) -> list[Direction]:
-        """The critical rays, and the east so that there is at least one."""
-        rays = [Direction((1.0, 0.0), lambda: Point(1, 0))]
-        for number, offset in self.offsets.items():
-            rays += self._ray_to(self.lookout.world.points[number], offset, number)
-        rays += self._rays_to_range()
+        """The critical rays that are not certainly hidden, and the east so that there is at least one."""
+        others = self._rays_past_ends()
+        sizes = np.hypot(*self.offsets.T)
+        ends = np.flatnonzero(sizes)
+        units = self.offsets[ends] / sizes[ends, None]
+        far = np.concatenate((sizes[ends], [ray.far for ray in others]))
+        left = self._not_hidden(np.concatenate((units, [ray.unit for ray in others])), far)
+        to_ends = ends[left[: len(ends)]].tolist()
+        rays = [self._ray_to(k) for k in to_ends]
+        return [*rays, *(ray for ray, is_left in zip(others, left[len(ends) :], strict=True) if is_left)]
+
+    def _rays_past_ends(self) -> list[Direction]:
+        """The east, the rays to where curves pass the range, and those that touch circles."""
+        rays = [Direction((1.0, 0.0), lambda: Point(1, 0)), *self._rays_to_range()]
         for k in self.circles:
             circle = self.lookout.world.circles[k]
             # Not nearer than the circle itself.
-            far = hypot(*self._offset(circle.center)) * (1 - EPS) - float(circle.radius) * (1 + EPS)
+            far = hypot(*self._offset(raw(circle.center))) * (1 - EPS) - float(circle.radius) * (1 + EPS)
             rays += [ray_along(vector, far) for vector in tangent_directions(self.q, circle)]
         return rays
 
-    def _not_hidden(self, rays: list[Direction]) -> list[Direction]:
-        """Those of many rays that are not certainly blocked before what they lead to.
+    def _not_hidden(self, units: Floats, far: Floats) -> Bools:
+        """Which of many rays are not certainly blocked before what they lead to.
 
         Where a curve begins or ceases to be seen there is a critical ray on which it is seen, and what makes
         the ray critical is seen as well. So a ray to what is hidden is as good as none.
         """
-        if len(rays) < MANY_RAYS or not self.edges:
-            return rays
-        units, far = np.array([ray.unit for ray in rays]), np.array([ray.far for ray in rays])
+        if len(units) < MANY_RAYS or not self.edges:
+            return np.ones(len(units), dtype=bool)
         edges, _ = self._hits(units, self.forms.rows(np.arange(len(self.edges))))
         _, certain = self._blocks(units, edges)
-        return [ray for ray, hidden in zip(rays, certain < far * (1 - EPS), strict=True) if not hidden]
+        left: Bools = certain >= far * (1 - EPS)
+        return left
 
-    def _ray_to(self, point: Point, offset: tuple[float, float], aim: int | None = None) -> list[Direction]:
-        """The ray to a point; none to q itself."""
-        unit, q = unit_vector(*offset), self.q
-        return [] if unit is None else [Direction(unit, lambda: point - q, aim, hypot(*offset))]
+    def _ray_to(self, k: int) -> Direction:
+        """The ray to an end of a curve, by its place among all, that is not q itself."""
+        number, (x, y), q = self.numbers[k], self.offsets[k].tolist(), self.q
+        point, size = self.lookout.world.points[number], hypot(x, y)
+        return Direction((x / size, y / size), lambda: point - q, number, size)
 
     def _rays_to_range(self) -> Iterator[Direction]:
         """The rays to where curves pass the range."""
@@ -390,11 +405,11 @@ class _View:
                 yield from clear
                 continue
             for point in _crossings(curve, circle):
-                yield from self._ray_to(point, self._offset(point))
+                yield ray_along(point - self.q, hypot(*self._offset(raw(point))))
 
-    def _offset(self, point: Point) -> tuple[float, float]:
-        """point - q, exactly, then rounded once."""
-        (x, y), (a, b) = raw(point), raw(self.q)
+    def _offset(self, place: Vector) -> tuple[float, float]:
+        """From q to a place, exactly, then rounded once."""
+        (x, y), (a, b) = place, self.origin
         return rounded(x - a), rounded(y - b)
 
     # -- verdicts ----------------------------------------------------------------------------------
@@ -476,7 +491,7 @@ class _View:
         parts[0].low[:, own[straight]] = np.inf
         parts[0].sure[:, own[straight]] = False
         if len(bent):
-            centers = {k: self._offset(self.lookout.world.circles[k].center) for k in self.circles}
+            centers = {k: self._offset(raw(self.lookout.world.circles[k].center)) for k in self.circles}
             of_arcs = np.array([centers[k] for k in forms.circle[bent].tolist()])
             chords = spots[bent, 0], forms.chord[bent]
             parts += arc_hits(units, of_arcs, forms.shape[bent], chords, own[bent])
