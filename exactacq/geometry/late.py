@@ -92,9 +92,15 @@ def from_to(start: Balls, end: Balls) -> Balls:
 
 
 def clearly_between(start: Balls, end: Balls, direction: Balls) -> bool | None:
-    """Whether a direction lies counterclockwise between two others; None if balls leave that open."""
+    """Whether a direction lies counterclockwise between two others; None if balls leave that open.
+
+    Whether it is a half turn from the first to the second, or less, or more, may be open: a direction on the
+    same side of both is told all the same.
+    """
     (ax, ay), (bx, by), (u, v) = start, end, direction
     turn, after, before = (ball_sign(c) for c in (ax * by - ay * bx, ax * v - ay * u, u * by - v * bx))
-    if not (turn and after and before):
+    if not (after and before):
         return None
-    return min(after, before) > 0 if turn > 0 else max(after, before) > 0
+    if after == before:
+        return after > 0
+    return turn < 0 if turn else None

@@ -40,6 +40,7 @@ from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.features import directions_at, enters
+from exactacq.visibility.line_balls import first_meetings
 from exactacq.visibility.line_families import Rolling, Sector, Sliding, Vector, held
 from exactacq.visibility.quadratic_roots import QuadraticRoot
 
@@ -247,7 +248,7 @@ class _Decisions:
             sweep.look(self._middles())
         if sweep.stage == EDGES:
             for cell, edges in sweep.possible.items():
-                sweep.behind[cell], sweep.ahead[cell] = self._exact_meet(self._middle(cell), edges)
+                sweep.behind[cell], sweep.ahead[cell] = self._met(self._middle(cell), edges)
             sweep.join([int(self._is_at_center(cell)) for cell in range(len(sweep.middles))])
 
     # -- events --------------------------------------------------------------------------------
@@ -343,6 +344,13 @@ class _Decisions:
         return fmpq(*self.sweep.middles[cell].as_integer_ratio()) if exact is None else exact
 
     # -- edges met -----------------------------------------------------------------------------
+
+    def _met(self, middle: fmpq, edges: list[int]) -> tuple[int, int]:
+        """The first edges that a line meets behind and ahead."""
+        told = None
+        if not self.through:
+            told = first_meetings(self.table, self.sector, middle, edges, self.own)
+        return self._exact_meet(middle, edges) if told is None else told
 
     def _exact_meet(self, middle: fmpq, edges: Iterable[int]) -> tuple[int, int]:
         contact, direction = self.sector.touch(Real(middle))

@@ -1,0 +1,200 @@
+"""First meetings by long balls, against an oracle that computes with 80 digits and knows nothing of balls."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import cos, pi, sin
+
+import mpmath
+import pytest
+from flint import arb, fmpq
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from mpmath import mpf
+
+import exactacq as xa
+from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.late import Balls, clearly_between
+from exactacq.kernel.bound_lines import NOTHING
+from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.sensing.complex_edges import normals
+from exactacq.visibility.features import features
+from exactacq.visibility.line_balls import first_meetings
+from exactacq.visibility.line_families import Rolling, Sector, Turning
+
+TINY = mpf(10) ** -60
+Crossing = tuple[mpf, int]
+SCENE = xa.Scene(
+    [
+        xa.Polygon([(1, 1), (3, 1), (3, 2), (1, 2)]),
+        xa.Circle((5, 2), 1),
+        # A thick line with round ends, one on its side, and a plate with a notch and a fillet.
+        xa.Outline([(8, 1, 0), (10, 1, 1), (10, 2, 0), (8, 2, 1)]),
+        xa.Outline([(1, 5, 1), (2, 5, 0), (2, 8, 1), (1, 8, 0)]),
+        xa.Outline([(4, 5, 0), (6, 5, "-1/2"), (7, 6, 0), (7, 8, "1/3"), (6, 9, 0), (4, 9, -1), (4, 7, 0)]),
+        xa.Outline([(9, 5, 1), (11, 5, "1/2"), (11, 7, 0), (9, 7, 0)]),
+    ],
+    enclosure=xa.Outline([(-1, -1, 0), (13, -1, "1/4"), (13, 11, 0), (-1, 11, 0)]),
+)
+TABLE = EdgeTable(SCENE.obstacles)
+
+
+def pencils() -> Iterator[tuple[Sector, tuple[int, ...]]]:
+    """All sectors of tangents and normals, with the edges through their contacts."""
+    for feature in features(TABLE):
+        yield from ((sector, feature.edges) for sector in feature.sectors)
+    for e, curve in enumerate(TABLE.curves):
+        yield from ((sector, (e,)) for sector in normals(curve))
+
+
+PENCILS = list(pencils())
+
+
+def number(value: Real) -> mpf:
+    low, _ = value.enclosure(300)
+    return mpf(int(low.p)) / int(low.q)
+
+
+def crossings(curve: Curve, is_own: bool, x: mpf, y: mpf, dx: mpf, dy: mpf) -> list[Crossing] | None:
+    """How far ahead a line crosses a curve, with 1 where it enters the obstacle; the contact does not count.
+
+    None if the line is close to a tangent, or to an end of the curve.
+    """
+    if isinstance(curve, Segment):
+        if is_own:
+            return []
+        ax, ay, bx, by = (number(c) for p in (curve.start, curve.end) for c in p)
+        wx, wy = bx - ax, by - ay
+        under = wx * dy - wy * dx
+        if abs(under) < TINY:
+            return None
+        u = ((x - ax) * dy - (y - ay) * dx) / under
+        if min(abs(u), abs(u - 1)) < TINY:
+            return None
+        tau = ((ax + u * wx - x) * dx + (ay + u * wy - y) * dy) / (dx * dx + dy * dy)
+        return [(tau, 1 if under > 0 else -1)] if 0 < u < 1 else []
+    assert isinstance(curve, Arc)
+    cx, cy, r = number(curve.center.x), number(curve.center.y), number(curve.radius)
+    size = mpmath.hypot(dx, dy)
+    nearest, off = ((cx - x) * dx + (cy - y) * dy) / size, ((cx - x) * dy - (cy - y) * dx) / size
+    if abs(abs(off) - r) < TINY:
+        return None
+    if abs(off) > r:
+        return []
+    half = mpmath.sqrt(r * r - off * off)
+    angles = [mpmath.atan2(number(p.y) - cy, number(p.x) - cx) for p in (curve.start, curve.end)]
+    if not curve.ccw:
+        angles.reverse()
+    sweep = 2 * mpmath.pi if curve.full else (angles[1] - angles[0]) % (2 * mpmath.pi)
+    found: list[Crossing] = []
+    for way, inward in ((nearest - half, 1), (nearest + half, -1)):
+        tau = way / size
+        if is_own and abs(tau) < TINY:
+            continue
+        turn = (mpmath.atan2(y + tau * dy - cy, x + tau * dx - cx) - angles[0]) % (2 * mpmath.pi)
+        if not curve.full and min(turn, abs(turn - sweep), 2 * mpmath.pi - turn) < TINY:
+            return None
+        if turn < sweep:
+            found.append((tau, inward if curve.ccw else -inward))
+    return found
+
+
+def told_by_digits(sector: Sector, t: fmpq, edges: list[int], own: tuple[int, ...]) -> tuple[int, int] | None:
+    """As `first_meetings`; None too where the line is close to what changes the answer."""
+    contact, direction = sector.touch(Real(t))
+    at = [number(c) for c in (*contact, *direction)]
+    met: list[tuple[mpf, int, int]] = []
+    for e in edges:
+        found = crossings(TABLE.curves[e], e in own, *at)
+        if found is None or any(abs(tau) < TINY for tau, _ in found):
+            return None
+        met += [(tau, e, sense) for tau, sense in found]
+    behind = max((m for m in met if m[0] < 0), default=(0, NOTHING, -1))
+    ahead = min((m for m in met if m[0] > 0), default=(0, NOTHING, 1))
+    return behind[1] if behind[2] < 0 else NOTHING, ahead[1] if ahead[2] > 0 else NOTHING
+
+
+@st.composite
+def lines(draw: st.DrawFn) -> tuple[Sector, fmpq, tuple[int, ...]]:
+    """Lines of a pencil, half of them very close to one through a vertex or to a tangent."""
+    sector, own = draw(st.sampled_from(PENCILS))
+    low, high = (Real(bound).enclosure(200)[0] for bound in (sector.low, sector.high))
+    t = low + (high - low) * fmpq(draw(st.integers(1, 999)), 1000)
+    if draw(st.booleans()):
+        curve = TABLE.curves[draw(st.integers(0, len(TABLE.curves) - 1))]
+        if isinstance(curve, Arc) and draw(st.booleans()):
+            side, sign = draw(st.sampled_from([-1, 1])), draw(st.sampled_from([-1, 1]))
+            event = sector.exact(curve.center.rational, curve.radius_sq, side, sign)
+        else:
+            event = sector.exact(curve.start.rational, fmpq(0), 0, draw(st.sampled_from([-1, 1])))
+        if event is not None:
+            near = Real(event).enclosure(300)[0]
+            near += fmpq(draw(st.sampled_from([-1, 1])), 2 ** draw(st.integers(40, 120)))
+            t = near if low < near < high else t
+    return sector, t, own
+
+
+def edges_about(sector: Sector, own: tuple[int, ...]) -> list[int]:
+    """All edges but those of the circle on which a contact rolls, which its tangents meet nowhere else."""
+    left = TABLE.on_circle_of(own[0]) if isinstance(sector, Rolling) else ()
+    return [e for e in range(len(TABLE.curves)) if e not in left]
+
+
+@given(lines())
+def test_what_balls_tell_digits_tell(line: tuple[Sector, fmpq, tuple[int, ...]]) -> None:
+    sector, t, own = line
+    edges = edges_about(sector, own)
+    with mpmath.workdps(80):
+        expected = told_by_digits(sector, t, edges, own)
+    assume(expected is not None)
+    assert first_meetings(TABLE, sector, t, edges, own) == expected
+
+
+def turning(x: int, y: int) -> Turning:
+    """The lines through a place that go east, more or less."""
+    return Turning((fmpq(x), fmpq(y)), (fmpq(1), fmpq(0)), fmpq(-1), fmpq(1))
+
+
+@pytest.mark.parametrize(("height", "is_open"), [(3, True), (1, True), (2, False)])
+def test_open_where_the_line_is_a_tangent(height: int, is_open: bool) -> None:
+    """Level lines at the circle about (5, 2) with the radius 1."""
+    disc = next(e for e, curve in enumerate(TABLE.curves) if isinstance(curve, Arc) and curve.full)
+    told = first_meetings(TABLE, turning(0, height), fmpq(0), [disc], ())
+    assert told == (None if is_open else (NOTHING, disc))
+
+
+def test_open_where_the_line_passes_an_end() -> None:
+    """With slope 1/3 a line passes the end (3, 1) of a wall, with 2/5 it comes from the blocked side."""
+    wall = next(e for e, curve in enumerate(TABLE.curves) if curve.start.rational == (3, 1))
+    assert first_meetings(TABLE, turning(0, 0), fmpq(1, 3), [wall], ()) is None
+    assert first_meetings(TABLE, turning(0, 0), fmpq(2, 5), [wall], ()) == (NOTHING, NOTHING)
+
+
+def test_open_where_places_may_be_one() -> None:
+    """An edge at the contact that is not known to be there, and two that are met in one place."""
+    wall = next(e for e, curve in enumerate(TABLE.curves) if curve.start.rational == (3, 1))
+    assert first_meetings(TABLE, turning(3, 1), fmpq(1, 2), [wall], (wall,)) == (NOTHING, NOTHING)
+    middle = Turning((fmpq(3), fmpq(3, 2)), (fmpq(1), fmpq(0)), fmpq(-1), fmpq(1))
+    assert first_meetings(TABLE, middle, fmpq(0), [wall], ()) is None
+    assert first_meetings(TABLE, turning(0, 0), fmpq(2, 5), [wall, wall], ()) is None
+
+
+def around(x: float, y: float, error: float = 1e-20) -> Balls:
+    return arb(x, error), arb(y, error)
+
+
+def test_between_the_ends_of_half_a_turn() -> None:
+    """Whether a half turn is more than one or less is open; what lies on one side of it is told."""
+    east, west = around(1, 0), around(-1, 0)
+    assert [clearly_between(east, west, around(x, y)) for x, y in ((3, 1), (3, -1))] == [True, False]
+    assert clearly_between(east, west, around(1, 0)) is None
+    assert clearly_between(east, around(1, 0), around(0, 1)) is None
+
+
+@pytest.mark.parametrize("k", range(12))
+def test_between_as_angles_tell(k: int) -> None:
+    """From 0 to 150 degrees, and to 210: by directions at 15 degrees, 45 and so on."""
+    for end in (5, 7):
+        start, last, way = (around(cos(n * pi / 6), sin(n * pi / 6), 1e-12) for n in (0, end, k + 0.5))
+        assert clearly_between(start, last, way) == (k < end)
