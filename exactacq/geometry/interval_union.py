@@ -24,11 +24,6 @@ class Interval:
         """All of a rail."""
         return cls(ZERO, rail.curve.start, rail.top, rail.curve.end)
 
-    @classmethod
-    def of(cls, u: Real, p: Point, v: Real, q: Point) -> Interval:
-        """The interval between two places, given in any order."""
-        return cls(u, p, v, q) if u.compare(v) <= 0 else cls(v, q, u, p)
-
     def within(self, span: Interval) -> Interval | None:
         """What of it lies in another one; ends are copied."""
         low, start = (span.low, span.start) if self.low < span.low else (self.low, self.start)

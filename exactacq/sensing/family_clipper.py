@@ -147,10 +147,9 @@ class FamilyClipper:
 
     def clipped(self, family: ViewFamily, side: int, span: Interval) -> ViewFamily | None:
         """The part of a family whose one side lies in an interval of that side's rail."""
-        a, b = family.first.places[side], family.last.places[side]
         if span.low.rational == 0 and span.high is self.rails[family.edges[side]].top:
             return family
-        low, high = (a, b) if a.compare(b) <= 0 else (b, a)
+        low, high = (end.places[side] for end in family.ends_on(side))
         after, before = low.compare(span.low), high.compare(span.high)
         if after > 0 > before:
             return family

@@ -47,10 +47,8 @@ class Share:
     @classmethod
     def of(cls, family: ViewFamily, side: int) -> Share:
         """The share of a family whose one side lies on the leg."""
-        (u, v), (p, q) = family.first.places, family.first.points
-        (w, x), (r, s) = family.last.places, family.last.points
-        intervals = Interval.of(u, p, w, r), Interval.of(v, q, x, s)
-        return cls(intervals[side], family.edges[1 - side], intervals[1 - side], family, side)
+        there = 1 - side
+        return cls(family.interval(side), family.edges[there], family.interval(there), family, side)
 
     def cut(self, family: ViewFamily) -> Share:
         """The share of a part of its family, whose sides run as its own do: nothing is to be compared."""

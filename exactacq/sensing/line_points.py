@@ -36,7 +36,7 @@ class Side:
 
     A ``fixed`` end stays at the contact: a corner, the start of its edge or, if ``at_end``, its end. On a
     full circle, where parameters jump at the start, ``start`` is what they are there, 0 or 4, for these views
-    if it is known that none passes the start.
+    if it is known that none passes the start. The end may be ``on_way``, not on a boundary.
     """
 
     edge: int
@@ -44,6 +44,7 @@ class Side:
     fixed: bool = False
     at_end: bool = False
     start: int | None = None
+    on_way: bool = False
 
     def corner(self, curve: Curve) -> Point:
         """Where a fixed end stays, on the curve of its edge."""

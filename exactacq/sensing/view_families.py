@@ -14,11 +14,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TypeAlias
 
+from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
 from exactacq.kernel.line_keys import LineNumbers
 from exactacq.numbers.real import Real
-from exactacq.sensing.line_points import Side
+from exactacq.sensing.line_points import Role, Side
 from exactacq.visibility.line_families import Sector, Sliding, Spokes
 from exactacq.visibility.line_names import Names
 from exactacq.visibility.rotational_sweep import Passed
@@ -84,6 +85,15 @@ class FreeViews:
         """Whether the lines are normals of an edge."""
         return isinstance(self.sector, Sliding | Spokes)
 
+    def grows(self, k: int) -> bool | None:
+        """Whether the parameter of side k grows where it does not stay; None if the lines do not tell.
+
+        Lines that turn meet edges at places that move back along these: edges have their obstacles to the
+        left, and lines enter them, going ahead or back. Where the contact moves, it does so ahead on its arc.
+        """
+        side = self.sides[k]
+        return None if side.on_way or not self.sector.turns else side.role is Role.CONTACT
+
     def touched(self, t: Real, numbers: LineNumbers) -> list[int]:
         """The features that the first or the last line touches, by their numbers; none for a normal."""
         for bound, passed in zip((self.low, self.high), self.passed, strict=True):
@@ -103,3 +113,15 @@ class ViewFamily:
     first: End
     last: End
     free_views: FreeViews | None = None
+
+    def ends_on(self, k: int) -> tuple[End, End]:
+        """The extreme views with the lower and the higher parameter of side k."""
+        grows = None if self.free_views is None else self.free_views.grows(k)
+        if grows is None:
+            grows = self.first.places[k].compare(self.last.places[k]) <= 0
+        return (self.first, self.last) if grows else (self.last, self.first)
+
+    def interval(self, k: int) -> Interval:
+        """What the family has of side k."""
+        one, other = self.ends_on(k)
+        return Interval(one.places[k], one.points[k], other.places[k], other.points[k])

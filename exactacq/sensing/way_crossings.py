@@ -109,7 +109,7 @@ class WayCrossings:
                 role = self._role_of_part(line_family, rational_between(low, high), wanted, told)
             if role is None:
                 continue
-            here = Side(self.way.number, role)
+            here = Side(self.way.number, role, on_way=True)
             for other in _shown(line_family, role, wanted):
                 names, pins = (called, named), (first, last)
                 passed = (

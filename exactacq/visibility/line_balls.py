@@ -42,10 +42,10 @@ def line(sector: Sector, t: arb, longer: Line | None = None) -> Line:
     if type(sector) is Turning:
         # Of this kind are most.
         return cx, cy, ex - t * ey, ey + t * ex
-    if isinstance(sector, Sliding):
+    if type(sector) is Sliding:
         dx, dy = (-ey, ex) if sector.leftward else (ey, -ex)
         return cx + ex * t, cy + ey * t, dx, dy
-    if isinstance(sector, Rolling):
+    if type(sector) is Rolling:
         square = t * t
         growth = 1 + square
         cosine, sine = (1 - square) / growth, 2 * t / growth
@@ -175,7 +175,7 @@ def _met(at: Line, curve: Curve, is_own: bool) -> list[Meeting] | None:
 
 
 def _met_straight(at: Line, edge: Segment) -> list[Meeting] | None:
-    """As `_met`, for an edge that the contact does not lie on."""
+    """Where a line crosses an edge that its contact does not lie on; None if balls leave open whether it does."""
     x, y, dx, dy = at
     (ax, ay), (bx, by) = _held(edge.start), _held(edge.end)
     ax, ay, bx, by = ax - x, ay - y, bx - x, by - y

@@ -59,6 +59,11 @@ class Sector(ABC):
     round = False
     """Whether the contact rolls on a circle of radius |base|."""
 
+    @property
+    def turns(self) -> bool:
+        """Whether lines turn counterclockwise, about the contact or, where they only go ahead, behind it."""
+        return True
+
     @cached_property
     def origin(self) -> Floats:
         """The centre in floats."""
@@ -245,6 +250,10 @@ class Sliding(Sector):
     leftward: bool
 
     @property
+    def turns(self) -> bool:
+        return False
+
+    @property
     def extent(self) -> float:
         return self.size * (1 + 1e-9)
 
@@ -283,6 +292,10 @@ class Spokes(Turning):
 
     radius_sq: fmpq
     outward: bool
+
+    @property
+    def turns(self) -> bool:
+        return self.outward
 
     @cached_property
     def _radius(self) -> float:
