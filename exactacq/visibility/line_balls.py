@@ -175,7 +175,7 @@ def _met(at: Line, curve: Curve, is_own: bool) -> list[Meeting] | None:
 
 
 def _met_straight(at: Line, edge: Segment) -> list[Meeting] | None:
-    """Where a line crosses an edge that its contact does not lie on; None if balls leave open whether it does."""
+    """Where a line crosses an edge that its contact is not on; None if balls leave open whether it does."""
     x, y, dx, dy = at
     (ax, ay), (bx, by) = _held(edge.start), _held(edge.end)
     ax, ay, bx, by = ax - x, ay - y, bx - x, by - y
