@@ -12,7 +12,7 @@ from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.points import Point
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import EVERYTHING, SURE, Span
-from exactacq.kernel.family_images import EdgePlace, FamilyImage
+from exactacq.kernel.family_images import FamilyImage
 from exactacq.kernel.lines import parameter
 from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real
@@ -71,9 +71,12 @@ class LineImages:
         While lines turn by a quarter at most, a contact moves by a quarter, another place by less than three
         quarters, for its direction from the circle's centre is off the line's by less than a quarter.
         """
+        whole = image.places(role)
+        ends = [end for place in whole for end in place[:2]]
+        if min(ends) > 0 and max(ends) < 4 and max(ends) - min(ends) < 1:
+            return
         start = self.table.curves[edge].start
         row = lines.rows[image.number]
-        whole: list[EdgePlace] = list(image.places(role))
         found = list(whole)
         for k, bound in enumerate((row.first, row.last)):
             (low, high, *rest), other = found[k], found[1 - k]

@@ -235,7 +235,10 @@ class Rolling(Sector):
         if not self.is_rational:
             return None
         rho_sq = dot(self.base, self.base)
-        product = Real(rho_sq * radius_sq).sqrt().rational if side else fmpq(0)
+        product: fmpq | None = radius_sq
+        if side and radius_sq != rho_sq:
+            # Otherwise the circles are equal, as in most rows.
+            product = Real(rho_sq * radius_sq).sqrt().rational
         if product is None:
             return None
         _, along, across = self._frame(center)
