@@ -10,6 +10,7 @@ import stress_drawings
 from stress_drawings import DATA, main, tried
 
 import exactacq as xa
+from exactacq.files.octagons import random_octagons
 
 BANDAID = DATA / "bandaid.svg"
 
@@ -43,5 +44,5 @@ def test_a_fault_is_told_with_its_start(
 
 def test_a_late_run_is_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(stress_drawings, "SECONDS", 1)
-    run = partial(xa.sightseer, xa.load("plate"), 300, start=(-30, -60))
+    run = partial(xa.sightseer, random_octagons(400, 1), 20)
     assert stress_drawings.outcome(run) == "more than 1 s"

@@ -9,12 +9,10 @@ from exactacq.geometry.curve_parameter import ZERO, Rail
 from exactacq.geometry.curves import Curve
 from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.late import Pin
-from exactacq.kernel.extents import SURE
 from exactacq.kernel.line_keys import LineNumbers
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.real import Real
-from exactacq.sensing.line_images import bounds
 from exactacq.sensing.line_views import LineViews
 from exactacq.sensing.named_pins import PinName
 from exactacq.sensing.range_ends import RangeEnds
@@ -118,18 +116,11 @@ class FamilyClipper:
         yield ViewFamily(family.edges, seam.placed(k, after), last, free_views)
 
     def _passes_start(self, free_views: FreeViews, first: End, last: End, k: int) -> bool:
-        """Whether a side passes the start of a full circle, or comes to it from the end.
-
-        Lines turn by a quarter at most, and a side moves by less than three quarters then: see `LineImages`.
-        Of its extreme places the parameters, which grow by 1 in a quarter, differ by less than 3, and where
-        it passes the start by more than 1.
-        """
+        """Whether a side passes the start of a full circle, or comes to it from the end."""
         a, b = first.places[k], last.places[k]
-        (low, high), (least, most) = bounds(a, None), bounds(b, None)
-        if max(high - least, most - low) < 1 - SURE:
-            return False
-        if max(low - most, least - high) > 3 + SURE:
-            return True
+        grows = free_views.grows(k)
+        if grows is not None:
+            return a.compare(b) == (1 if grows else -1)
         middle = self.views.end(free_views, Real(rational_between(first.t, last.t))).places[k]
         return not min(a, b) <= middle <= max(a, b)
 
@@ -149,7 +140,8 @@ class FamilyClipper:
         """The part of a family whose one side lies in an interval of that side's rail."""
         if span.low.rational == 0 and span.high is self.rails[family.edges[side]].top:
             return family
-        low, high = (end.places[side] for end in family.ends_on(side))
+        one, other = family.ends_on(side)
+        low, high = one.places[side], other.places[side]
         after, before = low.compare(span.low), high.compare(span.high)
         if after > 0 > before:
             return family

@@ -94,7 +94,8 @@ class Shares:
         for family, side in self._families(known):
             for k, target in self.targets.on(family.edges[1 - side]):
                 if k in self.obstacles:
-                    part = self._clipper.clipped(family, 1 - side, target.span)
+                    whole = target.whole
+                    part = family if whole else self._clipper.clipped(family, 1 - side, target.span)
                     if part is not None:
                         parts.append((k, part, side, None))
         return self._shares(parts, self.leg, self.obstacles)
@@ -117,7 +118,8 @@ class Shares:
                 first = self._pinned(first, cut, side, leg)
             if last.places[side] is begin or last.places[side] is end:
                 last = self._pinned(last, cut, side, leg)
-            part = ViewFamily(cut.edges, first, last, cut.free_views)
+            is_cut = first is cut.first and last is cut.last
+            part = cut if is_cut else ViewFamily(cut.edges, first, last, cut.free_views)
             found[k].append(Share.of(part, side) if whole is None else whole.cut(part))
         return found
 

@@ -35,7 +35,7 @@ Own: TypeAlias = "tuple[int, ...] | None"
 """The edges through a place, if they are known."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Report:
     """A notice placed on the path: after ``after`` whole pieces, or inside the piece of that number.
 

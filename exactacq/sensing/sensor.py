@@ -37,7 +37,7 @@ VIEWS_KEPT = 64
 ORDER = {kind: k for k, kind in enumerate(SENSED)}
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Notice:
     """A report from a place of a leg (``u`` on its rail); ``reason`` says why an obstacle was lost."""
 

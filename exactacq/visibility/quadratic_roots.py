@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from flint import fmpq
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class QuadraticRoot:
     """The root (b + sign sqrt(b^2 - a c)) / a of a t^2 - 2 b t + c, with a not 0; it is real.
 
