@@ -71,11 +71,14 @@ def mattering(
     sources: dict[int, list[Source]] = {}
     news: dict[int, list[int]] = {}
     told = _extreme_views(extents)
+    of: dict[int, list[tuple[int, bool]]] = {}
     for n in range(len(extents)):
         one = extents[n]
         if _is_single(one) and _is_told(one, told):
             continue
-        concerned = [owner for owner in owners.get(one.edge, NOBODY) if owner[0] in obstacles]
+        if one.edge not in of:
+            of[one.edge] = [owner for owner in owners.get(one.edge, NOBODY) if owner[0] in obstacles]
+        concerned = of[one.edge]
         if not concerned:
             continue
         if not one.is_known:

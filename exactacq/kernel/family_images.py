@@ -137,6 +137,24 @@ def by_edge(families: list[FamilyImage]) -> ByEdge:
     return found
 
 
+def perhaps_over_start(families: list[FamilyImage], full: list[int]) -> list[tuple[FamilyImage, int]]:
+    """Families and their parts that may pass the start of a full circle, or touch it; *full* is 1 for these.
+
+    There parameters jump. Where they stay within a quarter turn off the start, the part does not pass it.
+    """
+    found: list[tuple[FamilyImage, int]] = []
+    for family in families:
+        for role in range(-1, 2):
+            edge = family.edge(role)
+            if not family.is_known or edge < 0 or not full[edge]:
+                continue
+            one, other = family.places(role)
+            low, high = min(one[0], other[0]), max(one[1], other[1])
+            if low <= 0.0 or high >= 4.0 or high - low >= 1.0:
+                found.append((family, role))
+    return found
+
+
 def _note(found: ByEdge, edge: int, family: FamilyImage) -> None:
     some = found.get(edge)
     if some is None:

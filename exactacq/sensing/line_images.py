@@ -12,7 +12,7 @@ from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.points import Point
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import EVERYTHING, SURE, Span
-from exactacq.kernel.family_images import FamilyImage
+from exactacq.kernel.family_images import FamilyImage, perhaps_over_start
 from exactacq.kernel.lines import parameter
 from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real
@@ -59,11 +59,8 @@ class LineImages:
     def unroll(self, families: list[FamilyImage], lines: Pencil) -> None:
         """Tell of those of a pencil's families that meet full circles where they may pass their start."""
         if self.has_full:
-            for image in families:
-                for role in Role:
-                    edge = image.edge(role)
-                    if image.is_known and edge >= 0 and self.table.full[edge]:
-                        self._unroll(image, role, lines, edge)
+            for image, role in perhaps_over_start(families, self.table.images.full):
+                self._unroll(image, Role(role), lines, image.edge(role))
 
     def _unroll(self, image: FamilyImage, role: Role, lines: Pencil, edge: int) -> None:
         """Two places on a full circle: if the side may pass its start, where parameters jump, anywhere on it.
@@ -72,9 +69,6 @@ class LineImages:
         quarters, for its direction from the circle's centre is off the line's by less than a quarter.
         """
         whole = image.places(role)
-        ends = [end for place in whole for end in place[:2]]
-        if min(ends) > 0 and max(ends) < 4 and max(ends) - min(ends) < 1:
-            return
         start = self.table.curves[edge].start
         row = lines.rows[image.number]
         found = list(whole)
