@@ -20,6 +20,7 @@ from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 
 ANYWHERE = arb(0, inf)
+"""A ball around every number."""
 BITS = 64
 """Working bits of the balls that decide before anything is made."""
 

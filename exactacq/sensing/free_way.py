@@ -134,4 +134,5 @@ def _share(place: Point, start: Point, along: Point) -> Real:
 
 
 def _exact_share(place: Point, start: Point, along: Point) -> Real:
+    """The number itself that a share is."""
     return (place - start).dot(along) / along.norm_sq()
