@@ -11,17 +11,23 @@ from flint import arb, fmpq
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from mpmath import mpf
+from nightly import some
 
 import exactacq as xa
+from exactacq import kernel
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.late import Balls, clearly_between
 from exactacq.kernel.bound_lines import NOTHING
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.complex_edges import normals
+from exactacq.sensing.visibility_complex import VisibilityComplex
+from exactacq.study.random_scenes import Subject, random_scene
+from exactacq.visibility import rotational_sweep
 from exactacq.visibility.features import features
 from exactacq.visibility.line_balls import first_meetings
 from exactacq.visibility.line_families import Rolling, Sector, Turning
+from exactacq.visibility.sensor_range import Range
 
 TINY = mpf(10) ** -60
 Crossing = tuple[mpf, int]
@@ -198,3 +204,25 @@ def test_between_as_angles_tell(k: int) -> None:
     for end in (5, 7):
         start, last, way = (around(cos(n * pi / 6), sin(n * pi / 6), 1e-12) for n in (0, end, k + 0.5))
         assert clearly_between(start, last, way) == (k < end)
+
+
+@pytest.mark.parametrize("seed", some(range(64700000, 64700060), 4))
+def test_as_exact_contacts_tell(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In every cell of the sweeps of random scenes, where floats tell nothing."""
+    told: list[tuple[int, int]] = []
+    ask = rotational_sweep._Decisions._met
+
+    def compared(decisions: rotational_sweep._Decisions, middle: fmpq, edges: list[int]) -> tuple[int, int]:
+        met = ask(decisions, middle, edges)
+        assert met == decisions._exact_meet(middle, edges)
+        told.append(met)
+        return met
+
+    monkeypatch.setattr(kernel, "EXACT_ONLY", True)
+    monkeypatch.setattr(rotational_sweep._Decisions, "_met", compared)
+    scene = random_scene(Subject.SIGHTSEER, seed)
+    table = EdgeTable(scene.obstacles)
+    families = VisibilityComplex(table, Range(scene.radius or fmpq(3)))
+    for e in range(len(table.curves)):
+        families.extents(e)
+    assert told
