@@ -357,3 +357,14 @@ def test_an_audit_of_a_way_through_a_sample() -> None:
     """A sampled place lies on a way with numbers of degree 20: that the way passes it need not be proved."""
     scene = xa.load(DATA / "rounded-squares.json")
     xa.audit(xa.sightseer(scene, 10), samples=12, seed=110400)
+
+
+def test_a_single_ray_is_told_that_it_ends_at_the_range() -> None:
+    """From a place where the views past a feature are as long as the range, the ray past it is a single one.
+
+    What the view from there is told counted for what ends beside the ray, but not for the ray itself, and the
+    number that is 0 is far to prove.
+    """
+    run = xa.sightseer(random_scene(Subject.SIGHTSEER, 328001143))
+    maps = [run.map_at(event) for event in run.events]
+    assert sum(len(chart.known(i)) for chart in maps for i in chart.seen) > len(maps)

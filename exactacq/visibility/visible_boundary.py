@@ -280,7 +280,8 @@ class BoundaryView:
         face = None
         if blocker is None and struck != NOTHING:
             place = None if inside else sweep.hit(struck, rank)
-            if inside > 0 or (place is not None and self.disc.excess(place) <= 0):
+            is_told = inside > 0 or self._is_at_rim(sweep.edges[struck], rank)
+            if is_told or (place is not None and self.disc.excess(place) <= 0):
                 face = struck
         edges = *self._edge_on.get(rank, ()), *self.own
         along = tuple(e for e in edges if self._runs_along(e, rank, met, blocker))
