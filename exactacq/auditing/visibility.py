@@ -381,7 +381,8 @@ class _View:
             return np.ones(len(units), dtype=bool)
         edges, _ = self._hits(units, self.forms.rows(np.arange(len(self.edges))))
         _, certain = self._blocks(units, edges)
-        left: Bools = certain >= far * (1 - EPS)
+        # What is no number hides nothing.
+        left: Bools = ~(certain < far * (1 - EPS))
         return left
 
     def _ray_to(self, k: int) -> Direction:

@@ -55,7 +55,8 @@ class WayNormals:
         assert isinstance(sweep, Pencil), "normals come from pencils"
         cell = sweep.cell(sweep.rows[image.number])
         start = start_of(image, Role.AHEAD, self.way.table)
-        sides = Side(self.way.number, Role.CONTACT), Side(image.edge(Role.AHEAD), Role.AHEAD, start=start)
+        here = Side(self.way.number, Role.CONTACT, on_way=True)
+        sides = here, Side(image.edge(Role.AHEAD), Role.AHEAD, start=start)
         pinned = self._pin(cell.low), self._pin(cell.high)
         free_views = FreeViews(sweep.sector, cell.low, cell.high, sides, pinned=pinned, passed=cell.bounds)
         yield from self.way.clipper.families(free_views)
