@@ -127,7 +127,7 @@ NUMBER_FAULTS = [
         "between two numbers lies the smaller",
         TIES,
         tied(sqrt(2), sqrt(2), HAIR),
-        Fault(between, "rational_between", "(left_end + right_end) / 2", "left_end"),
+        Fault(between, "_short_between", "(low + high) / 2", "low"),
     ),
     Planted(
         "equal numbers are not at most each other",

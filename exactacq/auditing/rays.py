@@ -6,21 +6,25 @@ A ray is a float unit vector and an exact vector, which is made only where float
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from functools import cmp_to_key
+from functools import cmp_to_key, partial
 from itertools import combinations, pairwise
 from math import atan2, cos, hypot, pi, sin
 
-from flint import fmpq
+from flint import arb, fmpq
 
 from exactacq.errors import Undecided
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.points import Point
+from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import nearest_float, rational
 from exactacq.numbers.real import Real
 
 APART = 2.0**-44
 """Angles farther apart than this are ordered by their floats, whose error is below 2^-50. Rounding keeps the
 signs of coordinates, so none leaves (-pi, pi]."""
+
+TIE_BITS = 256
+"""Numbers that differ by less are taken for candidates of a tie."""
 
 
 class Direction:
@@ -71,6 +75,38 @@ def tangent_directions(q: Point, arc: Arc) -> list[Point]:
         return [c.left(), -c.left()]
     along, across = c * square.sqrt(), c.left() * arc.radius
     return [along + across, along - across]
+
+
+def clear_tangents(q: Point, arc: Arc, far: float) -> list[Direction] | None:
+    """The rays from q that touch the circle, made exact when they are asked for; None if balls leave open
+    whether there are any, or on which side of the axes they are.
+
+    What they lead to is at least about *far* away.
+    """
+    c = arc.center - q
+    with workprec(TIE_BITS):
+        x, y, radius_sq = c.x.working_ball(TIE_BITS), c.y.working_ball(TIE_BITS), arb(arc.radius_sq)
+        square = x * x + y * y - radius_sq
+        if square < 0:
+            return []
+        if not square > 0:
+            return None
+        along, radius = square.sqrt(), radius_sq.sqrt()
+        vectors = [(x * along - y * r, y * along + x * r) for r in (radius, -radius)]
+        if any(v.contains(0) for vector in vectors for v in vector):
+            return None
+        offsets = [(float(u.mid()), float(v.mid())) for u, v in vectors]
+    found = []
+    for k, offset in enumerate(offsets):
+        unit = unit_vector(*offset)
+        assert unit is not None, "a tangent has a direction"
+        found.append(Direction(unit, partial(_tangent_direction, q, arc, k), far=far))
+    return found
+
+
+def _tangent_direction(q: Point, arc: Arc, k: int) -> Point:
+    """The first or the second of the directions from q that touch the circle."""
+    return tangent_directions(q, arc)[k]
 
 
 def with_cells(critical: Iterable[Direction]) -> list[Direction]:

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from itertools import accumulate, pairwise
 from math import atan2, hypot, pi, tan
 from typing import NamedTuple
@@ -33,7 +33,9 @@ from exactacq.auditing.hits import (
     segment_hits,
 )
 from exactacq.auditing.rays import (
+    TIE_BITS,
     Direction,
+    clear_tangents,
     ray_along,
     rounded,
     tangent_directions,
@@ -50,8 +52,8 @@ from exactacq.numbers.rationals import nearest_float, rational
 from exactacq.numbers.real import Real
 from exactacq.scene.scene import Scene
 
-TIE_BITS = 256
-"""Numbers that differ by less are taken for candidates of a tie."""
+SOME_EDGES = 64
+"""So many edges at a time are asked what they hide."""
 MANY_RAYS = 64
 """Of so many critical rays it is worth while to leave out those to what is hidden."""
 
@@ -368,7 +370,10 @@ class _View:
             circle = self.lookout.world.circles[k]
             # Not nearer than the circle itself.
             far = hypot(*self._offset(raw(circle.center))) * (1 - EPS) - float(circle.radius) * (1 + EPS)
-            rays += [ray_along(vector, far) for vector in tangent_directions(self.q, circle)]
+            clear = clear_tangents(self.q, circle, far)
+            if clear is None:
+                clear = [ray_along(vector, far) for vector in tangent_directions(self.q, circle)]
+            rays += clear
         return rays
 
     def _not_hidden(self, units: Floats, far: Floats) -> Bools:
@@ -377,12 +382,18 @@ class _View:
         Where a curve begins or ceases to be seen there is a critical ray on which it is seen, and what makes
         the ray critical is seen as well. So a ray to what is hidden is as good as none.
         """
-        if len(units) < MANY_RAYS or not self.edges:
-            return np.ones(len(units), dtype=bool)
-        edges, _ = self._hits(units, self.forms.rows(np.arange(len(self.edges))))
-        _, certain = self._blocks(units, edges)
-        # What is no number hides nothing.
-        left: Bools = ~(certain < far * (1 - EPS))
+        left = np.ones(len(units), dtype=bool)
+        if len(units) < MANY_RAYS:
+            return left
+        # Most are hidden by straight edges nearby; arcs take longer.
+        circles, sizes = self.forms.circle[: len(self.edges)], np.hypot(*self.spots[: len(self.edges)].T)
+        order = np.lexsort((sizes.min(axis=0), circles >= 0))
+        for begin in range(0, len(order), SOME_EDGES):
+            open_ = np.flatnonzero(left)
+            edges, _ = self._hits(units[open_], order[begin : begin + SOME_EDGES])
+            _, certain = self._blocks(units[open_], edges)
+            # What is no number hides nothing.
+            left[open_] = ~(certain < far[open_] * (1 - EPS))
         return left
 
     def _ray_to(self, k: int) -> Direction:
@@ -418,7 +429,7 @@ class _View:
     def verdicts(self) -> tuple[Bools, Bools]:
         """Which curves certainly see q, and which pairs (ray, curve) floats leave open."""
         units = np.array([ray.unit for ray in self.rays])
-        edges, curves = self._hits(units, self.forms)
+        edges, curves = self._hits(units, np.arange(len(self.forms.circle)))
         possible, certain = self._blocks(units, edges)
         nearest = np.argmin(possible, axis=1)[:, None]
         rest = possible.copy()
@@ -478,32 +489,34 @@ class _View:
 
     # -- contacts in floats ------------------------------------------------------------------------
 
-    def _hits(self, units: Floats, forms: Forms) -> tuple[Hits, Hits]:
-        """Contacts of all rays with edges, but for those of q's own edges at q itself, and with curves.
+    def _hits(self, units: Floats, some: Ints) -> tuple[Hits, Hits]:
+        """Contacts of rays with some edges, but for those of q's own edges at q itself, and with some curves.
 
-        The *forms* are all or the first of those of edges and curves.
+        They are given by their places among all edges and, after these, all curves.
         """
-        count = len(self.edges)
-        own = np.zeros(len(forms.circle), dtype=bool)
-        own[[self.edge_numbers.index(e) for e in self.own]] = True
+        count, forms, spots = len(self.edges), self.forms.rows(some), self.spots[some]
+        own = np.isin(some, [self.edge_numbers.index(e) for e in self.own])
         straight, bent = np.flatnonzero(forms.circle < 0), np.flatnonzero(forms.circle >= 0)
-        spots = self.spots[: len(forms.ends)]
         parts = [segment_hits(units, spots[straight, 0], spots[straight, 1])]
         parts[0].low[:, own[straight]] = np.inf
         parts[0].sure[:, own[straight]] = False
         if len(bent):
-            centers = {k: self._offset(raw(self.lookout.world.circles[k].center)) for k in self.circles}
-            of_arcs = np.array([centers[k] for k in forms.circle[bent].tolist()])
+            of_arcs = np.array([self._centers[k] for k in forms.circle[bent].tolist()])
             chords = spots[bent, 0], forms.chord[bent]
             parts += arc_hits(units, of_arcs, forms.shape[bent], chords, own[bent])
         low, high, sure = (np.hstack(columns) for columns in zip(*parts, strict=True))
-        curve = np.concatenate((straight, *[bent] * (len(parts) - 1)))
-        far = np.arange(len(curve)) >= len(forms.circle)
+        curve = some[np.concatenate((straight, *[bent] * (len(parts) - 1)))]
+        far = np.arange(len(curve)) >= len(some)
         edges = curve < count
         return (
             Hits(low[:, edges], high[:, edges], sure[:, edges], curve[edges], far[edges]),
             Hits(low[:, ~edges], high[:, ~edges], sure[:, ~edges], curve[~edges] - count, far[~edges]),
         )
+
+    @cached_property
+    def _centers(self) -> dict[int, tuple[float, float]]:
+        """From q to the centres of circles, by the numbers of these."""
+        return {k: self._offset(raw(self.lookout.world.circles[k].center)) for k in self.circles}
 
     # -- exact -------------------------------------------------------------------------------------
 

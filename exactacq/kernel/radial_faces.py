@@ -27,7 +27,7 @@ from exactacq.kernel.bounded import (
     total,
     verdict,
 )
-from exactacq.kernel.images import CONVEX, REST, STRAIGHT, EdgeImages
+from exactacq.kernel.images import CONCAVE, REST, STRAIGHT, EdgeImages
 from exactacq.kernel.lattice import Lattice
 
 NONE: Final = -1
@@ -172,27 +172,116 @@ class RadialFaces:
         gap, bound = self.gap(e)
         return self.reach(gap, 0.0, bound)
 
-    def add_circles(self, edges: list[int]) -> list[int]:
-        """Add the faces of round obstacles that certainly come within range; returned are the other arcs.
+    def add_arcs(self, edges: list[int]) -> list[int]:
+        """Add the faces of some arcs; those of which floats leave something open are returned.
 
-        Left out is what certainly lies beyond the range. Each of ``circles`` is added with two events: from
-        the number of edges on the left tangent point of the first one, its right one, and so on.
+        Left out is what certainly lies beyond the range. Each of ``circles`` has two events: from the number
+        of edges on the left tangent point of the first one, its right one, and so on.
         """
         images, left = self.images, list[int]()
-        count = len(images.kind)
         for e in edges:
             gap, bound = self.gap(e)
             reach = self.reach(gap, 0.0, bound)
-            if not (images.full[e] and images.kind[e] == CONVEX and reach and gap > bound):
+            if reach < 0:
+                continue
+            if reach == 0 or not abs(gap) > bound:
                 left.append(e)
-            elif reach > 0:
-                event = count + 2 * len(self.circles)
-                self.circles.append(e)
-                for k in (0, 1):
-                    x, y, error = self.tangent(e, 1 - 2 * k)
-                    self.add_event(event + k, x, y, error)
-                self.add_arc(e, event + 1, event)
+            elif gap < 0.0:
+                # From inside nothing is seen of a round obstacle, and all of an arc around the place.
+                if images.kind[e] == CONCAVE and images.full[e]:
+                    self.add_arc(e, NONE, NONE)
+                elif images.kind[e] == CONCAVE:
+                    self.add_arc(e, images.following[e], e)
+            elif images.full[e]:
+                enter, leave = self._tangents(e, True, True)
+                self.add_arc(e, leave, enter)
+            elif not self._add_part(e):
+                left.append(e)
         return left
+
+    def _add_part(self, e: int) -> bool:
+        """Add the faces of an arc that is no full circle, from outside its circle; False if that is open.
+
+        With w from the place to the centre and z from there to an end, the arc turns its free side to the
+        place there if r^2 + w . z < 0, or > 0 if it is concave. What it has of the near part of the circle,
+        or of the far one if it is concave, is a face, or two if the ends lie on that part and the arc leads
+        around the other one.
+        """
+        kind, end = self.images.kind[e], self.images.following[e]
+        first, last = kind * -self._beyond(e, e), kind * -self._beyond(e, end)
+        if first == 0 or last == 0:
+            return False
+        if first != last:
+            enter, leave = self._tangents(e, first < 0, last < 0)
+            self.add_arc(e, end if last > 0 else leave, e if first > 0 else enter)
+            return True
+        # Both ends on the face's part of the circle, or none: does the arc contain the middle of the other?
+        around = self._spans(e, kind * first)
+        if around == 0:
+            return False
+        if around > 0:
+            enter, leave = self._tangents(e, True, True)
+            if first < 0:
+                self.add_arc(e, leave, enter)
+            else:
+                self.add_arc(e, leave, e)
+                self.add_arc(e, end, enter)
+        elif first > 0:
+            self.add_arc(e, end, e)
+        return True
+
+    def _tangents(self, e: int, has_left: bool, has_right: bool) -> tuple[int, int]:
+        """The events on both tangent points of an arc's circle, left and right; those asked for are added."""
+        event = len(self.images.kind) + 2 * len(self.circles)
+        self.circles.append(e)
+        if has_left:
+            x, y, bound = self.tangent(e, 1)
+            self.add_event(event, x, y, bound)
+        if has_right:
+            x, y, bound = self.tangent(e, -1)
+            self.add_event(event + 1, x, y, bound)
+        return event, event + 1
+
+    def _from_center(self, e: int, v: int) -> tuple[float, float, float]:
+        """The vector from an arc's centre to a vertex, as `offset`."""
+        images = self.images
+        x, y, cx, cy = images.x[v], images.y[v], images.cx[e], images.cy[e]
+        u = (x - cx) + (images.x_rest[v] - images.cx_rest[e])
+        w = (y - cy) + (images.y_rest[v] - images.cy_rest[e])
+        far = abs(x) + abs(y) + abs(cx) + abs(cy)
+        return u, w, (UNIT * (abs(u) + abs(w)) + REST * far + TINY) * WIDEN
+
+    def _beyond(self, e: int, v: int) -> int:
+        """The sign of r^2 + w . z, with w from the place to an arc's centre and z from there to a vertex."""
+        wx, wy, w = self.center(e)
+        x, y, z = self._from_center(e, v)
+        r = self.images.radius[e]
+        square, square_bound = product(r, UNIT * r, r, UNIT * r)
+        m, bound = dot(wx, wy, w, x, y, z)
+        m, bound = total(m, bound, square, square_bound)
+        return verdict(m, bound)
+
+    def _spans(self, e: int, away: int) -> int:
+        """1 or -1 as an arc certainly contains the point of its circle away (1) or towards the place, or not.
+
+        A direction that lies on the same side of those to both ends is between them, or it is not, whichever
+        way the arc turns (see `exactacq.geometry.late.clearly_between`).
+        """
+        wx, wy, w = self.center(e)
+        dx, dy = away * wx, away * wy
+        start, end = e, self.images.following[e]
+        if self.images.kind[e] == CONCAVE:
+            start, end = end, start
+        ax, ay, a = self._from_center(e, start)
+        bx, by, b = self._from_center(e, end)
+        m, bound = cross(ax, ay, a, dx, dy, w)
+        after = verdict(m, bound)
+        m, bound = cross(dx, dy, w, bx, by, b)
+        before = verdict(m, bound)
+        if after == before:
+            return after
+        m, bound = cross(ax, ay, a, bx, by, b)
+        return -verdict(m, bound) if after and before else 0
 
     def add_arc(self, e: int, low: int, high: int) -> None:
         """Add a face of an arc between two events (`NONE` for none): vertices, or events that are added."""

@@ -6,7 +6,7 @@ from math import floor, frexp
 
 from flint import arb, fmpq, fmpz
 
-from exactacq.numbers.rationals import nearest_float
+from exactacq.numbers.rationals import ends, nearest_float
 from exactacq.numbers.real import Real
 
 
@@ -19,6 +19,8 @@ def rational_between(low: Real, high: Real) -> fmpq:
             between = fmpq(*((a + b) / 2).as_integer_ratio())
             if left < arb(between) < right:
                 return between
+        if left < right:
+            return _short_between(ends(left)[1], ends(right)[0])
     first, last = low.rational, high.rational
     if first is not None and last is not None:
         a, b = nearest_float(first), nearest_float(last)
@@ -30,8 +32,12 @@ def rational_between(low: Real, high: Real) -> fmpq:
     bits = 64
     while True:
         (_, left_end), (right_end, _) = low.enclosure(bits), high.enclosure(bits)
-        gap = right_end - left_end
-        if gap > 0:
-            scale = fmpz(2) ** (int((1 / gap).ceil().bit_length()) + 3)
-            return fmpq(((left_end + right_end) / 2 * scale).floor(), scale)
+        if left_end < right_end:
+            return _short_between(left_end, right_end)
         bits *= 2
+
+
+def _short_between(low: fmpq, high: fmpq) -> fmpq:
+    """A multiple of a power of two between two rationals, near their middle."""
+    scale = fmpz(2) ** (int((1 / (high - low)).ceil().bit_length()) + 3)
+    return fmpq(((low + high) / 2 * scale).floor(), scale)

@@ -165,7 +165,7 @@ class FrontFaces:
         self.floats = faces = RadialFaces(table.images, _image(self.origin), held(range_.square))
         near = table.lit((point.xy,), range_.above)
         open_ = faces.add_straight(near)
-        round_ = faces.add_circles(faces.arcs(near)) if table.curved else []
+        round_ = faces.add_arcs(faces.arcs(near)) if table.curved else []
         self.count = len(table.vertices) + 2 * len(faces.circles)
         if own is None:
             own = self._edges_at_point(open_, round_)

@@ -3,9 +3,10 @@
 An exact place costs many times what its ball does, and most places are never asked for more than their
 order along an edge. All arithmetic is that of `flint.arb`, which bounds its own errors.
 
-Some cells of a sweep are narrower than floats can tell; drawings whose thick lines became walls have many.
-Which edges a line in one of them meets first `first_meetings` asks longer balls: exact contacts take about
-ten times as long.
+Some lines of a sweep are closer than floats can tell, and the cells between them narrower: drawings whose
+coordinates are rounded, and those whose thick lines became walls, have many. The order of such lines, and
+which edges a line in such a cell meets first, is asked of longer balls (`event_ball`, `first_meetings`):
+exact numbers take about ten times as long.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from typing import TypeAlias
 
 from flint import arb, fmpq
 
-from exactacq.geometry.coordinates import minus, raw
+from exactacq.geometry.coordinates import Vector, minus, raw
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.late import Balls, ball_of, balls, clearly_between
 from exactacq.geometry.points import Point
@@ -113,6 +114,33 @@ class CurveBalls:
 # -- by long balls -----------------------------------------------------------------------------------
 
 
+def event_ball(sector: Sector, at: Line, circle: tuple[Vector, fmpq], side: int, sign: int) -> arb | None:
+    """The parameter of a line that there is (see `Sector.exact`), as exact as the working precision.
+
+    *at* are the sector's centre and base in such balls. None if no ball holds the parameter, as near a
+    tangent that is both of the two that there are.
+    """
+    ((x, y), radius_sq), (cx, cy, ex, ey) = circle, at
+    ox, oy, size = arb(x) - cx, arb(y) - cy, ex * ex + ey * ey
+    along, across = ex * ox + ey * oy, ex * oy - ey * ox
+    if isinstance(sector, Sliding):
+        found = (along + sign * (size * arb(radius_sq)).sqrt()) / size if side else along / size
+    elif isinstance(sector, Rolling):
+        k = size + side * (size * arb(radius_sq)).sqrt()
+        found = (across + sign * (size * (ox * ox + oy * oy) - k * k).sqrt()) / (k + along)
+    elif side == 0:
+        found = across / along
+    else:
+        reach, radius = (ox * ox + oy * oy - arb(radius_sq)).sqrt(), sign * arb(radius_sq).sqrt()
+        found = (reach * across + radius * along) / (reach * along - radius * across)
+    return found if found.is_finite() else None
+
+
+def long_frame(sector: Sector) -> Line:
+    """The centre and the base of a sector in long balls; the caller must have set the precision to `LONG`."""
+    return _held(Point(*sector.center)) + _held(Point(*sector.base))
+
+
 def first_meetings(
     table: EdgeTable, sector: Sector, t: fmpq, edges: Iterable[int], own: Collection[int]
 ) -> tuple[int, int] | None:
@@ -123,7 +151,7 @@ def first_meetings(
     """
     nearest: dict[int, tuple[arb, int, int]] = {}
     with workprec(LONG):
-        at = line(sector, arb(t), _held(Point(*sector.center)) + _held(Point(*sector.base)))
+        at = line(sector, arb(t), long_frame(sector))
         for e in edges:
             curve = table.curves[e]
             met = _met(at, curve, e in own)

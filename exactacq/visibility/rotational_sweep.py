@@ -19,6 +19,7 @@ from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, cmp_to_key
 from math import isnan
+from operator import itemgetter
 from typing import TypeAlias
 
 from flint import arb, fmpq
@@ -37,10 +38,11 @@ from exactacq.kernel.pencil_sweep import DONE, EDGES, EVENTS, MIDDLES, ORDER, Pe
 from exactacq.kernel.sector_edges import may_be_met
 from exactacq.kernel.surroundings import Surroundings
 from exactacq.numbers.between import rational_between
+from exactacq.numbers.precision import workprec
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.features import directions_at, enters
-from exactacq.visibility.line_balls import first_meetings
+from exactacq.visibility.line_balls import LONG, Line, event_ball, first_meetings, long_frame
 from exactacq.visibility.line_families import Rolling, Sector, Sliding, Vector, held
 from exactacq.visibility.quadratic_roots import QuadraticRoot
 
@@ -263,18 +265,73 @@ class _Decisions:
 
     def _parted(self, clusters: list[list[BoundLine]]) -> Iterator[BoundLine]:
         """The distinct lines at which there are events, from low to high."""
-        low, high = self.sweep.low, self.sweep.high
         for cluster in clusters:
             if len(cluster) == 1:
                 yield cluster[0]
             else:
-                yield from self._resolved(cluster, low in cluster, high in cluster)
+                yield from self._resolved(cluster)
 
-    def _resolved(self, cluster: list[BoundLine], has_low: bool, has_high: bool) -> Iterator[BoundLine]:
+    def _resolved(self, cluster: list[BoundLine]) -> Iterator[BoundLine]:
         """The distinct lines of a cluster, from the low bound on or up to the high one, in exact order."""
+        low, high = self.sweep.low, self.sweep.high
+        waits = low in cluster
+        for group in self._grouped(cluster):
+            has_low, has_high = low in group, high in group
+            waits = waits and not has_low
+            if not waits:
+                yield from self._compared(group, has_low, has_high)
+            if has_high:
+                return
+
+    def _grouped(self, cluster: list[BoundLine]) -> list[list[BoundLine]]:
+        """The lines of a cluster in order, together where long balls leave it open; they know their values.
+
+        Lines of a drawing with rounded coordinates differ by less than floats tell, but most do differ.
+        """
+        if not self.sector.is_rational:
+            return [cluster]
+        lines = [(self._rational(event), event) for event in cluster]
+        found: list[tuple[arb, arb, BoundLine]] = []
+        with workprec(LONG):
+            at = long_frame(self.sector)
+            for value, event in lines:
+                ball = self._long_ball(at, event) if value is None else arb(value)
+                if ball is None:
+                    return [cluster]
+                found.append((ball.lower(), ball.upper(), event))
+        found.sort(key=itemgetter(0))
+        groups: list[list[BoundLine]] = []
+        reached: arb | None = None
+        for low, high, event in found:
+            if reached is None or reached < low:
+                groups.append([event])
+                reached = high
+            else:
+                groups[-1].append(event)
+                reached = max(reached, high)
+        return groups
+
+    def _long_ball(self, at: Line, event: BoundLine) -> arb | None:
+        """A long ball around the parameter of a line, which it has as its late value from now on."""
+        value = event.value
+        if isinstance(value, Real) and not value.is_late:
+            return value.working_ball(LONG)
+        circle = target(self.table, event.number, event.side)
+        ball = event_ball(self.sector, at, circle, event.side, event.sign)
+        if ball is not None and value is None:
+            event.value = Real.late(ball, _exact, self.sector, *circle, event.side, event.sign)
+        return ball
+
+    def _compared(self, group: list[BoundLine], has_low: bool, has_high: bool) -> Iterator[BoundLine]:
+        """The distinct lines of some, from the low bound on or up to the high one, in exact order."""
+        if len(group) == 1:
+            (event,) = group
+            value = self._rational(event)
+            yield _known(value_of(self.table, self.sector, event) if value is None else value, event.passed)
+            return
         low, high = _Value(self.sector.low), _Value(self.sector.high)
         found: dict[Hashable, _Value] = {}
-        values = [(self._valued(event, found), event) for event in cluster]
+        values = [(self._valued(event, found), event) for event in group]
         if any(isinstance(value.number, Real) for value, _ in values):
             values.sort(key=cmp_to_key(_by_value))
         else:
