@@ -52,7 +52,7 @@ from exactacq.numbers.rationals import nearest_float, rational
 from exactacq.numbers.real import Real
 from exactacq.scene.scene import Scene
 
-SOME_EDGES = 64
+SOME_EDGES = 128
 """So many edges at a time are asked what they hide."""
 MANY_RAYS = 64
 """Of so many critical rays it is worth while to leave out those to what is hidden."""

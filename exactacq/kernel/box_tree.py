@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from math import ceil, sqrt
 from operator import attrgetter
-from typing import Final, final
+from typing import Final, cast, final
 
 from exactacq.kernel.bounded import UNIT
 from exactacq.kernel.lines import Line
@@ -30,14 +30,15 @@ class BoxNode:
         self.x0, self.y0, self.x1, self.y1 = box
         self.x, self.y = self.x0 + self.x1, self.y0 + self.y1
         self.number, self.group = number, group
+        self.label: object = number
+        """The number as one object, which all lists share: many are kept."""
 
     def near(self, window: Box, reach: float) -> list[int]:
         """The numbers of the boxes at most as far as *reach* from a window, in ascending order."""
-        found: list[int] = []
+        found: list[object] = []
         x0, y0, x1, y1 = window
         self._search(x0, y0, x1, y1, reach * reach, found)
-        found.sort()
-        return found
+        return in_order(found)
 
     def square_from(self, x0: float, y0: float, x1: float, y1: float) -> float:
         """The squared distance of the box from a window."""
@@ -88,14 +89,21 @@ class BoxNode:
             else:
                 node._search_along(x, y, dx, dy, shift, turn, square, found)
 
-    def _search(self, x0: float, y0: float, x1: float, y1: float, square: float, found: list[int]) -> None:
+    def _search(self, x0: float, y0: float, x1: float, y1: float, square: float, found: list[object]) -> None:
         for node in self.group:
             if node.square_from(x0, y0, x1, y1) > square:
                 continue
             if node.number >= 0:
-                found.append(node.number)
+                found.append(node.label)
             else:
                 node._search(x0, y0, x1, y1, square, found)
+
+
+def in_order(labels: list[object]) -> list[int]:
+    """The numbers that are labels, in ascending order."""
+    numbers = cast(list[int], labels)
+    numbers.sort()
+    return numbers
 
 
 def box_tree(boxes: list[Box]) -> BoxNode:

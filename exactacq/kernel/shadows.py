@@ -12,7 +12,7 @@ from math import hypot
 from typing import Final, final
 
 from exactacq.kernel.bounded import UNIT
-from exactacq.kernel.box_tree import BoxNode
+from exactacq.kernel.box_tree import BoxNode, in_order
 from exactacq.kernel.images import CONVEX, STRAIGHT, EdgeImages
 
 MOST: Final = 16
@@ -101,11 +101,10 @@ def lit(
     tree: BoxNode, window: tuple[float, float, float, float], reach: float, hiding: list[Shadow], slack: float
 ) -> list[int]:
     """The numbers of the boxes at most as far as *reach* from a window that no shadow contains, ascending."""
-    found: list[int] = []
+    found: list[object] = []
     x0, y0, x1, y1 = window
     _search(tree, x0, y0, x1, y1, reach * reach, hiding, slack, found)
-    found.sort()
-    return found
+    return in_order(found)
 
 
 def _search(
@@ -117,7 +116,7 @@ def _search(
     square: float,
     hiding: list[Shadow],
     slack: float,
-    found: list[int],
+    found: list[object],
 ) -> None:
     for node in around.group:
         if node.square_from(x0, y0, x1, y1) > square:
@@ -130,7 +129,7 @@ def _search(
         if is_hidden:
             continue
         if node.number >= 0:
-            found.append(node.number)
+            found.append(node.label)
         else:
             _search(node, x0, y0, x1, y1, square, hiding, slack, found)
 

@@ -29,13 +29,15 @@ from exactacq.kernel.line_keys import LineNumbers
 from exactacq.kernel.lines import Line
 from exactacq.kernel.shadows import Spot, lit, shadows
 from exactacq.numbers.float_bounds import margin
+from exactacq.recent import Recent
 from exactacq.scene.scene import Obstacle
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 
 STRAIGHT, CONVEX, CONCAVE = images.STRAIGHT, images.CONVEX, images.CONCAVE
-NEAR_KEPT = 64
+NEAR_KEPT = 1024
+"""So many lists of what is near are remembered: those of a wide neighbourhood."""
 LATTICE_BITS = 64
 """Up to this size of the common denominator vertices are looked at as integers."""
 CLOSE = 0.2
@@ -78,8 +80,8 @@ class EdgeTable:
         round_ = circles(self.curves)
         self.center, self.radius = round_[:, :2], round_[:, 2]
         self.boxes: Floats = bounds(self.curves)
-        self._around: dict[tuple[tuple[float, float], tuple[float, float], float], list[int]] = {}
-        self._lit: dict[tuple[tuple[Spot, ...], float], list[int]] = {}
+        self._around = Recent[tuple[Spot, Spot, float], list[int]](NEAR_KEPT)
+        self._lit = Recent[tuple[tuple[Spot, ...], float], list[int]](NEAR_KEPT)
         self._dense: dict[float, bool] = {}
         self.magnitude = float(np.abs(self.boxes).max(initial=0.0))
         self._largest = max(self.magnitude, float(self.radius.max(initial=0.0)))
@@ -198,12 +200,12 @@ class EdgeTable:
         These are looked at, whatever decides then. The last answers are kept: all sectors of a corner ask for
         one box, as do ways along an edge.
         """
-        found = self._around.get((low, high, reach))
+        key = low, high, reach
+        found = self._around.get(key)
         if found is None:
-            if len(self._around) >= NEAR_KEPT:
-                self._around.clear()
             slack = 8 * self._error(low, high)
-            found = self._around[low, high, reach] = self.tree.near((*low, *high), reach + slack)
+            found = self.tree.near((*low, *high), reach + slack)
+            self._around.put(key, found)
         return found
 
     def lit(self, places: tuple[Spot, ...], reach: float) -> list[int]:
@@ -212,7 +214,8 @@ class EdgeTable:
         Of those that are in reach `around` them, what single edges and discs certainly hide is left out. The
         last answers are kept.
         """
-        found = self._lit.get((places, reach))
+        key = places, reach
+        found = self._lit.get(key)
         if found is None:
             xs, ys = zip(*places, strict=True)
             low, high = (min(xs), min(ys)), (max(xs), max(ys))
@@ -223,9 +226,7 @@ class EdgeTable:
             else:
                 hiding = shadows(self.images, close, places, slack)
                 found = lit(self.tree, (*low, *high), reach + 8 * self._error(low, high), hiding, slack)
-            if len(self._lit) >= NEAR_KEPT:
-                self._lit.clear()
-            self._lit[places, reach] = found
+            self._lit.put(key, found)
         return found
 
     def _is_dense(self, reach: float) -> bool:

@@ -22,7 +22,8 @@ from exactacq.geometry.points import Point
 from exactacq.kernel.box_tree import BoxNode, box_tree
 from exactacq.kernel.images import EdgeImages
 from exactacq.numbers.real import Real
-from exactacq.scene.edge_table import CONCAVE, CONVEX, STRAIGHT, EdgeTable
+from exactacq.recent import Recent
+from exactacq.scene.edge_table import CONCAVE, CONVEX, NEAR_KEPT, STRAIGHT, EdgeTable
 from exactacq.visibility.known_chains import ChainPiece, KnownChain
 
 
@@ -58,7 +59,7 @@ class ChainTable(EdgeTable):
         self.radius = np.concatenate((solid.radius, circles(self.curves[self.solids :])[:, 2]))
         self.magnitude = float(np.abs(self.boxes).max(initial=0.0))
         self._largest = max(self.magnitude, float(self.radius.max(initial=0.0)))
-        self._around = {}
+        self._around = Recent(NEAR_KEPT)
 
     @cached_property
     def tree(self) -> BoxNode:

@@ -40,7 +40,7 @@ from exactacq.kernel.surroundings import Surroundings
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.precision import workprec
 from exactacq.numbers.real import Real
-from exactacq.scene.edge_table import EdgeTable
+from exactacq.scene.edge_table import EdgeTable, corners
 from exactacq.visibility.features import directions_at, enters
 from exactacq.visibility.line_balls import LONG, Line, event_ball, first_meetings, long_frame
 from exactacq.visibility.line_families import Rolling, Sector, Sliding, Vector, held
@@ -151,14 +151,15 @@ def pencil(
     breaks: tuple[Vector, ...] = (),
     vertex: int = NOTHING,
 ) -> Pencil:
-    """Sweep one sector; only edges within *reach* of the contact are considered.
+    """Sweep one sector; only edges that may be seen within *reach* of the contact are considered.
 
     *own* are the edges through the contact, *breaks* further directions (at a corner) that end cells, and
     *vertex* is that in the sector's centre, if it is known. What lies beyond *reach* may be reported wrongly
     or as None, so a chord is to be trusted only if both its halves are no longer than *reach*.
     """
     (x, y), extent = map(float, sector.center), sector.extent
-    edges = table.around((x - extent, y - extent), (x + extent, y + extent), reach)
+    places = corners((x - extent, y - extent, x + extent, y + extent)) if extent else ((x, y),)
+    edges = table.lit(places, reach)
     return swept(table, sector, own, edges, breaks, vertex=vertex)
 
 
