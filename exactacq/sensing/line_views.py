@@ -129,13 +129,13 @@ class LineViews:
         """Where a line meets an edge, in balls; None if no ball holds it."""
         if side.role is Role.CONTACT:
             return at[:2]
-        met = self._balls_of(side.edge).met(at, side.role)
+        met = self.balls_of(side.edge).met(at, side.role)
         return None if met is None else met[1]
 
-    def _balls_of(self, e: int) -> CurveBalls:
+    def balls_of(self, e: int) -> CurveBalls:
         """The curve of a number in balls."""
         if self._base is not None and 0 <= e < len(self._base.rails):
-            return self._base._balls_of(e)
+            return self._base.balls_of(e)
         if e not in self._balls:
             self._balls[e] = CurveBalls(self.curve(e))
         return self._balls[e]

@@ -9,11 +9,12 @@ from collections.abc import Collection, Iterator
 from functools import cached_property
 from itertools import pairwise
 
-from flint import fmpq
+from flint import arb, fmpq
 
 from exactacq.geometry.coordinates import dot, raw
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.intersections import line_contacts
+from exactacq.geometry.late import Balls
 from exactacq.geometry.points import Point
 from exactacq.kernel.bounded import TINY, UNIT
 from exactacq.kernel.extents import Extent
@@ -22,6 +23,8 @@ from exactacq.kernel.images import SPOKES
 from exactacq.kernel.lines import line_at, side_of
 from exactacq.kernel.ways import Crossing, crossings, extents_from_way
 from exactacq.numbers.between import rational_between
+from exactacq.numbers.precision import workprec
+from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.sensing.line_family import LineFamily
 from exactacq.sensing.line_points import Role, Side
@@ -29,6 +32,7 @@ from exactacq.sensing.straight_way import StraightWay
 from exactacq.sensing.view_families import FreeViews, ViewFamily
 from exactacq.sensing.way_cuts import Cut, WayCuts
 from exactacq.visibility.chords import meet
+from exactacq.visibility.line_balls import LONG, crossing, line, long_frame
 from exactacq.visibility.line_families import Sector, Sliding
 
 
@@ -142,6 +146,9 @@ class WayCrossings:
 
     def _role(self, line_family: LineFamily, t: fmpq, wanted: frozenset[int]) -> Role | None:
         """On which side of the contact the line crosses the way within its free part, if it does."""
+        is_told, role = self._clear_role(line_family, t)
+        if is_told:
+            return role if role is None or _shown(line_family, role, wanted) else None
         contact, direction = line_family.sector.touch(Real(t))
         met = line_contacts(contact, direction, self.way.piece)
         if not met or met[0].sign() == 0:
@@ -156,6 +163,36 @@ class WayCrossings:
             return role if side > 0 or line_family.goes_back else None
         limit = meet(contact, direction, self.way.clipper.curve(wall.edge), side)
         return role if (limit - met[0]).sign() * side >= 0 else None
+
+    def _clear_role(self, line_family: LineFamily, t: fmpq) -> tuple[bool, Role | None]:
+        """Whether long balls tell that, and what they tell."""
+        sector = line_family.sector
+        if not sector.is_rational:
+            return False, None
+        start, end = self._long_ends
+        with workprec(LONG):
+            at = line(sector, arb(t), long_frame(sector))
+            met = crossing(at, start, end)
+            if not met:
+                return met is not None, None
+            tau = met[0][0]
+        side = ball_sign(tau)
+        if not side:
+            return False, None
+        role = Role.AHEAD if side > 0 else Role.BEHIND
+        wall = line_family.ahead if side > 0 else line_family.behind
+        if wall is None:
+            # Nothing was met within reach; normals do not go back from their edge.
+            return True, role if side > 0 or line_family.goes_back else None
+        limit = self.way.clipper.views.balls_of(wall.edge).met(at, side)
+        order = 0 if limit is None else ball_sign(limit[0] - tau) * side
+        return order != 0, role if order > 0 else None
+
+    @cached_property
+    def _long_ends(self) -> tuple[Balls, Balls]:
+        """Long balls around the ends of the way."""
+        start, end = self.way.piece.start, self.way.piece.end
+        return (start.x.ball(LONG), start.y.ball(LONG)), (end.x.ball(LONG), end.y.ball(LONG))
 
 
 def _shown(line_family: LineFamily, role: Role, wanted: frozenset[int]) -> list[Side]:

@@ -204,15 +204,22 @@ def _met(at: Line, curve: Curve, is_own: bool) -> list[Meeting] | None:
 
 def _met_straight(at: Line, edge: Segment) -> list[Meeting] | None:
     """Where a line crosses an edge that its contact is not on; None if balls leave open whether it does."""
+    return crossing(at, _held(edge.start), _held(edge.end))
+
+
+def crossing(at: Line, start: Balls, end: Balls) -> list[Meeting] | None:
+    """Where a line crosses a segment, between its ends; None if balls leave open whether it does.
+
+    It enters where it passes from the right of the segment to its left, the side of the obstacle of an edge.
+    """
     x, y, dx, dy = at
-    (ax, ay), (bx, by) = _held(edge.start), _held(edge.end)
+    (ax, ay), (bx, by) = start, end
     ax, ay, bx, by = ax - x, ay - y, bx - x, by - y
-    start, end = ax * dy - ay * dx, bx * dy - by * dx
-    before, after = ball_sign(start), ball_sign(end)
+    first, last = ax * dy - ay * dx, bx * dy - by * dx
+    before, after = ball_sign(first), ball_sign(last)
     if not (before and after):
         return None
-    # An edge has its obstacle to the left.
-    return [] if before == after else [((ay * bx - ax * by) / (end - start), after)]
+    return [] if before == after else [((ay * bx - ax * by) / (last - first), after)]
 
 
 def _held(point: Point) -> Balls:
