@@ -28,10 +28,12 @@ from exactacq.geometry.points import Point
 from exactacq.kernel.bounded import TINY, UNIT, WIDEN
 from exactacq.kernel.radial_faces import RadialFaces
 from exactacq.numbers.float_bounds import margin
+from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.features import is_spike, parallel
+from exactacq.visibility.line_balls import LONG, long_vector
 from exactacq.visibility.line_families import BITS, held
 from exactacq.visibility.place_facts import NOTHING_KNOWN, Alignment, PlaceFacts, Touched
 from exactacq.visibility.sensor_range import Range
@@ -44,16 +46,21 @@ class SweepEnd:
     """An event that is no vertex: its point, and the direction to it.
 
     It lies on arc ``edge``, to whose circle the direction is tangent; ``side`` is 1 if the circle is to the
-    left, else -1. ``around`` are balls around the direction that `vector` gives exactly: they and the point
-    are found when one of them is first asked for.
+    left, else -1. ``around`` are balls around the direction that `vector` gives exactly, and `long` in long
+    balls. They and the point are found when one of them is first asked for.
     """
 
-    __slots__ = ("_find", "_found", "edge", "side", "vector")
+    __slots__ = ("_find", "_found", "edge", "long", "side", "vector")
 
     def __init__(
-        self, find: Callable[[], tuple[Point, Balls]], vector: Callable[[], Vector], edge: int, side: int
+        self,
+        find: Callable[[], tuple[Point, Balls]],
+        vector: Callable[[], Vector],
+        long: Callable[[], Balls],
+        edge: int,
+        side: int,
     ) -> None:
-        self._find, self.vector = find, vector
+        self._find, self.vector, self.long = find, vector, long
         self._found: tuple[Point, Balls] | None = None
         self.edge, self.side = edge, side
 
@@ -112,6 +119,17 @@ class _Touch:
         excess = square - radius_sq
         u, v = _tangent(w, excess, (excess * radius_sq).sqrt() * self.side)
         return late_point((x + u / square, y + v / square), self._point), (u, v)
+
+    def long(self) -> Balls:
+        """Long balls around the direction."""
+        if self.ray is not None:
+            return long_vector(self.ray.direction)
+        x, y = long_vector(self.origin)
+        with workprec(LONG):
+            cx, cy = raw(self.arc.center)
+            w, radius_sq = (arb(cx) - x, arb(cy) - y), arb(self.arc.radius_sq)
+            excess = dot(w, w) - radius_sq
+            return _tangent(w, excess, (excess * radius_sq).sqrt() * self.side)  # type: ignore[no-any-return]
 
     def _point(self) -> Point:
         if self.ray is not None:
@@ -246,6 +264,13 @@ class FrontFaces:
         mark = self.mark(event)
         return mark.around, mark.vector
 
+    def long_offset(self, event: int) -> Balls:
+        """Long balls around that vector."""
+        known, count = self._offsets.get(event), len(self.table.vertices)
+        return (
+            self.mark(event).long() if known is None and event >= count else long_vector(self.offset(event))
+        )
+
     def ray(self, events: Iterable[int]) -> Alignment | None:
         """The known ray that touches one of some events, or None."""
         if not self._rays:
@@ -361,7 +386,7 @@ class FrontFaces:
         assert isinstance(arc, Arc)
         circle = self.table.line_numbers.feature(e, True)
         touch = _Touch(self.origin, self.around, arc, side, circle, self._rays.get((circle, -side)))
-        return SweepEnd(touch.found, touch.vector, e, -side)
+        return SweepEnd(touch.found, touch.vector, touch.long, e, -side)
 
     # -- the point's own edges ---------------------------------------------------------------------
 
@@ -396,7 +421,9 @@ class FrontFaces:
         around = ball_of(vector[0]), ball_of(vector[1])
         side = sense if curve.ccw else -sense
         here = self.point, around
-        event = self._add_mark(SweepEnd(lambda: here, lambda: vector, e, side), _held(vector))
+        event = self._add_mark(
+            SweepEnd(lambda: here, lambda: vector, lambda: long_vector(vector), e, side), _held(vector)
+        )
         self.here.append(event)
         return event
 

@@ -18,11 +18,12 @@ from flint import arb, fmpq
 
 from exactacq.geometry.coordinates import Vector, minus, raw
 from exactacq.geometry.curves import Curve, Segment
-from exactacq.geometry.late import Balls, ball_of, balls, clearly_between
+from exactacq.geometry.late import BITS, Balls, ball_of, clearly_between
 from exactacq.geometry.points import Point
 from exactacq.kernel.bound_lines import NOTHING
 from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import ball_sign
+from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes, Turning
 
@@ -80,15 +81,17 @@ class CurveBalls:
 
     __slots__ = ("_center", "_curve", "_radius_sq", "_start", "_way")
 
-    def __init__(self, curve: Curve) -> None:
+    def __init__(self, curve: Curve, bits: int = BITS) -> None:
+        """*bits* is the working precision of the balls, `LONG` at most where that is set."""
         self._curve = curve
         start, end = raw(curve.start), raw(curve.end)
-        self._start = balls(curve.start)
+        self._start = curve.start.x.ball(bits), curve.start.y.ball(bits)
         if isinstance(curve, Segment):
             x, y = minus(end, start)
             self._way = ball_of(x), ball_of(y)
         else:
-            self._center, self._radius_sq = balls(curve.center), ball_of(curve.radius_sq)
+            self._center = curve.center.x.ball(bits), curve.center.y.ball(bits)
+            self._radius_sq = ball_of(curve.radius_sq)
 
     def met(self, at: Line, role: int) -> tuple[arb, Balls] | None:
         """How far along a line enters the obstacle, ahead (1) or back (-1), and where on the curve.
@@ -134,6 +137,26 @@ def event_ball(sector: Sector, at: Line, circle: tuple[Vector, fmpq], side: int,
         reach, radius = (ox * ox + oy * oy - arb(radius_sq)).sqrt(), sign * arb(radius_sq).sqrt()
         found = (reach * across + radius * along) / (reach * along - radius * across)
     return found if found.is_finite() else None
+
+
+def long_vector(vector: Vector) -> Balls:
+    """Long balls around exact components."""
+    with workprec(LONG):
+        x, y = (c if isinstance(c, Real) else arb(c) for c in vector)
+    return x.ball(LONG) if isinstance(x, Real) else x, y.ball(LONG) if isinstance(y, Real) else y
+
+
+def clear_turn(a: Balls, b: Balls) -> int:
+    """1 or -1 as b comes after a or before it, counterclockwise from the east; 0 if long balls leave that
+    open."""
+    (ax, ay), (bx, by) = a, b
+    upper, other = ball_sign(ay), ball_sign(by)
+    if not (upper and other):
+        return 0
+    if upper != other:
+        return upper
+    with workprec(LONG):
+        return ball_sign(ax * by - ay * bx)
 
 
 def long_frame(sector: Sector) -> Line:

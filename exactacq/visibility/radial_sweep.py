@@ -8,7 +8,7 @@ the first face of every cell (`exactacq.kernel.radial_sweep`); what they leave o
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Sequence
 from itertools import groupby
 from operator import itemgetter
 from typing import TypeAlias
@@ -22,12 +22,14 @@ from exactacq.geometry.points import Point
 from exactacq.kernel import radial_sweep as floats
 from exactacq.kernel import single_rays
 from exactacq.kernel.view_parts import ViewParts
+from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.chords import meet
 from exactacq.visibility.features import enters, leaving
 from exactacq.visibility.front_faces import NOWHERE, FrontFaces
+from exactacq.visibility.line_balls import LONG, CurveBalls, clear_turn, long_vector
 from exactacq.visibility.place_facts import NOTHING_KNOWN, PlaceFacts
 from exactacq.visibility.sensor_range import Range
 
@@ -104,15 +106,20 @@ class RadialSweep:
         """Slots grouped by exact direction, counterclockwise."""
         events, groups = self.faces.floats.events, list[list[int]]()
         slots = sorted(slots, key=events.__getitem__)
-        vectors = [self.faces.offset(events[slot]) for slot in slots]
-        if all(isinstance(x, fmpq) and isinstance(y, fmpq) for x, y in vectors):
-            turns = sorted(zip(map(_turned, vectors), slots, strict=True), key=itemgetter(0))
-            return [[slot for _, slot in group] for _, group in groupby(turns, key=itemgetter(0))]
-        for slot, vector in zip(slots, vectors, strict=True):
+        if all(events[slot] < len(self.table.vertices) for slot in slots):
+            vectors = [self.faces.offset(events[slot]) for slot in slots]
+            if all(isinstance(x, fmpq) and isinstance(y, fmpq) for x, y in vectors):
+                turns = sorted(zip(map(_turned, vectors), slots, strict=True), key=itemgetter(0))
+                return [[slot for _, slot in group] for _, group in groupby(turns, key=itemgetter(0))]
+        balls = {slot: self.faces.long_offset(events[slot]) for slot in slots}
+        for slot in slots:
             low, high = 0, len(groups)
             while low < high:
                 middle = (low + high) // 2
-                order = _turn(self.faces.offset(events[groups[middle][0]]), vector)
+                first = groups[middle][0]
+                order = clear_turn(balls[first], balls[slot])
+                if not order:
+                    order = _turn(*(self.faces.offset(events[k]) for k in (first, slot)))
                 if order == 0:
                     groups[middle].append(slot)
                     break
@@ -143,8 +150,11 @@ class RadialSweep:
             sweep.first[cell] = self.nearest(self._inner_direction(cell), some)
         return sweep.first
 
-    def nearest(self, direction: Vector, faces: Iterable[int]) -> int:
-        """The nearest of faces that all cover a direction; exact."""
+    def nearest(self, direction: Vector, faces: Sequence[int]) -> int:
+        """The nearest of faces that all cover a direction: exact, where long balls leave it open."""
+        clear = self._clearly_nearest(direction, faces)
+        if clear is not None:
+            return clear
         best, least = NOTHING, None
         ray = Point(*direction)
         for f in faces:
@@ -152,6 +162,20 @@ class RadialSweep:
             if least is None or tau.compare(least) < 0:
                 best, least = f, tau
         return best
+
+    def _clearly_nearest(self, direction: Vector, faces: Sequence[int]) -> int | None:
+        """The nearest of such faces, by long balls; None where these leave it open."""
+        curves, (x, y), (dx, dy) = self.table.curves, long_vector(self.faces.origin), long_vector(direction)
+        best: tuple[arb, int] | None = None
+        with workprec(LONG):
+            for f in faces:
+                e = self.edges[f]
+                met = None if e in self.faces.own else CurveBalls(curves[e], LONG).met((x, y, dx, dy), 1)
+                if met is None or (best is not None and met[0].overlaps(best[0])):
+                    return None
+                if best is None or met[0] < best[0]:
+                    best = met[0], f
+        return None if best is None else best[1]
 
     def parameter(self, ray: Point, face: int) -> Real:
         """How many times a ray's vector leads from the point to a face that covers it."""
