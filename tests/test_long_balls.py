@@ -1,0 +1,238 @@
+"""What long balls tell where floats leave something open: the order of lines and of directions, what is met
+first, where a line crosses a way, and the rays of the audit that touch circles.
+
+The scene is one of rounded coordinates: nothing on a line is exactly on it, so that floats part nothing and
+all is different. What is told is compared with what exact numbers say.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from random import Random
+
+import pytest
+from flint import arb, fmpq
+from hypothesis import given
+from hypothesis import strategies as st
+from nightly import examples
+
+import exactacq as xa
+from exactacq.auditing.rays import clear_tangents, tangent_directions
+from exactacq.numbers.precision import workprec
+from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.sensing.complex_edges import normals
+from exactacq.sensing.way_crossings import WayCrossings
+from exactacq.visibility import radial_sweep, rotational_sweep
+from exactacq.visibility.features import features
+from exactacq.visibility.line_balls import LONG, clear_turn, crossing, event_ball, long_frame, long_vector
+from exactacq.visibility.line_families import Sector
+from exactacq.visibility.radial_sweep import RadialSweep
+from exactacq.visibility.rotational_sweep import Pencil, pencil
+from exactacq.visibility.sensor_range import Range
+
+
+def rounded_rows(seed: int = 1) -> xa.Scene:
+    """Plates and pins in rows, with coordinates that are off by some 10^-14."""
+    rng = Random(seed)
+
+    def off(value: str) -> Fraction:
+        return Fraction(value) + Fraction(rng.randrange(-9, 10), 10**14)
+
+    shapes: list[xa.Shape] = []
+    for k in range(4):
+        x, y = 500 + 3 * k, 300
+        corners = [(x, y), (x + 2, y), (x + 2, y + 1), (x, y + 1)]
+        shapes.append(xa.Polygon([(off(str(u)), off(str(v))) for u, v in corners]))
+        shapes.append(xa.Circle((off(str(x + 1)), off(str(y + 3))), "1/2"))
+        ends = [(off(str(x)), off(str(y + 5))), (off(str(x + 2)), off(str(y + 5)))]
+        shapes.append(xa.Outline([(*ends[0], 0), (*ends[1], 1), (off(str(x + 2)), off(str(y + 6)), 0)]))
+    return xa.Scene(shapes, start=(499, 302))
+
+
+SCENE = rounded_rows()
+TABLE = EdgeTable(SCENE.obstacles)
+SECTORS = [(sector, feature.edges) for feature in features(TABLE) for sector in feature.sectors] + [
+    (sector, (e,)) for e, curve in enumerate(TABLE.curves) for sector in normals(curve)
+]
+
+
+def swept(sector: Sector, own: tuple[int, ...]) -> Pencil:
+    return pencil(TABLE, sector, own, 30.0)
+
+
+def told(found: Pencil) -> list[tuple[int | None, int | None, object]]:
+    return [(cell.behind, cell.ahead, cell.bounds) for cell in found.cells]
+
+
+@pytest.mark.parametrize("number", range(0, len(SECTORS), 3))
+def test_lines_are_ordered_as_exact_numbers_order_them(number: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    sector, own = SECTORS[number]
+    found = swept(sector, own)
+    for cell in found.cells:
+        # Looked into, which makes them exact.
+        low, high = (Real.sum([bound]) for bound in (cell.low, cell.high))
+        assert low < high
+    monkeypatch.setattr(rotational_sweep, "event_ball", lambda *_: None)
+    assert told(swept(sector, own)) == told(found)
+
+
+def test_long_balls_part_what_is_not_equal(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of the lines that floats do not part long balls leave together those that are equal."""
+    groups: list[int] = []
+    compared = rotational_sweep._Decisions._compared
+
+    def counted(decisions: rotational_sweep._Decisions, group: list[object], *has: bool) -> object:
+        groups.append(len(group))
+        return compared(decisions, group, *has)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(rotational_sweep._Decisions, "_compared", counted)
+    for sector, own in SECTORS:
+        swept(sector, own)
+    # Along the edges beside it a corner's first and last lines pass their other ends: these are equal.
+    assert groups.count(1) > 100
+    assert len(groups) - groups.count(1) < 2 * len(SECTORS)
+
+
+@examples(60)
+@given(st.sampled_from(SECTORS), st.integers(0, len(TABLE.curves) - 1), st.sampled_from([-1, 1]), st.data())
+def test_an_event_lies_in_its_ball(
+    at: tuple[Sector, tuple[int, ...]], e: int, sign: int, data: st.DataObject
+) -> None:
+    sector, _ = at
+    curve = TABLE.curves[e]
+    side = data.draw(st.sampled_from([-1, 1])) if isinstance(curve, xa.Arc) else 0
+    circle = rotational_sweep.target(TABLE, e, side)
+    exact = sector.exact(*circle, side, sign)
+    with workprec(LONG):
+        ball = event_ball(sector, long_frame(sector), circle, side, sign)
+    if exact is not None and ball is not None:
+        assert ball.overlaps(exact.ball(2 * LONG))
+        assert ball.rad() < 1e-60 * (1 + abs(ball.mid()))
+
+
+# -- directions and faces ----------------------------------------------------------------------------
+
+
+def places() -> list[xa.Point]:
+    row = [xa.Point(f"{499 + k}.5", 302) for k in range(12)]
+    irrational = xa.Point(499, Real(2).sqrt() / 1000 + 301)
+    return [*row, irrational, xa.Point("499.25", "301.5"), TABLE.curves[0].start]
+
+
+@pytest.mark.parametrize("k", range(15))
+def test_views_are_as_exact_numbers_tell_them(k: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    place = places()[k]
+
+    def view() -> list[tuple[object, ...]]:
+        sweep = RadialSweep(TABLE, place, Range(fmpq(30)), None)
+        firsts = [sweep.edges[f] if f >= 0 else f for f in sweep.first]
+        return [*zip(firsts, ([*map(int, sweep.events(rank))] for rank in range(sweep.count)), strict=False)]
+
+    found = view()
+    monkeypatch.setattr(radial_sweep, "clear_turn", lambda *_: 0)
+    monkeypatch.setattr(RadialSweep, "_clearly_nearest", lambda *_: None)
+    assert view() == found
+
+
+@examples(60)
+@given(*[st.integers(-3, 3)] * 4)
+def test_turns(ax: int, ay: int, bx: int, by: int) -> None:
+    """Long balls tell the order of directions but for those along the east or west, and equal ones."""
+    a, b = (long_vector((Real(2).sqrt() * x, Real(2).sqrt() * y)) for x, y in ((ax, ay), (bx, by)))
+    turn, open_ = ax * by - ay * bx, not (ay and by)
+    expected = 0 if open_ else (1 if ay > 0 else -1) if (ay > 0) != (by > 0) else (turn > 0) - (turn < 0)
+    assert clear_turn(a, b) == expected
+
+
+# -- crossings ---------------------------------------------------------------------------------------
+
+
+@examples(80)
+@given(*[st.fractions(-3, 3, max_denominator=4)] * 8)
+def test_crossings(
+    x: Fraction,
+    y: Fraction,
+    dx: Fraction,
+    dy: Fraction,
+    ax: Fraction,
+    ay: Fraction,
+    bx: Fraction,
+    by: Fraction,
+) -> None:
+    """By fractions: a x + b y of the line is above or below it at the ends of the segment."""
+
+    def ball(*values: Fraction) -> tuple[arb, ...]:
+        return tuple(arb(fmpq(v.numerator, v.denominator)) for v in values)
+
+    with workprec(LONG):
+        found = crossing(ball(x, y, dx, dy), ball(ax, ay), ball(bx, by))  # type: ignore[arg-type]
+    one, other = (dx * (v - y) - dy * (u - x) for u, v in ((ax, ay), (bx, by)))
+    if one == 0 or other == 0:
+        assert found is None
+    elif (one > 0) == (other > 0):
+        assert found == []
+    else:
+        share = one / (one - other)
+        at = ax + share * (bx - ax) - x, ay + share * (by - ay) - y
+        tau = (at[0] * dx + at[1] * dy) / (dx * dx + dy * dy)
+        assert found is not None
+        ((place, sense),) = found
+        with workprec(LONG):
+            assert (place * tau.denominator - tau.numerator).contains(0)
+        # The segment's left is entered where its start lies to the left of the line.
+        assert sense == (1 if one > 0 else -1)
+
+
+def test_ways_are_crossed_as_exact_numbers_tell(monkeypatch: pytest.MonkeyPatch) -> None:
+    def run() -> list[tuple[object, ...]]:
+        found = xa.sightseer(SCENE, 8)
+        return [(event.kind, event.obstacle, event.at) for event in found.events]
+
+    events, asked = run(), 0
+    clear = WayCrossings._clear_role
+
+    def told_nothing(*given: object) -> tuple[bool, None]:
+        nonlocal asked
+        asked += clear(*given)[0]  # type: ignore[arg-type]
+        return False, None
+
+    monkeypatch.setattr(WayCrossings, "_clear_role", told_nothing)
+    assert run() == events
+    assert asked > 50
+
+
+# -- the audit's rays --------------------------------------------------------------------------------
+
+
+def circle(x: str, y: str, radius_sq: str) -> xa.Arc:
+    center = xa.Point(x, y)
+    start = xa.Point(center.x + Real(radius_sq).sqrt(), center.y)
+    return xa.Arc(
+        start,
+        start,
+        center,
+        fmpq(radius_sq) if "/" not in radius_sq else fmpq(*map(int, radius_sq.split("/"))),
+        ccw=True,
+        full=True,
+    )
+
+
+@pytest.mark.parametrize("place", [("0", "0"), ("7", "1/3"), ("3", "20"), ("4000001/1000000", "2")])
+def test_the_rays_that_touch_a_circle(place: tuple[str, str]) -> None:
+    q, round_ = xa.Point(*place), circle("3", "2", "1")
+    rays, exact = clear_tangents(q, round_, 0.5), tangent_directions(q, round_)
+    assert rays is not None and len(rays) == len(exact) == 2
+    for ray, direction in zip(rays, exact, strict=True):
+        length = direction.norm_sq().sqrt()
+        for unit, component in zip(ray.unit, direction, strict=True):
+            assert abs(component / length - Real(unit)) < fmpq(1, 2**50)
+        assert ray.exact() == direction and ray.far == 0.5
+
+
+def test_rays_that_balls_leave_open() -> None:
+    """From inside there are none; from the circle itself, and along an axis, exact numbers decide."""
+    round_ = circle("3", "2", "1")
+    assert clear_tangents(xa.Point(3, "5/2"), round_, 0.0) == []
+    assert clear_tangents(xa.Point(4, 2), round_, 0.0) is None
+    assert clear_tangents(xa.Point(7, 1), round_, 0.0) is None
