@@ -65,7 +65,7 @@ def told(found: Pencil) -> list[tuple[int | None, int | None, object]]:
     return [(cell.behind, cell.ahead, cell.bounds) for cell in found.cells]
 
 
-@pytest.mark.parametrize("number", range(0, len(SECTORS), 3))
+@pytest.mark.parametrize("number", range(len(SECTORS)))
 def test_lines_are_ordered_as_exact_numbers_order_them(number: int, monkeypatch: pytest.MonkeyPatch) -> None:
     sector, own = SECTORS[number]
     found = swept(sector, own)
@@ -117,15 +117,17 @@ def test_an_event_lies_in_its_ball(
 def places() -> list[xa.Point]:
     row = [xa.Point(f"{499 + k}.5", 302) for k in range(12)]
     irrational = xa.Point(499, Real(2).sqrt() / 1000 + 301)
-    return [*row, irrational, xa.Point("499.25", "301.5"), TABLE.curves[0].start]
+    # Along what was a line before coordinates were rounded.
+    along = [xa.Point(x, y) for x in (450, 499, "502.5", 520) for y in (300, 301, 305)]
+    return [*row, irrational, *along, TABLE.curves[0].start]
 
 
-@pytest.mark.parametrize("k", range(15))
+@pytest.mark.parametrize("k", range(26))
 def test_views_are_as_exact_numbers_tell_them(k: int, monkeypatch: pytest.MonkeyPatch) -> None:
     place = places()[k]
 
     def view() -> list[tuple[object, ...]]:
-        sweep = RadialSweep(TABLE, place, Range(fmpq(30)), None)
+        sweep = RadialSweep(TABLE, place, Range(fmpq(80)), None)
         firsts = [sweep.edges[f] if f >= 0 else f for f in sweep.first]
         return [*zip(firsts, ([*map(int, sweep.events(rank))] for rank in range(sweep.count)), strict=False)]
 
