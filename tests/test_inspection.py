@@ -27,6 +27,7 @@ from exactacq.cli.options import read_from_text
 from exactacq.files.checking import cures
 from exactacq.files.checking.sketch import Sketch
 from exactacq.files.checking.starts import rounded, rounded_up, widest_gap
+from exactacq.files.dxf import entities
 from exactacq.files.formats import options
 from exactacq.scene import validation
 
@@ -409,3 +410,16 @@ def test_violations_beyond_count_are_not_tried(tmp_path: Path, monkeypatch: pyte
     path = drawing(tmp_path / "d.dxf", comb, [(y, x) for x, y in comb])
     found = xa.inspect(path)
     assert len(found.violations) == 500 and {flaw.cures for flaw in found.violations} == {()}
+
+
+def test_a_drawing_is_parsed_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Trials read it with further options: the same contents, of one document."""
+    parsed: list[Path] = []
+    parse = entities._parsed
+    monkeypatch.setattr(entities, "_parsed", lambda path: parsed.append(path) or parse(path))
+    found = xa.inspect(DATA / "mousebites.dxf")
+    assert len(parsed) == 1
+    monkeypatch.setattr(entities, "once", lambda key, make: make())
+    again = xa.inspect(DATA / "mousebites.dxf")
+    assert len(parsed) > 2
+    assert (again.command, again.violations, again.notes) == (found.command, found.violations, found.notes)

@@ -21,6 +21,7 @@ from exactacq.files.checking.sketch import Sketch, places_of
 from exactacq.files.checking.starts import Beginning, beginning
 from exactacq.files.loops.contents import Contents
 from exactacq.files.repairs.gaps import closings
+from exactacq.files.rereading import rereading
 from exactacq.files.sources import NamedSource
 from exactacq.geometry.intersections import ContactKind
 from exactacq.geometry.points import Point
@@ -155,14 +156,15 @@ def inspect(
     tell(0, STEPS)
     source = NamedSource(name)
     options = source.format.checked(options) if source.format is not None else options
-    contents = source.contents(start, options)
-    tell(1, STEPS)
-    before = judged(contents)
-    tell(2, STEPS)
-    inquiry = _Inquiry(source, start, options, contents, before)
-    tell(3, STEPS)
-    found = inquiry.found(name="areas" if source.geo is not None else source.label)
-    tell(4, STEPS)
+    with rereading():
+        contents = source.contents(start, options)
+        tell(1, STEPS)
+        before = judged(contents)
+        tell(2, STEPS)
+        inquiry = _Inquiry(source, start, options, contents, before)
+        tell(3, STEPS)
+        found = inquiry.found(name="areas" if source.geo is not None else source.label)
+        tell(4, STEPS)
     return found
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import logging
 import re
 from collections.abc import Iterable, Iterator
+from hashlib import sha256
 from itertools import chain
 from pathlib import Path
 from typing import Any
@@ -25,6 +26,7 @@ from exactacq.files.loops.drawing import Drawing, LayerChoice
 from exactacq.files.loops.rational_arcs import arc_corners
 from exactacq.files.repairs.bezier import BezierPiece, spline
 from exactacq.files.repairs.flattened import Flattening, ellipse
+from exactacq.files.rereading import once
 from exactacq.files.source import MAX_EDGES, one_line, read_bytes
 from exactacq.numbers.rationals import rational
 from exactacq.scene.shapes import Circle
@@ -100,20 +102,25 @@ def _open(path: Path, drawing: Drawing) -> Any:
     for number, most, what in ((entities, MAX_ENTITIES, "entities"), (lines, MAX_LINES, "lines")):
         if number > most:
             raise FormatError(f"{number} {what} are more than the {most} that are read; export one part")
+    key = "dxf", path, sha256(data).digest()
     del data
     try:
-        try:
-            return ezdxf.readfile(path)
-        except ezdxf.DXFStructureError:
-            document, auditor = recover.readfile(path)
-            mended, left = len(auditor.fixes), len(auditor.errors)
-            drawing.notes.append(
-                f"the file is damaged: {mended} flaws were mended on reading, {left} were not"
-            )
-            return document
+        document, notes = once(key, lambda: _parsed(path))
     except Exception as error:  # ezdxf raises what its parsers meet: ValueError, IndexError, struct.error
         reason = one_line(error)
         raise FormatError(f"not a readable DXF file ({reason}); export the drawing again") from None
+    drawing.notes += notes
+    return document
+
+
+def _parsed(path: Path) -> tuple[Any, list[str]]:
+    """The document in a file, which is not to be changed, and a note if it is damaged."""
+    try:
+        return ezdxf.readfile(path), []
+    except ezdxf.DXFStructureError:
+        document, auditor = recover.readfile(path)
+        mended, left = len(auditor.fixes), len(auditor.errors)
+        return document, [f"the file is damaged: {mended} flaws were mended on reading, {left} were not"]
 
 
 def _entities(layout: Iterable[Any], drawing: Drawing) -> Iterator[tuple[Any, str]]:
