@@ -266,10 +266,9 @@ class FrontFaces:
 
     def long_offset(self, event: int) -> Balls:
         """Long balls around that vector."""
-        known, count = self._offsets.get(event), len(self.table.vertices)
-        return (
-            self.mark(event).long() if known is None and event >= count else long_vector(self.offset(event))
-        )
+        if event in self._offsets or event < len(self.table.vertices):
+            return long_vector(self.offset(event))
+        return self.mark(event).long()
 
     def ray(self, events: Iterable[int]) -> Alignment | None:
         """The known ray that touches one of some events, or None."""
@@ -421,9 +420,8 @@ class FrontFaces:
         around = ball_of(vector[0]), ball_of(vector[1])
         side = sense if curve.ccw else -sense
         here = self.point, around
-        event = self._add_mark(
-            SweepEnd(lambda: here, lambda: vector, lambda: long_vector(vector), e, side), _held(vector)
-        )
+        mark = SweepEnd(lambda: here, lambda: vector, lambda: long_vector(vector), e, side)
+        event = self._add_mark(mark, _held(vector))
         self.here.append(event)
         return event
 
