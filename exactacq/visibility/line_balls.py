@@ -17,8 +17,8 @@ from typing import TypeAlias
 from flint import arb, fmpq
 
 from exactacq.geometry.coordinates import Vector, minus, raw
-from exactacq.geometry.curves import Curve, Segment
-from exactacq.geometry.late import BITS, Balls, ball_of, clearly_between
+from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.late import BITS, Balls, ball_of
 from exactacq.geometry.points import Point
 from exactacq.kernel.bound_lines import NOTHING
 from exactacq.numbers.precision import workprec
@@ -31,6 +31,8 @@ Line: TypeAlias = "tuple[arb, arb, arb, arb]"
 """Contact and direction."""
 Meeting: TypeAlias = "tuple[arb, int]"
 """How far ahead a line meets an edge, and 1 if it enters the obstacle there, going ahead, -1 if it leaves."""
+Sighted: TypeAlias = "tuple[arb, arb, arb, int]"
+"""The vector from a line's contact to a place, its product with the line's direction, and that one's sign."""
 LONG = 256
 """Working bits of long balls."""
 
@@ -173,11 +175,21 @@ def first_meetings(
     edges *own*, along which the line does not run; there it does not meet them.
     """
     nearest: dict[int, tuple[arb, int, int]] = {}
+    curves, following = table.curves, table.images.following
+    # Two edges meet at a vertex, which is looked at once.
+    sighted: dict[int, Sighted] = {}
     with workprec(LONG):
         at = line(sector, arb(t), long_frame(sector))
         for e in edges:
-            curve = table.curves[e]
-            met = _met(at, curve, e in own)
+            curve = curves[e]
+            met: list[Meeting] | None = []
+            if isinstance(curve, Arc):
+                met = _met_round(at, curve, e in own)
+            elif e not in own:
+                for v in (e, following[e]):
+                    if v not in sighted:
+                        sighted[v] = _sighted(at, _held(curves[v].start))
+                met = _between(sighted[e], sighted[following[e]])
             if met is None:
                 return None
             for tau, sense in met:
@@ -194,12 +206,10 @@ def first_meetings(
     return behind[1] if behind[2] < 0 else NOTHING, ahead[1] if ahead[2] > 0 else NOTHING
 
 
-def _met(at: Line, curve: Curve, is_own: bool) -> list[Meeting] | None:
-    """Where a line crosses a curve, inside it; None if balls leave open whether it does."""
-    if isinstance(curve, Segment):
-        return [] if is_own else _met_straight(at, curve)
+def _met_round(at: Line, curve: Arc, is_own: bool) -> list[Meeting] | None:
+    """Where a line crosses an arc, inside it; None if balls leave open whether it does."""
     x, y, dx, dy = at
-    (cx, cy), (ax, ay), (bx, by) = _held(curve.center), _held(curve.start), _held(curve.end)
+    cx, cy = _held(curve.center)
     ox, oy, size = cx - x, cy - y, dx * dx + dy * dy
     along, across = ox * dx + oy * dy, ox * dy - oy * dx
     if is_own:
@@ -209,25 +219,26 @@ def _met(at: Line, curve: Curve, is_own: bool) -> list[Meeting] | None:
         square = size * arb(curve.radius_sq) - across * across
         if not ball_sign(square):
             return None
+        if square < 0:
+            return []
         root = square.sqrt()
-        roots = [((along - root) / size, -1), ((along + root) / size, 1)] if square > 0 else []
-    start, end = (ax - cx, ay - cy), (bx - cx, by - cy)
-    if not curve.ccw:
-        start, end = end, start
+        roots = [((along - root) / size, -1), ((along + root) / size, 1)]
     found: list[Meeting] = []
     for tau, side in roots:
-        is_in = curve.full or clearly_between(start, end, (dx * tau - ox, dy * tau - oy))
-        if not side or is_in is None:
+        # A convex arc lies to the right of its chord.
+        beside = -1 if curve.full else _beside_chord(curve, x + dx * tau, y + dy * tau)
+        if not (side and beside):
             return None
-        if is_in:
+        if curve.full or (beside < 0) == curve.ccw:
             # At the nearer crossing the disc is entered. A clockwise arc has its obstacle outside.
             found.append((tau, -side if curve.ccw else side))
     return found
 
 
-def _met_straight(at: Line, edge: Segment) -> list[Meeting] | None:
-    """Where a line crosses an edge that its contact is not on; None if balls leave open whether it does."""
-    return crossing(at, _held(edge.start), _held(edge.end))
+def _beside_chord(arc: Arc, x: arb, y: arb) -> int:
+    """1 or -1 as a place is left or right of the chord from an arc's start to its end, 0 if that is open."""
+    (ax, ay), (bx, by) = _held(arc.start), _held(arc.end)
+    return ball_sign((bx - ax) * (y - ay) - (by - ay) * (x - ax))
 
 
 def crossing(at: Line, start: Balls, end: Balls) -> list[Meeting] | None:
@@ -235,11 +246,20 @@ def crossing(at: Line, start: Balls, end: Balls) -> list[Meeting] | None:
 
     It enters where it passes from the right of the segment to its left, the side of the obstacle of an edge.
     """
+    return _between(_sighted(at, start), _sighted(at, end))
+
+
+def _sighted(at: Line, place: Balls) -> Sighted:
+    """A place as seen from the contact of a line."""
     x, y, dx, dy = at
-    (ax, ay), (bx, by) = start, end
-    ax, ay, bx, by = ax - x, ay - y, bx - x, by - y
-    first, last = ax * dy - ay * dx, bx * dy - by * dx
-    before, after = ball_sign(first), ball_sign(last)
+    ax, ay = place[0] - x, place[1] - y
+    height = ax * dy - ay * dx
+    return ax, ay, height, ball_sign(height)
+
+
+def _between(start: Sighted, end: Sighted) -> list[Meeting] | None:
+    """As `crossing`, by the ends of a segment as they are seen from the contact."""
+    (ax, ay, first, before), (bx, by, last, after) = start, end
     if not (before and after):
         return None
     return [] if before == after else [((ay * bx - ax * by) / (last - first), after)]
