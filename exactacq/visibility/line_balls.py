@@ -258,7 +258,7 @@ def _sighted(at: Line, place: Balls) -> Sighted:
 
 
 def _between(start: Sighted, end: Sighted) -> list[Meeting] | None:
-    """Where a line crosses a segment, whose ends are seen so from its contact; None if balls leave that open."""
+    """Where a line crosses a segment whose ends are seen so from its contact; None if that is open."""
     (ax, ay, first, before), (bx, by, last, after) = start, end
     if not (before and after):
         return None
