@@ -111,13 +111,14 @@ class RadialSweep:
             if all(isinstance(x, fmpq) and isinstance(y, fmpq) for x, y in vectors):
                 turns = sorted(zip(map(_turned, vectors), slots, strict=True), key=itemgetter(0))
                 return [[slot for _, slot in group] for _, group in groupby(turns, key=itemgetter(0))]
-        balls = {slot: self.faces.long_offset(events[slot]) for slot in slots}
+        # On a lattice directions that look the same mostly are; with rounded coordinates most differ.
+        balls = {slot: self.faces.long_offset(events[slot]) for slot in slots if self.table.lattice is None}
         for slot in slots:
             low, high = 0, len(groups)
             while low < high:
                 middle = (low + high) // 2
                 first = groups[middle][0]
-                order = clear_turn(balls[first], balls[slot])
+                order = clear_turn(balls[first], balls[slot]) if balls else 0
                 if not order:
                     order = _turn(*(self.faces.offset(events[k]) for k in (first, slot)))
                 if order == 0:
