@@ -40,6 +40,8 @@ NEAR_KEPT = 1024
 """So many lists of what is near are remembered: those of a wide neighbourhood."""
 LATTICE_BITS = 64
 """Up to this size of the common denominator vertices are looked at as integers."""
+COARSE_BITS = 32
+"""Up to this size of the common denominator coordinates are not rounded: those that should be equal are."""
 CLOSE = 0.2
 """Within this part of the reach what hides much is looked for,"""
 MANY = 24
@@ -157,6 +159,11 @@ class EdgeTable:
                 return None
         xs, ys = ([int((v[k] * common).p) for v in self.vertices] for k in (0, 1))
         return common, Lattice(xs, ys)
+
+    @property
+    def is_coarse(self) -> bool:
+        """Whether all vertices are on a coarse lattice: what looks the same there in floats mostly is."""
+        return self.lattice is not None and self.lattice[0].height_bits() <= COARSE_BITS
 
     @cached_property
     def curve_images(self) -> list[CurveImage]:

@@ -111,8 +111,9 @@ class RadialSweep:
             if all(isinstance(x, fmpq) and isinstance(y, fmpq) for x, y in vectors):
                 turns = sorted(zip(map(_turned, vectors), slots, strict=True), key=itemgetter(0))
                 return [[slot for _, slot in group] for _, group in groupby(turns, key=itemgetter(0))]
-        # On a lattice directions that look the same mostly are; with rounded coordinates most differ.
-        balls = {slot: self.faces.long_offset(events[slot]) for slot in slots if self.table.lattice is None}
+        # On a coarse lattice most directions that look the same are; with rounded coordinates most differ.
+        is_coarse = self.table.is_coarse
+        balls = {} if is_coarse else {slot: self.faces.long_offset(events[slot]) for slot in slots}
         for slot in slots:
             low, high = 0, len(groups)
             while low < high:

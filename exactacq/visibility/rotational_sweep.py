@@ -288,9 +288,9 @@ class _Decisions:
         """The lines of a cluster in order, together where long balls leave it open; they know their values.
 
         Lines of a drawing with rounded coordinates differ by less than floats tell, but most do differ. On a
-        lattice those that look the same mostly are.
+        coarse lattice most are equal.
         """
-        if self.table.lattice is not None or not self.sector.is_rational:
+        if self.table.is_coarse or not self.sector.is_rational:
             return [cluster]
         lines = [(self._rational(event), event) for event in cluster]
         found: list[tuple[arb, arb, BoundLine]] = []
