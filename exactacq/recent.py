@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Iterator
 from typing import Generic, TypeVar
 
 Key = TypeVar("Key", bound=Hashable)
@@ -38,3 +38,8 @@ class Recent(Generic[Key, Answer]):
         if len(self._of) >= self._half:
             self._of, self._before = {}, self._of
         self._of[key] = answer
+
+    def items(self) -> Iterator[tuple[Key, Answer]]:
+        """All that is kept."""
+        yield from self._before.items()
+        yield from self._of.items()

@@ -77,6 +77,22 @@ def test_lines_are_ordered_as_exact_numbers_order_them(number: int, monkeypatch:
     assert told(swept(sector, own)) == told(found)
 
 
+@pytest.mark.parametrize("number", range(0, len(SECTORS), 2))
+def test_wide_balls_leave_lines_together(number: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A ball around many others parts none of these from it, also where they are parted among themselves."""
+    sector, own = SECTORS[number]
+    found, count = told(swept(sector, own)), 0
+
+    def widened(*given: object) -> arb | None:
+        nonlocal count
+        count += 1
+        ball = event_ball(*given)  # type: ignore[arg-type]
+        return ball if ball is None or count % 3 else ball + arb(0, 1e-3)
+
+    monkeypatch.setattr(rotational_sweep, "event_ball", widened)
+    assert told(swept(sector, own)) == found
+
+
 def test_long_balls_part_what_is_not_equal(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of the lines that floats do not part long balls leave together those that are equal."""
     groups: list[int] = []

@@ -7,6 +7,7 @@ from typing import TypeAlias
 
 from exactacq.geometry.late import Pin
 from exactacq.numbers.real import Real
+from exactacq.recent import Recent
 
 PINS_KEPT = 10_000
 """Points of named lines that are remembered at most: those of a wide neighbourhood."""
@@ -24,30 +25,27 @@ class NamedPins:
     `PINS_KEPT` at most: a point that was forgotten and is made again is recognised by its numbers.
     """
 
-    __slots__ = ("_base", "_before", "_of", "_rims")
+    __slots__ = ("_base", "_own", "_rims")
 
     def __init__(self, base: NamedPins | None = None, known: Mapping[PinName, Pin] | None = None) -> None:
-        self._of: dict[PinName, Pin] = dict(known or {})
-        self._before: dict[PinName, Pin] = {}
+        self._own = Recent[PinName, Pin](PINS_KEPT)
+        for name, pin in (known or {}).items():
+            self.put(name, pin)
         self._rims: dict[RimName, list[Pin]] = {}
         self._base = base
 
     def get(self, name: PinName) -> Pin | None:
         """The point of a name."""
-        pin = self._of.get(name)
-        if pin is None and (pin := self._before.get(name)) is not None:
-            self.put(name, pin)
+        pin = self._own.get(name)
         return pin if pin is not None or self._base is None else self._base.get(name)
 
     def put(self, name: PinName, pin: Pin) -> None:
         """Give a point a name."""
-        if len(self._of) >= PINS_KEPT // 2:
-            self._of, self._before = {}, self._of
-        self._of[name] = pin
+        self._own.put(name, pin)
 
     def at(self, u: Real) -> dict[PinName, Pin]:
         """The points that have a number as their parameter, not counting those of the base."""
-        return {name: pin for some in (self._before, self._of) for name, pin in some.items() if pin[1] is u}
+        return {name: pin for name, pin in self._own.items() if pin[1] is u}
 
     def rim(self, name: RimName, make: Callable[[], list[Pin]]) -> list[Pin]:
         """The points of an edge at a distance from a centre, made at the first call.

@@ -59,7 +59,7 @@ class ChainTable(EdgeTable):
         self.radius = np.concatenate((solid.radius, circles(self.curves[self.solids :])[:, 2]))
         self.magnitude = float(np.abs(self.boxes).max(initial=0.0))
         self._largest = max(self.magnitude, float(self.radius.max(initial=0.0)))
-        self._around = Recent(NEAR_KEPT)
+        self._around, self._lit = Recent(NEAR_KEPT), Recent(NEAR_KEPT)
 
     @cached_property
     def tree(self) -> BoxNode:

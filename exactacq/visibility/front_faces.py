@@ -129,7 +129,8 @@ class _Touch:
             cx, cy = raw(self.arc.center)
             w, radius_sq = (arb(cx) - x, arb(cy) - y), arb(self.arc.radius_sq)
             excess = dot(w, w) - radius_sq
-            return _tangent(w, excess, (excess * radius_sq).sqrt() * self.side)  # type: ignore[no-any-return]
+            u, v = _tangent(w, excess, (excess * radius_sq).sqrt() * self.side)
+        return u, v
 
     def _point(self) -> Point:
         if self.ray is not None:
