@@ -45,10 +45,25 @@ def cross(a: Floats, b: Floats) -> Floats:
     return found
 
 
+def _sides(units: Floats, places: Floats) -> tuple[Floats, Floats]:
+    """The cross products of rays, in rows, and places, in columns, and margins of these."""
+    left = np.stack((places[:, 1], -places[:, 0]))
+    return units @ left, EPS * np.hypot(*places.T) + TINY
+
+
+def surely_blocked(units: Floats, starts: Floats, ends: Floats) -> Floats:
+    """The distance within which each ray certainly crosses one of some segments; infinite if none is sure."""
+    (s, ds), (e, de) = _sides(units, starts), _sides(units, ends)
+    rays, columns = np.nonzero(((s > ds) & (e < -de)) | ((s < -ds) & (e > de)))
+    t, slack = _crossing(starts[columns], ends[columns], s[rays, columns], e[rays, columns])
+    nearest = np.full(len(units), np.inf)
+    np.minimum.at(nearest, rays, np.where(t > slack, t + slack, np.inf))
+    return nearest
+
+
 def segment_hits(units: Floats, starts: Floats, ends: Floats) -> HitDistances:
     """Where rays meet segments; most pairs are clear, as a segment lies on one side of the ray's line."""
-    s, e = cross(units[:, None], starts), cross(units[:, None], ends)
-    ds, de = EPS * np.hypot(*starts.T) + TINY, EPS * np.hypot(*ends.T) + TINY
+    (s, ds), (e, de) = _sides(units, starts), _sides(units, ends)
     missed = ((s > ds) & (e > de)) | ((s < -ds) & (e < -de))
     pairs = np.nonzero(~missed)
     rays, columns = pairs
@@ -61,8 +76,20 @@ def segment_hits(units: Floats, starts: Floats, ends: Floats) -> HitDistances:
     return found
 
 
+def _crossing(starts: Floats, ends: Floats, s: Floats, e: Floats) -> tuple[Floats, Floats]:
+    """How far rays go to the lines of segments, t = s x e / (u x e - u x s), and a bound of the error.
+
+    *s* and *e* are u x s and u x e. If their margins overlap the bound is none.
+    """
+    a, b = np.hypot(*starts.T), np.hypot(*ends.T)
+    rough = EPS * (a + b) + 2 * TINY
+    with np.errstate(all="ignore"):
+        t = cross(starts, ends) / (e - s)
+        return t, (EPS * a * b + np.abs(t) * rough) / (np.abs(e - s) - rough) + TINY
+
+
 def _possible_hits(units: Floats, starts: Floats, ends: Floats, s: Floats, e: Floats) -> HitDistances:
-    """Where a ray meets a segment from s to e: t = s x e / (u x e - u x s); for pairs of a ray and a segment.
+    """Where a ray meets a segment from s to e; for pairs of a ray and a segment.
 
     If one of the two signs of *s*, u x s, and *e*, u x e, is uncertain, the contact is near that end; if both
     are, anywhere between.
@@ -71,9 +98,8 @@ def _possible_hits(units: Floats, starts: Floats, ends: Floats, s: Floats, e: Fl
     ds, de = EPS * a + TINY, EPS * b + TINY
     unsure_s, unsure_e = np.abs(s) <= ds, np.abs(e) <= de
     crossed = ~unsure_s & ~unsure_e
+    t, slack = _crossing(starts, ends, s, e)
     with np.errstate(all="ignore"):
-        t = cross(starts, ends) / (e - s)
-        slack = (EPS * a * b + np.abs(t) * (ds + de)) / (np.abs(e - s) - ds - de) + TINY
         chord = np.hypot(*(ends - starts).T) * (1 + EPS)
         near_s, near_e = 2 * ds * chord / (np.abs(e) - de), 2 * de * chord / (np.abs(s) - ds)
     # Where neither end is certain the segment points at q, or away from it.

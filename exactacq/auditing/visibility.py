@@ -31,6 +31,7 @@ from exactacq.auditing.hits import (
     arc_hits,
     cross,
     segment_hits,
+    surely_blocked,
 )
 from exactacq.auditing.rays import (
     TIE_BITS,
@@ -382,19 +383,33 @@ class _View:
         Where a curve begins or ceases to be seen there is a critical ray on which it is seen, and what makes
         the ray critical is seen as well. So a ray to what is hidden is as good as none.
         """
-        left = np.ones(len(units), dtype=bool)
         if len(units) < MANY_RAYS:
-            return left
-        # Most are hidden by straight edges nearby; arcs take longer.
-        circles, sizes = self.forms.circle[: len(self.edges)], np.hypot(*self.spots[: len(self.edges)].T)
-        order = np.lexsort((sizes.min(axis=0), circles >= 0))
-        for begin in range(0, len(order), SOME_EDGES):
+            return np.ones(len(units), dtype=bool)
+        entering, _ = self._starts(units)
+        left = ~(entering & (far > 0))
+        for some in self._hiding():
             open_ = np.flatnonzero(left)
-            edges, _ = self._hits(units[open_], order[begin : begin + SOME_EDGES])
-            _, certain = self._blocks(units[open_], edges)
             # What is no number hides nothing.
-            left[open_] = ~(certain < far[open_] * (1 - EPS))
+            left[open_] = ~(self._surely_blocked(units[open_], some) < far[open_] * (1 - EPS))
         return left
+
+    def _hiding(self) -> Iterator[Ints]:
+        """The edges that do not pass through q, some at a time, all straight or all bent.
+
+        Most rays are hidden by straight edges nearby; arcs take longer.
+        """
+        count = len(self.edges)
+        order = np.argsort(np.hypot(*self.spots[:count].T).min(axis=0), kind="stable")
+        is_bent, is_own = self.forms.circle[:count] >= 0, np.isin(self.edge_numbers, self.own)
+        for kind in (~is_bent, is_bent):
+            some = order[(kind & ~is_own)[order]]
+            yield from (some[begin : begin + SOME_EDGES] for begin in range(0, len(some), SOME_EDGES))
+
+    def _surely_blocked(self, units: Floats, some: Ints) -> Floats:
+        """Within which distances rays are certainly blocked by such edges; infinite if that is not sure."""
+        if self.forms.circle[some[0]] < 0:
+            return surely_blocked(units, *self.spots[some].swapaxes(0, 1))
+        return _certain(self._hits(units, some)[0])
 
     def _ray_to(self, k: int) -> Direction:
         """The ray to an end of a curve, by its place among all, that is not q itself."""
@@ -464,10 +479,9 @@ class _View:
         An edge that is crossed has an interior on one side of it.
         """
         possible = edges.low
-        certain = np.where(edges.sure, edges.high, np.inf).min(axis=1, initial=np.inf)
         entering, leaving = self._starts(units)
         possible = np.hstack((possible, np.where(leaving, np.inf, -np.inf)[:, None]))
-        return possible, np.where(entering, 0.0, certain)
+        return possible, np.where(entering, 0.0, _certain(edges))
 
     def _starts(self, units: Floats) -> tuple[Bools, Bools]:
         """Which rays certainly enter the interior at q, and which certainly stay out of it at first."""
@@ -543,6 +557,12 @@ class _View:
             ending = set()
         world = self.lookout.world
         return world.blocker(self.q, direction, nearest, sorted(numbers), self.own, ending) is None
+
+
+def _certain(edges: Hits) -> Floats:
+    """Within which distances rays certainly cross one of some edges; infinite if none is sure."""
+    certain: Floats = np.where(edges.sure, edges.high, np.inf).min(axis=1, initial=np.inf)
+    return certain
 
 
 def _tangent(edge: Curve, q: Point) -> Point:
