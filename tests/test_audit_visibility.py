@@ -18,8 +18,9 @@ from test_audit import EXAMPLES, Q, terrain_of
 from test_laws_of_runs import run_of
 
 from exactacq.auditing import rays, visibility
+from exactacq.auditing.places import point_at, point_near
 from exactacq.auditing.rays import Direction
-from exactacq.auditing.visibility import Viewpoints, World, point_at, point_near, visible
+from exactacq.auditing.visibility import Viewpoints, World, visible
 from exactacq.errors import Undecided
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.points import Point

@@ -24,7 +24,8 @@ from exactacq.auditing.comparisons import (
     refined,
     same,
 )
-from exactacq.auditing.visibility import Viewpoints, World, point_at, point_near, visible
+from exactacq.auditing.places import point_at, point_near
+from exactacq.auditing.visibility import Viewpoints, World, visible
 from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point

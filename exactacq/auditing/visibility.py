@@ -15,7 +15,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 from itertools import accumulate, pairwise
-from math import atan2, hypot, pi, tan
+from math import hypot
 from typing import NamedTuple
 
 import numpy as np
@@ -567,38 +567,3 @@ def _certain(edges: Hits) -> Floats:
 
 def _tangent(edge: Curve, q: Point) -> Point:
     return edge.direction if isinstance(edge, Segment) else edge.tangent(q)
-
-
-# -- targets ---------------------------------------------------------------------------------------
-
-
-def point_at(edge: Curve, share: fmpq) -> Point | None:
-    """A rational point at about a share of an edge of the scene, from the tangent of half the angle."""
-    if isinstance(edge, Segment):
-        return edge.point(share)
-    return _turned(edge, nearest_float(share) * _angle(edge, edge.end))
-
-
-def point_near(edge: Curve, point: Point, shift: fmpq) -> Point | None:
-    """A rational point of an edge about *shift* beyond a point of it, None beyond the edge's ends."""
-    if isinstance(edge, Arc):
-        return _turned(edge, _angle(edge, point, full=0.0) + nearest_float(shift) / float(edge.radius))
-    along = (point - edge.start).dot(edge.direction) / edge.direction.norm_sq()
-    share = rational(float(along)) + shift / rational(float(edge.length))
-    return edge.point(share) if 0 <= share <= 1 else None
-
-
-def _angle(arc: Arc, point: Point, full: float = 2 * pi) -> float:
-    """The angle from an arc's start to a point of it in the arc's sense, in floats; *full* at the start."""
-    (a, b), (c, d) = ((p - arc.center).xy for p in (arc.start, point))
-    angle = atan2(a * d - b * c, a * c + b * d) % (2 * pi)
-    return (angle if arc.ccw else -angle % (2 * pi)) or full
-
-
-def _turned(arc: Arc, angle: float) -> Point | None:
-    """The arc's start, turned by about an angle in its sense, if that is on the arc."""
-    half = rational(tan(angle / 2 if arc.ccw else -angle / 2))
-    cosine, sine = (1 - half * half) / (1 + half * half), 2 * half / (1 + half * half)
-    radial = arc.start - arc.center
-    point = arc.center + radial * cosine + radial.left() * sine
-    return point if arc.contains(point) else None

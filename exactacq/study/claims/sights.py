@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from exactacq.auditing.visibility import point_at, visible
+from exactacq.auditing.places import point_at
+from exactacq.auditing.visibility import visible
 from exactacq.geometry.points import Point
 from exactacq.numbers.rationals import rational
 from exactacq.strategies.run import Run
