@@ -224,17 +224,19 @@ class EdgeTable:
         key = places, reach
         found = self._lit.get(key)
         if found is None:
-            xs, ys = zip(*places, strict=True)
-            low, high = (min(xs), min(ys)), (max(xs), max(ys))
-            slack = 8 * self.roundoff_at(low, high)
-            close = self.around(low, high, reach * CLOSE) if self._is_dense(reach) and slack < inf else []
-            if len(close) < MANY:
-                found = self.around(low, high, reach)
-            else:
-                hiding = shadows(self.images, close, places, slack)
-                found = lit(self.tree, (*low, *high), reach + 8 * self._error(low, high), hiding, slack)
+            found = self._not_hidden(places, reach)
             self._lit.put(key, found)
         return found
+
+    def _not_hidden(self, places: tuple[Spot, ...], reach: float) -> list[int]:
+        xs, ys = zip(*places, strict=True)
+        low, high = (min(xs), min(ys)), (max(xs), max(ys))
+        if self._is_dense(reach):
+            close, slack = self.around(low, high, reach * CLOSE), 8 * self.roundoff_at(low, high)
+            if len(close) >= MANY and slack < inf:
+                hiding = shadows(self.images, close, places, slack)
+                return lit(self.tree, (*low, *high), reach + 8 * self._error(low, high), hiding, slack)
+        return self.around(low, high, reach)
 
     def _is_dense(self, reach: float) -> bool:
         """Whether many edges are close to one of a few edges, spread over the scene."""

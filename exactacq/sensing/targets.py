@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
-from itertools import chain
+from itertools import chain, repeat
 from typing import NamedTuple, TypeAlias
 
 from exactacq.geometry.curve_parameter import Rail
@@ -20,6 +20,8 @@ from exactacq.visibility.sensor_range import Range
 
 Part: TypeAlias = "tuple[int, Interval]"
 """An edge, by its number, and an interval of it."""
+NOBODY: frozenset[int] = frozenset()
+"""The obstacles that an edge counts for which is none of theirs."""
 
 
 class Target(NamedTuple):
@@ -106,14 +108,17 @@ class Targets:
 
     def near(self, edges: Iterable[int]) -> set[int]:
         """The obstacles that some of the edges count for."""
-        owners = set(map(self._owners.get, edges))
-        return set(chain.from_iterable(some for some in owners if some is not None))
+        return set[int]().union(*self._different(edges))
 
     def counting(self, edges: Iterable[int], obstacles: Collection[int]) -> list[int]:
         """Those of some edges that count for some of the obstacles."""
         owners, some = self._owners, frozenset(obstacles)
-        counting = {of for of in map(owners.get, edges) if of is not None and not some.isdisjoint(of)}
+        counting = {of for of in self._different(edges) if not some.isdisjoint(of)}
         return [e for e in edges if owners.get(e) in counting]
+
+    def _different(self, edges: Iterable[int]) -> set[frozenset[int]]:
+        """The different sets of obstacles that some edges count for."""
+        return set(map(self._owners.get, edges, repeat(NOBODY)))
 
     def is_among(self, k: int, spans: Mapping[int, Iterable[Interval]]) -> bool:
         """Whether intervals of edges, by their numbers, contain anything of an obstacle."""

@@ -42,6 +42,8 @@ EAST: Vector = (ONE, ZERO)
 WEST: Vector = (-ONE, ZERO)
 BITS = 64
 """Precision of the balls from which floats are taken."""
+Held: TypeAlias = "tuple[float, float]"
+"""A float near a number, and a bound of its error."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,6 +84,11 @@ class Sector(ABC):
         return kind, nearest_float(x), nearest_float(y), nearest_float(dx), nearest_float(dy), radius, sense
 
     @cached_property
+    def span(self) -> tuple[Held, Held]:
+        """The parameters of the first and the last line in floats, with bounds of the errors."""
+        return held(self.low), held(self.high)
+
+    @cached_property
     def balls(self) -> tuple[arb, arb, arb, arb]:
         """Centre and base vector in balls."""
         x, y, ex, ey = (v.ball(64) if isinstance(v, Real) else arb(v) for v in (*self.center, *self.base))
@@ -115,7 +122,8 @@ class Sector(ABC):
     @cached_property
     def is_rational(self) -> bool:
         """Whether all coordinates of the centre and the base vector are rational: one alone says nothing."""
-        return all(isinstance(v, fmpq) for v in (*self.center, *self.base))
+        (x, y), (dx, dy) = self.center, self.base
+        return type(x) is type(y) is type(dx) is type(dy) is fmpq
 
     def _frame(self, center: Vector) -> tuple[Vector, Any, Any]:
         """Offset of a point from the centre, and its components along and across the base vector."""
@@ -355,7 +363,7 @@ def left(a: Vector) -> Vector:
     return -a[1], a[0]
 
 
-def held(value: fmpq | Real) -> tuple[float, float]:
+def held(value: fmpq | Real) -> Held:
     """A float near a number and a bound of its error."""
     if isinstance(value, Real):
         ball = value.ball(BITS)

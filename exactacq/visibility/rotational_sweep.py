@@ -181,18 +181,18 @@ def swept(
     """
     images = table.images
     if sector.is_rational:
-        edges = may_be_met(images, edges, sector.image, held(sector.low), held(sector.high), goes_back)
+        edges = may_be_met(images, edges, sector.image, *sector.span, goes_back)
     near = NearEdges(images, edges)
     frame = sector.frame(None if vertex == NOTHING else images.place(vertex))
     # The edges through the centre of an arc whose normals go there: all of these pass that point.
     is_inward = frame.kind == SPOKES and frame.sense < 0
     through = table.edges_at(Point(*sector.center)) if is_inward else ()
-    first, last = ends
+    (first, last), (low, high) = ends, sector.span
     sweep = PencilSweep(
         # A tangent of a circle meets none of its arcs but at the contact.
         Surroundings(near, frame, table.on_circle_of(own[0]) if sector.round else own),
-        _known(sector.low, [(first, 0, 0)] if near.has_vertex(first) else []),
-        _known(sector.high, [(last, 0, 0)] if near.has_vertex(last) else []),
+        known_line(*low, [(first, 0, 0)] if near.has_vertex(first) else [], sector.low),
+        known_line(*high, [(last, 0, 0)] if near.has_vertex(last) else [], sector.high),
         list(_break_events(table, sector, breaks, through)) if breaks or through else [],
         images.following[own[0]] if len(own) == 2 else NOTHING,
         bool(through),
