@@ -107,20 +107,21 @@ class Knowledge:
         i, parts = body.number, chart.known(body.number)
         ends, whole = [], 0
         for part in parts:
-            edge = body.curves[part.edge]
-            ends_text = f"from {place_text(part.start)} to {place_text(part.end)}"
-            where = f"{name}: the part of obstacle {i} {ends_text}"
-            if not (passes(edge, part.start) and passes(edge, part.end)):
-                raise AuditError(f"{where} is not on edge {part.edge}")
+            edge, flaw = body.curves[part.edge], None
+            low, high = arb(0), self._size(body, part.edge)
             if is_whole(edge, part):
-                low, high = arb(0), self._size(body, part.edge)
                 whole += 1
-            else:
+            elif passes(edge, part.start) and passes(edge, part.end):
                 low, high = span(edge, part)
+            else:
+                flaw = f"is not on edge {part.edge}"
             if high < low:
-                raise AuditError(f"{where} runs against edge {part.edge}")
-            if part.edge < before[0] or (part.edge == before[0] and not before[1] < low):
-                raise AuditError(f"{where} is not beyond the one before")
+                flaw = f"runs against edge {part.edge}"
+            elif part.edge < before[0] or (part.edge == before[0] and not before[1] < low):
+                flaw = flaw or "is not beyond the one before"
+            if flaw is not None:
+                where = f"from {place_text(part.start)} to {place_text(part.end)}"
+                raise AuditError(f"{name}: the part of obstacle {i} {where} {flaw}")
             with workprec(BITS):
                 before, total = (part.edge, high), total + high - low
             ends += [p for p in (part.start, part.end) if not (same(p, edge.start) or same(p, edge.end))]
