@@ -42,6 +42,7 @@ def check_pieces(
     Of a sweep both stay in the terrain: boundaries are shores, and it is enough that ends do.
     """
     tracks: Tracks = []
+    lying = [_by_edge(body) for body in bodies]
     for k, piece in enumerate(run.path):
         i = piece.obstacle
         if (piece.kind, i is None) not in (("straight", True), ("boundary", False)):
@@ -52,7 +53,7 @@ def check_pieces(
         elif i not in range(len(bodies)):
             raise AuditError(f"piece {k} is along obstacle {i}, which the scene does not have")
         else:
-            track = _track(world, bodies[i], piece.curve)
+            track = _track(world, lying[i], piece.curve)
             if track is None:
                 raise AuditError(f"piece {k} does not lie on an edge of obstacle {i}")
         if field is not None and not (field.contains(piece.start) and field.contains(piece.end)):
@@ -73,14 +74,21 @@ def _check_straight(world: World, k: int, curve: Curve) -> None:
         raise AuditError(f"piece {k} passes through the interior of obstacle {inside} at {place_text(point)}")
 
 
-def _track(world: World, body: AuditedBody, curve: Curve) -> Track | None:
-    near = set(world.near(curve))
-    some = [pair for pair in zip(body.edges, body.curves, strict=True) if pair[0] in near]
+def _by_edge(body: AuditedBody) -> dict[int, list[Curve]]:
+    """The curves of a boundary by the numbers of the scene's edges on which they lie."""
+    found: dict[int, list[Curve]] = {}
+    for e, curve in zip(body.edges, body.curves, strict=True):
+        found.setdefault(e, []).append(curve)
+    return found
+
+
+def _track(world: World, lying: dict[int, list[Curve]], curve: Curve) -> Track | None:
+    near = world.near(curve)
     for forward in (True, False):
         walked = curve if forward else curve.reversed()
-        for number, edge in some:
-            if is_part(walked, edge):
-                return Track(number, forward)
+        for e in near:
+            if any(is_part(walked, part) for part in lying.get(e, ())):
+                return Track(e, forward)
     return None
 
 
