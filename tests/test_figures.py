@@ -138,6 +138,13 @@ def test_a_stroke_covers_what_runs_along_it() -> None:
         assert covered.tolist() == [expected]
 
 
+def test_a_stroke_shorter_than_the_tolerance_covers_nothing_far_away() -> None:
+    """Its direction was divided by the tolerance instead of its length, so that all seemed to be near."""
+    short = Segment(Point(0, 0), Point("8e-14", 0)).stroke()
+    places = np.array([(5.0, 0.0), (0.0, 3.0), (4e-14, 0.0)])
+    assert short.covers(places, np.zeros(3), 1e-6).tolist() == [False, False, True]
+
+
 def test_pieces_walked_again_are_narrower(circles: Run) -> None:
     """Of the first circle a half is walked again on the way to the second one; of the links, none."""
     (path,) = (c for c in figure(circles).axes[0].collections if isinstance(c, PathCollection))

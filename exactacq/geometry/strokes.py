@@ -60,13 +60,11 @@ class Stroke:
     def covers(self, points: Floats, headings: Floats, tolerance: float) -> Any:
         """Which of the points lie on this stroke and run along it, in either sense."""
         if self.center is None:
-            start, along = np.array(self.start), np.subtract(self.end, self.start)
-            size = max(float(np.hypot(*along)), tolerance)
-            offset = points - start
-            forward = offset @ along / size
-            aside = (offset[:, 0] * along[1] - offset[:, 1] * along[0]) / size
-            parallel = np.abs(np.sin(headings - self.heading(0))) < 1e-6
-            within = (forward > -tolerance) & (forward < size + tolerance)
+            offset, heading = points - np.array(self.start), self.heading(0)
+            x, y = math.cos(heading), math.sin(heading)
+            forward, aside = offset @ (x, y), offset @ (y, -x)
+            parallel = np.abs(np.sin(headings - heading)) < 1e-6
+            within = (forward > -tolerance) & (forward < self.length + tolerance)
             return (np.abs(aside) < tolerance) & within & parallel
         offset = points - np.array(self.center)
         turned = (np.arctan2(offset[:, 1], offset[:, 0]) - self.angle) * math.copysign(1, self.sweep)

@@ -225,6 +225,22 @@ def test_the_map_grows(browser: Chromium, pages: dict[str, Path], circles: Run) 
     assert len(texts(browser, "#obstacles .unseen")) == 1
 
 
+def test_the_marks_of_the_map_stand_where_the_map_ends(browser: Chromium, pages: dict[str, Path]) -> None:
+    """The middle of a diamond on the screen, taken back into the plane, is the place that it marks."""
+    browser.open(pages["circles"])
+    slide(browser, 8.0)
+    marks = browser.run("""[...document.querySelectorAll("#frontier rect")].map((rect) => {
+        const box = rect.getBoundingClientRect();
+        const middle = new DOMPoint(box.x + box.width / 2, box.y + box.height / 2);
+        const at = middle.matrixTransform(rect.parentNode.getScreenCTM().inverse());
+        return [at.x - rect.x.baseVal.value, at.y - rect.y.baseVal.value, box.width];
+    })""")
+    assert marks
+    for x, y, width in marks:
+        assert width > 5
+        assert (x, y) == pytest.approx((0, 0), abs=0.01)
+
+
 def test_it_plays_pauses_and_ends(browser: Chromium, pages: dict[str, Path]) -> None:
     browser.open(pages["circles"])
     browser.run("document.getElementById('speed').value = '4'")
