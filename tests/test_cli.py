@@ -114,7 +114,15 @@ def test_both_strategies_side_by_side(capsys: pytest.CaptureFixture[str], tmp_pa
     assert "no sightseer: obstacle O1 meets the terrain's border" in alone
     assert "Seed Spreader Strategy" in alone
     room = scene(tmp_path, circle(3, -3, 1), enclosure=[[-9, -9], [9, -9], [0, 9]])
-    assert "no seed-spreader: a rectangle is needed" in answered(capsys, "compare", room)
+    assert "no seed-spreader: a sweep takes a rectangle" in answered(capsys, "compare", room)
+
+
+def test_a_sweep_that_cannot_start_says_where_it_would(capsys: pytest.CaptureFixture[str]) -> None:
+    sweep = ("--strategy", "seed-spreader")
+    line = refused(capsys, "explore", "circles", *sweep, "--terrain", "6,0,24,12")
+    assert "start (6, 0) lies inside obstacle O1" in line
+    assert "a sweep starts in the SW corner of its terrain" in line
+    assert "a sweep takes a rectangle" in refused(capsys, "explore", "plate", *sweep, "--terrain", "bbox:1")
 
 
 def test_numbers_are_exact(capsys: pytest.CaptureFixture[str]) -> None:
@@ -316,7 +324,8 @@ def test_200_megabytes_of_noise(capsys: pytest.CaptureFixture[str], tmp_path: Pa
 def test_missing_files_and_directories(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert "no such file" in refused(capsys, "check", str(tmp_path / "none.json"))
     assert "no such file or gallery scene" in refused(capsys, "check", "nowhere")
-    refused(capsys, "check", str(tmp_path))
+    assert "did you mean circles?" in refused(capsys, "check", "Circels")
+    assert "this is a directory" in refused(capsys, "check", str(tmp_path))
     refused(capsys, "check", "a\0b.json")
     refused(capsys, "check", "")
 

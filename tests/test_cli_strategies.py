@@ -102,6 +102,12 @@ class TestWhatIsWrong:
         line = refused(capsys, "explore", "circles", "--strategy", "mine.py:other")
         assert "mine.py has no strategy 'other'; there are mine.py:nearest-first, mine.py:touch" in line
         assert "which of mine.py?" in refused(capsys, "explore", "circles", "--strategy", "mine.py")
+        # What cannot be called with a robot alone is none.
+        written(
+            "class Tool: ...\ndef helper(x, y): ...\ndef s(robot): robot.take(robot.nearest_unvisited(None))\n",
+            "one.py",
+        )
+        answered(capsys, "explore", "circles", "--strategy", "one.py", "--max-moves", "1")
         written("import math\nSPEED = 3\n", "empty.py")
         for name in ("empty.py", "empty.py:math", "empty.py:SPEED", "empty.py:"):
             assert "there is no strategy in it: define" in refused(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from fractions import Fraction
 from itertools import pairwise
 from random import Random
@@ -198,6 +199,12 @@ class TestMoments:
         for moment in (-1, 1000):
             with pytest.raises(ValueError, match="no place"):
                 run.map_at(moment)
+        other = xa.sightseer(xa.load("circles")).events[2]
+        for ask in (run.map_at, run.view_at):
+            with pytest.raises(ValueError, match="an event of another run"):
+                ask(other)
+        again = pickle.loads(pickle.dumps(run.events[3]))
+        assert run.map_at(again).known_length() == run.map_at(run.events[3]).known_length()
 
     def test_a_moment_at_the_start_of_a_full_circle(self) -> None:
         """Its parameter is 0 and 4: a walk that ends there has the end's. (Once all of it was known.)

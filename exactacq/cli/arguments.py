@@ -83,10 +83,12 @@ def check_start(scene: Scene, sweeps: bool) -> None:
     """`InvalidScene` with the option that helps if a strategy, one that *sweeps* or not, cannot start."""
     from exactacq.scene.bounding import rectangular_room
 
-    if sweeps and scene.terrain is None and rectangular_room(scene) is None:
+    if sweeps and rectangular_room(scene) is None:
         if scene.enclosure is not None:
             cure = "leave out the enclosure (of a drawing: --outer drop), and give --terrain"
-            raise InvalidScene([f"a rectangle is needed: {cure}"])
+            raise InvalidScene([f"a sweep takes a rectangle, no enclosure of another form: {cure}"])
+        if scene.terrain is not None:
+            return
         raise InvalidScene(["a terrain is needed: give one with --terrain, such as --terrain bbox:1"])
     if not sweeps and scene.start is None:
         raise InvalidScene(["a start is needed: give one with --start X,Y"])

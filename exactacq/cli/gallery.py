@@ -66,6 +66,8 @@ def _draw_gallery(folder: Path, labels: Labels) -> None:
     from exactacq.files.whole_files import FIGURES, check_output
     from exactacq.output.figures import save
 
+    if folder.exists() and not folder.is_dir():
+        raise FormatError(f"--out: {folder} is a file; a folder for all pictures is needed")
     folder.mkdir(exist_ok=True)
     for name in scenes.names():
         path = folder / f"{name}.svg"

@@ -5,8 +5,9 @@ from __future__ import annotations
 import os
 import sys
 import traceback
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from inspect import isclass, signature
 from types import ModuleType
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -82,14 +83,24 @@ def _told(path: str, offered: list[str]) -> str:
 
 
 def _offered(module: ModuleType) -> list[str]:
-    """The strategies that a file registers; functions that it defines only if it registers none."""
+    """The strategies that a file registers; if there are none, what it defines that takes one argument."""
     from exactacq.strategies.registry import registered_in
 
     return registered_in(module.__name__) or [
         name
         for name, thing in vars(module).items()
-        if callable(thing) and not name.startswith("_") and thing.__module__ == module.__name__
+        if callable(thing) and not isclass(thing) and not name.startswith("_")
+        if thing.__module__ == module.__name__ and _takes_one(thing)
     ]
+
+
+def _takes_one(function: Callable[..., object]) -> bool:
+    """Whether a function can be called with a robot alone."""
+    try:
+        signature(function).bind(None)
+    except TypeError:
+        return False
+    return True
 
 
 def _run(path: str) -> ModuleType:

@@ -30,7 +30,9 @@ def load(name: str | os.PathLike[str] | HasGeoInterface | Mapping[str, Any], **o
     source = NamedSource(name)
     start = options.pop("start", None)
     if start is not None and source.format is None:
-        raise FormatError(f"{source.label}: a gallery scene takes no options for files; leave them out")
+        raise FormatError(
+            f"{source.label}: a gallery scene has its own start; give another by .replace(start=...)"
+        )
     contents = source.contents(start, options)
     with source.named():
         return contents.scene()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, cast
 
@@ -35,11 +36,13 @@ class NamedSource:
             self.format = format_of(Path("x.geojson"))
         elif is_file or (self.label not in gallery.names() and os.path.splitext(self.label)[1]):
             with naming(self.label):
+                if os.path.isdir(self.label) and not os.path.splitext(self.label)[1]:
+                    raise FormatError("this is a directory; give a file in it")
                 self.format = format_of(Path(self.label))
         elif self.label not in gallery.names():
-            raise FormatError(
-                f"{self.label}: no such file or gallery scene; `exactacq gallery` lists the scenes"
-            )
+            near = get_close_matches(self.label.lower(), gallery.names(), 1)
+            hint = f"did you mean {near[0]}?" if near else "`exactacq gallery` lists the scenes"
+            raise FormatError(f"{self.label}: no such file or gallery scene; {hint}")
 
     def contents(self, start: Point | Sequence[object] | None, options: Mapping[str, Any]) -> Contents:
         """What it holds, before anything is decided; `FormatError` as `exactacq.load`."""

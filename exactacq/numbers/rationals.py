@@ -167,6 +167,8 @@ def round_to_float(ball: Enclosing, equals: Callable[[fmpq], bool]) -> float:
 
 def decimal_string(ball: Enclosing, digits: int) -> str:
     """Decimal with *digits* significant digits from ``ball(working_bits)``."""
+    if not isinstance(digits, int) or digits < 1:
+        raise ValueError(f"a number of digits of at least 1 is needed, not {digits!r}")
     bits = int(digits * 3.33) + 64
     while True:
         value = ball(bits)

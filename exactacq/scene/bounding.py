@@ -67,9 +67,16 @@ def rectangular_room(scene: Scene) -> Terrain | None:
 
 
 def at_corner(scene: Scene) -> Scene:
-    """The scene with its start in the SW corner of what the Seed Spreader sweeps, if there is such."""
+    """The scene with its start in the SW corner of what the Seed Spreader sweeps, if there is such.
+
+    `InvalidScene` if that is not free.
+    """
     terrain = scene.terrain or rectangular_room(scene)
-    return scene if terrain is None else scene.replace(start=terrain.south_west)
+    try:
+        return scene if terrain is None else scene.replace(start=terrain.south_west)
+    except InvalidScene as error:
+        cure = "a sweep starts in the SW corner of its terrain"
+        raise InvalidScene(error.violations, error.cure or cure) from None
 
 
 def _extent(edges: Sequence[Curve]) -> tuple[fmpq, fmpq, fmpq, fmpq]:

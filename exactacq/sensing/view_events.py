@@ -17,9 +17,10 @@ from typing import Any, TypeAlias
 
 from flint import fmpq
 
+from exactacq.errors import shown
 from exactacq.gc_pause import uncollected
 from exactacq.geometry.curve_parameter import Rail
-from exactacq.geometry.curves import Curve, Segment
+from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
 from exactacq.kernel.leg_changes import BEGINS, TURNS, AtEnd, Turn
@@ -256,6 +257,8 @@ def sweep(scene: Scene, curve: Curve, radius: object = None, *, obstacle: int | 
     >>> [(event.change.value, event.edge, str(event.place)) for event in swept.events[1:3]]
     [('occlusion', 3, '(2, 2)'), ('reappearance', 1, '(3, 2)')]
     """
+    if not isinstance(curve, Segment | Arc):
+        raise TypeError(f"a sweep goes along a Segment or an Arc, not {shown(curve)}")
     reach = radius_of(scene, radius, curve.start)
     if obstacle is None and not isinstance(curve, Segment):
         raise ValueError("free space is crossed on straight lines: an arc needs its obstacle's number")

@@ -146,12 +146,12 @@ class Run:
         return self.map.incomplete
 
     def map_at(self, moment: Event | Length | object) -> Map:
-        """The map as it was at an event, or after a length of the path.
+        """The map as it was at an event of this run, or after a length of the path.
 
         Where the place has transcendental coordinates, as most places on an arc have, the map is exact too,
-        but what depends on the place has no closed form. ValueError if the path has no such place, or if it
-        lies inside an arc after a sum of angles that are no simple fractions (see `near`). Cost: that of
-        sensing one piece, once for all moments of it that are asked for together.
+        but what depends on the place has no closed form. ValueError if the path has no such place, for an
+        event of another run, or if it lies inside an arc after a sum of angles that are no simple fractions
+        (see `near`). Cost: that of sensing one piece, once for all moments of it that are asked for together.
 
         >>> import exactacq as xa
         >>> print(xa.sightseer(xa.load("circles")).map_at(2).known_length())
@@ -161,7 +161,7 @@ class Run:
         return self.memory.after(count) if place is None else self.memory.within(count, place)
 
     def view_at(self, moment: Event | Length | object) -> Isovist:
-        """What the robot sees at an event, or after a length of the path; raises what `map_at` raises.
+        """What the robot sees at an event of this run, or after a length of it; raises what `map_at` raises.
 
         >>> import exactacq as xa
         >>> xa.sightseer(xa.load("circles")).view_at(2)
@@ -189,6 +189,8 @@ class Run:
         (0, Point(2, 0))
         """
         if isinstance(moment, Event):
+            if moment.path is not self.path and moment.path != self.path:
+                raise ValueError(f"{moment!r} is an event of another run")
             return moment.after, moment.point if moment.inside else None
         count, rest = self.path.find(Length(moment))
         if rest.sign() == 0:

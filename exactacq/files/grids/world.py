@@ -13,7 +13,7 @@ from exactacq.files.loops.areas import Areas
 from exactacq.files.loops.arrangement import count
 from exactacq.files.loops.chains import scientific_above
 from exactacq.files.loops.contents import Contents
-from exactacq.files.repairs.simplify import simplify
+from exactacq.files.repairs.simplify import check_tolerance, simplify
 
 ZERO, ONE = fmpq(0), fmpq(1)
 
@@ -80,6 +80,7 @@ def grid_contents(
             f"by cuts of 1/{STEPS} of a cell"
         )
     if tolerance is not None:
+        check_tolerance(tolerance)
         before = sum(map(len, rings))
         rings = simplify(
             rings, tolerance * STEPS / placement.size, [] if start is None else [placement.steps(start)]

@@ -46,9 +46,14 @@ def simplify(
     >>> simplify([stairs], fmpq(1, 4)) == [stairs]
     True
     """
+    check_tolerance(tolerance)
+    return _Rings(rings, tolerance * tolerance, fixed).simplified()
+
+
+def check_tolerance(tolerance: fmpq) -> None:
+    """`FormatError` for a negative one."""
     if tolerance < 0:
         raise FormatError(f"simplify: a length of at least 0 is needed, not {shown(tolerance)}")
-    return _Rings(rings, tolerance * tolerance, fixed).simplified()
 
 
 class _Rings:

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 SECONDS = 60.0
 """How long a search takes if neither --seconds nor --steps is given."""
+STEPS = "Candidates in place of seconds, and as many to shrink: repeatable."
 SHRINKING = 0.3
 """The share of the seconds that is kept for shrinking; steps are all given to it once more."""
 
@@ -67,9 +68,14 @@ def search(
     strips: Annotated[int, typer.Option(min=1, metavar="N", help="Seed Spreader: most strips.")] = 40,
     seated: Annotated[bool, typer.Option(help="Sightseer: starts on boundaries only.")] = False,
     convex: Annotated[bool, typer.Option(help="Convex obstacles only.")] = False,
-    seconds: Annotated[float | None, typer.Option(min=0, metavar="T", help="Time for everything.")] = None,
+    seconds: Annotated[
+        float | None, typer.Option(min=0, metavar="T", help=f"Time for everything; default: {SECONDS:.0f}.")
+    ] = None,
     steps: Annotated[
-        int | None, typer.Option(min=1, metavar="N", help="Candidates in place of seconds: repeatable.")
+        int | None,
+        typer.Option(
+            min=1, metavar="N", help="Candidates in place of seconds, and as many to shrink: repeatable."
+        ),
     ] = None,
     limit: Annotated[float, typer.Option(min=0.01, metavar="T", help="Seconds for one candidate.")] = 10.0,
     seed: Annotated[int, typer.Option(help="The same seed and steps find the same scene.")] = 0,
