@@ -104,7 +104,8 @@ class TestWhatIsWrong:
         assert "which of mine.py?" in refused(capsys, "explore", "circles", "--strategy", "mine.py")
         # What cannot be called with a robot alone is none.
         written(
-            "class Tool: ...\ndef helper(x, y): ...\ndef s(robot): robot.take(robot.nearest_unvisited(None))\n",
+            "class Tool: ...\ndef helper(x, y): ...\n"
+            "def s(robot): robot.take(robot.nearest_unvisited(None))\n",
             "one.py",
         )
         answered(capsys, "explore", "circles", "--strategy", "one.py", "--max-moves", "1")

@@ -353,6 +353,23 @@ def test_lines_along_rows_cross_a_way_in_one_point_each(monkeypatch: pytest.Monk
     assert len(asked) < 30
 
 
+def test_a_tangent_at_the_end_of_an_arc_crosses_a_way_in_one_point(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A hole drawn as four rounded arcs: each joint is a corner, and shares a rational tangent with its arc.
+
+    Where that crosses a way between two circles was found from both, in numbers of a tall field: the sweep of
+    this way took 9 seconds to prove 20 of these places equal, and others, among more holes, over a minute.
+    """
+    hole = [("0.433", "-0.875"), ("-0.25", "-0.692"), ("-0.433", "-1.375"), ("0.25", "-1.558")]
+    discs = [xa.Circle((0, y), 1) for y in (6, -6)]
+    scene = xa.Scene([*discs, xa.Outline([(*at, "0.414") for at in hole])], start=hole[1])
+    way = xa.sightseer(scene, 12).path[9].curve
+    asked: list[object] = []
+    vanishes = sign.vanishes
+    monkeypatch.setattr(sign, "vanishes", lambda value: asked.append(value) or vanishes(value))  # type: ignore[func-returns-value]
+    assert len(xa.sweep(scene, way, 12).events) == 16
+    assert len(asked) < 20
+
+
 def test_an_audit_of_a_way_through_a_sample() -> None:
     """A sampled place lies on a way with numbers of degree 20: that the way passes it need not be proved."""
     scene = xa.load(DATA / "rounded-squares.json")

@@ -117,14 +117,28 @@ class LinePoints:
         try:
             if isinstance(curve, Segment) and curve.start.rational is not None:
                 # Linear in one number, and with an edge's own abscissa if that is vertical: ties show.
-                along = curve.direction
-                share = direction.cross(contact - curve.start) / direction.cross(along)
-                return curve.start + along * share
-            return contact + direction * meet(contact, direction, curve, side.role)
+                share = direction.cross(contact - curve.start) / direction.cross(curve.direction)
+                return curve.start + curve.direction * share
+            straight = isinstance(curve, Segment)
+            start, along = _in_one_form(contact, direction) if straight else (contact, direction)
+            return start + along * meet(start, along, curve, side.role)
         except ZeroDivisionError:
             # A line along the edge: where the others meet the edge has a limit. Normals of an arc all pass
             # through its centre. A tangent meets another one half way, by angle, between the two contacts.
             return Point(*sector.center) if isinstance(sector, Spokes) else contact
+
+
+def _in_one_form(contact: Point, direction: Point) -> tuple[Point, Point]:
+    """A rational line by one point and one direction, however it was found; another line as it is.
+
+    A corner and an arc that ends there have a tangent in common. Where it meets a way with irrational numbers
+    both find one number in one form then, and nobody has to prove that two are equal.
+    """
+    at, along = contact.rational, direction.rational
+    if at is None or along is None:
+        return contact, direction
+    (x, y), (dx, dy) = at, along
+    return (Point(x, 0), Point(0, 1)) if dx == 0 else (Point(0, y - x * dy / dx), Point(1, dy / dx))
 
 
 def along_normal(
