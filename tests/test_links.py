@@ -297,6 +297,22 @@ class TestBlockedPairs:
         assert sorted([math.hypot(*p), math.hypot(*q)]) == pytest.approx([1, 3])
         assert abs(p[0] * q[1] - p[1] * q[0]) < 1e-12
 
+    def test_mirrored_chords_from_a_line_through_the_middle(self) -> None:
+        """A rounded hole inside two half rings, all symmetric about the x-axis.
+
+        The two shortest chords from the hole to the straight side of the outer ring end on a line through the
+        centre of the inner ring, which holds them. They were not seen to be mirror images, and lengths of
+        degree 12 could not be compared: `Undecided`.
+        """
+        hole = [(x, y, "0.4142") for x, y in (("0.75", 0), (0, "0.75"), ("-0.75", 0), (0, "-0.75"))]
+        inner = [(0, "-1.5", 1), (0, "1.5", 1), (0, "1.25", -1), (0, "-1.25", 1)]
+        outer = [(0, -2, 1), (0, 2), (0, "1.75", -1), (0, "-1.75")]
+        scene = xa.Scene(map(xa.Outline, (hole, inner, outer)), start=("-3.5", 3))
+        (p, q), (r, s) = xa.visibility_graph(scene, 5).edges[0, 2]["link"].segments()
+        assert p.y > r.y
+        assert [p, q] == [xa.Point(r.x, -r.y), xa.Point(s.x, -s.y)]
+        assert xa.sightseer(scene, 5).complete
+
     def test_nothing_passes_a_long_wall(self) -> None:
         assert weight([Disc(-3, 0, 1), Disc(3, 0, 1), box(Q(-1, 2), Q(1, 2), -9, 9)], 9) is None
 

@@ -26,6 +26,7 @@ from exactacq.visibility.chords import Chord
 from exactacq.visibility.line_families import Sector
 
 BITS = 256
+NO_AXIS: Vector = (fmpq(0), fmpq(0))
 CLOSE = 1e-9
 """Lengths whose floats differ by more are not equal; those of others may be."""
 
@@ -33,12 +34,14 @@ CLOSE = 1e-9
 class _Figure(NamedTuple):
     """What determines a stationary chord: marks of the edges behind and ahead, from the feature's centre.
 
-    A circle is marked by its centre, a line by the foot of the perpendicular. ``key`` is equal for figures
-    that a rotation may map to each other, ``mirrored`` is the key of a mirror image.
+    A circle is marked by its centre, a line by the foot of the perpendicular. That does not tell a line
+    through the feature's centre: of one its direction is the ``axis``. ``key`` is equal for figures that a
+    rotation may map to each other, ``mirrored`` is the key of a mirror image.
     """
 
     center: Vector
     marks: tuple[Vector, Vector]
+    axis: Vector
     key: tuple[object, ...]
     mirrored: tuple[object, ...]
 
@@ -108,8 +111,8 @@ class CongruentChords:
 
 
 def _figure(sector: Sector, behind: Curve, ahead: Curve) -> _Figure | None:
-    """The figure of a chord; None if a line runs through the feature's centre, which no foot tells."""
-    center = sector.center
+    """The figure of a chord; None if two lines run through the feature's centre."""
+    center, axis = sector.center, NO_AXIS
     marks, kinds = [], []
     for edge in (behind, ahead):
         if isinstance(edge, Arc):
@@ -121,14 +124,16 @@ def _figure(sector: Sector, behind: Curve, ahead: Curve) -> _Figure | None:
             x, y = -along[1] * off, along[0] * off
             kinds.append((False, False, fmpq(0)))
             if not off:
-                return None
+                if axis is not NO_AXIS:
+                    return None
+                axis = along
         marks.append((x, y))
     b, a = marks
     inner = dot(sector.base, sector.base) if sector.round else fmpq(0)
     between = dot(a, b)
     key = inner, kinds[0], dot(b, b), kinds[1], dot(a, a), between
     mirrored = inner, kinds[1], dot(a, a), kinds[0], dot(b, b), between
-    return _Figure(center, (b, a), key, mirrored)
+    return _Figure(center, (b, a), axis, key, mirrored)
 
 
 def _isometry(figure: _Figure, other: _Figure, mirrors: bool) -> _Isometry | None:
@@ -144,7 +149,7 @@ def _isometry(figure: _Figure, other: _Figure, mirrors: bool) -> _Isometry | Non
         one = one[0], -one[1]
     turn = dot(one, image) / size, cross(one, image) / size
     found = _Isometry(turn, mirrors, figure.center, other.center)
-    return found if found.linear(a) == z else None
+    return found if found.linear(a) == z and not cross(found.linear(figure.axis), other.axis) else None
 
 
 def _image(sector: Sector, t: Real, isometry: _Isometry, other: Sector) -> Real | None:
