@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
-from functools import cached_property, cmp_to_key
+from functools import cached_property
 from itertools import groupby, pairwise
 from math import inf
 
@@ -23,6 +23,7 @@ from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.late import Pin, late_point
 from exactacq.geometry.points import Point
+from exactacq.grouping import in_groups
 from exactacq.kernel.choice import LegSpan
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import Extent, Span
@@ -327,14 +328,7 @@ class LegSights:
     def _parted(self, cluster: list[int]) -> list[list[int]]:
         """Some places in their exact order, equal ones together."""
         places = [(end, self.made(end)[1]) for end in cluster]
-        places.sort(key=cmp_to_key(_by_place))
-        parts = [[places[0][0]]]
-        for (_, u), (end, v) in pairwise(places):
-            if u.compare(v):
-                parts.append([end])
-            else:
-                parts[-1].append(end)
-        return parts
+        return [[end for end, _ in group] for group in in_groups(places, _by_place)]
 
     def made(self, end: int) -> Pin:
         """The place of an end, exactly."""

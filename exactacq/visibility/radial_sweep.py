@@ -19,6 +19,7 @@ from exactacq.geometry.coordinates import Vector, advance, cross, minus, raw, si
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.late import Balls, balls, late_point
 from exactacq.geometry.points import Point
+from exactacq.grouping import in_groups
 from exactacq.kernel import radial_sweep as floats
 from exactacq.kernel import single_rays
 from exactacq.kernel.view_parts import ViewParts
@@ -104,7 +105,7 @@ class RadialSweep:
 
     def _sorted(self, slots: list[int]) -> list[list[int]]:
         """Slots grouped by exact direction, counterclockwise."""
-        events, groups = self.faces.floats.events, list[list[int]]()
+        events = self.faces.floats.events
         slots = sorted(slots, key=events.__getitem__)
         if all(events[slot] < len(self.table.vertices) for slot in slots):
             vectors = [self.faces.offset(events[slot]) for slot in slots]
@@ -114,21 +115,12 @@ class RadialSweep:
         # On a coarse lattice most directions that look the same are; with rounded coordinates most differ.
         is_coarse = self.table.is_coarse
         balls = {} if is_coarse else {slot: self.faces.long_offset(events[slot]) for slot in slots}
-        for slot in slots:
-            low, high = 0, len(groups)
-            while low < high:
-                middle = (low + high) // 2
-                first = groups[middle][0]
-                order = clear_turn(balls[first], balls[slot]) if balls else 0
-                if not order:
-                    order = _turn(*(self.faces.offset(events[k]) for k in (first, slot)))
-                if order == 0:
-                    groups[middle].append(slot)
-                    break
-                low, high = (middle + 1, high) if order > 0 else (low, middle)
-            else:
-                groups.insert(low, [slot])
-        return groups
+
+        def compare(a: int, b: int) -> int:
+            turn = clear_turn(balls[a], balls[b]) if balls else 0
+            return -(turn or _turn(*(self.faces.offset(events[k]) for k in (a, b))))
+
+        return in_groups(slots, compare)
 
     def direction(self, rank: int) -> Vector:
         """The exact direction of a rank, rational where one of its events shows it."""

@@ -17,7 +17,8 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property, cmp_to_key
+from functools import cached_property
+from itertools import groupby
 from math import isnan
 from operator import itemgetter
 from typing import TypeAlias
@@ -28,6 +29,7 @@ from exactacq.geometry.coordinates import raw
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.points import Point
+from exactacq.grouping import in_groups
 from exactacq.kernel.bound_lines import NOTHING, BoundLine, known_line
 from exactacq.kernel.bounded import UNIT
 from exactacq.kernel.cells import LineCells
@@ -335,23 +337,17 @@ class _Decisions:
         found: dict[Hashable, _Value] = {}
         values = [(self._valued(event, found), event) for event in group]
         if any(isinstance(value.number, Real) for value, _ in values):
-            values.sort(key=cmp_to_key(_by_value))
+            groups = in_groups(values, _by_value)
         else:
             values.sort(key=_rational_value)
-        current: _Value | None = None
-        passed: list[tuple[int, int, int]] = []
-        for at, event in values:
+            groups = [list(equal) for _, equal in groupby(values, key=_rational_value)]
+        for equal in groups:
+            at = equal[0][0]
             if has_low and at.compare(low) < 0:
                 continue
             if has_high and at.compare(high) > 0:
                 break
-            if current is not None and at.compare(current):
-                yield _known(current.number, passed)
-                current, passed = None, []
-            current = at if current is None else current
-            passed += event.passed
-        if current is not None:
-            yield _known(current.number, passed)
+            yield _known(at.number, [one for _, event in equal for one in event.passed])
 
     def _valued(self, event: BoundLine, found: dict[Hashable, _Value]) -> _Value:
         """The parameter of a line; one object for equal roots, as circles in a row share many tangents."""
