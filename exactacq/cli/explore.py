@@ -84,7 +84,7 @@ def explore(
     A strategy of your own is FILE.py:NAME: a function of a robot in a file, which is run. NAME is that of the
     function, or the one under which it is registered.
 
-    Where a comparison stays undecided, all that is done for the run up to there, and the exit status is 3.
+    Where a comparison stays undecided, the run up to there is told, drawn and written; the exit status is 3.
     """
     from exactacq.files.whole_files import FIGURES, FILMS, PAGES, TRACES, write_whole
     from exactacq.output.report import console, run_report
