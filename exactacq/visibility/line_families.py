@@ -83,7 +83,7 @@ class Sector(ABC):
         kind, radius, sense = self._kind
         return kind, nearest_float(x), nearest_float(y), nearest_float(dx), nearest_float(dy), radius, sense
 
-    @cached_property
+    @property
     def span(self) -> tuple[Held, Held]:
         """The parameters of the first and the last line in floats, with bounds of the errors."""
         return held(self.low), held(self.high)
