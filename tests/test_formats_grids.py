@@ -140,11 +140,11 @@ def test_quarter_turns_are_exact() -> None:
 @pytest.mark.parametrize(
     ("said", "message"),
     [
-        ({"image": None}, "image: one value is needed, not 0"),
+        ({"image": None}, "there is no image: is this a map of map_server?"),
         ({"image": "none.png"}, "image none.png: no such file"),
         ({"image": "/dev/zero.png"}, "no such file"),
         ({"image": "map.yaml"}, "image: 'map.yaml' does not end in"),
-        ({"resolution": None}, "resolution: one value is needed"),
+        ({"resolution": None}, "there is no resolution"),
         ({"resolution": 0}, "a cell 0 wide"),
         ({"resolution": -1}, "a cell -1 wide"),
         ({"resolution": "wide"}, "resolution: not a number: 'wide'"),

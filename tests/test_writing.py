@@ -21,6 +21,7 @@ from hypothesis import strategies as st
 import exactacq as xa
 from exactacq.files import gallery
 from exactacq.files.formats import written_suffixes
+from exactacq.files.whole_files import write_whole
 from exactacq.files.writing.corners import bulge_of
 from exactacq.files.writing.decimals import DIGITS, Precision, is_decimal
 from exactacq.files.writing.dxf import written as dxf
@@ -448,3 +449,11 @@ def test_round_trips_are_exact(tmp_path: Path, scene: xa.Scene) -> None:
         again = xa.load(path, start=("0.5", "-50"), **options)
         assert shapes(again) == shapes(scene)
         assert suffix != ".json" or again == scene
+
+
+def test_an_error_of_writing_names_the_file(tmp_path: Path) -> None:
+    """Not the one beside it that is written first."""
+    target = tmp_path / "nowhere" / "scene.json"
+    with pytest.raises(OSError, match="No such file") as raised:
+        write_whole(target, b"{}")
+    assert raised.value.filename == str(target)

@@ -62,9 +62,16 @@ def check_output(path: str | os.PathLike[str], suffixes: Collection[str]) -> Pat
 def write_whole(path: str | os.PathLike[str], data: bytes) -> None:
     """Write a file through a temporary one beside it and a rename: readers see the old or the new file.
 
-    Raises `OSError`; nothing is left behind then.
+    Raises `OSError` with the name of the file; nothing is left behind then.
     """
     target = Path(path)
+    try:
+        _write_beside(target, data)
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(target)) from None
+
+
+def _write_beside(target: Path, data: bytes) -> None:
     handle, temporary = tempfile.mkstemp(prefix=f".{target.name[:40]}.", suffix=".part", dir=target.parent)
     try:
         with os.fdopen(handle, "wb") as file:

@@ -106,7 +106,9 @@ def _level(said: dict[str, list[str]], key: str, default: str) -> fmpq:
 
 def _one(said: dict[str, list[str]], key: str, default: str | None = None) -> str:
     values = said.get(key, [] if default is None else [default])
-    if len(values) != 1:
+    if not values:
+        raise FormatError(f"there is no {key}: is this a map of map_server?")
+    if len(values) > 1:
         raise FormatError(f"{key}: one value is needed, not {len(values)}; is this a map of map_server?")
     return values[0]
 

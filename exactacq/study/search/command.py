@@ -140,13 +140,14 @@ def _found(hunt: Search, method: Method, seconds: float | None, steps: int | Non
 
 def _report(target: Goal, referee: Referee, found: Ruling | None, out: str | None) -> None:
     """What was found, exactly; how many candidates there were; how to see it again."""
+    from exactacq.files.loops.arrangement import count
     from exactacq.output.report import console
     from exactacq.study.claims.model import Outcome
 
     show = console()
-    dropped = ", ".join(f"{count} {kind}" for kind, count in sorted(referee.dropped.items()))
+    dropped = ", ".join(f"{n} {kind}" for kind, n in sorted(referee.dropped.items()))
     show.print(f"{target.name}: {target.statement.words}")
-    show.print(f"judged {referee.judged} scenes" + (f", dropped: {dropped}" if dropped else ""))
+    show.print(f"judged {count(referee.judged, 'scene')}" + (f", dropped: {dropped}" if dropped else ""))
     for fault in referee.faults[:1]:
         show.print(f"first fault: {fault.reason} on {' '.join(fault.draft.text().split())}", soft_wrap=True)
     if found is None or found.finding is None:
@@ -162,7 +163,8 @@ def _report(target: Goal, referee: Referee, found: Ruling | None, out: str | Non
         show.print(found.finding.detail)
     draft = found.draft
     show.print(
-        f"{len(draft.shapes)} obstacles, {draft.edges} edges, {draft.digits} digits, R = {draft.radius}"
+        f"{count(len(draft.shapes), 'obstacle')}, {count(draft.edges, 'edge')}, "
+        f"{count(draft.digits, 'digit')}, R = {draft.radius}"
     )
     if out is None:
         show.print("--out F.json keeps the scene")
