@@ -90,10 +90,13 @@ class World:
     def at(self, i: int, s: float) -> tuple[float, float]:
         """The boundary point of shape i at arc length s from the loop's first vertex, blocked side left."""
         s %= self.perimeter(i)
-        for e in self.ids[i]:
-            if s <= self.length[e]:
+        *before, e = self.ids[i]
+        for one in before:
+            if s <= self.length[one]:
+                e = one
                 break
-            s -= self.length[e]
+            s -= self.length[one]
+        # A sum of rounded lengths may exceed the last edge by round-off: that is its end.
         u = min(s / self.length[e], 1.0)
         if self.r[e] == 0:
             point = self.a[e] + u * (self.b[e] - self.a[e])

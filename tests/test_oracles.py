@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from fractions import Fraction as Q
 from random import Random
 
 import pytest
@@ -71,6 +72,17 @@ class TestWorld:
         s %= w.perimeter(i)
         gap = abs(w.position(i, w.at(i, s)) - s)
         assert min(gap, w.perimeter(i) - gap) < 1e-9
+
+    def test_the_end_of_the_last_edge_is_not_its_start(self) -> None:
+        """Less the other edges, the length around may exceed the last one by round-off."""
+        ring = [
+            (Q(2697544345, 4087753921), Q(2708113014, 4087753921), Q(8, 97)),
+            (Q(-18680962753, 22148203709), Q(8045876520, 22148203709), Q(8, 97)),
+            (Q(-126760781, 585341941), Q(-526615488, 585341941), Q(-7, 97)),
+            (Q(413440513, 527503945), Q(-270337446, 527503945), Q(15, 97)),
+        ]
+        w, corner = world([ring]), tuple(map(float, ring[0][:2]))
+        assert w.at(0, w.position(0, corner)) == pytest.approx(corner)
 
 
 class TestFree:
