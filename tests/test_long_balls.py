@@ -124,8 +124,8 @@ def test_an_event_lies_in_its_ball(
         ball = event_ball(sector, long_frame(sector), circle, side, sign)
     if exact is not None and ball is not None:
         assert ball.overlaps(exact.ball(2 * LONG))
-        # The parameter is a tangent, which grows with its square; beyond the sector it may be huge.
-        assert ball.rad() < 1e-60 * (1 + ball.mid() ** 2)
+        # Beyond the sector a parameter may be huge, and circles that nearly touch cost half of the digits.
+        assert ball.rad() < 1e-50 * (1 + ball.mid() ** 2)
 
 
 # -- directions and faces ----------------------------------------------------------------------------
