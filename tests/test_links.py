@@ -10,6 +10,7 @@ from random import Random
 import networkx as nx
 import numpy as np
 import pytest
+from flint import fmpq
 from hypothesis import given
 from nightly import NIGHTLY, examples
 from oracles import Disc, Room, free, shortest_visible, world
@@ -38,7 +39,9 @@ from exactacq.files.octagons import random_octagons
 from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
+from exactacq.visibility import congruent_chords
 from exactacq.visibility.features import features
+from exactacq.visibility.line_families import Turning
 from exactacq.visibility.links import Links, near_hull
 
 Q = Fraction
@@ -312,6 +315,21 @@ class TestBlockedPairs:
         assert p.y > r.y
         assert [p, q] == [xa.Point(r.x, -r.y), xa.Point(s.x, -s.y)]
         assert xa.sightseer(scene, 5).complete
+
+    def test_a_line_through_the_middle_is_told_by_its_direction(self) -> None:
+        """The foot of the perpendicular is the centre for all such lines; only parallel ones are the same."""
+        disc = xa.Arc(xa.Point(3, 0), xa.Point(3, 0), xa.Point(2, 0), 1, ccw=True, full=True)
+        held = Turning((fmpq(0), fmpq(0)), (fmpq(1), fmpq(0)), fmpq(0), fmpq(1))
+
+        def figure(x: int, y: int) -> congruent_chords._Figure:
+            found = congruent_chords._figure(held, disc, xa.Segment(xa.Point(x, y), xa.Point(3 * x, 3 * y)))
+            assert found is not None
+            return found
+
+        up = figure(0, 1)
+        assert congruent_chords._isometry(up, figure(0, -2), False) is not None
+        for other in (figure(1, 1), figure(-1, 1)):
+            assert congruent_chords._isometry(up, other, False) is None
 
     def test_nothing_passes_a_long_wall(self) -> None:
         assert weight([Disc(-3, 0, 1), Disc(3, 0, 1), box(Q(-1, 2), Q(1, 2), -9, 9)], 9) is None

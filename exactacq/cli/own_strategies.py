@@ -100,6 +100,8 @@ def _takes_one(function: Callable[..., object]) -> bool:
         signature(function).bind(None)
     except TypeError:
         return False
+    except ValueError:
+        pass  # What does not tell what it takes may take one.
     return True
 
 

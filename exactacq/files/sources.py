@@ -36,7 +36,7 @@ class NamedSource:
             self.format = format_of(Path("x.geojson"))
         elif is_file or (self.label not in gallery.names() and os.path.splitext(self.label)[1]):
             with naming(self.label):
-                if os.path.isdir(self.label) and not os.path.splitext(self.label)[1]:
+                if os.path.isdir(self.label):
                     raise FormatError("this is a directory; give a file in it")
                 self.format = format_of(Path(self.label))
         elif self.label not in gallery.names():

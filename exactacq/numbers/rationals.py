@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 import re
 from collections.abc import Callable, Iterable
 from decimal import Decimal
@@ -167,8 +168,8 @@ def round_to_float(ball: Enclosing, equals: Callable[[fmpq], bool]) -> float:
 
 def decimal_string(ball: Enclosing, digits: int) -> str:
     """Decimal with *digits* significant digits from ``ball(working_bits)``."""
-    if not isinstance(digits, int) or digits < 1:
-        raise ValueError(f"a number of digits of at least 1 is needed, not {digits!r}")
+    if operator.index(digits) < 1:
+        raise ValueError(f"at least 1 digit is needed, not {digits}")
     bits = int(digits * 3.33) + 64
     while True:
         value = ball(bits)
