@@ -18,6 +18,7 @@ import exactacq as xa
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.numbers import sign
 from exactacq.numbers.rationals import rational
+from exactacq.sensing import line_points
 from exactacq.study.random_scenes import Subject, arc_scene, random_scene
 
 NEAR = 1e-9
@@ -368,6 +369,18 @@ def test_a_tangent_at_the_end_of_an_arc_crosses_a_way_in_one_point(monkeypatch: 
     monkeypatch.setattr(sign, "vanishes", lambda value: asked.append(value) or vanishes(value))  # type: ignore[func-returns-value]
     assert len(xa.sweep(scene, way, 12).events) == 16
     assert len(asked) < 20
+
+
+@pytest.mark.parametrize("direction", [(3, 4), (-1, 2), (0, -2), (5, 0)])
+def test_a_rational_line_has_one_form(direction: tuple[int, int]) -> None:
+    """Whatever place of it and whatever length of its direction it is told by."""
+    along, place = xa.Point(*direction), xa.Point("1/3", "-7/2")
+    at, way = line_points._in_one_form(place, along)
+    assert way.cross(along) == 0 and along.cross(at - place) == 0 and way.norm_sq() > 0
+    again = line_points._in_one_form(place + along * fmpq(5, 7), along * -3)
+    assert (at.key, way.key) == (again[0].key, again[1].key)
+    root = xa.Point(2, xa.Real(2).sqrt())
+    assert line_points._in_one_form(root, along) == (root, along)
 
 
 def test_an_audit_of_a_way_through_a_sample() -> None:
