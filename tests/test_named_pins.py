@@ -38,7 +38,7 @@ def test_a_way_adds_to_what_is_shared() -> None:
     assert added.at(way[1]) == {(7, 8, 0): way}
 
 
-def test_no_ends_of_views_in_rows_of_holes_are_made_to_be_compared(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_few_ends_of_views_in_rows_of_holes_are_made_to_be_compared(monkeypatch: pytest.MonkeyPatch) -> None:
     """In a grid of equal holes a line that touches two touches many, and ways look along the same lines.
 
     While the ends of what ways showed were known to the ways alone, 387 numbers were made in this run to find
@@ -64,4 +64,5 @@ def test_no_ends_of_views_in_rows_of_holes_are_made_to_be_compared(monkeypatch: 
     holes = [xa.Circle((2 * k + 2, 2 * j + 2), "3/5") for k in range(4) for j in range(4)]
     run = xa.sightseer(xa.Scene(holes, start=(1, 1)), radius=8)
     assert len(run.events) > 500
-    assert not made
+    # Two ends are compared with a float that was taken from their bounds (see `FamilyFilter`).
+    assert len(made) <= 2

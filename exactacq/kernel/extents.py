@@ -7,7 +7,8 @@ from typing import Final, final
 
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.family_images import CONTACT, ByEdge, EdgePlace, EdgePlaces, FamilyImage
-from exactacq.kernel.images import ROLLING, SLIDING
+from exactacq.kernel.images import ROLLING, SLIDING, SPOKES
+from exactacq.kernel.view_lengths import order_of_all
 
 SURE: Final = 1e-9
 """Relative margin of distances: of ten roundings at most, 2^-49 in all, in one and in its comparison."""
@@ -80,13 +81,13 @@ def extents_from(
                     found.append(unknown(shown, family, here, there))
                     continue
                 near, far = family.places(here), family.places(there)
-                slack = bent(family, here, near, curves) + bent(family, there, far, curves)
+                told = views_in_range(family, (here, there), (near, far), curves[edge], curves, reach)
                 first, last = family.first_keys, family.last_keys
                 if curves[edge].sense:
                     first = _keys_on_arc(first, near[0], curves[edge], shown, curves)
                     last = _keys_on_arc(last, near[1], curves[edge], shown, curves)
                 keys = first, last
-                one = extent(shown, near, far, slack, keys, reach, family, here, there)
+                one = extent(shown, near, far, told, keys, family, here, there)
                 if one is not None:
                     found.append(one)
     return found
@@ -125,25 +126,22 @@ def extent(
     edge: int,
     source: EdgePlaces,
     shown: EdgePlaces,
-    slack: float,
+    told: int,
     keys: tuple[list[int], list[int]],
-    reach: tuple[float, float],
     origin: object,
     here: int,
     there: int,
 ) -> Extent | None:
     """What is shown of an edge, and from where, by the two extreme views; None if nothing is within range.
 
-    *slack* is how far sides may leave the boxes of their extreme points, *keys* are those of the first and
-    of the last line.
+    *told* is what `views_in_range` tells, *keys* are those of the first and of the last line.
     """
     a, b = source
     c, d = shown
-    near = in_range(source, shown, slack, reach)
-    if near < 0:
+    if told < 0:
         return None
     seen, outer = _hull(c, d), _hull(a, b)
-    if near == 0:
+    if told == 0:
         return Extent(edge, seen, outer, NOTHING, [], [], origin, here, there, True)
     first, last = keys
     if b[1] <= a[0] and not a[1] <= b[0]:
@@ -151,6 +149,33 @@ def extent(
     one = Extent(edge, seen, outer, _inner(a, b), first, last, origin, here, there, True, _inner(c, d))
     one.in_range = True
     return one
+
+
+def views_in_range(
+    family: FamilyImage,
+    roles: tuple[int, int],
+    places: tuple[EdgePlaces, EdgePlaces],
+    leg: CurveImage | None,
+    curves: list[CurveImage],
+    reach: tuple[float, float],
+    part: Span = EVERYTHING,
+) -> int:
+    """1 if all views of a family from a leg are surely within range, -1 if none is, else 0.
+
+    *roles* are those of the two sides, *places* their extreme points. The leg is None if the contact slides
+    along a straight one; only views from a *part* of a straight leg count.
+    """
+    here, there = roles
+    source, far = places
+    kind = family.frame[0]
+    turns = kind not in (ROLLING, SLIDING)
+    shown = curves[family.edge(there)]
+    one = leg.radius if leg is not None and not (family.fixed and here == CONTACT) else 0.0
+    other = shown.radius if not (family.fixed and there == CONTACT) else 0.0
+    told = in_range(source, far, sagitta(one, turns, source) + sagitta(other, turns, far), reach)
+    if told or not (one or other or kind in (ROLLING, SPOKES)):
+        return told
+    return -order_of_all(family.frame, family.fraction, here, there, leg, shown, reach, part)
 
 
 def in_range(source: EdgePlaces, shown: EdgePlaces, slack: float, reach: tuple[float, float]) -> int:
@@ -169,14 +194,6 @@ def in_range(source: EdgePlaces, shown: EdgePlaces, slack: float, reach: tuple[f
     x = _gap(a[2], b[2], c[2], d[2])
     y = _gap(a[3], b[3], c[3], d[3])
     return -1 if sqrt(x * x + y * y) - slack > reach[1] * (1.0 + SURE) else 0
-
-
-def bent(family: FamilyImage, role: int, places: EdgePlaces, curves: list[CurveImage]) -> float:
-    """How far a side of a family may leave the box of its two extreme points."""
-    curve = curves[family.edge(role)]
-    is_straight = (role == CONTACT and family.fixed) or not curve.sense
-    turns = family.frame[0] not in (ROLLING, SLIDING)
-    return sagitta(0.0 if is_straight else curve.radius, turns, places)
 
 
 def sagitta(radius: float, turns: bool, places: EdgePlaces) -> float:

@@ -14,7 +14,7 @@ from typing import Final, final
 from exactacq.kernel.bounded import TINY, UNIT, cross, length, product, total
 from exactacq.kernel.choice import LegSpan
 from exactacq.kernel.curve_images import CurveImage
-from exactacq.kernel.extents import Extent, Span, bent, extent
+from exactacq.kernel.extents import Extent, Span, extent, views_in_range
 from exactacq.kernel.family_images import AHEAD, BEHIND, CONTACT, NONE, FamilyImage
 from exactacq.kernel.images import ROLLING, SLIDING, TURNING
 from exactacq.kernel.line_keys import key_of_corners, key_of_normal
@@ -241,8 +241,8 @@ def normal_sights(
             u, v, _, _, q, _ = family.last
             source = (a, b, x, y, p), (c, d, u, v, q)
             shown = family.places(AHEAD)
-            slack = bent(family, AHEAD, shown, curves) + 2.0 * (p + q)
-            one = extent(edge, source, shown, slack, ([], []), reach, k, CONTACT, AHEAD)
+            told = views_in_range(family, (CONTACT, AHEAD), (source, shown), None, curves, reach)
+            one = extent(edge, source, shown, told, ([], []), k, CONTACT, AHEAD)
             if one is None:
                 continue
         if one is None or one.surely[0] > one.surely[1]:

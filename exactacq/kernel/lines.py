@@ -104,6 +104,26 @@ def meets(line: Line, curve: CurveImage, side: int) -> Meeting:
     return meets_round(line, curve, side) if curve.sense else meets_straight(line, curve)
 
 
+def reaches(line: Line, curve: CurveImage, side: int) -> tuple[float, float, float, float]:
+    """How far along a line, in lengths, it enters what a curve bounds, ahead (1) or back (-1); and the
+    cotangent of the angle from the line to the curve there. Each with its bound."""
+    if curve.sense:
+        h, he, g, ge, half, half_bound, square, square_bound = _chord(line, curve)
+        size, size_bound = root(square, square_bound)
+        half *= -side * curve.sense
+        top, top_bound = total(h, he, half, half_bound)
+        far, fe = quotient(top, top_bound, size, size_bound)
+        cot, cot_bound = quotient(-g, ge, half, half_bound)
+        return far, fe if half_bound < inf else inf, cot, cot_bound
+    far, fe = meets_straight(line, curve)[:2]
+    dx, dy, de = line[2], line[3], line[5]
+    we = UNIT * max(abs(curve.wx), abs(curve.wy)) + TINY
+    along, along_bound = dot(dx, dy, de, curve.wx, curve.wy, we)
+    under, under_bound = cross(dx, dy, de, curve.wx, curve.wy, we)
+    cot, cot_bound = quotient(along, along_bound, under, under_bound)
+    return far, fe, cot, cot_bound
+
+
 def meets_straight(line: Line, segment: CurveImage) -> Meeting:
     """Where a line meets a segment's line."""
     x, y, dx, dy, ce, de = line
@@ -126,10 +146,25 @@ def meets_straight(line: Line, segment: CurveImage) -> Meeting:
 
 
 def meets_round(line: Line, arc: CurveImage, side: int) -> Meeting:
-    """Where a line enters what an arc bounds, ahead (1) or back (-1) along the line.
+    """Where a line enters what an arc bounds, ahead (1) or back (-1) along the line."""
+    x, y, dx, dy, ce, de = line
+    h, he, _, _, half, half_bound, square, square_bound = _chord(line, arc)
+    if not half_bound < inf:
+        return UNKNOWN
+    size, size_bound = root(square, square_bound)
+    top, top_bound = total(h, he, -side * arc.sense * half, half_bound)
+    far, fe = quotient(top, top_bound, size, size_bound)
+    tau, taue = quotient(top, top_bound, square, square_bound)
+    px, py, pe = _moved(x, y, ce, dx, dy, de, tau, taue)
+    u, ue = parameter_round(arc, px, py, pe)
+    return far, fe, u, ue, px, py, pe
+
+
+def _chord(line: Line, arc: CurveImage) -> tuple[float, float, float, float, float, float, float, float]:
+    """What a line cuts off an arc's circle: h, g, the root of r^2 |d|^2 - g^2, |d|^2, each with its bound.
 
     With the direction d, the centre's foot on the line is at h / |d| and its height above it g / |d|; half
-    the chord is the root of r^2 |d|^2 - g^2, divided by |d|.
+    the chord is that root, divided by |d|. An infinite bound if the line surely misses the circle.
     """
     x, y, dx, dy, ce, de = line
     ae = UNIT * max(abs(arc.x), abs(arc.y)) + TINY
@@ -143,14 +178,9 @@ def meets_round(line: Line, arc: CurveImage, side: int) -> Meeting:
     minus, minus_bound = total(reach, reach_bound, -g, ge)
     under, under_bound = product(plus, plus_bound, minus, minus_bound)
     if -under > under_bound:
-        return UNKNOWN
+        return h, he, g, ge, 0.0, inf, square, square_bound
     half, half_bound = root(under, under_bound)
-    top, top_bound = total(h, he, -side * arc.sense * half, half_bound)
-    far, fe = quotient(top, top_bound, size, size_bound)
-    tau, taue = quotient(top, top_bound, square, square_bound)
-    px, py, pe = _moved(x, y, ce, dx, dy, de, tau, taue)
-    u, ue = parameter_round(arc, px, py, pe)
-    return far, fe, u, ue, px, py, pe
+    return h, he, g, ge, half, half_bound, square, square_bound
 
 
 def parameter(curve: CurveImage, x: float, y: float, e: float) -> tuple[float, float]:

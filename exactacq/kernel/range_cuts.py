@@ -5,12 +5,12 @@ from __future__ import annotations
 from math import inf
 from typing import Final
 
-from exactacq.kernel.bounded import UNIT, WIDEN
 from exactacq.kernel.curve_images import CurveImage
-from exactacq.kernel.extents import NOTHING, Span
+from exactacq.kernel.extents import EVERYTHING, NOTHING, Span
 from exactacq.kernel.family_images import CONTACT, FamilyImage
 from exactacq.kernel.images import SLIDING, TURNING
 from exactacq.kernel.lines import Frame, Line, line_at, meets_straight
+from exactacq.kernel.view_lengths import crosses_once, length_along, order_along, order_of_all
 
 STEPS: Final = 40
 """How often a line is tried at most."""
@@ -28,6 +28,8 @@ LAST_TOO_LONG: Final = 1
 """The last view is too long, the first one is in range."""
 ALL_IN_RANGE: Final = 2
 """All views are in range."""
+NONE_IN_RANGE: Final = -2
+"""None is."""
 
 
 def range_cut(
@@ -43,6 +45,8 @@ def range_cut(
     Where lines meet the leg moves along it without turning back, so the places on the two lines of
     `parted_lines` bound that of the last view in range.
     """
+    if leg.sense or not _is_convex(family.frame, leg, shown):
+        return UNSURE, NOTHING
     ends = family.first, family.last
     told, near, far = parted_lines(family.frame, ends, family.fraction, here, there, leg, shown, reach)
     if told not in (FIRST_TOO_LONG, LAST_TOO_LONG):
@@ -64,33 +68,40 @@ def parted_lines(
     shown: CurveImage | None,
     reach: tuple[float, float],
 ) -> tuple[int, float, float]:
-    """Which of the first and the last view is too long; and parameters of a view in range and of one beyond.
+    """Which views are in range; and, if it is some, parameters of a view in range and of one beyond.
 
     *ends* are the first and the last line, *fraction* bounds their parameters, the first one's before the
-    last one's. *shown* is None for a contact at a corner. The leg and what is shown are straight.
+    last one's. All lines between meet both sides, the leg and what is shown; this is None for a contact at a
+    corner.
 
     Lines that turn meet a straight edge at a distance h / cos(a) with a the angle from the edge's normal, a
     convex function as long as no line is parallel to the edge; those that slide at one that is linear in the
     parameter. The length of a view is such a distance or the sum of two, so it is convex along the family: if
     it is below the radius at both ends, it is so everywhere; if it is below at one end and above at the
     other, it is equal to it exactly once between. So between two lines of which one surely is in range and
-    the other is not there is the last one that is.
+    the other is not there is the last one that is. Of other families that is found piece by piece.
     """
     unsure = UNSURE, 0.0, 0.0
-    if frame[0] not in (TURNING, SLIDING) or leg.sense or (shown is not None and shown.sense):
+    first = order_along(ends[0], here, there, leg, shown, reach)
+    last = order_along(ends[1], here, there, leg, shown, reach)
+    is_convex = _is_convex(frame, leg, shown)
+    if is_convex and (_turns_past(ends, leg) or (shown is not None and _turns_past(ends, shown))):
         return unsure
-    if _turns_past(ends, leg) or (shown is not None and _turns_past(ends, shown)):
-        return unsure
-    first = _order(ends[0], here, there, leg, shown, reach)
-    last = _order(ends[1], here, there, leg, shown, reach)
-    if first < 0 and last < 0:
+    if first == last == -1 and is_convex:
         return ALL_IN_RANGE, 0.0, 0.0
-    if first * last >= 0:
+    if first * last > 0:
+        order = order_of_all(frame, fraction, here, there, leg, shown, reach, EVERYTHING)
+        return (-2 * order if order else UNSURE), 0.0, 0.0
+    if first == last or not (first and last):
+        return unsure
+    if not (is_convex or crosses_once(frame, fraction, here, there, leg, shown, reach, first)):
         return unsure
     inner, outer = (fraction[1], fraction[2]) if first < 0 else (fraction[2], fraction[1])
     near, far = _parted(frame, here, there, leg, shown, reach, inner, outer)
     one, other = line_at(frame, near, 0.0), line_at(frame, far, 0.0)
-    if _order(one, here, there, leg, shown, reach) >= 0 or _order(other, here, there, leg, shown, reach) <= 0:
+    if order_along(one, here, there, leg, shown, reach) >= 0:
+        return unsure
+    if order_along(other, here, there, leg, shown, reach) <= 0:
         return unsure
     return (LAST_TOO_LONG if first < 0 else FIRST_TOO_LONG), near, far
 
@@ -112,14 +123,14 @@ def _parted(
     """
     middle = 0.5 * (reach[0] + reach[1])
     a, b = inner, outer
-    f = _length(line_at(frame, a, 0.0), here, there, leg, shown)[0] - middle
-    g = _length(line_at(frame, b, 0.0), here, there, leg, shown)[0] - middle
+    f = length_along(line_at(frame, a, 0.0), here, there, leg, shown)[0] - middle
+    g = length_along(line_at(frame, b, 0.0), here, there, leg, shown)[0] - middle
     t, kept = a, 0
     for _ in range(STEPS):
         if not f < 0.0 < g:
             break
         t = b - g * (b - a) / (g - f)
-        h = _length(line_at(frame, t, 0.0), here, there, leg, shown)[0] - middle
+        h = length_along(line_at(frame, t, 0.0), here, there, leg, shown)[0] - middle
         if abs(h) <= ENOUGH * middle:
             break
         if h < 0.0:
@@ -132,13 +143,13 @@ def _parted(
     towards = 1.0 if inner < outer else -1.0
     near = far = t
     for _ in range(STEPS):
-        if _order(line_at(frame, near, 0.0), here, there, leg, shown, reach) < 0:
+        if order_along(line_at(frame, near, 0.0), here, there, leg, shown, reach) < 0:
             break
         near -= towards * away
         away *= 4.0
     away = abs(outer - inner) * NEXT
     for _ in range(STEPS):
-        if _order(line_at(frame, far, 0.0), here, there, leg, shown, reach) > 0:
+        if order_along(line_at(frame, far, 0.0), here, there, leg, shown, reach) > 0:
             break
         far += towards * away
         away *= 4.0
@@ -146,42 +157,16 @@ def _parted(
     return min(max(near, low), high), min(max(far, low), high)
 
 
-def _order(
-    line: Line,
-    here: int,
-    there: int,
-    leg: CurveImage,
-    shown: CurveImage | None,
-    reach: tuple[float, float],
-) -> int:
-    """-1 or 1 as the view along a line surely is shorter than the range or longer, else 0."""
-    size, error = _length(line, here, there, leg, shown)
-    return -1 if size + error < reach[0] else 1 if size - error > reach[1] else 0
-
-
-def _length(
-    line: Line, here: int, there: int, leg: CurveImage, shown: CurveImage | None
-) -> tuple[float, float]:
-    """The length of the view along a line; (0, inf) if it may not lie on the sides of the contact it should.
-
-    The last rounding takes less than ten times `UNIT` of it.
-    """
-    a, p, b, q = 0.0, 0.0, 0.0, 0.0
-    if here != CONTACT:
-        a, p = meets_straight(line, leg)[:2]
-    if there != CONTACT and shown is not None:
-        b, q = meets_straight(line, shown)[:2]
-    if not (a * here >= p and b * there >= q and p < inf and q < inf):
-        return 0.0, inf
-    size = abs(a - b)
-    return size, (p + q + 10.0 * UNIT * size) * WIDEN
-
-
 def _place(line: Line, t: float, here: int, leg: CurveImage) -> tuple[float, float]:
     """Where a line meets the leg: its contact slides along the leg itself."""
     if here == CONTACT:
         return t, 0.0
     return meets_straight(line, leg)[2:4]
+
+
+def _is_convex(frame: Frame, leg: CurveImage, shown: CurveImage | None) -> bool:
+    """Whether a family turns or slides, and its sides are straight."""
+    return frame[0] in (TURNING, SLIDING) and not leg.sense and (shown is None or not shown.sense)
 
 
 def _turns_past(ends: tuple[Line, Line], curve: CurveImage) -> bool:

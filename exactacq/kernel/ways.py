@@ -7,7 +7,7 @@ from typing import Final, final
 
 from exactacq.kernel.bounded import TINY, UNIT, cross, dot, length, product, total
 from exactacq.kernel.curve_images import CurveImage
-from exactacq.kernel.extents import Extent, Span, bent, extent, unknown
+from exactacq.kernel.extents import Extent, Span, extent, unknown, views_in_range
 from exactacq.kernel.family_images import AHEAD, BEHIND, CONTACT, EdgePlace, FamilyImage, side_of_all
 from exactacq.kernel.images import ROLLING, SLIDING, SPOKES
 from exactacq.kernel.lines import Frame, Line, Meeting, line_at, meets, meets_straight, side_of
@@ -121,6 +121,7 @@ def extents_from_way(
 ) -> list[Extent]:
     """What the families that were found show of wanted edges from a way; origins are places in *found*."""
     extents: list[Extent] = []
+    part = way.low[0], way.high[1]
     for n in range(len(found)):
         family = found[n][0]
         if family.corner >= 0 and (family.corner in way.starts or family.corner in way.stops):
@@ -134,9 +135,10 @@ def extents_from_way(
                 extents.append(unknown(edge, n, CONTACT, there))
             elif crossed.role != CONTACT and there != crossed.role:
                 spots, shown = (crossed.first, crossed.last), family.places(there)
-                slack = bent(family, there, shown, curves) + 2.0 * (spots[0][4] + spots[1][4])
+                sides, places = (crossed.role, there), (spots, shown)
+                told = views_in_range(family, sides, places, way.line, curves, reach, part)
                 keys = crossed.first_keys, crossed.last_keys
-                one = extent(edge, spots, shown, slack, keys, reach, n, crossed.role, there)
+                one = extent(edge, spots, shown, told, keys, n, crossed.role, there)
                 if one is not None:
                     extents.append(one)
     return extents
@@ -155,9 +157,9 @@ def extents_along_normals(
         a, b, c, d = family.fraction
         ax, ay, _, _, p, _ = family.first
         bx, by, _, _, q, _ = family.last
-        slack = bent(family, AHEAD, family.ahead, curves) + 2.0 * (p + q)
         spots = (a, b, ax, ay, p), (c, d, bx, by, q)
-        one = extent(edge, spots, family.ahead, slack, ([], []), reach, family, CONTACT, AHEAD)
+        told = views_in_range(family, (CONTACT, AHEAD), (spots, family.ahead), None, curves, reach)
+        one = extent(edge, spots, family.ahead, told, ([], []), family, CONTACT, AHEAD)
         if one is not None:
             extents.append(one)
     return extents

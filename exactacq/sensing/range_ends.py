@@ -5,20 +5,23 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator
 from functools import cache, cmp_to_key, partial
 from itertools import pairwise
-from math import inf
 from typing import TypeAlias
 
 from flint import arb, fmpq
 
-from exactacq.geometry.curve_images import held_point
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.intersections import contacts, line_contacts
 from exactacq.geometry.late import Pin, balls, late_point
 from exactacq.geometry.points import Point
-from exactacq.kernel.extents import in_range, sagitta
-from exactacq.kernel.family_images import EdgePlace, EdgePlaces
 from exactacq.kernel.lines import line_at
-from exactacq.kernel.range_cuts import ALL_IN_RANGE, FIRST_TOO_LONG, LAST_TOO_LONG, UNSURE, parted_lines
+from exactacq.kernel.range_cuts import (
+    ALL_IN_RANGE,
+    FIRST_TOO_LONG,
+    LAST_TOO_LONG,
+    NONE_IN_RANGE,
+    UNSURE,
+    parted_lines,
+)
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.rationals import ball_sign
@@ -46,15 +49,16 @@ class RangeEnds:
     def within(self, free_views: FreeViews) -> Iterator[ViewFamily]:
         """The parts of a free views that lie within range, as closed families; single views count."""
         edges, views = (free_views.sides[0].edge, free_views.sides[1].edge), self.views
-        told, last = (ALL_IN_RANGE, None) if free_views.in_range else self._parted(free_views)
+        told, last = (ALL_IN_RANGE, None) if free_views.in_range else self._told(free_views)
+        if told == NONE_IN_RANGE:
+            return
         if last is not None:
             kept = views.end(free_views, free_views.low if told == LAST_TOO_LONG else free_views.high)
             yield ViewFamily(edges, *((kept, last) if told == LAST_TOO_LONG else (last, kept)), free_views)
             return
         low, high = views.end(free_views, free_views.low), views.end(free_views, free_views.high)
-        if certain := 1 if told == ALL_IN_RANGE else self._certain(free_views, low, high):
-            if certain > 0:
-                yield ViewFamily(edges, low, high, free_views)
+        if told == ALL_IN_RANGE:
+            yield ViewFamily(edges, low, high, free_views)
             return
         ends = [low, *self._at_range(free_views, low, high), high]
         inside = [self._is_inside(free_views, rational_between(a.t, b.t)) for a, b in pairwise(ends)]
@@ -77,31 +81,18 @@ class RangeEnds:
             return clear < 0
         return self.range.order(*self.views.exactly(free_views.sector, Real(t), free_views.sides)) <= 0
 
-    def _certain(self, free_views: FreeViews, low: End, high: End) -> int:
-        """1 if floats prove that all views are within range, -1 if none is, 0 if they cannot tell."""
-        near, far = ((_held(low.points[k]), _held(high.points[k])) for k in (0, 1))
-        slack = self._bent(free_views, 0, near) + self._bent(free_views, 1, far)
-        return in_range(near, far, slack, (self.range.below, self.range.above))
+    # -- by floats -----------------------------------------------------------------------------------
 
-    def _bent(self, free_views: FreeViews, k: int, places: EdgePlaces) -> float:
-        """How far a side may leave the box of its two extreme points."""
-        side = free_views.sides[k]
-        curve = self.views.curve(side.edge)
-        radius = float(curve.radius) if isinstance(curve, Arc) and not side.fixed else 0.0
-        return sagitta(radius, not isinstance(free_views.sector, Rolling | Sliding), places)
-
-    # -- the one last view in range, by floats -------------------------------------------------------
-
-    def _parted(self, free_views: FreeViews) -> tuple[int, End | None]:
-        """Which views between straight sides floats find in range; the last one of them if not all are."""
-        sector = free_views.sector
-        if not sector.is_rational:
+    def _told(self, free_views: FreeViews) -> tuple[int, End | None]:
+        """Which views floats find in range; the last one of them if some are and some are not."""
+        if not free_views.sector.is_rational:
             return UNSURE, None
+        frame = free_views.sector.image
         here, there = sorted(free_views.sides, key=lambda side: side.fixed)
         (a, p), (b, q) = float_ball(free_views.low), float_ball(free_views.high)
         told, near, far = parted_lines(
-            sector.image,
-            (line_at(sector.image, a, p), line_at(sector.image, b, q)),
+            frame,
+            (line_at(frame, a, p), line_at(frame, b, q)),
             (a - p, a + p, b - q, b + q),
             here.role,
             there.role,
@@ -111,7 +102,17 @@ class RangeEnds:
         )
         if told not in (FIRST_TOO_LONG, LAST_TOO_LONG):
             return told, None
+        if self._ends_on_rim(free_views):
+            return UNSURE, None
         return told, self._late_last(free_views, arb(near).union(arb(far)))
+
+    def _ends_on_rim(self, free_views: FreeViews) -> bool:
+        """Whether the last view in range ends in a place of `_rim`, where those of other families end too."""
+        roles = {side.role: side.edge for side in free_views.sides}
+        if Role.CONTACT not in roles or isinstance(free_views.sector, Sliding):
+            return False
+        far = next(edge for role, edge in roles.items() if role is not Role.CONTACT)
+        return isinstance(free_views.sector, Rolling | Spokes) or isinstance(self.views.curve(far), Arc)
 
     def _late_last(self, free_views: FreeViews, t: arb) -> End:
         """The last view in range, along a line in a ball: its numbers are made when they are read."""
@@ -227,11 +228,6 @@ def _point_of(view: Callable[[], End], k: int) -> Point:
 
 def _by_parameter(a: Candidate, b: Candidate) -> int:
     return a[0].compare(b[0])
-
-
-def _held(point: Point) -> EdgePlace:
-    """A point in floats, as of an edge wherever it is there."""
-    return -inf, inf, *held_point(point)
 
 
 def _is_rational(curve: Curve) -> bool:
