@@ -10,12 +10,14 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cached_property
 from typing import TypeAlias
 
+from exactacq.geometry.curves import Segment
 from exactacq.geometry.intersections import line_contacts
-from exactacq.geometry.late import Pin, balls
+from exactacq.geometry.late import Pin, balls, from_to, late_point
 from exactacq.geometry.points import Point
 from exactacq.kernel.extents import Extent
 from exactacq.kernel.family_images import FamilyImage
 from exactacq.kernel.single_lines import SingleImage, extents_of_crossing_lines
+from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.sensing.complex_edges import EdgeFamilies
 from exactacq.sensing.end_names import Seen
@@ -26,8 +28,8 @@ from exactacq.sensing.straight_way import StraightWay
 from exactacq.sensing.view_families import ViewFamily
 from exactacq.sensing.way_crossings import WayCrossings
 from exactacq.sensing.way_normals import WayNormals
+from exactacq.visibility.line_balls import crossing
 
-ONE = Real(1)
 Choose: TypeAlias = "Callable[[list[Extent]], Iterable[Extent]]"
 """Chooses those of families that matter (see `exactacq.sensing.family_filter`)."""
 
@@ -101,21 +103,38 @@ class WayViews:
         if single.edge is None and single.place == near:
             # What is shown is itself as far from what the line touches as the range.
             return
-        if near is far:
-            back, limit = single.place - near, ONE
-        else:
-            # The run tells the line: in most scenes by rational numbers.
-            back = near - far
+        # The run tells the line: in most scenes by rational numbers.
+        tail, tip = (near, single.place) if near is far else (far, near)
+        names: Sequence[int] = single.keys
+        found = self._clearly_crossed(near, tail, tip, single.place)
+        if found is None:
+            back = tip - tail
             limit = _share(single.place, near, back)
-        places = line_contacts(near, back, self.way.piece)
-        for place in places:
-            if place.sign() < 0 or place.compare(limit) > 0:
-                continue
+            places = line_contacts(near, back, self.way.piece)
             # Lines along the way meet it in both ends.
-            names = single.keys if len(places) == 1 else ()
-            pin = self._pin(names, near + back * place)
+            names = names if len(places) == 1 else ()
+            found = [near + back * at for at in places if at.sign() >= 0 and at.compare(limit) <= 0]
+        for point in found:
+            pin = self._pin(names, point)
             for first, last in self.way.clipper.along(pin, single.run, single.shown):
                 yield ViewFamily((self.way.number, single.shown), first, last)
+
+    def _clearly_crossed(self, near: Point, tail: Point, tip: Point, place: Point) -> list[Point] | None:
+        """Where the way is crossed between two places of a line, made late; None if balls leave that open.
+
+        The line runs from *tail* to *tip*.
+        """
+        piece, (x, y), (dx, dy) = self.way.piece, balls(near), from_to(balls(tail), balls(tip))
+        met = crossing((x, y, dx, dy), balls(piece.start), balls(piece.end))
+        if not met:
+            return met if met is None else []
+        tau = met[0][0]
+        spot = x + dx * tau, y + dy * tau
+        ox, oy = from_to(spot, balls(place))
+        after, before = ball_sign(tau), ball_sign(ox * dx + oy * dy)
+        if not (after and before):
+            return None
+        return [late_point(spot, _met, near, tail, tip, piece)] if after > 0 and before > 0 else []
 
     def _pin(self, names: Sequence[int], point: Point) -> Pin:
         """Where a line crosses the way: the same point as of families that its names tell of."""
@@ -125,6 +144,13 @@ class WayViews:
         for name in names:
             pins.put((name, number, 0), pin)
         return pin
+
+
+def _met(near: Point, tail: Point, tip: Point, piece: Segment) -> Point:
+    """Where a line that is known to cross a segment does so."""
+    back = tip - tail
+    (tau,) = line_contacts(near, back, piece)
+    return near + back * tau
 
 
 def _share(place: Point, start: Point, along: Point) -> Real:

@@ -288,6 +288,24 @@ class Sliding(Sector):
         value: Real = (along + shift) / Real(square)
         return value
 
+    def height(self, center: Vector, radius_sq: fmpq, side: int, sign: int) -> Real:
+        """The parameter of an event in another measure, |e|^2 t + e C: the order is the same.
+
+        Of an irrational segment events have comparable heights, for these are linear in e and |e|.
+        """
+        height: Real = dot(self.base, center)
+        return height + Real(radius_sq).sqrt() * self._length * sign if side else height
+
+    @cached_property
+    def _length(self) -> Real:
+        """That of the base vector."""
+        return Real(dot(self.base, self.base)).sqrt()
+
+    def height_at(self, t: Real) -> Real:
+        """The height of the line at a parameter."""
+        height: Real = dot(self.base, self.center) + t * dot(self.base, self.base)
+        return height
+
     def root(self, center: Vector, radius_sq: fmpq, side: int, sign: int) -> QuadraticRoot | fmpq | None:
         """(|e|^2 t - along)^2 = r^2 |e|^2."""
         if side == 0 or not self.is_rational:

@@ -333,7 +333,7 @@ class _Decisions:
             value = self._rational(event)
             yield _known(value_of(self.table, self.sector, event) if value is None else value, event.passed)
             return
-        low, high = _Value(self.sector.low), _Value(self.sector.high)
+        low, high = (self._valued(bound, {}) for bound in (self.sweep.low, self.sweep.high))
         found: dict[Hashable, _Value] = {}
         values = [(self._valued(event, found), event) for event in group]
         if any(isinstance(value.number, Real) for value, _ in values):
@@ -354,6 +354,8 @@ class _Decisions:
         value = self._rational(event)
         if value is not None:
             return _Value(value)
+        if isinstance(self.sector, Sliding) and not self.sector.is_rational:
+            return self._measured(self.sector, event)
         root = None
         if event.number != NOTHING and not event.others:
             circle = target(self.table, event.number, event.side)
@@ -367,6 +369,14 @@ class _Decisions:
         if key not in found:
             found[key] = _Value(value_of(self.table, self.sector, event), root)
         return found[key]
+
+    def _measured(self, sector: Sliding, event: BoundLine) -> _Value:
+        """The parameter of a normal of an irrational segment, with its height."""
+        value = value_of(self.table, sector, event)
+        if event.number == NOTHING:
+            return _Value(value, height=sector.height_at(value))
+        circle = target(self.table, event.number, event.side)
+        return _Value(value, height=sector.height(*circle, event.side, event.sign))
 
     def _rational(self, event: BoundLine) -> fmpq | None:
         """The exact parameter of a line, if it is seen to be rational."""
@@ -483,19 +493,26 @@ def _known(value: fmpq | Real, passed: Sequence[tuple[int, int, int]] = ()) -> B
 
 
 class _Value:
-    """The parameter of a line, perhaps also as the root of a quadratic: then equal ones cost no radical."""
+    """The parameter of a line, perhaps also as the root of a quadratic: then equal ones cost no radical.
 
-    __slots__ = ("number", "root")
+    Or with its height (see `Sliding.height`), by which it is compared with others that have one.
+    """
 
-    def __init__(self, number: fmpq | Real, root: QuadraticRoot | None = None) -> None:
+    __slots__ = ("height", "number", "root")
+
+    def __init__(
+        self, number: fmpq | Real, root: QuadraticRoot | None = None, height: Real | None = None
+    ) -> None:
         if isinstance(number, Real) and not number.is_late and number.rational is not None:
             number = number.rational
-        self.number, self.root = number, root
+        self.number, self.root, self.height = number, root, height
 
     def compare(self, other: _Value) -> int:
         """-1, 0 or 1 as it is less than another one, equal to it or greater."""
         if self is other:
             return 0
+        if self.height is not None and other.height is not None:
+            return self.height.compare(other.height)
         one, two = self.number, other.number
         if isinstance(one, fmpq) and isinstance(two, fmpq):
             return int(one > two) - int(one < two)
