@@ -137,25 +137,23 @@ class World:
     ) -> tuple[int, Point] | None:
         """An obstacle and a point of its interior on the way to ``origin + upto direction``, or None.
 
-        Exact: where the way meets no edge it does not change sides, so the middle between two contacts
-        decides. *edges* are those that the way can meet; all edges near it if None. Those *starting* and
-        *ending* the way are known to pass through its ends.
+        Exact: where the way meets no edge of an obstacle it does not change sides, so the middle between two
+        contacts with it decides. *edges* are those that the way can meet; all edges near it if None. Those
+        *starting* and *ending* the way are known to pass through its ends.
         """
         end = Real(upto)
         near = self.near(Segment(origin, origin + direction * end)) if edges is None else edges
-        cuts: list[Real] = [Real(0)]
-        owners: set[int] = set()
+        cuts: dict[int, list[Real]] = {}
         for e in near:
             met = line_contacts(origin, direction, self.edges[e])
             at_start = _single(met, Real(0)) if e in starting else None
             at_end = _single(met, end) if e in ending else None
-            cuts += [t for t in met if t is not at_start and t is not at_end and 0 < t < end]
-            owners.add(self.owner[e])
-        cuts.sort()
-        for a, b in pairwise([*cuts, end]):
-            if a != b:
-                middle = origin + direction * between(a, b)
-                for k in sorted(owners):
+            within = (t for t in met if t is not at_start and t is not at_end and 0 < t < end)
+            cuts.setdefault(self.owner[e], []).extend(within)
+        for k in sorted(cuts):
+            for a, b in pairwise([Real(0), *sorted(cuts[k]), end]):
+                if a != b:
+                    middle = origin + direction * between(a, b)
                     if self.obstacles[k].locate(middle) is Location.INSIDE:
                         return k, middle
         return None
