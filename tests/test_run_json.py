@@ -318,3 +318,13 @@ def test_words_that_version_2_never_wrote_are_refused(note: str) -> None:
         event["kind"] = "overdue"
     with pytest.raises(FormatError):
         load_run(document)
+
+
+def test_the_text_of_a_run_is_no_file_name() -> None:
+    """The error says what to do instead of repeating the text."""
+    run = gallery_run("squares")
+    text = json.dumps(run.to_json())
+    with pytest.raises(FormatError, match=r"give json\.loads of it") as caught:
+        load_run(text)
+    assert len(str(caught.value)) < 200
+    assert load_run(json.loads(text)).length == run.length

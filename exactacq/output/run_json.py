@@ -101,6 +101,8 @@ def load_run(source: str | os.PathLike[str] | dict[str, Any]) -> Run:
     True
     """
     name = "the data" if isinstance(source, dict) else os.fspath(source)
+    if name.lstrip().startswith("{"):
+        raise FormatError("a text stands for the name of a file: give json.loads of it")
     try:
         data = json.dumps(source).encode() if isinstance(source, dict) else read_bytes(source)
         document = parse_json(data)

@@ -214,7 +214,8 @@ class Scene:
 
     def __repr__(self) -> str:
         name = f" {self.name!r}" if self.name else ""
-        return f"<Scene{name}: {len(self.obstacles)} obstacles>"
+        count = len(self.obstacles)
+        return f"<Scene{name}: {count} obstacle{'' if count == 1 else 's'}>"
 
 
 def radius_of(scene: Scene, radius: object, place: Point | None) -> fmpq:
