@@ -78,15 +78,17 @@ def test_lines_in_range_are_told_as_fractions_do(seed: int) -> None:
 
 def line_of(frame: Frame, t: Any, number: Any = mpc) -> tuple[Any, Any]:
     """Contact and direction of a line (see `line_families`), as complex numbers."""
-    kind, x, y, ex, ey, radius, _ = frame
+    kind, x, y, ex, ey, radius, sense = frame
     center, base = number(x, y), number(ex, ey)
     turned = base * number(1, t)
     if kind == ROLLING:
         spoke = turned / turned.conjugate() * base.conjugate()
         return center + spoke, spoke * 1j
     if kind == SLIDING:
-        return center + base * t, base * 1j
-    return center + (turned / abs(turned) * radius if kind == SPOKES else 0), turned
+        return center + base * t, base * 1j * sense
+    if kind == SPOKES:
+        return center + turned / abs(turned) * radius, turned * sense
+    return center, turned
 
 
 def reached(contact: Any, direction: Any, curve: CurveImage, role: int, number: Any = mpc) -> Any | None:
@@ -134,7 +136,15 @@ def some_families(seed: int, offset: float) -> Iterator[Family]:
     rng = Random(seed)
     while True:
         base = rect(rng.uniform(0.5, 1.5), rng.uniform(0, 7))
-        frame = rng.choice(KINDS), offset, -offset, base.real, base.imag, rng.uniform(0.5, 1.5), 1
+        frame = (
+            rng.choice(KINDS),
+            offset,
+            -offset,
+            base.real,
+            base.imag,
+            rng.uniform(0.5, 1.5),
+            rng.choice((1, -1)),
+        )
         low = rng.uniform(0, 0.8)
         high = low + (1 - low) * rng.random() ** 3
         roles = rng.choice(ROLES)
