@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction as Q
+from itertools import combinations
 from random import Random
 
 import pytest
@@ -19,10 +20,12 @@ from exactacq.kernel.family_images import NONE, EndLine, FamilyImage
 from exactacq.kernel.images import ROLLING
 from exactacq.kernel.single_lines import SingleImage, extents_of_crossing_lines
 from exactacq.kernel.ways import WayImage, _crossed
+from exactacq.numbers.real import Real
 from exactacq.sensing.line_family import LineFamily
 from exactacq.sensing.way_crossings import WayCrossings
 from exactacq.study.claims.model import Subject
 from exactacq.study.random_scenes import arc_scene
+from exactacq.visibility.line_families import Sliding
 
 GAPS = [Q(0), Q(0), Q(0), Q(1, 10**20), Q(1, 10**15), Q(1, 10**8)]
 Pair = tuple[Q, Q]
@@ -163,3 +166,25 @@ def test_parts_of_families_are_seen_as_exact_lines_tell(monkeypatch: pytest.Monk
     for seed in some(range(40), 4):
         xa.seed_spreader(arc_scene(Subject.SEED_SPREADER, seed))
     assert compared > 50
+
+
+@pytest.mark.parametrize("base", [(0, 3), (3, 3), (2, 5)])
+def test_normals_of_an_irrational_way_have_the_order_of_their_heights(base: tuple[int, int]) -> None:
+    """Through vertices and along circles; the base vector has these squared components."""
+    rng, equal = Random(7), 0
+    x, y = (Real(square).sqrt() for square in base)
+    sector = Sliding((Real(2).sqrt(), Real(5).sqrt()), (x, y), Real(0), Real(1), leftward=True)
+    events = []
+    for _ in range(12):
+        center = fmpq(rng.randint(-3, 3)), fmpq(rng.randint(-3, 3))
+        side = rng.choice((-1, 0, 1))
+        events.append((center, fmpq(rng.choice((1, 2, 4)) if side else 0), side, rng.choice((-1, 1))))
+    for one, other in combinations(events, 2):
+        a, b = sector.exact(*one), sector.exact(*other)
+        assert a is not None
+        assert b is not None
+        order = a.compare(b)
+        equal += order == 0
+        assert sector.height(*one).compare(sector.height(*other)) == order
+        assert sector.height_at(a).compare(sector.height(*one)) == 0
+    assert equal or base == (2, 5)
