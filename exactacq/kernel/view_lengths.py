@@ -74,14 +74,13 @@ def order_of_all(
     """
     is_part = part[0] > -inf or part[1] < inf
     start, end = fraction[0], fraction[3]
-    told = ELSEWHERE
-    for low, high in (fraction[:2], fraction[2:]):
-        views = views_between(frame, low, high, here, there, leg, shown)
-        order = _order_in(views, is_part, part, reach)
-        if order == 0 or order == -told:
-            return 0
-        if order != ELSEWHERE:
-            told = order
+    views = views_between(frame, start, fraction[1], here, there, leg, shown)
+    first = _order_in(views, is_part, part, reach)
+    views = views_between(frame, fraction[2], end, here, there, leg, shown)
+    last = _order_in(views, is_part, part, reach)
+    if first == 0 or last == 0 or first == -last:
+        return 0
+    told = last if first == ELSEWHERE else first
     piece = end - start
     least = piece * FINEST
     for _ in range(PIECES):
@@ -196,9 +195,10 @@ def views_between(
     size, error = _apart(a, p, b, q)
     slope, bound = total(bv, bq, -av, ap)
     error = (error + half * (abs(slope) + bound)) * WIDEN
-    if not error < inf:
-        # A line may touch an arc, where its place moves at any speed.
-        size, error = _apart(c, r, d, s)
+    other, rough = _apart(c, r, d, s)
+    if not error <= rough:
+        # Where lines nearly touch an arc, places move at any speed.
+        size, error = other, rough
     return size, error, -slope if b < a else slope, bound, u, away
 
 
