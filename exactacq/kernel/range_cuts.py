@@ -82,18 +82,18 @@ def parted_lines(
     the other is not there is the last one that is. Of other families that is found piece by piece.
     """
     unsure = UNSURE, 0.0, 0.0
-    first = order_along(ends[0], here, there, leg, shown, reach)
-    last = order_along(ends[1], here, there, leg, shown, reach)
     is_convex = _is_convex(frame, leg, shown)
     if is_convex and (_turns_past(ends, leg) or (shown is not None and _turns_past(ends, shown))):
         return unsure
-    if first == last == -1 and is_convex:
-        return ALL_IN_RANGE, 0.0, 0.0
-    if first * last > 0:
-        order = order_of_all(frame, fraction, here, there, leg, shown, reach, EVERYTHING)
-        return (-2 * order if order else UNSURE), 0.0, 0.0
-    if first == last or not (first and last):
+    first = order_along(ends[0], here, there, leg, shown, reach)
+    last = order_along(ends[1], here, there, leg, shown, reach)
+    if first == 0 or last == 0:
         return unsure
+    if first == last:
+        if first < 0 and is_convex:
+            return ALL_IN_RANGE, 0.0, 0.0
+        order = order_of_all(frame, fraction, here, there, leg, shown, reach, EVERYTHING)
+        return (ALL_IN_RANGE if order < 0 else NONE_IN_RANGE if order > 0 else UNSURE), 0.0, 0.0
     if not (is_convex or crosses_once(frame, fraction, here, there, leg, shown, reach, first)):
         return unsure
     inner, outer = (fraction[1], fraction[2]) if first < 0 else (fraction[2], fraction[1])
