@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import groupby
 from math import inf
 from random import Random
 
@@ -24,18 +25,20 @@ from exactacq.sensing import family_filter, visibility_complex
 from exactacq.sensing.complex_edges import FamilySweeper
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.event import Reason
-from exactacq.sensing.free_way import WayViews
+from exactacq.sensing.free_way import PinOf, WayViews
+from exactacq.sensing.leg_facts import LegFacts
 from exactacq.sensing.legs import Leg, legs_of
 from exactacq.sensing.line_family import family_of, single_of
 from exactacq.sensing.straight_way import StraightWay
+from exactacq.sensing.targets import Targets
 from exactacq.sensing.view_families import ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
-from exactacq.visibility.place_facts import PlaceFacts
+from exactacq.visibility.place_facts import NOTHING_KNOWN, PlaceFacts
 from exactacq.visibility.sensor_range import Range
 
-Told = tuple[tuple[Span, Span, Span, Span] | None, list[tuple[Real, Real, Rail, Real, Real, Rail]]]
-"""Source, sure source, what is shown and surely shown in floats; the exact families, source and shown with
-rails."""
+Told = tuple[list[Extent], list[tuple[Real, Real, Rail, Real, Real, Rail]]]
+"""What floats tell of a family, in parts where it passes the start of a full circle; the exact families,
+source and shown with rails."""
 
 SCENES = ["figure2", "m11", "plate"]
 
@@ -50,9 +53,8 @@ def told(complex_: VisibilityComplex, leg: Leg, run: xa.SightseerRun) -> Iterato
         return min(here), max(here), near, min(there), max(there), rails[family.edges[1 - side]]
 
     if leg.edge is not None:
-        for one in complex_.extents(leg.edge):
-            exact = [pair(family, side, rails[leg.edge]) for family, side in complex_.views(one)]
-            yield (one.source, one.surely, one.shown, one.told) if one.is_known else None, exact
+        for parts in in_parts(complex_.extents(leg.edge)):
+            yield parts, [pair(family, side, rails[leg.edge]) for family, side in complex_.views(parts[0])]
         return
 
     def view(place: xa.Point, own: tuple[int, ...] | None, facts: PlaceFacts) -> Seen:
@@ -63,8 +65,7 @@ def told(complex_: VisibilityComplex, leg: Leg, run: xa.SightseerRun) -> Iterato
 
     def told_of(one: Extent, families: Iterator[ViewFamily]) -> Told:
         parts = (clipper.clipped(family, 0, leg.span) for family in families)
-        exact = [pair(part, 0, leg.rail) for part in parts if part is not None]
-        return (one.source, one.surely, one.shown, one.told) if one.is_known else None, exact
+        return [one], [pair(part, 0, leg.rail) for part in parts if part is not None]
 
     for one in way.normals.extents():
         yield told_of(one, way.normals.views(one.origin))
@@ -78,24 +79,28 @@ def told(complex_: VisibilityComplex, leg: Leg, run: xa.SightseerRun) -> Iterato
                 assert not list(views)
     for n, (image, certain) in enumerate(way.crossing):
         line_family = family_of(image)
-        parts = {side.edge for side in line_family.sides if side is not None}
-        for one in extents:
-            if one.origin != n:
-                continue
-            exact = []
+        left = {side.edge for side in line_family.sides if side is not None}
+        for parts in in_parts([one for one in extents if one.origin == n]):
+            exact, one = [], parts[0]
             for family in way.crossing.views(line_family, certain, frozenset({one.edge})):
                 part = clipper.clipped(family, 0, leg.span)
                 if part is not None and family.free_views.sides[1] is line_family.sides[one.there + 1]:
                     exact.append(pair(part, 0, leg.rail))
-            parts.discard(one.edge)
-            yield (one.source, one.surely, one.shown, one.told) if one.is_known else None, exact
-        for edge in parts:
+            left.discard(one.edge)
+            yield parts, exact
+        for edge in left:
             # What is not mentioned is not shown, but from an end of the way.
             for family in way.crossing.views(line_family, certain, frozenset({edge})):
                 part = clipper.clipped(family, 0, leg.span)
                 if part is not None:
                     low, high = sorted(end.places[0] for end in (part.first, part.last))
                     assert low == high and (low == leg.span.low or low == leg.span.high)
+
+
+def in_parts(extents: list[Extent]) -> Iterator[list[Extent]]:
+    """The extents of each family."""
+    for _, parts in groupby(extents, lambda one: (id(one.origin), one.here, one.there)):
+        yield list(parts)
 
 
 def is_above(bound: float, u: Real, rail: Rail) -> bool:
@@ -132,26 +137,34 @@ def check(run: xa.SightseerRun) -> int:
     count = 0
     for piece in run.path[:8]:
         for leg in legs_of(table, complex_.clipper.rails, piece.obstacle, piece.curve):
-            for floats, exact in told(complex_, leg, run):
-                if floats is None:
+            for parts, exact in told(complex_, leg, run):
+                if not parts[0].is_known:
                     continue
-                source, surely, shown, sure_shown = floats
-                for a, b, near, c, d, far in exact:
+                for family in exact:
                     count += 1
-                    assert is_below(source[0], a, near) and is_above(source[1], b, near)
-                    assert is_below(shown[0], c, far) and is_above(shown[1], d, far)
-                if surely[0] <= surely[1]:
-                    low, high = leg.span.low, leg.span.high
-                    sure = [Real(v) if abs(v) < inf else (leg.rail.top if v > 0 else Real(0)) for v in surely]
-                    sure = [max(sure[0], low), min(sure[1], high)] if leg.edge is None else sure
-                    if sure[0] <= sure[1]:
-                        assert cover([(a, b) for a, b, *_ in exact], *sure)
-                if sure_shown[0] <= sure_shown[1] and is_inside(source, leg):
-                    assert any(
-                        is_above(sure_shown[0], c, far) and is_below(sure_shown[1], d, far)
-                        for *_, c, d, far in exact
-                    )
+                    assert any(is_within(family, one) for one in parts)
+                for one in parts:
+                    check_sure(one, exact, leg)
     return count
+
+
+def is_within(family: tuple[Real, Real, Rail, Real, Real, Rail], one: Extent) -> bool:
+    """Whether an exact family is seen from, and shows, no more than floats tell."""
+    a, b, near, c, d, far = family
+    is_source = is_below(one.source[0], a, near) and is_above(one.source[1], b, near)
+    return is_source and is_below(one.shown[0], c, far) and is_above(one.shown[1], d, far)
+
+
+def check_sure(one: Extent, exact: list[tuple[Real, Real, Rail, Real, Real, Rail]], leg: Leg) -> None:
+    """Compare where a family surely is seen from, and what it surely shows, with the exact families."""
+    if one.surely[0] <= one.surely[1]:
+        low, high = leg.span.low, leg.span.high
+        sure = [Real(v) if abs(v) < inf else (leg.rail.top if v > 0 else Real(0)) for v in one.surely]
+        sure = [max(sure[0], low), min(sure[1], high)] if leg.edge is None else sure
+        if sure[0] <= sure[1]:
+            assert cover([(a, b) for a, b, *_ in exact], *sure)
+    if one.told[0] <= one.told[1] and is_inside(one.source, leg):
+        assert any(is_above(one.told[0], c, far) and is_below(one.told[1], d, far) for *_, c, d, far in exact)
 
 
 @pytest.mark.parametrize("name", some(SCENES, 2))
@@ -176,6 +189,43 @@ def test_floats_agree_on_a_board() -> None:
     """The robot walks along rows of holes: their quarter turns begin with lines parallel to its ways."""
     holes = [xa.Circle((2 * k % 6, 2 * (k // 3)), "3/5") for k in range(6)]
     assert check(xa.sightseer(xa.Scene(holes, start=(-1, -1), radius=5))) > 20
+
+
+def compare_pins(complex_: VisibilityComplex) -> int:
+    """Compare where lines meet edges, made alone, with the ends of families; how many were compared."""
+    count = 0
+    for e, rail in enumerate(complex_.clipper.rails):
+        for one in complex_.extents(e):
+            single = isinstance(one.origin, SingleImage)
+            sure = one.surely[0] <= one.surely[1]
+            if not one.is_known or not one.in_range or not (single or sure):
+                continue
+            sources = [family.interval(side) for family, side in complex_.views(one)]
+            assert sources
+            for is_last in (False, True):
+                point, u = complex_.pin(one, is_last)
+                is_high = is_last != one.is_turned
+                if not single and abs(one.surely[is_high]) == inf:
+                    continue
+                found = [(part.high, part.end) if is_high else (part.low, part.start) for part in sources]
+                count += 1
+                assert any((u == v) and (point == p) for v, p in found)
+                assert is_below(one.source[0], u, rail) and is_above(one.source[1], u, rail)
+    return count
+
+
+GRIDS = {"discs": circle_grid(3, 3), "squares": square_grid(4, 3)}
+
+
+@pytest.mark.parametrize("name", [*GRIDS, *some(range(12), 4)])
+def test_where_families_begin_and_end_alone(name: str | int) -> None:
+    """Those that matter only for that are not made: their lines meet the edge where their views begin."""
+    if isinstance(name, str):
+        shapes = GRIDS[name]
+    else:
+        shapes = (arc_terrain if name % 3 else degenerate_terrain)(Random(name)).shapes
+    table = EdgeTable(build(shapes).obstacles)
+    assert compare_pins(VisibilityComplex(table, Range(fmpq(17, 2)))) > 50
 
 
 def record(run: xa.SightseerRun) -> list[object]:
@@ -231,9 +281,6 @@ def ends_of(curve: Curve) -> set[str]:
     return {digits_of(curve.start), digits_of(curve.end)} if isinstance(curve, Segment) else set()
 
 
-GRIDS = {"discs": circle_grid(3, 3), "squares": square_grid(4, 3)}
-
-
 @pytest.mark.parametrize("name", [*GRIDS, *some(range(12), 3)])
 def test_views_with_equal_keys_are_equal(name: str | int) -> None:
     """Also from circles, which a line meets twice; scenes with many lines that pass several features."""
@@ -262,9 +309,9 @@ def test_most_families_are_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
     asked, kept = 0, 0
     choose = family_filter.FamilyFilter.choose
 
-    def counted(self: family_filter.FamilyFilter, extents: list) -> list:
+    def counted(self: family_filter.FamilyFilter, extents: list, pin: PinOf) -> list:
         nonlocal asked, kept
-        chosen = choose(self, extents)
+        chosen = choose(self, extents, pin)
         obstacles = [{k for k, _ in self.targets.on(one.edge)} for one in extents]
         asked, kept = asked + sum(1 for some in obstacles if some & self.obstacles), kept + len(chosen)
         return chosen
@@ -337,3 +384,61 @@ def test_forgetting_changes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(FamilySweeper, "of", lambda self, e: made.append(e) or of(self, e))
     assert record(xa.sightseer(random_octagons(30, 1), 3)) == usual
     assert len(made) > len(set(made)) > 200
+
+
+def chosen_places(begin: Real, end: Real, single: Real) -> list[tuple[Real, Real]]:
+    """From where on the second third of an edge another obstacle is told to be in sight, if all is known.
+
+    A family is seen *from* one place to another, and along a *single* line from a third.
+    """
+    square = xa.Polygon([(0, 0), (3, 0), (3, 3), (0, 3)])
+    table = EdgeTable(xa.Scene([square, xa.Circle((1, -4), 1)], radius=9).obstacles)
+    rails = VisibilityComplex(table, Range(fmpq(9))).clipper.rails
+    (leg,) = legs_of(table, rails, 0, Segment(xa.Point(1, 0), xa.Point(2, 0)))
+    a, b, c = map(float, (begin, end, single))
+    blur, apart, nothing = 1e-12, "family", (inf, -inf)
+    family = Extent(4, (1, 2), (a - blur, b + blur), (a + blur, b - blur), [7], [8], apart, 0, 1, True)
+    line = Extent(4, (1, 1), (c - blur, c + blur), nothing, [9], [9], "line", 0, 1, True)
+    family.in_range = line.in_range = True
+    known = {4: [(-inf, inf)]}
+    chooser = family_filter.FamilyFilter(leg, Targets.whole(table, rails), [1], [], known)
+
+    def pin(one: Extent, is_last: bool) -> tuple[xa.Point, Real]:
+        u = single if one is line else end if is_last else begin
+        return leg.rail.point(u), u
+
+    assert chooser.choose([family, line], pin) == []
+    found = chooser.in_sight.get(1, [])
+    assert all(leg.span.low <= i.low <= i.high <= leg.span.high for i in found)
+    return [(i.low, i.high) for i in found]
+
+
+def test_places_near_the_ends_of_a_leg() -> None:
+    """A family that begins just before the leg is seen from its start, a single line not at all."""
+    third, hair = Real(fmpq(1, 3)), Real(fmpq(1, 10**30))
+    middle, inside = Real(fmpq(1, 2)), Real(fmpq(5, 9))
+    assert chosen_places(third + hair, middle, inside) == [(third + hair, middle), (inside, inside)]
+    assert chosen_places(third - hair, middle, third - hair) == [(third, middle)]
+    assert chosen_places(middle, 2 * third + hair, 2 * third + hair) == [(middle, 2 * third)]
+    assert chosen_places(middle, inside, 2 * third) == [(middle, inside), (2 * third, 2 * third)]
+
+
+def test_facts_are_told_of_places_of_events(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Maps at events are told what their lines of sight touch, also where a run makes no family of it."""
+    told: list[tuple[xa.Point, PlaceFacts]] = []
+    at = LegFacts.at
+
+    def kept(self: LegFacts, u: Real, place: xa.Point) -> PlaceFacts:
+        told.append((place, at(self, u, place)))
+        return told[-1][1]
+
+    monkeypatch.setattr(LegFacts, "at", kept)
+    run = xa.sightseer(random_octagons(8, 1))
+    count = 0
+    for event in run.events:
+        if event.reason is Reason.OCCLUSION:
+            list(run.map_at(event).known(0))
+            facts = [known for place, known in told if place is event.point]
+            count += len(facts)
+            assert NOTHING_KNOWN not in facts
+    assert count > 10

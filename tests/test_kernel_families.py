@@ -13,7 +13,7 @@ from nightly import some
 from strategies import arc_terrain, degenerate_terrain
 
 import exactacq as xa
-from exactacq.kernel.choice import LegSpan, mattering
+from exactacq.kernel.choice import LegSpan, Source, mattering
 from exactacq.kernel.extents import EVERYTHING, Extent, Span
 from exactacq.kernel.family_images import NONE
 from exactacq.kernel.images import ROLLING
@@ -85,7 +85,7 @@ class Planted:
     """A family as it is: the part of the leg's line from which it is seen, and what it shows from there.
 
     From its low end to its high end it shows edge ``edge`` from the first to the last of ``shown``. Of one
-    that is not surely in range only ``part`` is there, if anything.
+    that is not surely in range only ``part`` is there, if anything. A single line is seen from one place.
     """
 
     source: Exact
@@ -99,6 +99,8 @@ class Planted:
         if self.part is None or max(low, self.part[0]) > min(high, self.part[1]):
             return None
         (a, b), (c, d) = self.source, self.shown
+        if a == b:
+            return c, d
         ends = [c + (d - c) * (u - a) / (b - a) for u in (max(low, self.part[0]), min(high, self.part[1]))]
         return min(ends), max(ends)
 
@@ -110,8 +112,12 @@ class Planted:
         keys = [[int(4096 * u)] if rng.random() < 0.8 else [-rng.randrange(1, 10**9)] for u in self.source]
         surely, told = (inner, blurred((c, d), -width)) if self.sure else ((inf, -inf), (inf, -inf))
         keys = keys if self.sure else [[], []]
+        if self.source[0] == self.source[1]:
+            surely, told, keys = (inf, -inf), (inf, -inf), [[-rng.randrange(1, 10**9)]] * 2
         shown = blurred((c, d), width)
-        return Extent(self.edge, shown, outer, surely, *keys, None, 0, 1, rng.random() < 0.9, told)
+        one = Extent(self.edge, shown, outer, surely, *keys, None, 0, 1, rng.random() < 0.9, told)
+        one.in_range = self.sure
+        return one
 
 
 def blurred(span: Exact, outward: int) -> Span:
@@ -126,6 +132,10 @@ def planted(rng: Random) -> Iterator[Planted]:
         b = a + Q(rng.randrange(1, 6), 8) + rng.choice(NEARBY)
         c, d = (Q(rng.randrange(9), 8) + rng.choice(NEARBY) for _ in range(2))
         sure = rng.random() < 0.8
+        if rng.random() < 0.2:
+            yield Planted(
+                (a, a), rng.randrange(3), (c, c), (a, a) if sure else rng.choice([None, (a, a)]), sure
+            )
         part = (a, b) if sure else rng.choice([None, (a, a + (b - a) / 3), (a + (b - a) / 2, b)])
         if c != d:
             yield Planted((a, b), rng.randrange(3), (c, d), part, sure)
@@ -169,16 +179,16 @@ def test_what_is_left_out_changes_nothing(seed: int) -> None:
     for k in (0, 1):
         of_k = [n for n, one in enumerate(some) if k in [owner for owner, _ in owners.get(one.edge, [])]]
         times = {n: clipped(some[n].part) for n in of_k}
-        sure = [sure_interval(first, last) for owner, first, last in groups if owner == k]
+        sure = [sure_interval(some, first, last) for owner, first, last in groups if owner == k]
         inner = [time for time in united(list(times.values())) if LEG[0] < time[1] and time[0] < LEG[1]]
         chosen = united([*sure, *(times[n] for n in of_k if n in numbers)])
         assert [time for time in chosen if LEG[0] < time[1] and time[0] < LEG[1]] == inner
 
 
-def sure_interval(first: Span, last: Span) -> Exact:
-    """From the middle of one interval to the middle of another, or to the ends of the leg."""
-    low = LEG[0] if first[0] == -inf else (Q(first[0]) + Q(min(first[1], 1))) / 2
-    high = LEG[1] if last[1] == inf else (Q(max(last[0], 0)) + Q(last[1])) / 2
+def sure_interval(some: list[Planted], first: Source, last: Source) -> Exact:
+    """From where one family begins to where another ends, or to the ends of the leg."""
+    low = LEG[0] if first.surely[0] == -inf else max(some[first.number].source[0], LEG[0])
+    high = LEG[1] if last.surely[1] == inf else min(some[last.number].source[1], LEG[1])
     return low, high
 
 

@@ -11,7 +11,7 @@ from random import Random
 
 import pytest
 from nightly import NIGHTLY, some
-from strategies import arc_terrain, degenerate_terrain, random_terrain
+from strategies import arc_terrain, build, circle_grid, degenerate_terrain, random_terrain
 
 import exactacq as xa
 from exactacq import kernel
@@ -266,3 +266,31 @@ def test_places_are_made_when_they_are_read() -> None:
     place = late[0].place
     assert -inf < float(place.x + place.y) < inf
     assert not place.is_late
+
+
+@pytest.mark.parametrize("radius", [3, "33/4"])
+def test_exact_places_are_where_floats_tell(radius: object) -> None:
+    """All around discs, where many families pass the start of the circle and are told in two parts."""
+    discs = build(circle_grid(3, 3))
+    senses = Sensor(EdgeTable(discs.obstacles), Range(xa.Real(radius).rational))
+    count = 0
+    for edge in (0, 4, 5):
+        quarters = discs.obstacles[edge].edges[0]
+        (leg,) = legs_of(senses.table, senses.rails, edge, quarters)
+        sights = senses.sights(leg)
+        assert sights.turns
+        for end, (low, high) in enumerate(zip(sights._changes.low, sights._changes.high, strict=True)):
+            if high - low < inf:
+                count += 1
+                assert low <= sights.made(end)[1] <= high
+    assert count > 100
+
+
+def test_what_is_shown_in_two_parts_is_one_sight() -> None:
+    """From a disc another one is seen, over its start: each family is one interval of places all the same."""
+    discs = build(circle_grid(2, 1))
+    senses = Sensor(EdgeTable(discs.obstacles), Range(xa.Real(9).rational))
+    (leg,) = legs_of(senses.table, senses.rails, 1, discs.obstacles[1].edges[0])
+    sights = senses.sights(leg)._sights
+    found = Counter((one.origin.origin, one.origin.here, one.origin.there, one.low) for one in sights)
+    assert max(found.values()) == 1

@@ -12,9 +12,6 @@ from typing import Final, final
 
 from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent, Span
 
-Group = tuple[int, Span, Span]
-"""An obstacle, and of intervals that are connected, from which it is surely seen, the one that begins first
-and the one that ends last."""
 NOBODY: Final[list[tuple[int, bool]]] = []
 Known = Mapping[int, Sequence[Span]]
 """What is known of edges, by their numbers, rounded inward."""
@@ -46,10 +43,19 @@ class LegSpan:
 
 @final
 class Source:
-    """Where the family of that number is seen from on a leg."""
+    """Where the family of that number is seen from on a leg.
 
-    def __init__(self, number: int, outer: Span, surely: Span, one: Extent) -> None:
+    It ``is_alone`` if it is a single line that surely shows something, within the range.
+    """
+
+    def __init__(self, number: int, outer: Span, surely: Span, one: Extent, is_alone: bool) -> None:
         self.number, self.outer, self.surely, self.extent = number, outer, surely, one
+        self.is_alone = is_alone
+
+
+Group = tuple[int, Source, Source]
+"""An obstacle, and of families that show it from connected places, surely and in range, the one that begins
+first and the one that ends last."""
 
 
 def mattering(
@@ -74,7 +80,8 @@ def mattering(
     of: dict[int, list[tuple[int, bool]]] = {}
     for n in range(len(extents)):
         one = extents[n]
-        if _is_single(one) and _is_told(one, told):
+        is_single = _is_single(one)
+        if is_single and _is_told(one, told):
             continue
         if one.edge not in of:
             of[one.edge] = [owner for owner in owners.get(one.edge, NOBODY) if owner[0] in obstacles]
@@ -99,7 +106,9 @@ def mattering(
             if k not in along:
                 if k not in sources:
                     sources[k] = []
-                sources[k].append(Source(n, outer, surely if whole else NOTHING, one))
+                sources[k].append(
+                    Source(n, outer, surely if whole else NOTHING, one, whole and is_single and one.in_range)
+                )
     for e, numbers in news.items():
         for n in _untold([extents[m] for m in numbers], span, known.get(e), ahead):
             chosen[numbers[n]] = True
@@ -107,14 +116,13 @@ def mattering(
     for k, some in sources.items():
         found = [SightGroup(group) for group in _joined([s for s in some if s.surely[0] <= s.surely[1]])]
         for sight in found:
-            groups.append((k, sight.first.surely, sight.last.surely))
-            if sight.first.surely[0] > -inf:
-                chosen[sight.first.number] = True
-            if sight.last.surely[1] < inf:
-                chosen[sight.last.number] = True
+            groups.append((k, sight.first, sight.last))
         for source in some:
             if not any(sight.contains(source) for sight in found):
-                chosen[source.number] = True
+                if source.is_alone:
+                    groups.append((k, source, source))
+                else:
+                    chosen[source.number] = True
     return [n for n in range(len(extents)) if chosen[n]], groups
 
 

@@ -24,9 +24,9 @@ class Extent:
     """What is shown of edge ``edge`` at most, from where it is seen at most, and from where surely.
 
     It comes from ``origin``, by the views from its part ``here`` to its part ``there``; ``in_range`` tells
-    whether all of these surely are within range. The keys tell which lines bound where it surely is seen
-    from: equal keys, one place. From all of its source together ``told`` is surely shown. Unless it
-    ``is_known``, floats tell nothing of it.
+    whether all of these surely are shorter than the range. The keys tell which lines bound where it surely is
+    seen from: equal keys, one place. It ``is_turned`` if the last line bounds the lower end of that. From all
+    of its source together ``told`` is surely shown. Unless it ``is_known``, floats tell nothing of it.
     """
 
     def __init__(
@@ -48,7 +48,7 @@ class Extent:
         self.first_keys, self.last_keys = first_keys, last_keys
         self.origin, self.here, self.there = origin, here, there
         self.is_known, self.told = is_known, told
-        self.in_range = False
+        self.in_range = self.is_turned = False
 
 
 def unknown(edge: int, origin: object, here: int, there: int) -> Extent:
@@ -80,16 +80,35 @@ def extents_from(
                 if not family.is_known:
                     found.append(unknown(shown, family, here, there))
                     continue
-                near, far = family.places(here), family.places(there)
-                told = views_in_range(family, (here, there), (near, far), curves[edge], curves, reach)
-                first, last = family.first_keys, family.last_keys
-                if curves[edge].sense:
-                    first = _keys_on_arc(first, near[0], curves[edge], shown, curves)
-                    last = _keys_on_arc(last, near[1], curves[edge], shown, curves)
-                keys = first, last
-                one = extent(shown, near, far, told, keys, family, here, there)
-                if one is not None:
-                    found.append(one)
+                places = family.places(here), family.places(there)
+                told = views_in_range(family, (here, there), places, curves[edge], curves, reach)
+                parts = family.parts(here)
+                for near in parts:
+                    first, last = family.first_keys, family.last_keys
+                    if curves[edge].sense:
+                        first = _keys_on_arc(first, near[0], curves[edge], shown, curves)
+                        last = _keys_on_arc(last, near[1], curves[edge], shown, curves)
+                    keys = first, last
+                    for far in family.parts(there):
+                        one = extent(shown, near, far, told, keys, family, here, there)
+                        if one is not None:
+                            if len(parts) > 1:
+                                # From each part something of it is shown.
+                                one.told = NOTHING
+                            found.append(one)
+    return found
+
+
+def by_source(extents: list[Extent]) -> list[Extent]:
+    """One extent of those of a family that are seen from the same places, for what they show is in parts."""
+    found: list[Extent] = []
+    for one in extents:
+        if found:
+            last = found[-1]
+            is_one = last.origin == one.origin and last.here == one.here and last.there == one.there
+            if is_one and last.source == one.source:
+                continue
+        found.append(one)
     return found
 
 
@@ -144,10 +163,11 @@ def extent(
     if told == 0:
         return Extent(edge, seen, outer, NOTHING, [], [], origin, here, there, True)
     first, last = keys
-    if b[1] <= a[0] and not a[1] <= b[0]:
+    is_turned = b[1] <= a[0] and not a[1] <= b[0]
+    if is_turned:
         first, last = last, first
     one = Extent(edge, seen, outer, _inner(a, b), first, last, origin, here, there, True, _inner(c, d))
-    one.in_range = True
+    one.in_range, one.is_turned = True, is_turned
     return one
 
 

@@ -25,9 +25,12 @@ EdgePlace = tuple[float, float, float, float, float]
 """Where a line meets an edge: bounds of the parameter, the point, and the error of its coordinates."""
 EdgePlaces = tuple[EdgePlace, EdgePlace]
 """Where the first and the last line of a family meet an edge."""
+Divided = dict[int, list[EdgePlaces]]
+"""What families meet of full circles, by its role, before they pass the start and after."""
 NOWHERE: EdgePlace = (0.0, 0.0, 0.0, 0.0, inf)
 ANYWHERE: EdgePlace = (-inf, inf, 0.0, 0.0, inf)
 """Where floats do not tell."""
+UNDIVIDED: Final[Divided] = {}
 
 
 @final
@@ -79,6 +82,7 @@ class FamilyImage:
         self.behind: EdgePlaces = (NOWHERE, NOWHERE)
         self.contact: EdgePlaces = (NOWHERE, NOWHERE)
         self.ahead: EdgePlaces = (NOWHERE, NOWHERE)
+        self.divided: Divided = UNDIVIDED
         self.is_known = False
 
     def edge(self, role: int) -> int:
@@ -97,6 +101,14 @@ class FamilyImage:
             self.ahead = places
         else:
             self.contact = places
+
+    def divide(self, role: int, before: EdgePlaces, after: EdgePlaces) -> None:
+        """Tell what is met of a full circle before its start is passed, from the first line, and after."""
+        self.divided = {**self.divided, role: [before, after]}
+
+    def parts(self, role: int) -> list[EdgePlaces]:
+        """What lines meet of an edge; in two parts if they are known to pass the start of a full circle."""
+        return self.divided[role] if role in self.divided else [self.places(role)]
 
     def side(self, x: float, y: float, error: float) -> int:
         """1 or -1 if a place is certainly left or right of all lines of the family, else 0."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf
 from typing import final
 
-from exactacq.kernel.bounded import TINY, UNIT, length, product, quotient, total
+from exactacq.kernel.bounded import TINY, UNIT, WIDEN, length, product, quotient, total
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent, Span, view_keys
 from exactacq.kernel.lines import Line, meets_straight, side_of
@@ -48,6 +48,13 @@ class SingleImage:
     def side(self, x: float, y: float, error: float) -> int:
         """1 or -1 if a place is certainly left or right of the line, else 0."""
         return side_of(self.line, x, y, error, 0.0)
+
+    def is_shorter_than(self, least: float) -> bool:
+        """Whether the view is certainly shorter than that."""
+        x, p = total(self.near[0], self.near[2], -self.place[0], self.place[2])
+        y, q = total(self.near[1], self.near[2], -self.place[1], self.place[2])
+        size, bound = length(x, y, max(p, q))
+        return size + bound * WIDEN < least * (1.0 - UNIT)
 
     def extent(self, leg: CurveImage, curves: list[CurveImage], is_back: bool) -> Extent:
         """What is shown at most, and from where on a *leg*: of the run, or of the place if that *is_back*.
@@ -113,8 +120,10 @@ def _note(found: LinesByEdge, edge: int, line: SingleImage) -> None:
         some.append(line)
 
 
-def extents_of_lines(edge: int, groups: list[LinesByEdge], curves: list[CurveImage]) -> list[Extent]:
-    """What single lines, in some groups, show of others from an edge."""
+def extents_of_lines(
+    edge: int, groups: list[LinesByEdge], curves: list[CurveImage], least: float
+) -> list[Extent]:
+    """What single lines, in some groups, show of others from an edge; *least* bounds the range from below."""
     found: list[Extent] = []
     leg = curves[edge]
     for group in groups:
@@ -122,10 +131,13 @@ def extents_of_lines(edge: int, groups: list[LinesByEdge], curves: list[CurveIma
         if some is None:
             continue
         for one in some:
+            is_near = one.is_point and one.is_shorter_than(least)
             if one.edge == edge:
                 found.append(one.extent(leg, curves, False))
+                found[-1].in_range = is_near
             if one.shown == edge:
                 found.append(one.extent(leg, curves, True))
+                found[-1].in_range = is_near
     return found
 
 

@@ -134,13 +134,14 @@ def extents_from_way(
             if not crossed.is_known:
                 extents.append(unknown(edge, n, CONTACT, there))
             elif crossed.role != CONTACT and there != crossed.role:
-                spots, shown = (crossed.first, crossed.last), family.places(there)
-                sides, places = (crossed.role, there), (spots, shown)
+                spots = crossed.first, crossed.last
+                sides, places = (crossed.role, there), (spots, family.places(there))
                 told = views_in_range(family, sides, places, way.line, curves, reach, part)
                 keys = crossed.first_keys, crossed.last_keys
-                one = extent(edge, spots, shown, told, keys, n, crossed.role, there)
-                if one is not None:
-                    extents.append(one)
+                for shown in family.parts(there):
+                    one = extent(edge, spots, shown, told, keys, n, crossed.role, there)
+                    if one is not None:
+                        extents.append(one)
     return extents
 
 

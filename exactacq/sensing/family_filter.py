@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from math import inf
+from typing import TypeAlias
 
 from flint import fmpq
 
@@ -14,12 +15,16 @@ from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.interval_union import EMPTY, Cover, Interval
 from exactacq.geometry.late import unmade_point
 from exactacq.geometry.points import Point
-from exactacq.kernel.choice import LegSpan, mattering
+from exactacq.kernel.choice import LegSpan, Source, mattering
 from exactacq.kernel.extents import Extent, Span
 from exactacq.numbers.real import Real
+from exactacq.sensing.free_way import PinOf
 from exactacq.sensing.legs import Leg
 from exactacq.sensing.line_images import bounds
 from exactacq.sensing.targets import Targets
+
+Family: TypeAlias = "tuple[object, int, int]"
+"""Where a family comes from, and its two parts."""
 
 
 def inside(cover: Cover, rail: Rail) -> list[Span]:
@@ -64,28 +69,71 @@ class FamilyFilter:
         obstacles: Collection[int],
         along: Collection[int],
         known: Mapping[int, Sequence[Span]],
+        facts: bool = False,
     ) -> None:
-        self.leg, self.targets, self.known = leg, targets, known
+        self.leg, self.targets, self.known, self._facts = leg, targets, known, facts
         self.obstacles, self.along = set(obstacles), set(along)
         self.in_sight: dict[int, list[Interval]] = {}
 
-    def choose(self, extents: list[Extent]) -> list[Extent]:
-        """Those that matter."""
+    def choose(self, extents: list[Extent], pin: PinOf) -> list[Extent]:
+        """Those that matter; *pin* tells where the first or the last line of one meets the leg."""
         span, rail = self.leg.span, None if self.leg.edge is None else self.leg.rail
         part = LegSpan(bounds(span.low, rail), bounds(span.high, rail))
         owners, obstacles, ahead = self.targets.owners, self.obstacles, self.leg.ahead
         numbers, groups = mattering(extents, part, owners, obstacles, self.along, self.known, ahead)
+        chosen = {_family(extents[n]): extents[n] for n in numbers}
         for k, first, last in groups:
-            self.in_sight.setdefault(k, []).extend(self._interval(first, last))
-        return [extents[n] for n in numbers]
+            if first.is_alone:
+                interval = self._single(first, chosen, pin)
+            else:
+                low, start = self._end(first, False, chosen, pin)
+                high, end = self._end(last, True, chosen, pin)
+                interval = Interval(low, start, high, end) if low.compare(high) <= 0 else None
+            if interval is not None:
+                self.in_sight.setdefault(k, []).append(interval)
+        return list(chosen.values())
 
-    def _interval(self, first: Span, last: Span) -> Iterator[Interval]:
-        """From inside one interval to inside another, which ends after it."""
+    def _single(self, source: Source, chosen: dict[Family, Extent], pin: PinOf) -> Interval | None:
+        """The place from which a single line shows something, unless it is *chosen* or beyond the leg."""
+        one, span = source.extent, self.leg.span
+        if not self._is_left(one, chosen):
+            return None
+        made = pin(one, False)
+        if made is None or span.low.compare(made[1]) > 0 or span.high.compare(made[1]) < 0:
+            return None
+        point, u = made
+        return Interval(u, point, u, point)
+
+    def _end(
+        self, source: Source, is_high: bool, chosen: dict[Family, Extent], pin: PinOf
+    ) -> tuple[Real, Point]:
+        """The place of the leg where a family begins or ends; if it is *chosen*, a place inside will do."""
+        one, span = source.extent, self.leg.span
+        if is_high and source.surely[1] == inf:
+            return span.high, span.end
+        if not is_high and source.surely[0] == -inf:
+            return span.low, span.start
+        made = pin(one, is_high != one.is_turned) if self._is_left(one, chosen) else None
+        if made is not None:
+            return self._within(*made)
+        chosen[_family(one)] = one
+        return self._place(source.surely)
+
+    def _is_left(self, one: Extent, chosen: dict[Family, Extent]) -> bool:
+        """Whether a family that matters for where it begins or ends alone is not to be made."""
+        if self._facts:
+            chosen[_family(one)] = one
+        return _family(one) not in chosen
+
+    def _within(self, point: Point, u: Real) -> tuple[Real, Point]:
+        """A place of the leg's curve, moved to the end of the leg if it lies there or beyond it."""
         span = self.leg.span
-        low, start = (span.low, span.start) if first[0] == -inf else self._place(first)
-        high, end = (span.high, span.end) if last[1] == inf else self._place(last)
-        if low.compare(high) < 0:
-            yield Interval(low, start, high, end)
+        if not (span.low.rational == 0 and span.high is self.leg.rail.top):
+            if u.compare(span.low) <= 0:
+                return span.low, span.start
+            if u.compare(span.high) >= 0:
+                return span.high, span.end
+        return u, point
 
     def _place(self, span: Span) -> tuple[Real, Point]:
         """A place in an interval that has a finite end: the middle, if both are finite."""
@@ -93,3 +141,8 @@ class FamilyFilter:
         u = fmpq(*(sum(ends) / len(ends)).as_integer_ratio())
         # A family begins before it or ends after it, so that nobody asks for the point.
         return Real(u), unmade_point(self.leg.rail.point, u)
+
+
+def _family(one: Extent) -> Family:
+    """What the extents of one family, divided by the start of a full circle, have in common."""
+    return one.origin, one.here, one.there

@@ -30,7 +30,9 @@ from exactacq.sensing.way_crossings import WayCrossings
 from exactacq.sensing.way_normals import WayNormals
 from exactacq.visibility.line_balls import crossing
 
-Choose: TypeAlias = "Callable[[list[Extent]], Iterable[Extent]]"
+PinOf: TypeAlias = "Callable[[Extent, bool], Pin | None]"
+"""Tells where the first or the last line of a family meets a leg; None if only the family itself tells."""
+Choose: TypeAlias = "Callable[[list[Extent], PinOf], Iterable[Extent]]"
 """Chooses those of families that matter (see `exactacq.sensing.family_filter`)."""
 
 
@@ -62,9 +64,13 @@ class WayViews:
             for image, certain in self.crossing:
                 yield from self.crossing.views(family_of(image), certain, self.wanted)
         else:
-            found = list(choose([*crossing, *found]))
+            found = list(choose([*crossing, *found], self._pin_of))
         yield from self._views(found)
         yield from self.own_line.families()
+
+    def _pin_of(self, one: Extent, is_last: bool) -> Pin | None:
+        """Where the first or the last line of a family crosses the way."""
+        return self.crossing.pin(one.origin, Role(one.here), is_last) if isinstance(one.origin, int) else None
 
     def single_lines(self) -> list[Extent]:
         """What the single lines that may cross the way show, in floats; they are the origins.

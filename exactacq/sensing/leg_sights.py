@@ -26,7 +26,7 @@ from exactacq.geometry.points import Point
 from exactacq.grouping import in_groups
 from exactacq.kernel.choice import LegSpan
 from exactacq.kernel.curve_images import CurveImage
-from exactacq.kernel.extents import Extent, Span
+from exactacq.kernel.extents import Extent, Span, by_source
 from exactacq.kernel.family_images import NONE, FamilyImage
 from exactacq.kernel.leg_changes import (
     AFTER,
@@ -187,7 +187,7 @@ class LegSights:
 
     def _told(self, extents: list[Extent], crossing: list[FamilyImage], curve: CurveImage) -> Iterator[Sight]:
         """The sights that extents tell of, *crossing* as for `exactacq.kernel.leg_changes.sights`."""
-        found, left = sights(extents, crossing, self._span, curve, self._scene)
+        found, left = sights(by_source(extents), crossing, self._span, curve, self._scene)
         yield from found
         for one in left:
             yield from self._sights_of(self._shares_of(one), self._image(one))
@@ -318,7 +318,8 @@ class LegSights:
     def _shares_of(self, one: Extent) -> list[Share]:
         """What a family shows of an edge, from one part of it to another."""
         if not isinstance(one.origin, int):
-            return [Share.of(family, side) for family, side in self.complex.views(one)]
+            shares = (Share.of(family, side) for family, side in self.complex.views(one))
+            return [share for share in shares if _is_part(share, one)]
         image, certain = self._crossing[one.origin]
         found = self._crossings.views(family_of(image), certain, frozenset({one.edge}))
         return [Share.of(family, 0) for family in found if _role(family) == one.there]
@@ -382,6 +383,12 @@ def _may_contain(part: Interval, u: Real) -> bool:
 def _counts(origin: object) -> bool:
     """Whether a family tells that an edge is in sight: no single line, nor the normals at a corner."""
     return isinstance(origin, FamilyImage) and (origin.goes_back or not origin.fixed)
+
+
+def _is_part(share: Share, one: Extent) -> bool:
+    """Whether a share belongs to a part of a family on a full circle: other parts lie far away."""
+    middle = 0.5 * (share.source.low.rough() + share.source.high.rough())
+    return one.source[0] - 0.25 < middle < one.source[1] + 0.25
 
 
 def _role(family: ViewFamily) -> int:

@@ -66,7 +66,8 @@ class Shares:
     """What a leg shows of some obstacles.
 
     *view* gives what is seen from a point, with the edges through it if these are known. A given *way*
-    shares its points by name.
+    shares its points by name. If *facts* are to be told of places where something changes (see
+    `exactacq.sensing.leg_facts`), all families that end there are made.
     """
 
     def __init__(
@@ -80,8 +81,10 @@ class Shares:
         of: dict[int, list[Share]] | None = None,
         ends: dict[int, list[tuple[CutEnd, Interval]]] | None = None,
         way: StraightWay | None = None,
+        facts: bool = False,
     ) -> None:
         self.complex, self.targets, self.leg = complex_, targets, leg
+        self._facts = facts
         self.obstacles, self.view = obstacles, view
         self.in_sight: Mapping[int, Sequence[Interval]] = {}
         self._pins: NamedPins | None = None
@@ -147,7 +150,9 @@ class Shares:
         """The families at the leg; only those that matter if it is told what is *known*."""
         complex_, leg, obstacles = self.complex, self.leg, self.obstacles
         along = [k for k in obstacles if self._is_along(k)]
-        chooser = None if known is None else FamilyFilter(leg, self.targets, obstacles, along, known)
+        chooser = (
+            None if known is None else FamilyFilter(leg, self.targets, obstacles, along, known, self._facts)
+        )
         choose = None if chooser is None else chooser.choose
         if leg.edge is None:
             near = complex_.table.lit(leg.spots, complex_.range.above)
@@ -158,7 +163,7 @@ class Shares:
             yield from ((family, 0) for family in crossing.families(choose))
         else:
             extents = complex_.extents(leg.edge)
-            for one in extents if choose is None else choose(extents):
+            for one in extents if choose is None else choose(extents, complex_.pin):
                 yield from complex_.views(one)
         if chooser is not None:
             self.in_sight = chooser.in_sight
@@ -313,11 +318,16 @@ class Shares:
         ]
         # Most often the very number was copied: no proof is needed that it is equal.
         ends.sort(key=lambda end: end[0] is not u)
-        if self._is_near(k, u) or self._is_end_near(k, u):
+        if self._is_near(k, u) or self._is_end_near(k, u) or self._is_surely_near(k, u):
             return True
         return any(
             end.is_short(self.complex.range) for place, end in ends if place is u or place.compare(u) == 0
         )
+
+    def _is_surely_near(self, k: int, u: Real) -> bool:
+        """Whether an interval from which an obstacle is seen within the range begins or ends at *u*."""
+        ends = [v for interval in self.in_sight.get(k, ()) for v in (interval.low, interval.high)]
+        return any(v is u for v in ends) or any(v.compare(u) == 0 for v in ends)
 
     def _is_end_near(self, k: int, u: Real) -> bool:
         """Whether a cut end is seen last or first from *u*, nearer than the range."""

@@ -74,6 +74,12 @@ class LineFamily:
             self._views[pair] = clipper.families(self._free_views(*pair, in_range))
         return self._views[pair], int(here > there)
 
+    def pin(self, here: int, is_last: bool, clipper: FamilyClipper) -> Pin:
+        """Where its first or its last line meets one of its parts, *here*."""
+        side, t = self.sides[here + 1], self.high if is_last else self.low
+        assert side is not None, "lines meet what is seen from"
+        return clipper.views.pin(self.sector, t, side, self.names[is_last], self.passed[is_last])
+
     def _free_views(self, first: int, last: int, in_range: bool) -> FreeViews:
         one, other = self.sides[first + 1], self.sides[last + 1]
         assert one is not None and other is not None, "views lie between edges"
@@ -232,10 +238,17 @@ class SingleLine:
         """
         if self._views is None:
             assert self.edge is not None, "a place in free space is on no edge"
-            u = clipper.rails[self.edge].parameter(self.place) if self.u is None else self.u
-            ends = clipper.along((self.place, u), self.run, self.shown)
+            ends = clipper.along(self.pin(0, clipper), self.run, self.shown)
             self._views = [ViewFamily((self.edge, self.shown), *end) for end in ends]
         return self._views, here
+
+    def pin(self, here: int, clipper: FamilyClipper) -> Pin:
+        """The place, which lies on an edge, or if *here* is 1 the nearest point of the run."""
+        if here:
+            return self.run[0]
+        place, u = self._made
+        assert self.edge is not None, "a place in free space is on no edge"
+        return place, clipper.rails[self.edge].parameter(place) if u is None else u
 
 
 class SingleLines(ABC):

@@ -12,8 +12,9 @@ from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.points import Point
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import EVERYTHING, SURE, Span
-from exactacq.kernel.family_images import FamilyImage, perhaps_over_start
+from exactacq.kernel.family_images import EdgePlace, EdgePlaces, FamilyImage, perhaps_over_start
 from exactacq.kernel.lines import parameter
+from exactacq.kernel.single_lines import Spot
 from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
@@ -63,30 +64,43 @@ class LineImages:
                 self._unroll(image, Role(role), lines, image.edge(role))
 
     def _unroll(self, image: FamilyImage, role: Role, lines: Pencil, edge: int) -> None:
-        """Two places on a full circle: if the side may pass its start, where parameters jump, anywhere on it.
+        """The first and the last place on a full circle, at whose start parameters jump.
 
-        While lines turn by a quarter at most, a contact moves by a quarter, another place by less than three
-        quarters, for its direction from the circle's centre is off the line's by less than a quarter.
+        Where lines turn it is known which way the place moves (see `FreeViews.grows`): if parameters change
+        the other way, it passes the start, for it makes less than a whole turn. Where lines slide, a place
+        that comes near the start may pass it.
         """
-        whole = image.places(role)
-        start = self.table.curves[edge].start
-        row = lines.rows[image.number]
-        found = list(whole)
+        row, turns, grows = lines.rows[image.number], lines.sector.turns, role is Role.CONTACT
+        found, start = list(image.places(role)), self.table.curves[edge].start
         for k, bound in enumerate((row.first, row.last)):
             (low, high, *rest), other = found[k], found[1 - k]
             if low <= 0 or high >= 4:
                 contact, direction = lines.sector.touch(lines.value(bound))
                 # Where the line is nearly a tangent, both its crossings are within the error.
                 is_one = high - low < SURE and direction.cross(start - contact).sign() == 0
-                end = -inf if other[1] < 2 else inf
-                if is_one and 0 < other[0] <= other[1] < 4:
-                    found[k] = (end, end, rest[0], rest[1], rest[2])
-                else:
-                    found[k] = (-inf, inf, rest[0], rest[1], rest[2])
-        bounds = [(max(low, 0.0), min(high, 4.0)) for low, high, *_ in found]
-        if max(b for _, b in bounds) - min(a for a, _ in bounds) >= 1:
-            found = [(-inf, inf, x, y, error) for _, _, x, y, error in whole]
-        image.move(role, (found[0], found[1]))
+                is_low = grows == (k == 0) if turns else other[1] < 2
+                low, high = (-inf, -inf) if is_low else (inf, inf)
+                if not (is_one and 0 < other[0] <= other[1] < 4):
+                    low, high = -inf, inf
+                found[k] = (low, high, rest[0], rest[1], rest[2])
+        first, last = found
+        rises, falls = first[1] < last[0], last[1] < first[0]
+        if not ((rises if grows else falls) if turns else _spread(first, last) < 1):
+            if turns and (rises or falls):
+                image.divide(role, *_divided(first, last, grows, held_point(start)))
+            first, last = ((-inf, inf, x, y, error) for _, _, x, y, error in found)
+        image.move(role, (first, last))
+
+
+def _spread(first: EdgePlace, last: EdgePlace) -> float:
+    """How far two places on a full circle are apart at most, by their parameters."""
+    return min(max(first[1], last[1]), 4.0) - max(min(first[0], last[0]), 0.0)
+
+
+def _divided(first: EdgePlace, last: EdgePlace, grows: bool, start: Spot) -> tuple[EdgePlaces, EdgePlaces]:
+    """What of a full circle is met before its *start* is passed, and after."""
+    before, after = (inf, -inf) if grows else (-inf, inf)
+    return (first, (before, before, *start)), ((after, after, *start), last)
 
 
 def bounds(u: Real, rail: Rail | None) -> Span:

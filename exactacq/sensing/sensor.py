@@ -152,7 +152,7 @@ class Sensor:
         """
         if self._last is None or self._last.shares.leg is not leg:
             known = KnownSpans(covers, self.rails)
-            shares = Shares(self.complex, self.targets, leg, self._near(leg), self._view, known)
+            shares = Shares(self.complex, self.targets, leg, self._near(leg), self._view, known, facts=True)
             self._last = LegNews(shares, covers)
         return self._last.upto(u, place, acquired)
 

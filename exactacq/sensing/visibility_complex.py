@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from functools import lru_cache
 
+from exactacq.geometry.late import Pin
 from exactacq.kernel.extents import Extent, extents_from
 from exactacq.kernel.family_images import FamilyImage
 from exactacq.kernel.shadows import Spot
@@ -72,6 +73,14 @@ class VisibilityComplex:
             families, side = single_of(source).views(here, self.clipper)
         return ((family, side) for family in families)
 
+    def pin(self, one: Extent, is_last: bool) -> Pin:
+        """Where the first or the last line of a family that `extents` tells of meets the edge."""
+        source = one.origin
+        if isinstance(source, FamilyImage):
+            return family_of(source).pin(one.here, is_last, self.clipper)
+        assert isinstance(source, SingleImage), "families come from lines"
+        return single_of(source).pin(one.here, self.clipper)
+
 
 class Neighbourhood:
     """Finds the families near a place, and sweeps them where that was not done yet."""
@@ -101,5 +110,5 @@ class Neighbourhood:
     def extents(self, edge: int) -> list[Extent]:
         """What families show of others from an edge, and single lines that meet it."""
         near, curves, reach = self.near(self.table.spots(edge)), self.table.curve_images, self.images.reach
-        single_lines = extents_of_lines(edge, [one.lines_at for one in near], curves)
+        single_lines = extents_of_lines(edge, [one.lines_at for one in near], curves, reach[0])
         return extents_from(edge, [one.at for one in near], curves, reach) + single_lines

@@ -14,7 +14,7 @@ from flint import arb, fmpq
 from exactacq.geometry.coordinates import dot, raw
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.intersections import line_contacts
-from exactacq.geometry.late import Balls
+from exactacq.geometry.late import Balls, Pin
 from exactacq.geometry.points import Point
 from exactacq.kernel.bounded import TINY, UNIT
 from exactacq.kernel.extents import Extent
@@ -26,7 +26,7 @@ from exactacq.numbers.between import rational_between
 from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
-from exactacq.sensing.line_family import LineFamily
+from exactacq.sensing.line_family import LineFamily, family_of
 from exactacq.sensing.line_points import Role, Side
 from exactacq.sensing.straight_way import StraightWay
 from exactacq.sensing.view_families import FreeViews, ViewFamily
@@ -126,6 +126,17 @@ class WayCrossings:
                     line_family.sector, low, high, (here, other), names, pins, passed, anchor, in_range
                 )
                 yield from self.way.clipper.families(free_views)
+
+    def pin(self, number: int, role: Role, is_last: bool) -> Pin:
+        """Where the first or the last line of a family, by its place here, crosses the way, on that side."""
+        image, certain = self._found[number]
+        line_family = family_of(image)
+        t, names = line_family.high if is_last else line_family.low, line_family.names[is_last]
+        known = None if certain else self._cuts.pin_at(line_family, t, names)
+        if known is not None:
+            return known
+        here = Side(self.way.number, role, on_way=True)
+        return self.way.clipper.views.pin(line_family.sector, t, here, names, line_family.passed[is_last])
 
     def _is_parallel(self, sector: Sector) -> bool:
         """Whether lines are normals of a straight edge, all parallel to the way."""

@@ -52,7 +52,7 @@ class WayCuts:
                 else:
                     lines.append((t, pin, ()))
         low, high = (
-            (t, self._pin_at(line_family, t, names), names)
+            (t, self.pin_at(line_family, t, names), names)
             for t, names in zip((line_family.low, line_family.high), line_family.names, strict=True)
         )
         inner = [line for line in lines if self._is_inside(line_family, line[0], line[1])]
@@ -107,7 +107,7 @@ class WayCuts:
                 return False
         return True
 
-    def _pin_at(self, line_family: LineFamily, t: Real, names: Names) -> Pin | None:
+    def pin_at(self, line_family: LineFamily, t: Real, names: Names) -> Pin | None:
         """The point of the way on a line that bounds a line family, where it need not be computed."""
         is_own = self._is_along(names)
         # No parameter: the end may be the point about which the lines turn.
