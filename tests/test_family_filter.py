@@ -205,7 +205,7 @@ def compare_pins(complex_: VisibilityComplex) -> int:
             for is_last in (False, True):
                 point, u = complex_.pin(one, is_last)
                 is_high = is_last != one.is_turned
-                if not single and abs(one.surely[is_high]) == inf:
+                if sure and abs(one.surely[is_high]) == inf:
                     continue
                 found = [(part.high, part.end) if is_high else (part.low, part.start) for part in sources]
                 count += 1

@@ -50,9 +50,22 @@ class SingleImage:
         return side_of(self.line, x, y, error, 0.0)
 
     def is_shorter_than(self, least: float) -> bool:
-        """Whether the view is certainly shorter than that."""
-        x, p = total(self.near[0], self.near[2], -self.place[0], self.place[2])
-        y, q = total(self.near[1], self.near[2], -self.place[1], self.place[2])
+        """Whether the view is certainly shorter than that; from a segment that it sees along its own line,
+        from all of that.
+        """
+        if self.is_point:
+            return self._is_near(self.near, least)
+        x, y, dx, dy, p, q = self.line
+        start: Spot = x, y, p
+        dx, p = total(x, p, dx, q)
+        dy, q = total(y, p, dy, q)
+        stop: Spot = dx, dy, max(p, q)
+        return self._is_near(start, least) and self._is_near(stop, least)
+
+    def _is_near(self, spot: Spot, least: float) -> bool:
+        """Whether the place is certainly nearer to another than that."""
+        x, p = total(spot[0], spot[2], -self.place[0], self.place[2])
+        y, q = total(spot[1], spot[2], -self.place[1], self.place[2])
         size, bound = length(x, y, max(p, q))
         return size + bound * WIDEN < least * (1.0 - UNIT)
 
@@ -131,13 +144,16 @@ def extents_of_lines(
         if some is None:
             continue
         for one in some:
-            is_near = one.is_point and one.is_shorter_than(least)
+            is_near = one.is_shorter_than(least)
             if one.edge == edge:
                 found.append(one.extent(leg, curves, False))
                 found[-1].in_range = is_near
             if one.shown == edge:
-                found.append(one.extent(leg, curves, True))
-                found[-1].in_range = is_near
+                back = one.extent(leg, curves, True)
+                back.in_range = is_near
+                if is_near and not one.is_point and one.seen == EVERYTHING:
+                    back.surely = EVERYTHING
+                found.append(back)
     return found
 
 

@@ -208,7 +208,7 @@ def _crossed(family: FamilyImage, way: WayImage, curves: list[CurveImage]) -> Cr
     is_parallel = (wx * one[3] - wy * one[2] > 0.0) != (wx * other[3] - wy * other[2] > 0.0)
     if not (a[3] < inf and b[3] < inf):
         return _unknown()
-    if (is_parallel or family.frame[0] == SPOKES) and _may_touch(family, way):
+    if is_parallel and _may_touch(family, way):
         return _unknown()
     role, last_role = _role(a, family, first, way), _role(b, family, last, way)
     role, last_role = role if role else last_role, last_role if last_role else role
@@ -235,7 +235,7 @@ def _crossed(family: FamilyImage, way: WayImage, curves: list[CurveImage]) -> Cr
         else:
             role, spots, keys = last_role, (end, spots[1]), ([], keys[1])
             turn = -turn
-    elif role != last_role or role == OPEN:
+    elif role != last_role or role == OPEN or not _is_kept(family, way, role):
         return _unknown()
     if role == 0:
         return _unknown()
@@ -279,6 +279,20 @@ class Outermost:
         if side and side == side_of_all(family.frame, self.line, line, bx, by, error):
             self.t, self.line, self.met = t, line, meets_straight(line, way.line)
             self.keys, self.corners = [], []
+
+
+def _is_kept(family: FamilyImage, way: WayImage, role: int) -> bool:
+    """Whether all lines cross the way's line on that side of the contact on which the first and the last do.
+
+    None of them is parallel to it. Only of the normals of an arc that may be open. They pass its centre, and
+    the crossing is nearest to that on the line that is normal to the way, and farther away on both sides of
+    it. So it is nearer than the arc if it is so first and last. If it is farther then, it is so between unless
+    that normal is among the lines, and the way's line meets the circle.
+    """
+    if family.frame[0] != SPOKES or role == (AHEAD if family.frame[6] < 0 else BEHIND):
+        return True
+    ahead = _ahead(family.first, way)
+    return (ahead != 0 and ahead == _ahead(family.last, way)) or not _may_touch(family, way)
 
 
 def _may_touch(family: FamilyImage, way: WayImage) -> bool:

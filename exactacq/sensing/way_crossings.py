@@ -19,7 +19,7 @@ from exactacq.geometry.points import Point
 from exactacq.kernel.bounded import TINY, UNIT
 from exactacq.kernel.extents import Extent
 from exactacq.kernel.family_images import FamilyImage
-from exactacq.kernel.images import SPOKES
+from exactacq.kernel.images import SLIDING, SPOKES
 from exactacq.kernel.lines import line_at, side_of
 from exactacq.kernel.ways import Crossing, crossings, extents_from_way
 from exactacq.numbers.between import rational_between
@@ -42,29 +42,33 @@ class WayCrossings:
     def __init__(self, way: StraightWay, families: list[list[FamilyImage]], wanted: frozenset[int]) -> None:
         self.way, self.wanted = way, wanted
         self._families, self._cuts = families, WayCuts(way)
-        self._is_through: dict[int, bool] = {}
+        self._is_along: dict[int, bool] = {}
 
     @cached_property
     def _found(self) -> list[Crossing]:
         count = len(self.way.table.curves)
         found = crossings(self._families, set(self.wanted), count, self.way.image)
-        left = [at for at in found if at[1] or at[0].fixed or not self._are_of_own_circle(at[0])]
+        left = [at for at in found if at[1] or at[0].fixed or not self._are_along(at[0])]
         self.way.tell_lines_at_ends(left)
         return left
 
-    def _are_of_own_circle(self, family: FamilyImage) -> bool:
-        """Whether lines are normals of a round boundary, outward, and the way's line passes its centre.
+    def _are_along(self, family: FamilyImage) -> bool:
+        """Whether of some normals only one may cross the way: along itself, which its own line tells.
 
-        No other line of them crosses it, and what is seen along itself is told by its own line.
+        So it is with those of a straight edge that are parallel to it, and with those, outward, of a round
+        boundary whose centre its line passes.
         """
-        circle = self.way.table.line_numbers.circles[family.edge(Role.CONTACT)]
-        if circle not in self._is_through:
-            arc = self.way.clipper.curve(circle)
-            self._is_through[circle] = isinstance(arc, Arc) and self._is_on_line(arc.center)
-        if not self._is_through[circle]:
-            return False
         kind, *_, sense = family.frame
-        return kind == SPOKES and sense > 0
+        if kind not in (SLIDING, SPOKES) or (kind == SPOKES and sense < 0):
+            return False
+        e = self.way.table.line_numbers.circles[family.edge(Role.CONTACT)]
+        if e not in self._is_along:
+            edge, along = self.way.clipper.curve(e), self.way.piece.direction
+            if isinstance(edge, Arc):
+                self._is_along[e] = self._is_on_line(edge.center)
+            else:
+                self._is_along[e] = edge.direction.dot(along).sign() == 0
+        return self._is_along[e]
 
     def _is_on_line(self, place: Point) -> bool:
         """Whether a place lies on the way's line."""
