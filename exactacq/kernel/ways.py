@@ -286,8 +286,8 @@ def _is_kept(family: FamilyImage, way: WayImage, role: int) -> bool:
 
     None of them is parallel to it. Only of the normals of an arc that may be open. They pass its centre, and
     the crossing is nearest to that on the line that is normal to the way, and farther away on both sides of
-    it. So it is nearer than the arc if it is so first and last. If it is farther then, it is so between unless
-    that normal is among the lines, and the way's line meets the circle.
+    it. So it is nearer than the arc if it is so first and last. If it is farther then, it is so between too,
+    unless that normal is among the lines, and the way's line meets the circle.
     """
     if family.frame[0] != SPOKES or role == (AHEAD if family.frame[6] < 0 else BEHIND):
         return True

@@ -311,6 +311,8 @@ class Shares:
 
     def is_short(self, k: int, u: Real) -> bool:
         """Whether a view of an obstacle that begins or ends at *u* is shorter than the range."""
+        if self._is_surely_near(k, u) or self._is_near(k, u) or self._is_end_near(k, u):
+            return True
         ends = [
             (end.places[share.side], end)
             for share in self.of[k]
@@ -318,8 +320,6 @@ class Shares:
         ]
         # Most often the very number was copied: no proof is needed that it is equal.
         ends.sort(key=lambda end: end[0] is not u)
-        if self._is_near(k, u) or self._is_end_near(k, u) or self._is_surely_near(k, u):
-            return True
         return any(
             end.is_short(self.complex.range) for place, end in ends if place is u or place.compare(u) == 0
         )
