@@ -386,15 +386,22 @@ def test_forgetting_changes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     assert len(made) > len(set(made)) > 200
 
 
-def chosen_places(begin: Real, end: Real, single: Real) -> list[tuple[Real, Real]]:
-    """From where on the second third of an edge another obstacle is told to be in sight, if all is known.
+EDGE = 0, Segment(xa.Point(1, 0), xa.Point(2, 0))
+"""The second third of a square's edge."""
+WAY = None, Segment(xa.Point(0, -1), xa.Point(3, -1))
 
-    A family is seen *from* one place to another, and along a *single* line from a third.
+
+def chosen_places(
+    piece: tuple[int | None, Segment], begin: Real, end: Real, single: Real
+) -> list[tuple[Real, Real]]:
+    """From where on a piece another obstacle is told to be in sight, if all of it is known.
+
+    A family is seen from one place to another, and along a *single* line from a third.
     """
     square = xa.Polygon([(0, 0), (3, 0), (3, 3), (0, 3)])
     table = EdgeTable(xa.Scene([square, xa.Circle((1, -4), 1)], radius=9).obstacles)
     rails = VisibilityComplex(table, Range(fmpq(9))).clipper.rails
-    (leg,) = legs_of(table, rails, 0, Segment(xa.Point(1, 0), xa.Point(2, 0)))
+    (leg,) = legs_of(table, rails, *piece)
     a, b, c = map(float, (begin, end, single))
     blur, apart, nothing = 1e-12, "family", (inf, -inf)
     family = Extent(4, (1, 2), (a - blur, b + blur), (a + blur, b - blur), [7], [8], apart, 0, 1, True)
@@ -417,10 +424,12 @@ def test_places_near_the_ends_of_a_leg() -> None:
     """A family that begins just before the leg is seen from its start, a single line not at all."""
     third, hair = Real(fmpq(1, 3)), Real(fmpq(1, 10**30))
     middle, inside = Real(fmpq(1, 2)), Real(fmpq(5, 9))
-    assert chosen_places(third + hair, middle, inside) == [(third + hair, middle), (inside, inside)]
-    assert chosen_places(third - hair, middle, third - hair) == [(third, middle)]
-    assert chosen_places(middle, 2 * third + hair, 2 * third + hair) == [(middle, 2 * third)]
-    assert chosen_places(middle, inside, 2 * third) == [(middle, inside), (2 * third, 2 * third)]
+    assert chosen_places(EDGE, third + hair, middle, inside) == [(third + hair, middle), (inside, inside)]
+    assert chosen_places(EDGE, third - hair, middle, third - hair) == [(third, middle)]
+    assert chosen_places(EDGE, middle, 2 * third + hair, 2 * third + hair) == [(middle, 2 * third)]
+    assert chosen_places(EDGE, middle, inside, 2 * third) == [(middle, inside), (2 * third, 2 * third)]
+    assert chosen_places(WAY, -hair, middle, inside) == [(Real(0), middle), (inside, inside)]
+    assert chosen_places(WAY, middle, 1 + hair, 1 + hair) == [(middle, Real(1))]
 
 
 def test_facts_are_told_of_places_of_events(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -127,8 +127,9 @@ class FamilyFilter:
 
     def _within(self, point: Point, u: Real) -> tuple[Real, Point]:
         """A place of the leg's curve, moved to the end of the leg if it lies there or beyond it."""
-        span = self.leg.span
-        if not (span.low.rational == 0 and span.high is self.leg.rail.top):
+        leg, span = self.leg, self.leg.span
+        # What lies on an edge lies between its ends; a way's line is crossed beyond these too.
+        if leg.edge is None or not (span.low.rational == 0 and span.high is leg.rail.top):
             if u.compare(span.low) <= 0:
                 return span.low, span.start
             if u.compare(span.high) >= 0:
