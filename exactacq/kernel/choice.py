@@ -94,6 +94,7 @@ def mattering(
         outer = span.outer(one.source)
         if outer[0] > outer[1]:
             continue
+        # Also from an end of the leg alone: of the edges at a corner the view from there tells one.
         if not _is_known(one, known):
             if one.edge not in news:
                 news[one.edge] = []

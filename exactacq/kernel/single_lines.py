@@ -50,9 +50,7 @@ class SingleImage:
         return side_of(self.line, x, y, error, 0.0)
 
     def is_shorter_than(self, least: float) -> bool:
-        """Whether the view is certainly shorter than that; from a segment that it sees along its own line,
-        from all of that.
-        """
+        """Whether the view is certainly shorter than that; from all of a segment along its own line."""
         if self.is_point:
             return self._is_near(self.near, least)
         x, y, dx, dy, p, q = self.line
