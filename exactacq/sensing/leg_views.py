@@ -217,13 +217,16 @@ class Shares:
             inside = inside and source.high.compare(part.high) < 0
         return inside or None
 
-    def taught(self, covers: Covers, known: Mapping[int, Sequence[Span]] | None = None) -> dict[int, Cover]:
+    def taught(
+        self, covers: Covers, known: Mapping[int, Sequence[Span]] | None = None, is_here: bool = False
+    ) -> dict[int, Cover]:
         """The covers that grow along the leg, if *covers* are known before it.
 
-        *known* has them in floats, rounded inward: then less is to be made.
+        *known* has them in floats, rounded inward: then less is to be made. *is_here* if they contain the
+        view from the start.
         """
         learned = self.taught_between(covers)
-        self.add_views_from_ends(learned, covers, known)
+        self.add_views_from_ends(learned, covers, known, is_here)
         return learned
 
     def taught_between(self, covers: Covers) -> dict[int, Cover]:
@@ -241,10 +244,16 @@ class Shares:
         return learned
 
     def add_views_from_ends(
-        self, learned: dict[int, Cover], covers: Covers, known: Mapping[int, Sequence[Span]] | None = None
+        self,
+        learned: dict[int, Cover],
+        covers: Covers,
+        known: Mapping[int, Sequence[Span]] | None = None,
+        is_here: bool = False,
     ) -> None:
         """Add to the covers that have grown what the views from the ends of the leg show; see `taught`."""
         for view in self._end_views:
+            if is_here and view.place is self.leg.start:
+                continue
             spans: Mapping[int, Sequence[Interval]] = view.spans
             if known is not None:
                 spans = view.beyond(known, self.targets.counting(view.edges, self.obstacles))

@@ -82,6 +82,7 @@ class Sensor:
         self.in_sight: set[int] = set()
         self._views: deque[Seen] = deque(maxlen=VIEWS_KEPT)
         self._last: LegNews | None = None
+        self._here: Point | None = None
 
     # -- moving ------------------------------------------------------------------------------------
 
@@ -101,10 +102,12 @@ class Sensor:
             notices.append(Notice(EventKind.SIGHT, k, Real(0), place))
             if self.targets.is_whole(k, ChainMap(learned, self.covers)):
                 notices.append(Notice(EventKind.ACQUIRE, k, Real(0), place))
+        self._here = place
         return self._settle(notices, learned)
 
     def follow(self, ahead: Ahead) -> tuple[list[Notice], dict[int, Cover]]:
         """Move along the leg that was looked along last; returns its reports and the covers that grew."""
+        self._here = ahead.leg.end
         return self._settle(ahead.notices, ahead.learned)
 
     def ahead(self, leg: Leg, retraced: bool = False) -> Ahead:
@@ -119,7 +122,10 @@ class Sensor:
 
     def _told(self, shares: Shares, retraced: bool) -> tuple[list[Notice], dict[int, Cover]]:
         leg = shares.leg
-        learned = {} if retraced else shares.taught(self.covers, self._known)
+        learned: dict[int, Cover] = {}
+        if not retraced:
+            # Where the robot is it has looked around.
+            learned = shares.taught(self.covers, self._known, leg.start is self._here)
         now = ChainMap(learned, self.covers)
         # None of the obstacles was whole before: only one of which more is known now can be.
         more = self.targets.near(learned)
