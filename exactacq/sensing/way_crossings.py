@@ -11,7 +11,6 @@ from itertools import pairwise
 
 from flint import arb, fmpq
 
-from exactacq.geometry.coordinates import dot, raw
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.late import Balls, Pin
@@ -33,7 +32,6 @@ from exactacq.sensing.view_families import FreeViews, ViewFamily
 from exactacq.sensing.way_cuts import Cut, WayCuts
 from exactacq.visibility.chords import meet
 from exactacq.visibility.line_balls import LONG, crossing, line, long_frame
-from exactacq.visibility.line_families import Sector, Sliding
 
 
 class WayCrossings:
@@ -102,9 +100,6 @@ class WayCrossings:
         if not line_family.sector.round and line_family.anchor in self.way.touches:
             # Every line through a corner that the way touches crosses it there and shows nothing else.
             return
-        if not certain and self._is_parallel(line_family.sector):
-            # What is seen along the way's line is told by itself.
-            return
         cuts: list[Cut] = [
             (line_family.low, None, line_family.names[0]),
             (line_family.high, None, line_family.names[1]),
@@ -141,10 +136,6 @@ class WayCrossings:
             return known
         here = Side(self.way.number, role, on_way=True)
         return self.way.clipper.views.pin(line_family.sector, t, here, names, line_family.passed[is_last])
-
-    def _is_parallel(self, sector: Sector) -> bool:
-        """Whether lines are normals of a straight edge, all parallel to the way."""
-        return isinstance(sector, Sliding) and bool(dot(sector.base, raw(self.way.piece.direction)) == 0)
 
     def _role_of_part(
         self, line_family: LineFamily, t: fmpq, wanted: frozenset[int], told: Role | None
