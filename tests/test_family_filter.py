@@ -217,14 +217,18 @@ def compare_pins(complex_: VisibilityComplex) -> int:
 GRIDS = {"discs": circle_grid(3, 3), "squares": square_grid(4, 3)}
 
 
+def table_of(name: str | int) -> EdgeTable:
+    """The edges of a grid, or of the random terrain of a number."""
+    if isinstance(name, str):
+        return EdgeTable(build(GRIDS[name]).obstacles)
+    make = arc_terrain if name % 3 else degenerate_terrain
+    return EdgeTable(build(make(Random(name)).shapes).obstacles)
+
+
 @pytest.mark.parametrize("name", [*GRIDS, *some(range(12), 4)])
 def test_where_families_begin_and_end_alone(name: str | int) -> None:
     """Those that matter only for that are not made: their lines meet the edge where their views begin."""
-    if isinstance(name, str):
-        shapes = GRIDS[name]
-    else:
-        shapes = (arc_terrain if name % 3 else degenerate_terrain)(Random(name)).shapes
-    table = EdgeTable(build(shapes).obstacles)
+    table = table_of(name)
     assert compare_pins(VisibilityComplex(table, Range(fmpq(17, 2)))) > 50
 
 
@@ -284,11 +288,7 @@ def ends_of(curve: Curve) -> set[str]:
 @pytest.mark.parametrize("name", [*GRIDS, *some(range(12), 3)])
 def test_views_with_equal_keys_are_equal(name: str | int) -> None:
     """Also from circles, which a line meets twice; scenes with many lines that pass several features."""
-    if isinstance(name, str):
-        shapes = GRIDS[name]
-    else:
-        shapes = (arc_terrain if name % 3 else degenerate_terrain)(Random(name)).shapes
-    table = EdgeTable(build(shapes).obstacles)
+    table = table_of(name)
     complex_ = VisibilityComplex(table, Range(fmpq(17, 2)))
     shared = 0
     for e in range(len(table.curves)):

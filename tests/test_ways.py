@@ -19,6 +19,7 @@ from exactacq.kernel.bounded import UNIT
 from exactacq.kernel.extents import EVERYTHING
 from exactacq.kernel.family_images import NONE, EndLine, FamilyImage
 from exactacq.kernel.images import ROLLING, SPOKES
+from exactacq.kernel.lines import Frame
 from exactacq.kernel.single_lines import (
     SingleImage,
     extents_of_crossing_lines,
@@ -117,22 +118,32 @@ def test_from_where_a_segment_sees_along_its_line(seed: int) -> None:
         assert (one.surely == EVERYTHING) == (one.in_range and seen == EVERYTHING)
 
 
+def turned(base: tuple[int, int], low: Q, high: Q) -> list[Pair]:
+    """A vector turned by angles between two, which are given by the tangents of their halves."""
+    ex, ey = base
+    found = []
+    for k in range(33):
+        t = low + (high - low) * Q(k, 32)
+        c, s = (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
+        found.append((c * ex - s * ey, c * ey + s * ex))
+    return found
+
+
+def of_circle(frame: Frame, low: Q, high: Q) -> FamilyImage:
+    """The family between two parameters, which meets nothing."""
+    ends = [EndLine(frame, float(t), UNIT, [], [k]) for k, t in enumerate((low, high))]
+    family = FamilyImage(frame, (ends[0], ends[1]), (-1, 0, -1), True, -1, None, 0)
+    family.is_known = True
+    return family
+
+
 def tangents(rng: Random) -> tuple[FamilyImage, list[tuple[Pair, Pair]]]:
     """Tangents of a circle, of a part of a quarter turn, and some of them: contacts and directions."""
     x, y, ex, ey = (rng.randrange(-6, 7) for _ in range(4))
     ex = ex or 1
     low, high = Q(rng.randrange(6), 16), Q(rng.randrange(7, 17), 16)
-    frame = (ROLLING, float(x), float(y), float(ex), float(ey), 0.0, 1)
-    ends = [EndLine(frame, float(t), UNIT, [], [k]) for k, t in enumerate((low, high))]
-    family = FamilyImage(frame, (ends[0], ends[1]), (-1, 0, -1), True, -1, None, 0)
-    family.is_known = True
-    lines = []
-    for k in range(33):
-        t = low + (high - low) * Q(k, 32)
-        c, s = (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
-        vx, vy = c * ex - s * ey, c * ey + s * ex
-        lines.append(((x + vx, y + vy), (-vy, vx)))
-    return family, lines
+    family = of_circle((ROLLING, float(x), float(y), float(ex), float(ey), 0.0, 1), low, high)
+    return family, [((x + vx, y + vy), (-vy, vx)) for vx, vy in turned((ex, ey), low, high)]
 
 
 def normals(rng: Random) -> tuple[FamilyImage, list[tuple[Pair, Pair]]]:
@@ -141,18 +152,10 @@ def normals(rng: Random) -> tuple[FamilyImage, list[tuple[Pair, Pair]]]:
     ex, ey, size = rng.choice([(1, 0, 1), (3, -4, 5), (-5, 12, 13), (-8, -15, 17)])
     radius, sense = rng.randrange(1, 6), rng.choice((-1, 1))
     low, high = Q(rng.randrange(5), 16), Q(rng.randrange(5, 7), 16)
-    bounds = [2 * k / (1 - k * k) for k in (low, high)]
     frame = (SPOKES, float(x), float(y), float(ex), float(ey), float(radius), sense)
-    ends = [EndLine(frame, float(t), UNIT, [], [k]) for k, t in enumerate(bounds)]
-    family = FamilyImage(frame, (ends[0], ends[1]), (-1, 0, -1), True, -1, None, 0)
-    family.is_known = True
-    lines = []
-    for k in range(33):
-        t = low + (high - low) * Q(k, 32)
-        c, s = (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
-        vx, vy = (c * ex - s * ey) / size, (c * ey + s * ex) / size
-        lines.append(((x + radius * vx, y + radius * vy), (sense * vx, sense * vy)))
-    return family, lines
+    family = of_circle(frame, *(2 * t / (1 - t * t) for t in (low, high)))
+    units = [(vx / size, vy / size) for vx, vy in turned((ex, ey), low, high)]
+    return family, [((x + radius * u, y + radius * v), (sense * u, sense * v)) for u, v in units]
 
 
 @pytest.mark.parametrize("make", [tangents, normals])
