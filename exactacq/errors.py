@@ -73,9 +73,10 @@ class StrategyError(ExactacqError, ValueError):
 class Undecided(ExactacqError, ArithmeticError):
     """An exact comparison is beyond the library's limits; the message names it. It is never guessed.
 
-    ``comparison`` says what is compared. Where a strategy could not go on, ``run`` is the run up to there, a
-    `Run` like any other whose ``ending`` is `Ending.UNDECIDED`, ``place`` is where the robot stands, and
-    ``obstacle`` the number of the obstacle at which it is. All three are None elsewhere.
+    ``comparison`` says what is compared. Where a strategy could not go on, or what a robot saw is not decided
+    (see `Run.sense`), ``run`` is the run up to there, a `Run` like any other whose ``ending`` is
+    `Ending.UNDECIDED`, ``place`` is where the robot stands, and ``obstacle`` the number of the obstacle at
+    which it is. All three are None elsewhere.
 
     >>> import exactacq as xa
     >>> circle = xa.Length.turns(1)

@@ -12,4 +12,8 @@ from exactacq.files import gallery
 def gallery_run(name: str, **options: object) -> xa.Run:
     """The run by the strategy that the scene is for."""
     scene = gallery.scene(name)
-    return xa.seed_spreader(scene, **options) if gallery.is_swept(name) else xa.sightseer(scene, **options)
+    return (
+        xa.seed_spreader(scene, **options)
+        if gallery.is_swept(name)
+        else xa.sightseer(scene, **options).sense()
+    )

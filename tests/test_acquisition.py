@@ -51,7 +51,9 @@ def test_an_obstacle_is_whole_from_the_place_on(terrain: object, told: list[tupl
     for seed in some(range(6), 3):
         drawn = terrain(Random(seed))  # type: ignore[operator]
         scene = drawn.scene()
-        xa.sightseer(xa.Scene(scene.shapes, drawn.start, enclosure=scene.enclosure, radius=drawn.radius))
+        xa.sightseer(
+            xa.Scene(scene.shapes, drawn.start, enclosure=scene.enclosure, radius=drawn.radius)
+        ).sense()
     assert any(before is not None for before, _ in told) and any(after is not None for _, after in told)
     assert not any(before for before, _ in told)
     assert all(after in (True, None) for _, after in told)
@@ -59,7 +61,7 @@ def test_an_obstacle_is_whole_from_the_place_on(terrain: object, told: list[tupl
 
 def test_among_octagons(told: list[tuple[bool, bool]]) -> None:
     """Most are whole at the end of a leg; no view is taken between its ends then."""
-    xa.sightseer(random_octagons(20, seed=3), 10)
+    xa.sightseer(random_octagons(20, seed=3), 10).sense()
     assert len(told) == 20 and not any(before for before, _ in told)
 
 

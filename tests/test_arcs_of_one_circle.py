@@ -256,6 +256,6 @@ def test_tangents_of_a_circle_in_parts_are_swept_in_floats(monkeypatch: pytest.M
     monkeypatch.setattr(rotational_sweep._Decisions, "_exact_meet", counted)
     corners = [(2, 0), (1, 1), (0, 0), (1, -1)]
     slots = [xa.Outline([(x + a, b, xa.Around((x + 1, 0))) for a, b in corners]) for x in (0, 5, 11)]
-    run = xa.sightseer(xa.Scene(slots, (3, 7), radius=40))
+    run = xa.sightseer(xa.Scene(slots, (3, 7), radius=40)).sense()
     assert len(run.visits) == 3
     assert not asked

@@ -128,7 +128,8 @@ class TestSightseer:
     def test_the_others_are_looked_for_when_they_are_asked_for(self) -> None:
         run = xa.sightseer(TIED)
         late = [event for event in run.events if callable(event.decided)]
-        assert len(late) == len(run.visits) and run == xa.sightseer(TIED)
+        returns = [event for event in run.events if event.kind == "backtrack"]
+        assert len(late) == len(run.visits) + len(returns) and run == xa.sightseer(TIED)
         assert all(callable(event.decided) for event in late)
         assert isinstance(late[0].decision, Decision) and late[0].decided is late[0].decision
 
@@ -354,6 +355,24 @@ class TestOwn:
         again = xa.load_run(json.loads(json.dumps(run.to_json())))
         assert [e.decision for e in again.events] == [e.decision for e in run.events]
         assert again.to_json() == run.to_json()
+
+    def test_a_function_is_called_when_its_reason_is_read(self) -> None:
+        asked = []
+
+        def why() -> Decision:
+            asked.append(len(asked))
+            return Decision("for later", chosen=1)
+
+        def go(robot: xa.Robot) -> None:
+            robot.go_to((0, 1), reason=why)
+            robot.go_to((0, 0), reason=lambda: "and back")
+
+        run = xa.explore(TIED, go)
+        assert asked == []
+        start, *others = [event for event in run.events if event.decided]
+        assert start.decision == Decision("for later", chosen=1) and start.why() == "for later"
+        assert [other.why() for other in others] == ["and back"]
+        assert asked == [0]
 
     def test_on_routes(self) -> None:
         """Where a piece begins, along a boundary and from it on, and not where no way is made."""

@@ -32,8 +32,9 @@ def unsearched(others_frozen: None) -> Iterator[None]:
 
 
 @pytest.mark.usefixtures("unsearched")
+@pytest.mark.parametrize("is_read", [False, True])
 @pytest.mark.parametrize("name", RUNS)
-def test_a_run_leaves_no_cycles_and_goes_without_a_search(name: str) -> None:
+def test_a_run_leaves_no_cycles_and_goes_without_a_search(name: str, is_read: bool) -> None:
     scene = xa.load(name)
     RUNS[name](scene)  # whatever is made once is made
     there, dropped = [], []
@@ -41,7 +42,7 @@ def test_a_run_leaves_no_cycles_and_goes_without_a_search(name: str) -> None:
         # What others leave, such as servers of other tests that end in threads, is not left each time.
         gc.collect()
         run = RUNS[name](scene)
-        assert run.path
+        assert run.path and (not is_read or run.events)
         there.append(gc.collect())
         del run
         dropped.append(gc.collect())
@@ -86,17 +87,20 @@ def test_a_run_that_fails_resumes_the_search() -> None:
 
     with pytest.raises(KeyboardInterrupt):
         xa.sightseer(xa.load("m11"), progress=stop)
+    run = xa.sightseer(xa.load("m11"))
+    with pytest.raises(KeyboardInterrupt):
+        run.sense(progress=stop)
     assert gc.isenabled()
 
 
 def test_a_run_resumes_the_search() -> None:
-    xa.sightseer(xa.load("m11"))
+    xa.sightseer(xa.load("m11")).sense()
     assert gc.isenabled()
 
 
 @pytest.mark.usefixtures("unsearched")
 def test_who_switched_it_off_finds_it_off() -> None:
-    xa.sightseer(xa.load("m11"))
+    xa.sightseer(xa.load("m11")).sense()
     assert not gc.isenabled()
 
 

@@ -96,7 +96,7 @@ def tour(terrain: Terrain) -> tuple[tuple[int, ...], Length] | None:
     if terrain.start is None:
         return None
     try:
-        run = xa.sightseer(terrain.scene(), terrain.radius)
+        run = xa.sightseer(terrain.scene(), terrain.radius).sense()
     except InvalidScene:
         return None
     return run.visits, run.length

@@ -36,7 +36,7 @@ rngs = st.randoms(use_true_random=False)
 
 
 def run_of(terrain: Terrain) -> Run:
-    return xa.sightseer(terrain.scene(), terrain.radius)
+    return xa.sightseer(terrain.scene(), terrain.radius).sense()
 
 
 def same(one: Length, other: Length) -> bool:

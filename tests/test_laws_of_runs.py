@@ -57,7 +57,7 @@ AFAR = (
 def run_of(terrain: Terrain) -> Run | None:
     """The Sightseer's run, or None where the start is not free."""
     try:
-        return None if terrain.start is None else xa.sightseer(terrain.scene(), terrain.radius)
+        return None if terrain.start is None else xa.sightseer(terrain.scene(), terrain.radius).sense()
     except InvalidScene:
         return None
 

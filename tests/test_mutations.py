@@ -48,8 +48,8 @@ def skipped_obstacle(patch: Patch) -> None:
     """The Sightseer never goes to the last obstacle."""
     original = Robot.nearest_unvisited
 
-    def blind(self: Robot, source: Any) -> Any:
-        link = original(self, source)
+    def blind(self: Robot, *source: Any) -> Any:
+        link = original(self, *source)
         last = len(self._table.obstacles) - 1
         return None if link is not None and self._numbers[link.target] == last else link
 

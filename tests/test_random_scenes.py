@@ -131,7 +131,7 @@ class TestKinds:
         for scene in scenes[:5]:
             case = Case(scene)
             run = case.sightseer if subject is Subject.SIGHTSEER else case.spreader
-            assert run.length.sign() >= 0
+            assert run.sense().length.sign() >= 0
 
 
 class TestArcs:

@@ -258,7 +258,7 @@ def test_views_at_the_range_are_those_of_polynomials(monkeypatch: pytest.MonkeyP
         for make in (random_terrain, degenerate_terrain, arc_terrain):
             for seed in some(range(30), 6):
                 with suppress(xa.InvalidScene):
-                    xa.sightseer(make(Random(seed)).scene())
+                    xa.sightseer(make(Random(seed)).scene()).sense()
     found = [[*one.within(free_views)] for one, free_views in asked]
     ends = [end for families in found for family in families for end in (family.first, family.last)]
     assert any(end.tight and end.t.is_late for end in ends)

@@ -288,6 +288,7 @@ class TestPeeking:
             "radius", "start", "position", "at", "path", "length", "seen", "visited", "map", "frontier",
             "sightings", "look", "links", "nearest_unvisited", "knows_unvisited", "unvisited", "way_to",
             "path_to", "terrain", "in_sight", "incomplete", "nearest", "news", "lay", "way_back", "exits",
+            "unvisited_now",
         }  # fmt: skip
         assert names == moves | asks
         assert set(vars(xa.Robot(SQUARES))).isdisjoint(names)

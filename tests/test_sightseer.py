@@ -46,7 +46,7 @@ def explore(shapes: list, radius: object, start: tuple = (0, 0)) -> xa.Run:
 
 
 def run_of(terrain: Terrain) -> xa.Run:
-    return xa.sightseer(terrain.scene(), terrain.radius)
+    return xa.sightseer(terrain.scene(), terrain.radius).sense()
 
 
 def least(values: list) -> object:

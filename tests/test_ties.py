@@ -350,7 +350,7 @@ def test_lines_along_rows_cross_a_way_in_one_point_each(monkeypatch: pytest.Monk
     rows = ("-0.5", even), ("1.6997", odd), ("3.8994", even)
     places = [(rational(x), rational(y)) for side in (0, 3) for y, xs in rows for x in xs[side : side + 3]]
     slots = [xa.Outline([(x, y), (x + 1, y, 1), (x + 1, y + 1), (x, y + 1, 1)]) for x, y in places]
-    assert xa.sightseer(xa.Scene(slots, start=("-4.42", "1.6997")), 10).complete
+    assert xa.sightseer(xa.Scene(slots, start=("-4.42", "1.6997")), 10).sense().complete
     assert len(asked) < 30
 
 

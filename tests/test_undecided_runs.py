@@ -45,10 +45,10 @@ def undecided_after(monkeypatch: pytest.MonkeyPatch, count: int) -> None:
 @pytest.mark.parametrize("name", STRATEGIES)
 def test_the_error_carries_the_run_so_far(name: str, count: int, monkeypatch: pytest.MonkeyPatch) -> None:
     explore, scene = STRATEGIES[name]
-    whole = explore(xa.load(scene))
+    whole = explore(xa.load(scene)).sense()
     undecided_after(monkeypatch, count)
     with pytest.raises(xa.Undecided) as caught:
-        explore(xa.load(scene))
+        explore(xa.load(scene)).sense()
     error = caught.value
     run = error.run
     assert error.comparison == WORDS in str(error)

@@ -43,7 +43,9 @@ def explored(
             return explore(scene, strategy.strategy, radius, max_moves=max_moves, progress=progress)
 
     with watched("exploring") as progress:
-        return run(progress)
+        found = run(progress)
+    with watched("sensing") as progress:
+        return found.sense(progress)
 
 
 @contextmanager

@@ -123,6 +123,11 @@ def load_run(source: str | os.PathLike[str] | dict[str, Any]) -> Run:
 
 
 def _run(document: dict[str, Any]) -> Run:
+    run = _without_bounds(document)
+    return run if run.ending is Ending.UNDECIDED else with_bounds(run)
+
+
+def _without_bounds(document: dict[str, Any]) -> SightseerRun | SeedSpreaderRun | OwnRun:
     numbers = _Points(Decoder(document["numbers"]))
     scene = scene_of(document["scene"])
     radius, start = rational(document["radius"]), numbers.point(document["start"])
@@ -152,20 +157,18 @@ def _run(document: dict[str, Any]) -> Run:
         "record": memory,
     }
     if is_own:
-        return with_bounds(OwnRun(**common, name=strategy, confined=confined))
+        return OwnRun(**common, name=strategy, confined=confined)
     if ground is None:
         links = tuple(_read_link(numbers, link, count) for link in document["links"])
-        return with_bounds(SightseerRun(**common, links=links, stack_depth=int(document["stack_depth"])))
-    return with_bounds(
-        SeedSpreaderRun(
-            **common,
-            lookahead=bool(document["lookahead"]),
-            target=str(document["target"]),
-            diversions=tuple(_read_diversion(numbers, d, path, count) for d in document["diversions"]),
-            encounters=_indices(document["encounters"], count),
-            again=_indices(document["again"], count),
-            unreached=_indices(document["unreached"], len(scene.obstacles)),
-        )
+        return SightseerRun(**common, links=links, stack_depth=int(document["stack_depth"]))
+    return SeedSpreaderRun(
+        **common,
+        lookahead=bool(document["lookahead"]),
+        target=str(document["target"]),
+        diversions=tuple(_read_diversion(numbers, d, path, count) for d in document["diversions"]),
+        encounters=_indices(document["encounters"], count),
+        again=_indices(document["again"], count),
+        unreached=_indices(document["unreached"], len(scene.obstacles)),
     )
 
 

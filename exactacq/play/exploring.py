@@ -43,7 +43,7 @@ class Explored:
         """
         self.run, trouble = None, ""
         try:
-            run = _run(request, lambda done, count: tell("exploring", done, count))
+            run = _run(request, _told_as("exploring", tell)).sense(_told_as("sensing", tell))
         except Undecided as error:
             if error.run is None:
                 raise

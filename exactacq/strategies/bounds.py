@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, TypeVar
 
 import numpy as np
@@ -20,24 +20,22 @@ from exactacq.scene.scene import Scene
 from exactacq.scene.terrain_components import Ground
 from exactacq.sensing.event import Ending, EventKind, Occasion
 from exactacq.strategies.registry import OwnStrategy, registered
-from exactacq.strategies.run import Bound, OwnRun, SeedSpreaderRun, SightseerRun
+from exactacq.strategies.run import Bound, OwnRun, SeedSpreaderRun, SightseerRun, bounded
 from exactacq.strategies.seed_spreader.blocked import Blocking
 from exactacq.strategies.seed_spreader.mline import MLine
 from exactacq.visibility.links import START, pair_bounds
 
 HALF = fmpq(1, 2)
-AnyRun = TypeVar("AnyRun", SightseerRun, SeedSpreaderRun, OwnRun)
+AnyRun = TypeVar("AnyRun", bound=SightseerRun | SeedSpreaderRun | OwnRun)
 
 
 def with_bounds(run: AnyRun) -> AnyRun:
-    """A run with the bounds of its strategy; they do not speak of one that was given up."""
-    if run.ending is Ending.UNDECIDED:
-        return run
+    """A finished run with the bounds of its strategy; they do not speak of one that was given up."""
     if isinstance(run, OwnRun):
         bounds = own_bounds(run, registered(run.name))
     else:
         bounds = sightseer_bounds(run) if isinstance(run, SightseerRun) else spreader_bounds(run)
-    return replace(run, bounds=bounds)
+    return bounded(run, bounds)
 
 
 def own_bounds(run: OwnRun, own: OwnStrategy | None) -> tuple[Bound, ...]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from inspect import signature
 
 from exactacq.errors import FormatError, InvalidScene, MoveError, StrategyError, Undecided, shown
@@ -12,13 +11,14 @@ from exactacq.geometry.points import Point
 from exactacq.progress import Meter, Progress
 from exactacq.scene.scene import Scene
 from exactacq.sensing.event import Ending, EventKind
+from exactacq.sensing.memory import Report
+from exactacq.sensing.path import Path
 from exactacq.strategies.bounds import own_bounds
-from exactacq.strategies.known_map import Sighting
 from exactacq.strategies.moves import EnoughMoves
 from exactacq.strategies.options import MOST_MOVES, Strategy
 from exactacq.strategies.registry import OwnStrategy, Rules, names, of_function, registered
 from exactacq.strategies.robot import Robot
-from exactacq.strategies.run import OwnRun, Run
+from exactacq.strategies.run import OwnRun, Run, bounded
 from exactacq.strategies.seed_spreader.strategy import seed_spreader
 from exactacq.strategies.sightseer.strategy import sightseer
 
@@ -86,47 +86,46 @@ def _check_call(own: OwnStrategy) -> None:
 
 @uncollected()
 def _explored(own: OwnStrategy, robot: Robot, scene: Scene, most: int, progress: Progress | None) -> OwnRun:
-    edges = [len(body.edges) for body in robot._walker.memory.bodies]
+    edges = [len(body.edges) for body in robot._walker.bodies]
     meter = Meter(progress, sum(edges))
 
-    def heard(sighting: Sighting) -> None:
-        if sighting.kind is EventKind.ACQUIRE:
-            meter.add(edges[robot._numbers[sighting.obstacle]])
+    def heard(report: Report) -> None:
+        if report.kind is EventKind.ACQUIRE:
+            meter.add(edges[report.obstacle])
 
-    for sighting in robot.sightings:
-        heard(sighting)
-    robot._on_sighting, robot._most = heard, most
-    ending = Ending.FINISHED
+    robot._seen.hear, robot._most = heard, most
+    ending, walker = Ending.FINISHED, robot._walker
     try:
         own.rules(robot)
-        if robot._stuck is not None:
+        if walker.stuck is not None:
             # The strategy went on without moving: what it has learned is not all that its path shows.
-            raise robot._stuck
+            raise walker.stuck
+        walker.sense()
     except EnoughMoves:
         ending = Ending.MOST_MOVES
     except Undecided as error:
-        robot._walker.give_up()
-        raise Undecided(error.comparison, _finished(own, robot, scene)) from error
+        first = robot._trace.give_up(error)
+        raise Undecided(first.comparison, _finished(own, robot, scene)) from error
     finally:
-        robot._stuck = MoveError("the run of this robot is over")
-    at = robot._walker.at
-    robot._walker.mark(EventKind.STOP, at if isinstance(at, int) else None, ending=ending)
+        walker.stuck = MoveError("the run of this robot is over")
+    robot._trace.mark(EventKind.STOP, walker.at if isinstance(walker.at, int) else None, ending=ending)
     meter.close()
     run = _finished(own, robot, scene)
-    return replace(run, bounds=own_bounds(run, own))
+    return bounded(run, own_bounds(run, own))
 
 
 def _finished(own: OwnStrategy, robot: Robot, scene: Scene) -> OwnRun:
-    path, events, record = robot._walker.trace()
+    walker = robot._walker
+    path, record = Path(walker.pieces), walker.memory
     # A lap leads all around: along a boundary that the border cuts there is none.
-    rounds = (k for k in robot._walker.visited if record.bodies[k].closed)
+    rounds = (k for k in walker.visited if record.bodies[k].closed)
     return OwnRun(
         scene=scene,
         radius=robot.radius,
         start=robot.start,
         path=path,
         visits=tuple(rounds),
-        events=events,
+        events=robot._trace.events(path),
         bounds=(),
         unseen=tuple(k for k in range(len(record.bodies)) if k not in record.seen),
         unvisited=tuple(sorted(record.incomplete)),

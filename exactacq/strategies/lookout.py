@@ -8,12 +8,12 @@ from exactacq.errors import MoveError
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.points import Point
 from exactacq.sensing.map import Map
-from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Piece
 from exactacq.sensing.sensor import Ahead, Notice
 from exactacq.strategies.known_map import KnownMap, Sighting
 from exactacq.strategies.moves import Passage, Watch
 from exactacq.strategies.numbering import Numbering
+from exactacq.strategies.walker import Walker
 
 
 class Lookout:
@@ -23,18 +23,18 @@ class Lookout:
     comparisons do without.
     """
 
-    def __init__(self, way: Segment, watch: Watch, memory: Memory, numbers: Numbering) -> None:
-        self._watch, self._memory, self._numbers = watch, memory, numbers
+    def __init__(self, way: Segment, watch: Watch, walker: Walker, numbers: Numbering) -> None:
+        self._watch, self._walker, self._numbers = watch, walker, numbers
         along = way.direction
         self._upright = along.y.sign() != 0
         self._sense = along.y.sign() if self._upright else along.x.sign()
-        now = memory.now
+        now = walker.memory.now
         self._stop: Point | None = None
         self._ask(Passage(way.start, None, KnownMap(numbers, lambda _: now)))
 
     def stop_on(self, piece: Piece) -> Point | None:
         """Where on a piece, which is one leg and is walked next, the robot is to halt; None if beyond it."""
-        ahead = self._memory.ahead(piece)
+        ahead = self._walker.memory.ahead(piece)
         for notice in ahead.notices:
             if self._is_due_before(notice.place):
                 break
@@ -55,7 +55,7 @@ class Lookout:
         self._stop = stop
 
     def _pass(self, ahead: Ahead, notice: Notice) -> None:
-        number, memory, passing = self._numbers.add(notice.obstacle), self._memory, True
+        number, memory, passing = self._numbers.add(notice.obstacle), self._walker.memory, True
 
         def chart(obstacles: Set[int]) -> Map:
             if not passing:

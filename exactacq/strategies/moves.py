@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import StrEnum
 from typing import NamedTuple, TypeAlias
 
@@ -12,7 +12,7 @@ from exactacq.numbers.length import Length
 from exactacq.sensing.event import SENSED, EventKind
 from exactacq.strategies.known_links import NearestLink
 from exactacq.strategies.known_map import KnownMap, Sighting
-from exactacq.strategies.walker import Walker
+from exactacq.strategies.sightings import Sightings
 from exactacq.visibility.links import Link
 
 
@@ -72,7 +72,7 @@ Watch: TypeAlias = Callable[[Passage], Point | None]
 again before; None lets it go on."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class KnownLink:
     """The shortest segment in sight from one boundary to another, or from the start, whose number is None.
 
@@ -84,31 +84,58 @@ class KnownLink:
     None 0 2
     """
 
-    source: int | None
-    target: int
     length: Length
-    _of: Walker = field(repr=False)
-    _link: Link = field(repr=False)
-    _nearest: NearestLink | None = field(default=None, repr=False)
+    _of: Sightings
+    _link: Link
+    _nearest: NearestLink | None = None
+
+    @property
+    def source(self) -> int | None:
+        """Where it begins."""
+        return self._of.own(self._link.source)
+
+    @property
+    def target(self) -> int:
+        """To which obstacle it leads."""
+        return self._of.numbers.own[self._link.target]
+
+    def __repr__(self) -> str:
+        return f"KnownLink(source={self.source}, target={self.target}, length={self.length!r})"
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Way:
     """A straight way that a robot has gone, from ``leave`` on ``source`` to ``hit`` on ``target``.
 
     >>> import exactacq as xa
     >>> robot = xa.Robot(xa.load("squares"))
-    >>> way = robot.take(robot.nearest_unvisited(None))
+    >>> way = robot.take(robot.nearest_unvisited())
     >>> print(way.leave, way.hit, way.length)
     (0, 0) (2, 0) 2
     """
 
-    source: int | None
-    target: int
     leave: Point
     hit: Point
-    length: Length
-    _of: Walker = field(repr=False)
+    link: KnownLink
+
+    @property
+    def source(self) -> int | None:
+        """From which obstacle, None for the start."""
+        return self.link.source
+
+    @property
+    def target(self) -> int:
+        """To which obstacle."""
+        return self.link.target
+
+    @property
+    def length(self) -> Length:
+        """How long it is."""
+        return self.link.length
+
+    def __repr__(self) -> str:
+        ends = f"leave={self.leave!r}, hit={self.hit!r}"
+        return f"Way(source={self.source}, target={self.target}, {ends}, length={self.length!r})"
 
 
 class EnoughMoves(BaseException):

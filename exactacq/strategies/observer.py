@@ -7,13 +7,15 @@ obstacles that it has not seen. Equal scenes give equal numbers.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from functools import cmp_to_key
+from enum import Enum
+from functools import cmp_to_key, partial
 from itertools import pairwise
 from math import inf
+from typing import Final
 
 from flint import fmpq
 
-from exactacq.errors import ExactacqError, InvalidScene, MoveError, shown
+from exactacq.errors import InvalidScene, MoveError, shown
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Location, Point, distance_sq
 from exactacq.numbers.length import Length
@@ -22,7 +24,6 @@ from exactacq.scene.scene import Scene, radius_of, start_of
 from exactacq.scene.shapes import Terrain
 from exactacq.scene.terrain_components import Ground, ground_of
 from exactacq.scene.validation import place_text
-from exactacq.sensing.event import EventKind
 from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Path, Piece
 from exactacq.strategies.first_hit import first_hit, obstacle_at
@@ -34,10 +35,21 @@ from exactacq.strategies.numbering import Numbering
 from exactacq.strategies.routes import Exit, Route
 from exactacq.strategies.seed_spreader.blocked import Blocking
 from exactacq.strategies.seed_spreader.range_thresholds import nearest_of, nearest_point
+from exactacq.strategies.sightings import Sightings
+from exactacq.strategies.trace import Trace
 from exactacq.strategies.walker import Walker
 from exactacq.visibility.known_ground import KnownGround
 from exactacq.visibility.links import START, Link, Links, Node
 from exactacq.visibility.shortest_path import ShortestPath, shortest_path
+
+
+class Here(Enum):
+    """The place where a robot is, for questions about one."""
+
+    HERE = "here"
+
+
+HERE: Final = Here.HERE
 
 
 class Observer:
@@ -64,27 +76,22 @@ class Observer:
         self._radius, self._table, self._ground, self._scene = reach, table, ground, scene
         self._blocking = Blocking(ground, table)
         self._links = None if links is None else KnownLinks(links, place)
-        self._walker = Walker(place, Memory(scene, reach, table, ground))
-        self._numbering = Numbering(lambda: table.hulls if ground is None else _hulls(table, ground))
-        # The scene's numbers of the obstacles in the order in which they were seen, and the other way.
-        self._numbers, self._own = self._numbering.order, self._numbering.own
-        self._sightings: list[Sighting] = []
-        self._in_sight: set[int] = set()
-        self._incomplete: set[int] = set()
+        self._walker = Walker(place, partial(Memory, scene, reach, table, ground))
+        self._trace = Trace(self._walker)
+        numbering = Numbering(lambda: table.hulls if ground is None else _hulls(table, ground))
+        self._seen = Sightings(self._walker, numbering)
         # The last point of a boundary that the robot told, on which piece of it this lies, and whose it is.
         self._told: tuple[Point, Curve | None, int] | None = None
         self._lap: Lap | None = None
         # What paths have to respect after so many pieces of the way.
         self._charted: tuple[int, KnownGround] | None = None
         self._moves, self._most = 0, inf
-        # Why it does not move any more, if it does not.
-        self._stuck: ExactacqError | None = None
         self._is_underway = False
         # Whether its moves write into the trace where it hits and leaves obstacles.
         self._writes = True
+        # Whether moves leave it to questions to sense the way.
+        self._senses_late = False
         self._on_edge: Callable[[], None] = lambda: None
-        self._on_sighting: Callable[[Sighting], None] = lambda sighting: None
-        self._take_in()
 
     def __repr__(self) -> str:
         at = "in free space" if self.at is None else f"at obstacle {self.at}"
@@ -115,13 +122,13 @@ class Observer:
     @property
     def at(self) -> int | None:
         """The obstacle on whose boundary the robot stands; None in free space, and before its first move."""
-        return self._own_number(self._walker.at)
+        return self._seen.own(self._walker.at)
 
     @property
     def path(self) -> Path:
         """The path so far; its pieces have the robot's numbers of obstacles."""
         pieces = self._walker.pieces
-        own = (None if piece.obstacle is None else self._own[piece.obstacle] for piece in pieces)
+        own = map(self._seen.own, (START if piece.obstacle is None else piece.obstacle for piece in pieces))
         return Path(Piece(p.kind, number, p.curve) for p, number in zip(pieces, own, strict=True))
 
     @property
@@ -142,8 +149,16 @@ class Observer:
     @property
     def knows_unvisited(self) -> bool:
         """Whether an obstacle was seen around which the robot has not walked."""
+        walker, links = self._walker, self._links
+        if links is not None and not walker.is_sensed:
+            # What a link from a visited boundary leads to was seen from there: no need to sense that.
+            if len(walker.visited) == len(walker.bodies):
+                return False
+            nodes: tuple[Node, ...] = (*reversed(walker.visited), START)
+            if any(links.nearest(node, walker.visited) for node in nodes):
+                return True
         # What was visited was seen: the robot stood on it.
-        return len(self._numbers) > len(self._walker.visited)
+        return len(self._numbers) > len(walker.visited)
 
     @property
     def unvisited(self) -> tuple[int, ...]:
@@ -151,20 +166,40 @@ class Observer:
         return tuple(i for i, k in enumerate(self._numbers) if k not in self._walker.visited)
 
     @property
+    def unvisited_now(self) -> Callable[[], tuple[int, ...]]:
+        """A function that tells what `unvisited` is now, whenever it is called.
+
+        For reasons that are read later: they need not sense on the way what has no say in it.
+
+        >>> import exactacq as xa
+        >>> robot = xa.Robot(xa.load("circles"))
+        >>> before = robot.unvisited_now
+        >>> _ = robot.take(robot.nearest_unvisited()), robot.circle()
+        >>> before(), robot.unvisited
+        ((0,), (1,))
+        """
+        seen, count, visits = self._seen, self._walker.count, len(self._walker.visited)
+
+        def then() -> tuple[int, ...]:
+            return seen.unvisited_after(count, visits)
+
+        return then
+
+    @property
     def in_sight(self) -> frozenset[int]:
         """The obstacles of which something is in sight from here, but for those that are wholly known."""
-        return frozenset(self._in_sight)
+        return frozenset(self._seen.in_sight)
 
     @property
     def incomplete(self) -> frozenset[int]:
         """The obstacles of which some, but not all, is known."""
-        return frozenset(self._incomplete)
+        return frozenset(self._seen.incomplete)
 
     @property
     def map(self) -> KnownMap:
         """What is known now; what is learned later does not change it."""
         now = self._walker.memory.now
-        return KnownMap(self._numbering, lambda _: now)
+        return KnownMap(self._seen.numbers, lambda _: now)
 
     @property
     def frontier(self) -> tuple[tuple[int, Point], ...]:
@@ -174,7 +209,7 @@ class Observer:
     @property
     def sightings(self) -> tuple[Sighting, ...]:
         """What came into sight, went out of it, or became wholly known so far, in this order."""
-        return tuple(self._sightings)
+        return tuple(self._seen.every)
 
     def look(self, i: int | None = None) -> tuple[KnownPart, ...]:
         """The parts of boundaries that are in sight from here, obstacle by obstacle; or those of one.
@@ -191,7 +226,7 @@ class Observer:
         near = memory.near((x, y, x, y))
         return tuple(
             KnownPart(j, curve.start, curve.end, None if _is_point(curve) else curve)
-            for j, k in ((j, self._seen(j)) for j in (self.seen if i is None else (i,)))
+            for j, k in ((j, self._scene_number(j)) for j in (self.seen if i is None else (i,)))
             if k in near
             for curve in memory.visible(place, k)
         )
@@ -208,7 +243,7 @@ class Observer:
         0 (3, 0)
         """
         here, chart = self.position, self.map
-        found = [(*self._nearest(i, chart, visible), self._seen(i)) for i in obstacles]
+        found = [(*self._nearest(i, chart, visible), self._scene_number(i)) for i in obstacles]
         if not found:
             raise ValueError("of no obstacles none is the nearest")
 
@@ -288,7 +323,7 @@ class Observer:
         (4, 0)
         """
         self._check_owner(route)
-        k, memory = self._seen(i), self._walker.memory
+        k, memory = self._scene_number(i), self._walker.memory
         if k not in memory.acquired:
             raise MoveError(f"parts of obstacle {i} are unknown, and so is where a route comes out of it")
         return iter(route._exits(k, memory.now))
@@ -307,19 +342,21 @@ class Observer:
         """
         return tuple(self._known_link(link) for link in self._known_links().of(self._node(source)))
 
-    def nearest_unvisited(self, source: int | None) -> KnownLink | None:
-        """The shortest of the links from a boundary, or the start, to an obstacle that was not visited.
+    def nearest_unvisited(self, source: int | Here | None = HERE) -> KnownLink | None:
+        """The shortest of the links to an obstacle that was not visited: from the boundary where the robot
+        is, or the start, or from that of *source*.
 
         Of equally long ones the first one of `links`. None if there is none; `MoveError` as `links`. If it is
         taken before any other move, that it was the nearest is told as the decision. Cost: that of the links
         that may be the shortest.
 
         >>> import exactacq as xa
-        >>> xa.Robot(xa.load("circles")).nearest_unvisited(None).target
+        >>> xa.Robot(xa.load("circles")).nearest_unvisited().target
         0
         """
         links, walker = self._known_links(), self._walker
-        link = links.nearest(self._node(source), walker.visited)
+        node = self._node_here() if source is HERE else self._node(source)
+        link = links.nearest(node, walker.visited)
         if link is None:
             return None
         return self._known_link(
@@ -334,7 +371,7 @@ class Observer:
 
         >>> import exactacq as xa
         >>> robot = xa.Robot(xa.load("circles"))
-        >>> _ = robot.take(robot.nearest_unvisited(None)), robot.circle()
+        >>> _ = robot.take(robot.nearest_unvisited()), robot.circle()
         >>> print(*robot.way_to((7, 0)))
         2*pi left
         """
@@ -358,7 +395,7 @@ class Observer:
         >>> robot = xa.Robot(xa.load("circles"))
         >>> print(robot.path_to((8, 0)).length)
         sqrt(445)/5 + sqrt(21)
-        >>> _ = robot.take(robot.nearest_unvisited(None)), robot.circle()
+        >>> _ = robot.take(robot.nearest_unvisited()), robot.circle()
         >>> print(robot.path_to((8, 0)).length.decimal(6), robot.path_to((7, 0)).length)
         6.83712 2*pi
         """
@@ -374,20 +411,15 @@ class Observer:
 
     # -- how it is done ----------------------------------------------------------------------------
 
-    def _take_in(self) -> None:
-        """Number what came into sight since the last time, and tell of it."""
-        for report in self._walker.memory.reports[len(self._sightings) :]:
-            number = self._numbering.add(report.obstacle)
-            seen = Sighting(report.kind, number, report.place, report.reason)
-            if seen.kind in (EventKind.SIGHT, EventKind.REGAIN):
-                self._in_sight.add(number)
-                self._incomplete.add(number)
-            else:
-                self._in_sight.discard(number)
-                if seen.kind is EventKind.ACQUIRE:
-                    self._incomplete.discard(number)
-            self._sightings.append(seen)
-            self._on_sighting(seen)
+    @property
+    def _numbers(self) -> list[int]:
+        """The scene's numbers of the obstacles in the order in which they were seen."""
+        return self._seen.numbers.order
+
+    @property
+    def _own(self) -> dict[int, int]:
+        """The robot's numbers of obstacles by the scene's."""
+        return self._seen.numbers.own
 
     def _ground_of_paths(self) -> KnownGround:
         """What paths have to respect."""
@@ -399,13 +431,7 @@ class Observer:
             self._charted = walker.count, ground
         return self._charted[1]
 
-    def _own_number(self, node: Node) -> int | None:
-        return self._own[node] if isinstance(node, int) else None
-
-    def _scene_node(self, number: int | None) -> Node:
-        return START if number is None else self._numbers[number]
-
-    def _seen(self, number: int) -> int:
+    def _scene_number(self, number: int) -> int:
         """The scene's number of an obstacle that was seen."""
         if number not in range(len(self._numbers)):
             raise ValueError(f"no obstacle {number!r} was seen yet")
@@ -469,6 +495,11 @@ class Observer:
         if route._place is not self.position and route._place != self.position:
             raise MoveError("the robot is not on the route, where it left it")
 
+    def _node_here(self) -> Node:
+        """The node where the robot is; in free space that is the start."""
+        at = self._walker.at
+        return at if at == START or at in self._walker.visited else self._node(self._seen.own(at))
+
     def _node(self, source: int | None) -> Node:
         """The node of the start or of a visited obstacle."""
         if source is None:
@@ -478,15 +509,15 @@ class Observer:
         raise MoveError(f"the links from obstacle {source!r} are known once it was walked around")
 
     def _known_link(self, link: Link, nearest: NearestLink | None = None) -> KnownLink:
-        source, target = self._own_number(link.source), self._own[link.target]
-        return KnownLink(source, target, Length(link.length), self._walker, link, nearest)
+        return KnownLink(Length(link.length), self._seen, link, nearest)
 
-    def _check(self, owner: Walker, number: int | None, what: str) -> None:
-        if owner is not self._walker:
+    def _check(self, link: KnownLink, node: Node, what: str) -> None:
+        """`MoveError` for a link of another robot, and if the robot is not at one of its ends."""
+        if link._of is not self._seen:
             raise MoveError(f"the {what} at an obstacle of another robot")
-        if number != self.at:
+        if node != self._walker.at:
             here = "in free space" if self.at is None else f"at obstacle {self.at}"
-            there = "the start" if number is None else f"obstacle {number}"
+            there = "the start" if node == START else f"obstacle {self._seen.own(node)}"
             raise MoveError(f"the {what} at {there}, and the robot is {here}")
 
     def _at_boundary(self) -> int:
@@ -496,7 +527,10 @@ class Observer:
         return int(self._walker.at)
 
     def _walker_on_known_boundary(self) -> Walker:
-        if self._at_boundary() not in self._walker.memory.acquired:
+        at = self._at_boundary()
+        # What was walked all around is known, whether it is sensed by now or not.
+        is_round = at in self._walker.visited and self._walker.boundary().closed
+        if not is_round and at not in self._walker.memory.acquired:
             raise MoveError(
                 f"parts of obstacle {self.at} are unknown, and so is the shorter way around it: "
                 "use walk, which tells when it is there"

@@ -53,7 +53,7 @@ def strategy(
     >>> import exactacq as xa
     >>> @xa.strategy("nearest-first", bounds=lambda run: [("most", "a guess", run.radius * 2)])
     ... def nearest_first(robot):
-    ...     while link := robot.nearest_unvisited(robot.at):
+    ...     while link := robot.nearest_unvisited():
     ...         robot.take(link)
     ...         robot.circle()
     >>> run = xa.explore(xa.load("circles"), "nearest-first")

@@ -7,7 +7,7 @@ with an underscore are not for strategies.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
-from functools import cmp_to_key, wraps
+from functools import cmp_to_key, partial, wraps
 from typing import Concatenate, ParamSpec, TypeAlias, TypeVar
 
 from exactacq.errors import MoveError, Undecided, shown
@@ -24,9 +24,12 @@ from exactacq.strategies.lookout import Lookout
 from exactacq.strategies.moves import EnoughMoves, Halt, HaltKind, KnownLink, Watch, Way, kinds_of
 from exactacq.strategies.observer import Observer, not_there
 from exactacq.strategies.routes import Exit, Route
+from exactacq.strategies.sightings import Sightings
 from exactacq.visibility.links import START, Link, Node, lexicographic
 
 Decided: TypeAlias = "Decision | Callable[[], Decision]"
+Why: TypeAlias = "str | Decision | Callable[[], str | Decision]"
+"""Why a strategy moves the robot: a text, a decision, or what gives one of these when it is first read."""
 Told = TypeVar("Told")
 Given = ParamSpec("Given")
 
@@ -34,7 +37,7 @@ Given = ParamSpec("Given")
 def _move(
     action: Callable[Concatenate[Robot, Given], Told],
 ) -> Callable[Concatenate[Robot, Given], Told]:
-    """A method that moves the robot: it is counted, and what comes into sight is taken in."""
+    """A method that moves the robot: it is counted, and what comes into sight is taken in, if not later."""
 
     @wraps(action)
     def counted(robot: Robot, /, *args: Given.args, **options: Given.kwargs) -> Told:
@@ -42,10 +45,11 @@ def _move(
         try:
             return action(robot, *args, **options)
         except Undecided as error:
-            robot._stuck = error
+            robot._walker.stuck = error
             raise
         finally:
-            robot._take_in()
+            if not robot._senses_late:
+                robot._seen.take_in()
 
     return counted
 
@@ -60,6 +64,7 @@ class Robot(Observer):
     the links that begin there, and at a known point of a boundary whether a route crosses it. A terrain's
     border is no wall, and is not seen. Moves take a *reason*, a text or a `Decision` with the robot's numbers
     of obstacles, which the run tells with the event that begins the move; a move that makes no way has none.
+    A function that makes the decision is called when it is read.
 
     One that is *confined* keeps within the scene's `terrain` and knows its border; it starts in the SW
     corner. Obstacles are what the border leaves of them as far as the robot can come to them from there.
@@ -89,7 +94,7 @@ class Robot(Observer):
         point: Point | Sequence[object],
         *,
         until: EventKind | Collection[EventKind] = (),
-        reason: str | Decision = "",
+        reason: Why = "",
     ) -> Halt:
         """Go straight to a point, or to the first place where that would lead into an obstacle.
 
@@ -135,7 +140,7 @@ class Robot(Observer):
         *,
         to: Point | Sequence[object] | None = None,
         until: EventKind | Collection[EventKind] = (),
-        reason: str | Decision = "",
+        reason: Why = "",
     ) -> Halt:
         """Walk along the present boundary with a hand at it: all around, or to a point, or until an event.
 
@@ -173,7 +178,7 @@ class Robot(Observer):
             lap.walked(walker.position)
             if not lap.rest:
                 self._lap = None
-                walker.visited[obstacle] = None
+                walker.visit()
             if sighting is not None:
                 return Halt(HaltKind.EVENT, walker.position, self.at, sighting)
             self._on_edge()
@@ -182,12 +187,12 @@ class Robot(Observer):
         return Halt(HaltKind.ROUND, walker.position, self.at)
 
     @_move
-    def walk_to(self, point: Point | Sequence[object], *, reason: str | Decision = "") -> None:
+    def walk_to(self, point: Point | Sequence[object], *, reason: Why = "") -> None:
         """Walk to a point of the present boundary, which is acquired, the shorter way: see `way_to`.
 
         >>> import exactacq as xa
         >>> robot = xa.Robot(xa.load("circles"))
-        >>> _ = robot.take(robot.nearest_unvisited(None)), robot.circle(), robot.walk_to((7, 0))
+        >>> _ = robot.take(robot.nearest_unvisited()), robot.circle(), robot.walk_to((7, 0))
         >>> robot.position
         Point(7, 0)
         """
@@ -198,7 +203,7 @@ class Robot(Observer):
             raise not_there(error) from None
 
     @_move
-    def circle(self, *, reason: str | Decision = "") -> None:
+    def circle(self, *, reason: Why = "") -> None:
         """Walk all around the present boundary, with the left hand at it. `MoveError` at no boundary.
 
         One that a border cuts is walked to the end on the left hand's way, then to the other one, where the
@@ -216,7 +221,7 @@ class Robot(Observer):
         self._walker.circumnavigate(self._on_edge)
 
     @_move
-    def follow(self, route: Route, *, watch: Watch | None = None, reason: str | Decision = "") -> Halt:
+    def follow(self, route: Route, *, watch: Watch | None = None, reason: Why = "") -> Halt:
         """Follow a route to the end of its piece, or to the first place where it leads into an obstacle.
 
         The robot must be where it left the route. What *watch* is, a function, is asked where the robot sets
@@ -249,7 +254,7 @@ class Robot(Observer):
         return self._landed(kind, node, moved=walker.position is not here)
 
     @_move
-    def take_up(self, route: Route, place: Exit, *, reason: str | Decision = "") -> None:
+    def take_up(self, route: Route, place: Exit, *, reason: Why = "") -> None:
         """Walk along the present boundary to a place where a route comes out of it, and go on from there.
 
         It is the shorter way: see `way_to`. `MoveError` if the place is not one of this obstacle, or behind
@@ -274,7 +279,7 @@ class Robot(Observer):
         route._take_up(crossing)
 
     @_move
-    def take(self, link: KnownLink, *, reason: str | Decision = "") -> Way:
+    def take(self, link: KnownLink, *, reason: Why = "") -> Way:
         """Walk along the present boundary to where a link begins, and go along it.
 
         Of its equally short segments it is the one with the least walk before, of those the one to which the
@@ -284,7 +289,7 @@ class Robot(Observer):
         >>> import exactacq as xa
         >>> robot = xa.Robot(xa.load("circles"))
         >>> for obstacle in (0, 1):
-        ...     way = robot.take(robot.nearest_unvisited(robot.at))
+        ...     way = robot.take(robot.nearest_unvisited())
         ...     robot.circle()
         >>> print(way.leave, way.hit, robot.length)
         (7, 0) (9, 0) 5 + 12*pi
@@ -293,8 +298,8 @@ class Robot(Observer):
             # That there is none is what `nearest_unvisited` often answers.
             raise MoveError(f"a link is what robot.links or robot.nearest_unvisited gives, not {shown(link)}")
         walker, known = self._walker, link._link
-        self._check(link._of, link.source, "link begins")
-        if link.source is None and self.position != self.start:
+        self._check(link, known.source, "link begins")
+        if known.source == START and self.position != self.start:
             raise MoveError("the link begins at the start, and the robot is somewhere else")
         leave, hit = self._nearest_segment(known)
         decided = self._decided(reason, link._nearest)
@@ -303,15 +308,14 @@ class Robot(Observer):
         else:
             walker.walk_to(leave)
             why = {"occasion": Occasion.ADVANCE, "other": known.target, "decided": decided}
-            walker.mark(EventKind.LEAVE, int(known.source), **why)
+            self._trace.mark(EventKind.LEAVE, int(known.source), **why)
         walker.go_straight(known.target, hit)
-        walker.mark(EventKind.HIT, known.target, occasion=Occasion.ADVANCE, other=known.source)
+        self._trace.mark(EventKind.HIT, known.target, occasion=Occasion.ADVANCE, other=known.source)
         self._lap = None
-        self._take_in()
-        return Way(link.source, link.target, leave, hit, link.length, walker)
+        return Way(leave, hit, link)
 
     @_move
-    def go_back(self, way: Way, *, reason: str | Decision = "") -> None:
+    def go_back(self, way: Way, *, reason: Why = "") -> None:
         """Walk along the present boundary to where a way has ended, and go back to where it began.
 
         `MoveError` if the robot is not at the obstacle to which the way led, or if it would have to walk
@@ -319,23 +323,22 @@ class Robot(Observer):
 
         >>> import exactacq as xa
         >>> robot = xa.Robot(xa.load("circles"))
-        >>> _ = robot.go_back(robot.take(robot.nearest_unvisited(None)))
+        >>> _ = robot.go_back(robot.take(robot.nearest_unvisited()))
         >>> robot.position, robot.at
         (Point(0, 0), None)
         """
         if not isinstance(way, Way):
             raise MoveError(f"a way is what robot.take has returned, not {shown(way)}")
-        walker = self._walker
-        self._check(way._of, way.target, "way ends")
+        walker, link = self._walker, way.link._link
+        self._check(way.link, link.target, "way ends")
         decided = self._decided(reason)
         if walker.position != way.hit:
             self._walker_on_known_boundary().walk_to(way.hit)
-        source, target = self._scene_node(way.source), self._numbers[way.target]
-        back = Occasion.BACKTRACK
-        walker.mark(EventKind.LEAVE, target, occasion=back, other=source, decided=decided)
-        walker.go_straight(source, way.leave)
-        at = source if isinstance(source, int) else None
-        walker.mark(EventKind.BACKTRACK, at, occasion=back, other=target)
+        trace, back = self._trace, Occasion.BACKTRACK
+        trace.mark(EventKind.LEAVE, link.target, occasion=back, other=link.source, decided=decided)
+        walker.go_straight(link.source, way.leave)
+        at = link.source if isinstance(link.source, int) else None
+        trace.mark(EventKind.BACKTRACK, at, occasion=back, other=link.target)
         self._lap = None
 
     # -- how it is done ----------------------------------------------------------------------------
@@ -343,26 +346,27 @@ class Robot(Observer):
     def _begin(self) -> None:
         if self._is_underway:
             raise MoveError("the robot is underway: what watches its way cannot move it")
-        if self._stuck is not None:
-            raise self._stuck
+        if self._walker.stuck is not None:
+            raise self._walker.stuck
         self._moves += 1
         if self._moves > self._most:
             raise EnoughMoves
 
-    def _decided(self, reason: str | Decision, nearest: NearestLink | None = None) -> Decided | None:
+    def _decided(self, reason: Why, nearest: NearestLink | None = None) -> Decided | None:
         """What a strategy decides here, if it says so, or takes the nearest link that it was told of here."""
+        if callable(reason):
+            return partial(_numbered, reason, self._seen, self._walker.count)
         if reason:
-            decision = reason if isinstance(reason, Decision) else Decision(reason)
-            return decision.numbered(self._numbers, self._walker.count)
+            return _numbered(lambda: reason, self._seen, self._walker.count)
         return None if nearest is None or nearest.after != self._walker.count else nearest.decision
 
     def _explain(self, decided: Decided | None) -> None:
         """Tell what was decided, with the event that brought the robot here or with one of its own."""
-        walker = self._walker
-        if decided is not None and not walker.explain(decided, walker.count) and self._writes:
-            walker.mark(EventKind.DECIDE, walker.at if isinstance(walker.at, int) else None, decided=decided)
+        trace, at = self._trace, self._walker.at
+        if decided is not None and not trace.explain(decided) and self._writes:
+            trace.mark(EventKind.DECIDE, at if isinstance(at, int) else None, decided=decided)
 
-    def _walk_to(self, point: Point, reason: str | Decision) -> None:
+    def _walk_to(self, point: Point, reason: Why) -> None:
         """Walk to a point of the present boundary; ValueError, before all else, if it is not on it."""
         walker, decided = self._walker_on_known_boundary(), self._decided(reason)
         if decided is not None and walker.way_to(point)[0].sign() > 0:
@@ -372,7 +376,7 @@ class Robot(Observer):
     def _set_off(self, decided: Decided | None) -> None:
         """Tell what was decided; if the robot is at a boundary, with writing that it leaves this."""
         if self._writes and self._walker.at != START:
-            self._walker.mark(EventKind.LEAVE, int(self._walker.at), decided=decided)
+            self._trace.mark(EventKind.LEAVE, int(self._walker.at), decided=decided)
         else:
             self._explain(decided)
 
@@ -383,16 +387,16 @@ class Robot(Observer):
         walker = self._walker
         is_new, walker.at = moved or walker.at != node, node
         if self._writes and is_new and node != START:
-            walker.mark(EventKind.HIT, int(node))
-        self._take_in()
+            self._trace.mark(EventKind.HIT, int(node))
         return Halt(kind, walker.position, self.at, sighting)
 
     def _go_along(self, way: Segment, watch: Watch | None, decided: Decided | None) -> bool:
         """Go a free way with distinct ends; False if *watch* stops the robot before."""
-        walker, numbers = self._walker, self._numbering
+        walker, numbers = self._walker, self._seen.numbers
         count, self._is_underway = len(numbers.order), watch is not None
+        self._seen.is_held = True
         try:
-            lookout = None if watch is None else Lookout(way, watch, walker.memory, numbers)
+            lookout = None if watch is None else Lookout(way, watch, walker, numbers)
             for part in walker.memory.parts(way):
                 piece = Piece("straight", None, part)
                 stop = None if lookout is None else lookout.stop_on(piece)
@@ -413,7 +417,7 @@ class Robot(Observer):
             numbers.cut(count)
             raise
         finally:
-            self._is_underway = False
+            self._is_underway = self._seen.is_held = False
 
     def _nearest_segment(self, link: Link) -> tuple[Point, Point]:
         """The segment that `take` goes along."""
@@ -455,8 +459,14 @@ class Robot(Observer):
                 break
         walker.move(piece)
         walker.position = piece.end
-        self._take_in()
         return found
+
+
+def _numbered(reason: Callable[[], str | Decision], seen: Sightings, after: int) -> Decision:
+    """What a strategy decides, with the scene's numbers, after so many pieces of the path."""
+    made = reason()
+    decision = made if isinstance(made, Decision) else Decision(made)
+    return decision.numbered(seen.numbers.order, after)
 
 
 def _upto(curve: Curve, place: Point) -> Curve:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, fields
 from functools import cached_property
 from html import escape
 from math import tan
-from typing import Any
+from typing import Any, Protocol, Self, TypeVar
 
 from flint import fmpq
 
@@ -18,6 +18,7 @@ from exactacq.geometry.geo import Geo
 from exactacq.geometry.points import Point, distance
 from exactacq.numbers.length import Length
 from exactacq.numbers.rationals import plain
+from exactacq.progress import Meter, Progress
 from exactacq.scene.ports import JSON, PLAYER, SVG, made
 from exactacq.scene.scene import Scene
 from exactacq.scene.terrain_components import Ground, ground_of
@@ -25,9 +26,11 @@ from exactacq.sensing.event import Ending, Event, EventKind, Reason
 from exactacq.sensing.map import Body, Map
 from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Path
+from exactacq.strategies.late_entry import LateEntry
 from exactacq.strategies.tables import Table, event_table
 from exactacq.visibility.isovist import Isovist
 
+AnyRun = TypeVar("AnyRun", bound="Run")
 CLOSED_FORM = 60
 """Closed forms of at most this many characters stand in tables."""
 
@@ -83,11 +86,11 @@ class Run:
     start: Point
     path: Path
     visits: tuple[int, ...]
-    events: tuple[Event, ...]
+    events: LateEntry[tuple[Event, ...]] = LateEntry()  # noqa: RUF009 - a descriptor is one for all runs
     bounds: tuple[Bound, ...]
     unseen: tuple[int, ...]
     unvisited: tuple[int, ...]
-    record: Memory | None = field(default=None, repr=False, compare=False)
+    record: Memory | Sensing | None = field(default=None, repr=False, compare=False)
 
     @property
     @abstractmethod
@@ -113,7 +116,7 @@ class Run:
     def memory(self) -> Memory:
         """What the robot learned on its way."""
         if self.record is not None:
-            return self.record
+            return self.record if isinstance(self.record, Memory) else self.record()
         return Memory.of(self.scene, self.radius, self.start, self.path, self.ground)
 
     @property
@@ -129,6 +132,25 @@ class Run:
         components that this leaves of them.
         """
         return self.scene.obstacles if self.ground is None else self.ground.components
+
+    def sense(self, progress: Progress | None = None) -> Self:
+        """Find out now all that the robot saw on its way; returns the run.
+
+        The way of a `SightseerRun` does not depend on it: so it is found out when it is first asked for, as
+        its events and maps are. It takes several times as long as the way alone. What is not sensed yet
+        raises `Undecided`, with the run up to there, where a comparison is beyond the library's limits; it
+        does so whenever it is asked for. *progress* is called with the number of pieces sensed, and of all.
+
+        >>> import exactacq as xa
+        >>> len(xa.sightseer(xa.load("circles")).sense().events)
+        11
+        """
+        if self.record is None or isinstance(self.record, Memory):
+            Meter(progress, len(self.path)).close()
+        else:
+            self.record(progress)
+        len(self.events)  # They are made of it.
+        return self
 
     @property
     def ending(self) -> Ending | None:
@@ -311,6 +333,19 @@ class Run:
         return (body.label for body in self.obstacles)
 
 
+class Sensing(Protocol):
+    """What finds out all that a robot saw on its way; *progress* is told how many pieces of this are done."""
+
+    def __call__(self, progress: Progress | None = None) -> Memory: ...
+
+
+def bounded(run: AnyRun, bounds: tuple[Bound, ...]) -> AnyRun:
+    """A run with other bounds; what it saw is not asked for."""
+    copy = object.__new__(type(run))
+    copy.__dict__.update(run.__dict__, bounds=bounds)
+    return copy
+
+
 def _again(kind: type[Run], state: dict[str, Any]) -> Run:
     """The run that was pickled or copied."""
     return kind(**state)
@@ -460,5 +495,5 @@ class OwnRun(Run):
 
 def _ground(run: Run) -> Ground:
     """What the terrain leaves of the scene's obstacles, as the run has found it or anew."""
-    ground = None if run.record is None else run.record.ground
+    ground = run.record.ground if isinstance(run.record, Memory) else None
     return ground_of(run.scene) if ground is None else ground

@@ -1,4 +1,4 @@
-"""The walker: it goes along boundaries and straight ways, senses all the way, and records path and events.
+"""The walker: it goes along boundaries and straight ways, and senses them when somebody asks what it saw.
 
 It counts obstacles as the scene does, and believes what it is told of ways that are free. What a strategy may
 do and ask is the robot's (`exactacq.strategies.robot`).
@@ -6,43 +6,51 @@ do and ask is the robot's (`exactacq.strategies.robot`).
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import partial
-from typing import Any
+from collections.abc import Callable, Sequence
+from threading import RLock
 
+from exactacq.errors import ExactacqError, Undecided
+from exactacq.gc_pause import uncollected
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
+from exactacq.progress import Meter, Progress
 from exactacq.scene.boundary_walk import Boundary
-from exactacq.sensing.decision import Decision
-from exactacq.sensing.event import Ending, Event, EventKind
+from exactacq.sensing.map import Body
 from exactacq.sensing.memory import Memory, Report
-from exactacq.sensing.path import Path, Piece
+from exactacq.sensing.path import Piece
 from exactacq.visibility.links import START, Node
 
 
 class Walker:
-    """A point at *start* whose sensing goes into a fresh memory."""
+    """A point at *start*; *memory* makes a fresh memory for what it sees.
 
-    def __init__(self, start: Point, memory: Memory) -> None:
-        self.memory = memory
+    Pieces of the path are sensed when the memory is asked for: where links alone decide the way, nobody asks.
+    """
+
+    def __init__(self, start: Point, memory: Callable[[], Memory]) -> None:
+        self._fresh, self._memory = memory, memory()
+        # What was reported at the start, and from each piece that is sensed.
+        self._reports: list[list[Report]] = []
+        self._sensing = RLock()
         self._boundaries: dict[int, Boundary] = {}
         self.pieces: list[Piece] = []
-        # What happened, as it was seen or told: events know the path, which goes on.
-        self._marks: list[Report | partial[Event]] = []
-        # The number of the last mark, and the pieces before it.
-        self._last_mark = 0, 0
         self.start = self.position = start
         self.at: Node = START
-        # In the order of the visits: a dict is a set that keeps it.
-        self.visited: dict[int, None] = {}
-        self.mark(EventKind.START, None)
-        self._write(memory.begin(start))
+        # After how many pieces each obstacle was visited, in the order of the visits.
+        self.visited: dict[int, int] = {}
+        # Why it does not move any more, if it does not.
+        self.stuck: ExactacqError | None = None
 
     @property
     def count(self) -> int:
         """The number of pieces of the path so far."""
         return len(self.pieces)
+
+    @property
+    def bodies(self) -> Sequence[Body]:
+        """What its numbers of obstacles mean."""
+        return self._memory.bodies
 
     # -- motion ------------------------------------------------------------------------------------
 
@@ -64,11 +72,16 @@ class Walker:
         """
         assert isinstance(self.at, int)
         curves = self.boundary().loop(self.position)
-        edges = len(self.memory.bodies[self.at].edges)
+        edges = len(self.bodies[self.at].edges)
         self._walk(curves[:edges], step)
         self._walk(curves[edges:])  # the rest of the edge where it began; or back to the first end
         self.position = curves[-1].end
-        self.visited[self.at] = None
+        self.visit()
+
+    def visit(self) -> None:
+        """Mark the present obstacle visited: the walker has been all around."""
+        assert isinstance(self.at, int)
+        self.visited.setdefault(self.at, self.count)
 
     def go_straight(self, node: Node, target: Point) -> None:
         """Go to a point along a free segment; from then on the walker is at *node*."""
@@ -80,7 +93,7 @@ class Walker:
         """That of the obstacle where the walker is."""
         assert isinstance(self.at, int), "the walker is not at a boundary"
         if self.at not in self._boundaries:
-            body = self.memory.bodies[self.at]
+            body = self.bodies[self.at]
             self._boundaries[self.at] = Boundary(body.edges, body.perimeter, body.closed)
         return self._boundaries[self.at]
 
@@ -91,43 +104,62 @@ class Walker:
             step()
 
     def move(self, piece: Piece) -> None:
-        """Walk a piece of the path and sense along it."""
-        reports = self.memory.walk(piece)
+        """Walk a piece of the path."""
         self.pieces.append(piece)
-        self._write(reports)
 
-    def give_up(self) -> None:
-        """Stop where the last piece that could be sensed ends, as a comparison is undecided."""
-        self.position = self.pieces[-1].end if self.pieces else self.start
-        at = self.pieces[-1].obstacle if self.pieces else None
-        self.mark(EventKind.STOP, at, ending=Ending.UNDECIDED)
+    # -- sensing -----------------------------------------------------------------------------------
 
-    # -- the trace ---------------------------------------------------------------------------------
+    @property
+    def memory(self) -> Memory:
+        """All that it has seen; `Undecided` as `sense`."""
+        self.sense()
+        return self._memory
 
-    def mark(self, kind: EventKind, obstacle: int | None, **why: Any) -> None:
-        """Write an event here and now; *why* are its occasion, other, reason, ending and what is decided (see
-        `Event`)."""
-        self._last_mark = len(self._marks), len(self.pieces)
-        self._marks.append(partial(Event, kind, self.position, obstacle, len(self.pieces), **why))
+    @property
+    def reports(self) -> list[list[Report]]:
+        """What it saw at the start, and on each piece of the path; `Undecided` as `sense`."""
+        self.sense()
+        return self._reports
 
-    def explain(self, decided: Decision | Callable[[], Decision], after: int) -> bool:
-        """Tell the decision on what follows the event that was marked last, if that was after *after* pieces.
+    @property
+    def is_sensed(self) -> bool:
+        """Whether all of the path is sensed."""
+        return len(self._reports) > len(self.pieces)
 
-        One that has a decision keeps it.
+    def sense(self, progress: Progress | None = None) -> None:
+        """Sense what of the path is not sensed yet; *progress* is told pieces.
+
+        `Undecided` where a comparison is: the path ends before that piece then, and the walker is stuck.
         """
-        number, place = self._last_mark
-        mark = self._marks[number]
-        assert not isinstance(mark, Report), "the last mark was told"
-        if place != after or mark.keywords.get("decided") is not None:
-            return False
-        self._marks[number] = partial(mark, decided=decided)
-        return True
+        meter = Meter(progress, len(self.pieces) - len(self._reports) + 1)
+        if self.is_sensed:
+            meter.close()
+            return
+        with self._sensing, uncollected():
+            try:
+                if not self._reports:
+                    self._reports.append(self._memory.begin(self.start))
+                while not self.is_sensed:
+                    self._reports.append(self._memory.walk(self.pieces[len(self._reports) - 1]))
+                    meter.add()
+            except Undecided as error:
+                self._fall_back()
+                self.stuck = error
+                raise
+            except BaseException:
+                # Half of a piece may be taken in: the next time begins anew.
+                self._memory, self._reports = self._fresh(), []
+                raise
+            meter.close()
 
-    def _write(self, reports: list[Report]) -> None:
-        self._marks += reports
-
-    def trace(self) -> tuple[Path, tuple[Event, ...], Memory]:
-        """The path, the events and the memory so far."""
-        path = Path(self.pieces)
-        events = (one.event(path) if isinstance(one, Report) else one(path=path) for one in self._marks)
-        return path, tuple(events), self.memory
+    def _fall_back(self) -> None:
+        """End the path where the last piece ends that could be sensed."""
+        if not self._reports:
+            self._reports.append([])
+        count = len(self._reports) - 1
+        around = [*self.pieces[count : count + 1], *self.pieces[:count][-1:]]
+        del self.pieces[count:]
+        for obstacle in [k for k, after in self.visited.items() if after > count]:
+            del self.visited[obstacle]
+        self.position = self.pieces[-1].end if self.pieces else self.start
+        self.at = next((piece.obstacle for piece in around if piece.obstacle is not None), START)

@@ -97,28 +97,29 @@ FAR = """
 import resource, time
 import exactacq as xa
 from exactacq.files.octagons import random_octagons
-from exactacq.strategies.robot import Robot
-from exactacq.strategies.sightseer.strategy import explored_by
 
 class Over(Exception):
     pass
 
 scene = random_octagons({n}, 1)
-robot = Robot(scene)
 begin, told = time.process_time(), [0.0]
 
-def progress(circled, total):
-    spent = time.process_time() - begin
-    if spent > told[0] + {seconds} / 10 or circled == total or spent > {seconds}:
-        most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-        print(f"{{len(robot.visited)}} of {n} visited, {{len(robot.path)}} legs in {{spent:.0f}} s, "
-              f"{{len(robot.path) / spent:.1f}} a second, {{most:.0f}} MB", flush=True)
-        told[0] = spent
-    if spent > {seconds}:
-        raise Over
+def telling(what):
+    told[0] = 0.0
+    def progress(done, total):
+        spent = time.process_time() - begin
+        if spent > told[0] + {seconds} / 10 or done == total or spent > {seconds}:
+            most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+            print(f"{{done}} of {{total}} {{what}} after {{spent:.0f}} s, {{most:.0f}} MB", flush=True)
+            told[0] = spent
+        if spent > {seconds}:
+            raise Over
+    return progress
 
 try:
-    explored_by(robot, scene, progress)
+    run = xa.sightseer(scene, progress=telling("edges circled"))
+    run.sense(telling("pieces sensed"))
+    print(f"{{len(run.visits)}} of {n} visited")
 except Over:
     pass
 """
@@ -128,19 +129,21 @@ import exactacq as xa
 from exactacq.files.octagons import random_octagons
 scene = random_octagons({n}, 1)
 tracemalloc.start()
-run = xa.sightseer(scene, 10)
+run = xa.sightseer(scene, 10).sense()
 held, most = (size / 2**20 for size in tracemalloc.get_traced_memory())
 print(f"{n} octagons: {{held:.0f}} MB held by the run, {{most:.0f}} MB at most, {{len(run.events)}} events")
 """
 MINUTES = 10
 DATA = Path(__file__).resolve().parents[1] / "data"
 WORKS = {
-    "Sightseer, 10 octagons": (OCTAGONS.format(n=10), "xa.sightseer(scene, 10)"),
-    "Sightseer, 100 octagons": (OCTAGONS.format(n=100), "xa.sightseer(scene, 10)"),
-    "Sightseer, 1000 octagons": (OCTAGONS.format(n=1000), "xa.sightseer(scene, 10)"),
+    "Sightseer, 10 octagons": (OCTAGONS.format(n=10), "xa.sightseer(scene, 10).sense()"),
+    "Sightseer, 100 octagons, its way": (OCTAGONS.format(n=100), "xa.sightseer(scene, 10)"),
+    "Sightseer, 100 octagons": (OCTAGONS.format(n=100), "xa.sightseer(scene, 10).sense()"),
+    "Sightseer, 1000 octagons, its way": (OCTAGONS.format(n=1000), "xa.sightseer(scene, 10)"),
+    "Sightseer, 1000 octagons": (OCTAGONS.format(n=1000), "xa.sightseer(scene, 10).sense()"),
     "Seed Spreader, 100 octagons": (TERRAIN.format(n=100), "xa.seed_spreader(scene)"),
-    "a board with 93 holes": (BOARD, "xa.sightseer(scene)"),
-    "a closed curve of 1000 edges": (CURVE, "xa.sightseer(scene)"),
+    "a board with 93 holes": (BOARD, "xa.sightseer(scene).sense()"),
+    "a closed curve of 1000 edges": (CURVE, "xa.sightseer(scene).sense()"),
     "the TurtleBot3 map, R = 25, audited": (GRID.format(data=str(DATA)), "audited(xa.sightseer(scene))"),
     "random scenes, Sightseer": (CAMPAIGN, "judged('sightseer', 40)"),
     "random scenes, Seed Spreader": (CAMPAIGN, "judged('seed-spreader', 40)"),
@@ -177,7 +180,7 @@ def test_many_octagons(benchmark: object) -> None:
     asked = {"capture_output": True, "check": True, "text": True}
     answer = benchmark.pedantic(subprocess.run, (command,), asked, rounds=1)
     print(f"\n{answer.stdout}")
-    assert f"of {size} visited" in answer.stdout
+    assert "edges circled" in answer.stdout
 
 
 @pytest.mark.parametrize("size", [2, 100, 1000, 10_000])

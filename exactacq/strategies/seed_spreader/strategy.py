@@ -11,6 +11,7 @@ from exactacq.progress import Meter, Progress
 from exactacq.scene.bounding import rectangular_room
 from exactacq.scene.scene import Scene, as_scene
 from exactacq.sensing.event import Ending, Event, EventKind
+from exactacq.sensing.path import Path
 from exactacq.strategies.bounds import with_bounds
 from exactacq.strategies.options import TargetChoice
 from exactacq.strategies.robot import Robot
@@ -70,22 +71,22 @@ def _explored(
     meter = Meter(progress, len(mline.pieces) + edges)
     # The rules tell where the robot hits and leaves obstacles, and why.
     robot._on_edge, robot._writes = meter.add, False
-    walker = robot._walker
+    trace = robot._trace
 
     def tell(kind: EventKind, obstacle: int, **why: Any) -> None:
-        walker.mark(kind, robot._numbers[obstacle], **why)
+        trace.mark(kind, robot._numbers[obstacle], **why)
 
     spreader = Spreader(robot, mline, lookahead, target, tell, meter.add)
     try:
         try:
             spreader.explore()
-            walker.mark(EventKind.STOP, None, ending=Ending.END_OF_M_LINE)
+            trace.mark(EventKind.STOP, None, ending=Ending.END_OF_M_LINE)
         except Stuck as stuck:
-            walker.mark(EventKind.STOP, robot._numbers[stuck.obstacle], ending=stuck.ending)
+            trace.mark(EventKind.STOP, robot._numbers[stuck.obstacle], ending=stuck.ending)
         meter.close()
     except Undecided as error:
-        walker.give_up()
-        raise Undecided(error.comparison, _finished(spreader, scene)) from error
+        first = trace.give_up(error)
+        raise Undecided(first.comparison, _finished(spreader, scene)) from error
     return with_bounds(_finished(spreader, scene))
 
 
@@ -93,7 +94,8 @@ def _finished(spreader: Spreader, scene: Scene) -> SeedSpreaderRun:
     robot = spreader.robot
     ground, numbers = robot._ground, robot._numbers
     assert ground is not None, "the robot is confined to a ground"
-    path, events, record = robot._walker.trace()
+    path, record = Path(robot._walker.pieces), robot._walker.memory
+    events = robot._trace.events(path)
     every, chart = range(len(ground.components)), record.now
     seen, incomplete = set(chart.seen), set(chart.incomplete)
     return SeedSpreaderRun(

@@ -127,6 +127,7 @@ def _run(case: Case, task: Task, audited: bool) -> tuple[Result, str, float | No
     try:
         run: Run = case.sightseer if task.strategy == Subject.SIGHTSEER.value else case.spreader
         length = float(run.length)
+        run.sense()
         if audited:
             audit(run, samples=SAMPLES, seed=task.seed)
     except Undecided as error:

@@ -1,0 +1,76 @@
+"""The trace: what a robot does, written down where it does it, and with what it saw the events of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import partial
+from itertools import groupby
+from typing import Any
+
+from exactacq.errors import Undecided
+from exactacq.sensing.decision import Decision
+from exactacq.sensing.event import Ending, Event, EventKind
+from exactacq.sensing.path import Path
+from exactacq.strategies.walker import Walker
+
+
+class Trace:
+    """What a *walker* at its start does from now on."""
+
+    def __init__(self, walker: Walker) -> None:
+        self._walker = walker
+        # After how many pieces each event happened; events know the path, which goes on.
+        self._marks: list[tuple[int, partial[Event]]] = []
+        self.mark(EventKind.START, None)
+
+    def mark(self, kind: EventKind, obstacle: int | None, **why: Any) -> None:
+        """Write an event here and now; *why* are its occasion, other, reason, ending and what is decided (see
+        `Event`)."""
+        walker = self._walker
+        self._marks.append(
+            (walker.count, partial(Event, kind, walker.position, obstacle, walker.count, **why))
+        )
+
+    def explain(self, decided: Decision | Callable[[], Decision]) -> bool:
+        """Tell the decision on what follows the event that was written last, if that happened here.
+
+        One that has a decision keeps it.
+        """
+        after, mark = self._marks[-1]
+        if after != self._walker.count or mark.keywords.get("decided") is not None:
+            return False
+        self._marks[-1] = after, partial(mark, decided=decided)
+        return True
+
+    def count(self, kind: EventKind) -> int:
+        """How many events of a kind were written."""
+        return sum(mark.args[0] is kind for _, mark in self._marks)
+
+    def give_up(self, error: Undecided) -> Undecided:
+        """End the trace where the last piece ends that could be sensed; the error that came first on the way.
+
+        The path ends there too.
+        """
+        walker = self._walker
+        try:
+            walker.sense()
+        except Undecided as earlier:
+            error = earlier
+        self._marks = [mark for mark in self._marks if mark[0] <= walker.count]
+        walker.position = walker.pieces[-1].end if walker.pieces else walker.start
+        at = walker.pieces[-1].obstacle if walker.pieces else None
+        self.mark(EventKind.STOP, at, ending=Ending.UNDECIDED)
+        return error
+
+    def events(self, path: Path) -> tuple[Event, ...]:
+        """The events on the whole path, sensed ones among them; `Undecided` as `Walker.sense`."""
+        return tuple(self._in_order(path))
+
+    def _in_order(self, path: Path) -> Iterator[Event]:
+        """The start, and what was seen there; then of each piece what was seen, and what the robot did."""
+        of, (_, start) = groupby(self._marks[1:], key=lambda mark: mark[0]), self._marks[0]
+        done = {after: [mark for _, mark in marks] for after, marks in of}
+        yield start(path=path)
+        for after, reports in enumerate(self._walker.reports):
+            yield from (report.event(path) for report in reports)
+            yield from (mark(path=path) for mark in done.get(after, ()))
