@@ -479,7 +479,7 @@ def test_a_wall_around_others_is_asked_for_the_near_ones_first() -> None:
     wall = xa.Polygon([(0, 0), (40, 0), (40, 10), (0, 10), (0, 9), (39, 9), (39, 1), (0, 1)])
     posts = [xa.Circle((x, 4 + Fraction(x, 40)), 1) for x in range(3, 37, 3)]
     links = Links(xa.Scene([wall, *posts], start=(-1, -1), radius=9), 9)
-    bounds = links.lower_bounds(0)
+    bounds = links.lower_bounds(0, range(links.count))
     for k in range(1, links.count):
         link = links.between(0, k)
         assert link is not None and 0.9 * float(link.length) < bounds[k] <= float(link.length)

@@ -29,12 +29,15 @@ HALF = fmpq(1, 2)
 AnyRun = TypeVar("AnyRun", bound=SightseerRun | SeedSpreaderRun | OwnRun)
 
 
-def with_bounds(run: AnyRun) -> AnyRun:
-    """A finished run with the bounds of its strategy; they do not speak of one that was given up."""
+def with_bounds(run: AnyRun, table: EdgeTable | None = None) -> AnyRun:
+    """A finished run with the bounds of its strategy; they do not speak of one that was given up.
+
+    *table* has the edges of its scene's obstacles, if it is there.
+    """
     if isinstance(run, OwnRun):
         bounds = own_bounds(run, registered(run.name))
     else:
-        bounds = sightseer_bounds(run) if isinstance(run, SightseerRun) else spreader_bounds(run)
+        bounds = sightseer_bounds(run, table) if isinstance(run, SightseerRun) else spreader_bounds(run)
     return bounded(run, bounds)
 
 
@@ -63,7 +66,7 @@ def _told(strategy: str, bound: Any) -> tuple[str, str, Length]:
         raise StrategyError(text) from error
 
 
-def sightseer_bounds(run: SightseerRun) -> tuple[Bound, ...]:
+def sightseer_bounds(run: SightseerRun, table: EdgeTable | None = None) -> tuple[Bound, ...]:
     """Bounds (1) and (2) as printed, and the forms of Theorem 1 that hold in model (a).
 
     n counts all obstacles of the scene. The corrected ones add the way S-S1 from a free start to the first
@@ -87,7 +90,7 @@ def sightseer_bounds(run: SightseerRun) -> tuple[Bound, ...]:
         step = min([reach, max(steps, default=Length(0))])
         last = perimeters[visits[-1]] if visits else Length(0)
         corrected = approach + step * (2 * n - 3) + around - last * HALF
-    printed = min([reach, _largest_distance(scene, radius)]) * (2 * (n - 1)) + around
+    printed = min([reach, _largest_distance(scene, radius, table)]) * (2 * (n - 1)) + around
     wide = reach * (2 * (n - 1)) + around
     # Then chains of links join all obstacles, and the start sees one: the paper's model (a).
     linked = run.complete
@@ -193,13 +196,13 @@ def _bound(name: str, source: str, value: Length, length: Length, applies: bool)
     return Bound(name, source, value, length <= value, ratio, applies)
 
 
-def _largest_distance(scene: Scene, radius: fmpq) -> Length:
+def _largest_distance(scene: Scene, radius: fmpq, table: EdgeTable | None) -> Length:
     """d_max, the largest closest distance between two obstacles, or the radius if d_max is larger.
 
     Outer obstacles and their farthest partners come first; float upper bounds then spare nearly all exact
     distances. Quadratic in the number of obstacles in floats if all lie within the radius, linear in memory.
     """
-    table = EdgeTable(scene.obstacles)
+    table = table or EdgeTable(scene.obstacles)
     spots = table.start[table.first]
     best = Real(0)
     for i in np.argsort(-np.hypot(*(spots - spots.mean(axis=0)).T)):

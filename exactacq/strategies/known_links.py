@@ -5,7 +5,7 @@ Of equally long ones that to the obstacle with the least number in the scene com
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterable
+from collections.abc import Callable, Collection, Container, Iterable
 from dataclasses import dataclass
 from functools import partial
 from heapq import heappop, heappush
@@ -80,6 +80,9 @@ class KnownLinks:
     def __init__(self, links: Links, start: Point) -> None:
         self._links, self._start = links, start
         self._nearest: dict[Node, _LinksByLength] = {}
+        # The nodes of which it is not known that nothing is left, and how many visited ones were counted.
+        self._may_lead_on: list[Node] = [START]
+        self._counted = 0
 
     def nearest(self, node: Node, visited: Container[int]) -> Link | None:
         """The shortest link (then the least number) from a node to an obstacle that was not visited.
@@ -106,9 +109,20 @@ class KnownLinks:
             links = self._links.from_point(self._start)
             return _LinksByLength(((0.0, j) for j in links), links.get)
         assert isinstance(node, int)
-        bounds = self._links.lower_bounds(node)
-        near = ((float(bounds[j]), j) for j in self._links.neighbours(node))
-        return _LinksByLength(near, partial(self._links.between, node))
+        near = self._links.neighbours(node)
+        bounds = self._links.lower_bounds(node, near).tolist()
+        return _LinksByLength(zip(bounds, near, strict=True), partial(self._links.between, node))
+
+    def lead_on(self, visited: Collection[int]) -> bool:
+        """Whether a link from the start or a visited obstacle leads to one that was not visited.
+
+        A node from which none does is not looked at again. Cost: that of the links that may be the shortest.
+        """
+        self._may_lead_on += islice(visited, self._counted, None)
+        self._counted = len(visited)
+        while self._may_lead_on and self.nearest(self._may_lead_on[-1], visited) is None:
+            self._may_lead_on.pop()
+        return bool(self._may_lead_on)
 
     def of(self, node: Node) -> list[Link]:
         """All links from a node, in the order of the obstacles that they lead to."""

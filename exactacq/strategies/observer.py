@@ -154,8 +154,7 @@ class Observer:
             # What a link from a visited boundary leads to was seen from there: no need to sense that.
             if len(walker.visited) == len(walker.bodies):
                 return False
-            nodes: tuple[Node, ...] = (*reversed(walker.visited), START)
-            if any(links.nearest(node, walker.visited) for node in nodes):
+            if links.lead_on(walker.visited):
                 return True
         # What was visited was seen: the robot stood on it.
         return len(self._numbers) > len(walker.visited)

@@ -11,7 +11,7 @@ the next one cannot be shorter.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from heapq import heapify, heappop, heappush
@@ -137,20 +137,21 @@ class Links:
         link = self._between[key]
         return link if link is None or link.source == i else link.reversed()
 
-    def lower_bounds(self, i: int) -> Floats:
-        """Lower bounds of v(i, j) for every j: the gaps between boxes of edges of i and the box of j.
+    def lower_bounds(self, i: int, others: Sequence[int]) -> Floats:
+        """Lower bounds of v(i, j) for some others j: the gaps between boxes of edges of i and the box of j.
 
         A box around all of i would be around all that i encloses.
         """
-        found, step = np.full(self.count, np.inf), max(1, GAPS_AT_ONCE // max(self.count, 1))
+        hulls = self.table.hulls[others]
+        found, step = np.full(len(hulls), np.inf), max(1, GAPS_AT_ONCE // max(len(hulls), 1))
         edges = [*self.table.edges_of(i)]
         for k in range(0, len(edges), step):
-            found = np.minimum(found, self._gaps(self.table.boxes[edges[k : k + step], None]).min(axis=0))
+            boxes = self.table.boxes[edges[k : k + step], None]
+            found = np.minimum(found, self._gaps(boxes, hulls).min(axis=0))
         return found
 
-    def _gaps(self, boxes: Floats) -> Floats:
-        """Lower bounds of how far some boxes (rows) are from those of obstacles (columns)."""
-        hulls = self.table.hulls
+    def _gaps(self, boxes: Floats, hulls: Floats) -> Floats:
+        """Lower bounds of how far some boxes (rows) are from others (columns)."""
         apart = np.maximum(np.maximum(hulls[:, :2] - boxes[..., 2:], boxes[..., :2] - hulls[:, 2:]), 0.0)
         gaps: Floats = np.hypot(apart[..., 0], apart[..., 1]) * (1 - 1e-14) - self.table.roundoff
         return np.maximum(gaps, 0.0)
@@ -241,9 +242,10 @@ class Links:
         What may be or hold the least is looked at first: features, bounded by boxes and then by edges, and
         their cells.
         """
-        centers, sizes = self.spots
-        if not len(centers):
+        near = self._features_near(i)
+        if not near:
             return
+        centers, sizes = (spots[near] for spots in self.spots)
         bounds = box_gaps(centers, self.table.hulls[i], sizes) + box_gaps(centers, self.table.hulls[j], sizes)
         order = count()
         heap: list[tuple[float, int, Callable[[], None]]] = []
@@ -276,12 +278,27 @@ class Links:
         # A chord lies in the convex hull of what it joins, and with it the place where a feature holds it.
         margins = sizes[close] + 4 * self.table.roundoff
         between = near_hull(centers[close], _corners(self.table.hulls[[i, j]]), margins)
-        for k in close[between].tolist():
+        for at in close[between].tolist():
+            k = near[at]
             if self.features[k].owner not in (i, j):
-                push(float(bounds[k]), partial(bound_by_edges, k))
+                push(float(bounds[at]), partial(bound_by_edges, k))
         while heap and heap[0][0] <= best.guess:
             _, _, step = heappop(heap)
             step()
+
+    def _features_near(self, i: int) -> list[int]:
+        """The features that may hold a chord of obstacle i, in order: it touches them within the radius."""
+        x0, y0, x1, y1 = self.table.hulls[i].tolist()
+        edges = self.table.near((x0, y0), (x1, y1), self.reach)
+        return sorted(k for e in edges for k in self._features_of.get(e, ()))
+
+    @cached_property
+    def _features_of(self) -> dict[int, list[int]]:
+        """The features by the first of the edges that meet at each."""
+        found: dict[int, list[int]] = {}
+        for k, feature in enumerate(self.features):
+            found.setdefault(feature.edges[0], []).append(k)
+        return found
 
     def _cells(self, k: int) -> dict[tuple[int, int], list[tuple[Pencil, Cell]]]:
         """Cells of feature k by the obstacles behind and ahead; its pinched lines are found with them."""

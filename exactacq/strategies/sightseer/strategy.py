@@ -71,7 +71,7 @@ def explored_by(robot: Robot, scene: Scene, progress: Progress | None = None) ->
         raise _given_up(tour, scene, error) from error
     robot._trace.mark(EventKind.STOP, walker.at if isinstance(walker.at, int) else None, ending=ending)
     meter.close()
-    return with_bounds(_finished(tour, scene))
+    return with_bounds(_finished(tour, scene), robot._table)
 
 
 def _given_up(tour: Tour, scene: Scene, error: Undecided) -> Undecided:
