@@ -69,7 +69,7 @@ class Sightings:
 
     def take_in(self) -> None:
         """Number what came into sight since the last time, and tell of it."""
-        if self.is_held:
+        if self.is_held or self._taken > self._walker.count:
             return
         for reports in self._walker.reports[self._taken :]:
             for report in reports:

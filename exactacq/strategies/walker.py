@@ -131,10 +131,13 @@ class Walker:
 
         `Undecided` where a comparison is: the path ends before that piece then, and the walker is stuck.
         """
+        if not self.is_sensed:
+            self._sense(progress)
+        elif progress is not None:
+            Meter(progress, self.count).close()
+
+    def _sense(self, progress: Progress | None) -> None:
         meter = Meter(progress, len(self.pieces) - len(self._reports) + 1)
-        if self.is_sensed:
-            meter.close()
-            return
         with self._sensing, uncollected():
             try:
                 if not self._reports:
