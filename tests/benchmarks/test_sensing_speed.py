@@ -150,6 +150,25 @@ def explored(scene: xa.Scene) -> xa.Run:
 
 
 @pytest.mark.benchmark(group="a run with its map, n = 100")
+def test_way_of_the_sightseer(benchmark: object) -> None:
+    """The way alone, which follows from links."""
+    n = FEW if benchmark.disabled else 100
+    assert benchmark.pedantic(
+        xa.sightseer, setup=lambda: ((random_octagons(n, SEED),), {}), rounds=3
+    ).complete
+
+
+@pytest.mark.benchmark(group="a run with its map, many obstacles")
+@pytest.mark.parametrize("n", [1000, 2000])
+def test_way_in_a_large_scene(benchmark: object, n: int) -> None:
+    """The way alone."""
+    skip_unless_timed(benchmark, n)
+    assert benchmark.pedantic(
+        xa.sightseer, setup=lambda: ((random_octagons(n, SEED),), {}), rounds=1
+    ).complete
+
+
+@pytest.mark.benchmark(group="a run with its map, n = 100")
 def test_sensing_sightseer(benchmark: object) -> None:
     n = FEW if benchmark.disabled else 100
     run = benchmark.pedantic(explored, setup=lambda: ((random_octagons(n, SEED),), {}), rounds=3)
