@@ -3,22 +3,31 @@
 from __future__ import annotations
 
 import pickle
+import sys
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from copy import copy
+from threading import Event
+from time import sleep
+from traceback import walk_tb
 from typing import Any
 
 import pytest
 from nightly import some
 
 import exactacq as xa
+from exactacq.geometry.points import Point
 from exactacq.scene.scene import Scene
 from exactacq.sensing.memory import Memory
+from exactacq.sensing.sensor import Sensor
 from exactacq.strategies.robot import Robot
+from exactacq.strategies.sightseer import strategy
 from exactacq.strategies.sightseer.rules import Tour
 from exactacq.strategies.sightseer.strategy import explored_by
 from exactacq.study.claims.model import Subject
 from exactacq.study.random_scenes import random_scene
+from exactacq.visibility.links import Links
 
 WORDS = "two numbers"
 
@@ -205,3 +214,179 @@ def test_what_was_unvisited_then_is_told_later(sensed: list[Any]) -> None:
         assert link is not None
         again.take(link)
         again.circle()
+
+
+# -- what may come between ------------------------------------------------------------------------------
+
+
+def test_interrupted_twice_it_begins_anew(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Once in the middle of a piece, which is taken in by half, and then where the fresh memory is made."""
+    whole, run = xa.sightseer(xa.load("squares")).sense(), xa.sightseer(xa.load("squares"))
+    follow, make, count = Sensor.follow, Memory.__init__, [0, 0]
+
+    def followed(sensor: Sensor, ahead: Any) -> Any:
+        found = follow(sensor, ahead)
+        count[0] += 1
+        if count[0] == 4:
+            raise KeyboardInterrupt
+        return found
+
+    def made(memory: Memory, *given: Any) -> None:
+        count[1] += 1
+        if count[1] == 1:
+            raise KeyboardInterrupt
+        make(memory, *given)
+
+    monkeypatch.setattr(Sensor, "follow", followed)
+    monkeypatch.setattr(Memory, "__init__", made)
+    for _ in range(2):
+        with pytest.raises(KeyboardInterrupt):
+            assert run.events
+    assert run.events == whole.events
+    for event, other in zip(run.events, whole.events, strict=True):
+        assert run.map_at(event).known_length() == whole.map_at(other).known_length()
+
+
+def test_interrupted_after_it_was_found_undecided_it_stays_so(
+    failing: Callable[[int, BaseException], None], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run, finished, left = xa.sightseer(xa.load("squares")), strategy._finished, [1]
+
+    def interrupted(*given: Any, **options: Any) -> Any:
+        if left:
+            left.pop()
+            raise KeyboardInterrupt
+        return finished(*given, **options)
+
+    failing(3, xa.Undecided(WORDS))
+    monkeypatch.setattr(strategy, "_finished", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        assert run.events
+    with pytest.raises(xa.Undecided, match=WORDS) as caught:
+        assert run.events
+    stops = [event for event in caught.value.run.events if event.kind == "stop"]
+    assert len(stops) == 1 and caught.value.run.events[-1] is stops[0]
+
+
+def test_a_thread_that_waits_for_another_is_told_that_it_is_undecided(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    run, walk, waiting, failed = xa.sightseer(xa.load("squares")), Memory.walk, Event(), list[Any]()
+
+    def walked(memory: Memory, piece: Any) -> Any:
+        if not failed:
+            failed.append(piece)
+            waiting.wait(9)
+            sleep(0.05)
+            raise xa.Undecided(WORDS)
+        return walk(memory, piece)
+
+    def ask(first: bool) -> object:
+        while not (first or failed):
+            sleep(0.001)
+        if not first:
+            waiting.set()
+        return run.events
+
+    monkeypatch.setattr(Memory, "walk", walked)
+    with ThreadPoolExecutor(2) as pool:
+        for answer in [pool.submit(ask, first) for first in (True, False)]:
+            with pytest.raises(xa.Undecided, match=WORDS):
+                answer.result()
+
+
+def test_errors_do_not_grow(failing: Callable[[int, BaseException], None]) -> None:
+    run, sizes = xa.sightseer(xa.load("squares")), []
+    failing(3, xa.Undecided(WORDS))
+    for _ in range(4):
+        with pytest.raises(xa.Undecided) as caught:
+            assert run.events
+        sizes.append(len(list(walk_tb(caught.value.__traceback__))))
+    assert sizes[1:] == sizes[1:2] * 3
+
+
+def test_threads_read_reasons(monkeypatch: pytest.MonkeyPatch) -> None:
+    """They take in what was seen, once."""
+    before = sys.getswitchinterval()
+    usual = [event.why() for event in xa.sightseer(xa.load("figure2")).events if event.decided]
+    sys.setswitchinterval(1e-6)
+    try:
+        run = xa.sightseer(xa.load("figure2")).sense()
+        with ThreadPoolExecutor(6) as pool:
+            told = list(pool.map(lambda _: [e.why() for e in run.events if e.decided], range(6)))
+    finally:
+        sys.setswitchinterval(before)
+    assert told == [usual] * 6
+
+
+def test_a_watched_way_that_is_undecided_was_not_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its sightings were shown to the watch, and their numbers are taken back."""
+    circles = [xa.Circle((3, y), 1) for y in (0, 20, 40)]
+    robot = Robot(xa.Scene(circles, (0, 0), radius=6))
+    route = robot.lay([(0, 0), (0, 40)])
+    shown: list[Any] = []
+
+    def fail(memory: Memory, piece: Any) -> None:
+        raise xa.Undecided(WORDS)
+
+    monkeypatch.setattr(Memory, "walk", fail)
+    with pytest.raises(xa.Undecided):
+        robot.follow(route, watch=lambda passage: shown.append(passage.sighting))
+    assert {sighting.obstacle for sighting in shown if sighting} == {0, 1, 2}
+    assert robot.seen == robot.map.seen == (0,) and robot.map.acquired == ()
+    assert [sighting.obstacle for sighting in robot.sightings] == [0] and robot.position == Point(0, 0)
+
+
+def test_an_undecided_robot_knows_where_it_stands(failing: Callable[[int, BaseException], None]) -> None:
+    robot = Robot(xa.load("squares"))
+    failing(1, xa.Undecided(WORDS))
+    robot.go_to((5, 0))
+    with pytest.raises(xa.Undecided):
+        robot.go_to((0, 3))
+    assert (robot.at, robot.position, robot.length) == (0, Point(2, 0), 2)
+
+
+def test_sightings_are_taken_in_once_though_who_hears_of_them_fails() -> None:
+    told: list[list[str]] = []
+
+    def once(done: int, total: int) -> None:
+        if not told:
+            told.append([])
+            raise RuntimeError
+
+    def go(robot: Robot) -> None:
+        with suppress(RuntimeError):
+            robot.go_to((5, 0))
+            robot.circle()
+        told.append([str(sighting.kind) for sighting in robot.sightings])
+
+    xa.explore(xa.load("squares"), go, progress=once)
+    assert told[1] == ["sight", "sight", "acquire", "lose"]
+
+
+def test_a_question_about_links_may_be_interrupted(monkeypatch: pytest.MonkeyPatch) -> None:
+    robot = Robot(xa.load("figure2"))
+    robot.take(robot.nearest_unvisited())
+    robot.circle()
+    between, failed = Links.between, list[Any]()
+
+    def once(links: Links, i: int, j: int) -> Any:
+        if not failed:
+            failed.append((i, j))
+            raise KeyboardInterrupt
+        return between(links, i, j)
+
+    monkeypatch.setattr(Links, "between", once)
+    with pytest.raises(KeyboardInterrupt):
+        robot.nearest_unvisited()
+    link = robot.nearest_unvisited()
+    assert link is not None and link.length == min(other.length for other in robot.links(robot.at))
+
+
+def test_what_is_seen_from_the_ways_alone_may_stay_unvisited() -> None:
+    """A disc beside the way between two blocks is farther than R from both."""
+    blocks = [[(x, "-1/20"), (x + 1, "-1/20"), (x + 1, "1/20"), (x, "1/20")] for x in (8, 17)]
+    scene = xa.Scene([*blocks, xa.Circle(("25/2", "88/10"), "1/10")], (0, 0), radius=9)
+    run, eager = xa.sightseer(scene), explored_by(Eager(scene), scene)
+    assert (run.visits, run.unvisited, run.unseen, run.stack_depth) == ((0, 1), (2,), (), 2)
+    assert run == eager and run.ending == "back at the start"

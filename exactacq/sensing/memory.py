@@ -352,6 +352,10 @@ class Memory:
                 return k, u
         return None
 
+    def told(self, count: int) -> int:
+        """The number of reports from the start and from the first *count* pieces."""
+        return self._told[count]
+
     def _reported(self, reports: list[Report]) -> list[Report]:
         self.reports += reports
         self._told.append(len(self.reports))

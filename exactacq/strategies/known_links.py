@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Container, Iterable
 from dataclasses import dataclass
 from functools import partial
-from heapq import heappop, heappush
+from heapq import heapify, heappop, heappush
 from itertools import islice
 
 from exactacq.errors import Undecided
@@ -51,18 +51,18 @@ class _LinksByLength:
         while self._found and self._found[0][1] in visited:
             heappop(self._found)
         while self._near and not (self._found and self._near[-1][0] > _at_most(self._found[0][0])):
-            _, j = self._near.pop()
+            _, j = self._near[-1]
             link = None if j in visited else self._link(j)
             if link is not None:
                 heappush(self._found, (float(link.length), j, link))
+            # Only now: where a link is undecided, or somebody interrupts, nothing is lost.
+            self._near.pop()
         least = _at_most(self._found[0][0]) if self._found else 0.0
-        close = []
-        while self._found and self._found[0][0] <= least:
-            _, j, link = heappop(self._found)
-            if j not in visited:
-                close.append(link)
+        close = [link for length, j, link in self._found if length <= least and j not in visited]
         close.sort(key=lambda link: link.target)
         close.sort(key=lambda link: link.length)
+        self._found = [found for found in self._found if found[0] > least]
+        heapify(self._found)
         return close[::-1]
 
 

@@ -166,9 +166,9 @@ class Observer:
 
     @property
     def unvisited_now(self) -> Callable[[], tuple[int, ...]]:
-        """A function that tells what `unvisited` is now, whenever it is called.
+        """A function that tells, whenever it is called, what `unvisited` was when it was asked for.
 
-        For reasons that are read later: they need not sense on the way what has no say in it.
+        Reasons that are made when they are read can use it (see `Robot`).
 
         >>> import exactacq as xa
         >>> robot = xa.Robot(xa.load("circles"))
@@ -342,8 +342,8 @@ class Observer:
         return tuple(self._known_link(link) for link in self._known_links().of(self._node(source)))
 
     def nearest_unvisited(self, source: int | Here | None = HERE) -> KnownLink | None:
-        """The shortest of the links to an obstacle that was not visited: from the boundary where the robot
-        is, or the start, or from that of *source*.
+        """The shortest of the links to an obstacle that was not visited, from the boundary where the robot
+        is; in free space from the start. With *source* from there, as `links`.
 
         Of equally long ones the first one of `links`. None if there is none; `MoveError` as `links`. If it is
         taken before any other move, that it was the nearest is told as the decision. Cost: that of the links

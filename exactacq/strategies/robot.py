@@ -7,6 +7,7 @@ with an underscore are not for strategies.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
+from copy import copy
 from functools import cmp_to_key, partial, wraps
 from typing import Concatenate, ParamSpec, TypeAlias, TypeVar
 
@@ -45,7 +46,7 @@ def _move(
         try:
             return action(robot, *args, **options)
         except Undecided as error:
-            robot._walker.stuck = error
+            robot._walker.stuck = copy(error)
             raise
         finally:
             if not robot._senses_late:
@@ -64,7 +65,7 @@ class Robot(Observer):
     the links that begin there, and at a known point of a boundary whether a route crosses it. A terrain's
     border is no wall, and is not seen. Moves take a *reason*, a text or a `Decision` with the robot's numbers
     of obstacles, which the run tells with the event that begins the move; a move that makes no way has none.
-    A function that makes the decision is called when it is read.
+    The reason may be a function that gives one of these: it is called when somebody reads the reason.
 
     One that is *confined* keeps within the scene's `terrain` and knows its border; it starts in the SW
     corner. Obstacles are what the border leaves of them as far as the robot can come to them from there.
@@ -347,7 +348,7 @@ class Robot(Observer):
         if self._is_underway:
             raise MoveError("the robot is underway: what watches its way cannot move it")
         if self._walker.stuck is not None:
-            raise self._walker.stuck
+            raise copy(self._walker.stuck)
         self._moves += 1
         if self._moves > self._most:
             raise EnoughMoves
@@ -409,6 +410,8 @@ class Robot(Observer):
                         self._set_off(decided)
                     walker.move(piece)
                     walker.position = piece.end
+                if lookout is not None:
+                    walker.sense()
                 if stop is not None:
                     return False
             return True

@@ -69,8 +69,8 @@ class Run:
     ``path`` and ``events`` are in the order of the walk; ``visits`` are the numbers of obstacles in the order
     in which the robot walked around them, ``bounds`` the paper's bounds on the length. ``unseen`` obstacles
     never came on the map. ``unvisited`` ones did without being reached, or, but for the Sightseer, without
-    becoming wholly known. ``record`` is the sensing; a run that was read from a file has none and repeats the
-    sensing on first use.
+    becoming wholly known. ``record`` is the sensing, or what does it when somebody asks; a run that was read from
+    a file has none and repeats the sensing on first use.
 
     Runs are equal if all their entries but the record are: so is a run that was copied, pickled or read back.
     A run has a hash only if all its lengths and points are rational.
@@ -139,17 +139,20 @@ class Run:
         The way of a `SightseerRun` does not depend on it: so it is found out when it is first asked for, as
         its events and maps are. It takes several times as long as the way alone. What is not sensed yet
         raises `Undecided`, with the run up to there, where a comparison is beyond the library's limits; it
-        does so whenever it is asked for. *progress* is called with the number of pieces sensed, and of all.
+        does so whenever it is asked for. *progress* is called with the number of pieces of the path that are
+        sensed, and of those to be sensed; the look around at the start counts as one.
 
         >>> import exactacq as xa
         >>> len(xa.sightseer(xa.load("circles")).sense().events)
         11
         """
-        if self.record is None or isinstance(self.record, Memory):
-            Meter(progress, len(self.path)).close()
-        else:
+        meter = Meter(progress, len(self.path) + 1)
+        if self.record is not None and not isinstance(self.record, Memory):
             self.record(progress)
-        len(self.events)  # They are made of it.
+        else:
+            self.memory.after(0)  # That of a run from a file is made here.
+            meter.close()
+        len(self.events)  # They are made here, of what was seen.
         return self
 
     @property

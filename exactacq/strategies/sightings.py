@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
+from bisect import bisect_left
 from collections.abc import Callable
 from itertools import islice
 
@@ -25,9 +25,8 @@ class Sightings:
         self._every: list[Sighting] = []
         self._in_sight: set[int] = set()
         self._incomplete: set[int] = set()
-        # After how many pieces each obstacle was first seen, and how many lists of reports are taken in.
+        # With which sighting each obstacle was first seen.
         self._first: list[int] = []
-        self._taken = 0
         # While it is held nothing is taken in.
         self.is_held = False
         # Is told of each report that is taken in.
@@ -63,22 +62,22 @@ class Sightings:
 
     def unvisited_after(self, pieces: int, visits: int) -> tuple[int, ...]:
         """The obstacles seen after so many pieces of the path that were not among the first visits."""
-        numbers = self.numbers
+        numbers, count = self.numbers, self._walker.memory.told(pieces)
         visited = {numbers.own[k] for k in islice(self._walker.visited, visits)}
-        return tuple(i for i in range(bisect_right(self._first, pieces)) if i not in visited)
+        return tuple(i for i in range(bisect_left(self._first, count)) if i not in visited)
 
     def take_in(self) -> None:
         """Number what came into sight since the last time, and tell of it."""
-        if self.is_held or self._taken > self._walker.count:
+        walker = self._walker
+        if self.is_held or len(self._every) == len(walker.memory.reports):
             return
-        for reports in self._walker.reports[self._taken :]:
-            for report in reports:
+        with walker.sensing:
+            for report in walker.memory.reports[len(self._every) :]:
                 number = self._numbers.add(report.obstacle)
                 if number == len(self._first):
-                    self._first.append(self._taken)
+                    self._first.append(len(self._every))
                 self._add(Sighting(report.kind, number, report.place, report.reason))
                 self.hear(report)
-            self._taken += 1
 
     def _add(self, seen: Sighting) -> None:
         if seen.kind in (EventKind.SIGHT, EventKind.REGAIN):

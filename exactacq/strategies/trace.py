@@ -26,10 +26,11 @@ class Trace:
     def mark(self, kind: EventKind, obstacle: int | None, **why: Any) -> None:
         """Write an event here and now; *why* are its occasion, other, reason, ending and what is decided (see
         `Event`)."""
+        self._marks.append(self._here(kind, obstacle, **why))
+
+    def _here(self, kind: EventKind, obstacle: int | None, **why: Any) -> tuple[int, partial[Event]]:
         walker = self._walker
-        self._marks.append(
-            (walker.count, partial(Event, kind, walker.position, obstacle, walker.count, **why))
-        )
+        return walker.count, partial(Event, kind, walker.position, obstacle, walker.count, **why)
 
     def explain(self, decided: Decision | Callable[[], Decision]) -> bool:
         """Tell the decision on what follows the event that was written last, if that happened here.
@@ -49,17 +50,19 @@ class Trace:
     def give_up(self, error: Undecided) -> Undecided:
         """End the trace where the last piece ends that could be sensed; the error that came first on the way.
 
-        The path ends there too.
+        The path ends there too. To do so again changes nothing.
         """
         walker = self._walker
         try:
             walker.sense()
         except Undecided as earlier:
             error = earlier
-        self._marks = [mark for mark in self._marks if mark[0] <= walker.count]
+        if walker.undecided is not None:
+            error = walker.undecided
         walker.position = walker.pieces[-1].end if walker.pieces else walker.start
         at = walker.pieces[-1].obstacle if walker.pieces else None
-        self.mark(EventKind.STOP, at, ending=Ending.UNDECIDED)
+        kept = [mark for mark in self._marks if mark[0] <= walker.count and mark[1].args[0] != EventKind.STOP]
+        self._marks = [*kept, self._here(EventKind.STOP, at, ending=Ending.UNDECIDED)]
         return error
 
     def events(self, path: Path) -> tuple[Event, ...]:

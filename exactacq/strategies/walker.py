@@ -7,6 +7,7 @@ do and ask is the robot's (`exactacq.strategies.robot`).
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from copy import copy
 from threading import RLock
 
 from exactacq.errors import ExactacqError, Undecided
@@ -32,15 +33,20 @@ class Walker:
         self._fresh, self._memory = memory, memory()
         # What was reported at the start, and from each piece that is sensed.
         self._reports: list[list[Report]] = []
-        self._sensing = RLock()
+        self._is_half_taken = False
+        # Held while it senses: others may ask meanwhile.
+        self.sensing = RLock()
         self._boundaries: dict[int, Boundary] = {}
+        # The pieces of the path, and at which node each began.
         self.pieces: list[Piece] = []
+        self._nodes: list[Node] = []
         self.start = self.position = start
         self.at: Node = START
         # After how many pieces each obstacle was visited, in the order of the visits.
         self.visited: dict[int, int] = {}
-        # Why it does not move any more, if it does not.
+        # Why it does not move any more, if it does not; and what of what it saw is undecided, if that is why.
         self.stuck: ExactacqError | None = None
+        self.undecided: Undecided | None = None
 
     @property
     def count(self) -> int:
@@ -105,6 +111,7 @@ class Walker:
 
     def move(self, piece: Piece) -> None:
         """Walk a piece of the path."""
+        self._nodes.append(self.at)
         self.pieces.append(piece)
 
     # -- sensing -----------------------------------------------------------------------------------
@@ -127,42 +134,46 @@ class Walker:
         return len(self._reports) > len(self.pieces)
 
     def sense(self, progress: Progress | None = None) -> None:
-        """Sense what of the path is not sensed yet; *progress* is told pieces.
+        """Sense what of the path is not sensed yet; *progress* is told pieces, the start counted as one.
 
-        `Undecided` where a comparison is: the path ends before that piece then, and the walker is stuck.
+        `Undecided`, once, where a comparison is: the path ends before that piece then, and the walker is
+        stuck.
         """
-        if not self.is_sensed:
-            self._sense(progress)
-        elif progress is not None:
-            Meter(progress, self.count).close()
+        if self.is_sensed:
+            if progress is not None:
+                Meter(progress, self.count + 1).close()
+            return
+        with self.sensing, uncollected():
+            meter = Meter(progress, self.count + 1 - len(self._reports))
+            while not self.is_sensed:
+                self._sense_next()
+                meter.add()
 
-    def _sense(self, progress: Progress | None) -> None:
-        meter = Meter(progress, len(self.pieces) - len(self._reports) + 1)
-        with self._sensing, uncollected():
-            try:
-                if not self._reports:
-                    self._reports.append(self._memory.begin(self.start))
-                while not self.is_sensed:
-                    self._reports.append(self._memory.walk(self.pieces[len(self._reports) - 1]))
-                    meter.add()
-            except Undecided as error:
-                self._fall_back()
-                self.stuck = error
-                raise
-            except BaseException:
-                # Half of a piece may be taken in: the next time begins anew.
-                self._memory, self._reports = self._fresh(), []
-                raise
-            meter.close()
+    def _sense_next(self) -> None:
+        """Sense the next piece, or look around at the start; where that was interrupted, begin anew."""
+        if self.undecided is not None:
+            self._fall_back()
+            raise copy(self.undecided)
+        if self._is_half_taken:
+            self._reports, self._memory = [], self._fresh()
+        self._is_half_taken, done = True, len(self._reports)
+        try:
+            found = self._memory.walk(self.pieces[done - 1]) if done else self._memory.begin(self.start)
+        except Undecided as error:
+            # A copy: it does without what the traceback holds on to.
+            self.stuck = self.undecided = copy(error)
+            self._fall_back()
+            raise
+        self._reports.append(found)
+        self._is_half_taken = False
 
     def _fall_back(self) -> None:
         """End the path where the last piece ends that could be sensed."""
         if not self._reports:
             self._reports.append([])
         count = len(self._reports) - 1
-        around = [*self.pieces[count : count + 1], *self.pieces[:count][-1:]]
-        del self.pieces[count:]
         for obstacle in [k for k, after in self.visited.items() if after > count]:
             del self.visited[obstacle]
-        self.position = self.pieces[-1].end if self.pieces else self.start
-        self.at = next((piece.obstacle for piece in around if piece.obstacle is not None), START)
+        self.at = self._nodes[count] if count < len(self._nodes) else START
+        self.position = self.pieces[count - 1].end if count else self.start
+        del self.pieces[count:], self._nodes[count:]

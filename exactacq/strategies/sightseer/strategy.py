@@ -71,35 +71,35 @@ def explored_by(robot: Robot, scene: Scene, progress: Progress | None = None) ->
         raise _given_up(tour, scene, error) from error
     robot._trace.mark(EventKind.STOP, walker.at if isinstance(walker.at, int) else None, ending=ending)
     meter.close()
-    return with_bounds(_finished(tour, scene), robot._table)
+    return with_bounds(_finished(tour, scene, is_sensed=False), robot._table)
 
 
 def _given_up(tour: Tour, scene: Scene, error: Undecided) -> Undecided:
     """The error that came first on the way, with the run up to there."""
     first = tour.robot._trace.give_up(error)
-    return Undecided(first.comparison, _finished(tour, scene))
+    return Undecided(first.comparison, _finished(tour, scene, is_sensed=True))
 
 
-def _finished(tour: Tour, scene: Scene) -> SightseerRun:
-    """The run so far."""
+def _finished(tour: Tour, scene: Scene, is_sensed: bool) -> SightseerRun:
+    """The run so far; if it is not to be sensed by now, what it saw is found out when somebody asks."""
     robot, walker, trace = tour.robot, tour.robot._walker, tour.robot._trace
     path, visits = Path(walker.pieces), tuple(walker.visited)
     left = [k for k in range(len(scene.obstacles)) if k not in walker.visited]
     seen = walker.memory.seen if left else set()
     # Where it was given up the tour may have gone on.
     there, back = trace.count(EventKind.HIT), set(tour.back[: trace.count(EventKind.BACKTRACK)])
-    sensed = _Sensed(tour, scene, path)
+    sensed = None if is_sensed else _Sensed(tour, scene, path)
     return SightseerRun(
         scene=scene,
         radius=robot.radius,
         start=robot.start,
         path=path,
         visits=visits,
-        events=later(sensed.events),
+        events=trace.events(path) if sensed is None else later(sensed.events),
         bounds=(),
         unseen=tuple(k for k in left if k not in seen),
         unvisited=tuple(k for k in left if k in seen),
-        record=sensed,
+        record=walker.memory if sensed is None else sensed,
         links=tuple(_tree_link(way, 2 if way in back else 1) for way in tour.ways[:there]),
         stack_depth=max(tour.depths[:there], default=0),
     )
@@ -118,18 +118,25 @@ class _Sensed:
 
     def __init__(self, tour: Tour, scene: Scene, path: Path) -> None:
         self._tour, self._scene, self._path = tour, scene, path
-        self._error: Undecided | None = None
+        self._part: SightseerRun | None = None
 
     def __call__(self, progress: Progress | None = None) -> Memory:
-        if self._error is None:
-            walker = self._tour.robot._walker
+        walker = self._tour.robot._walker
+        if walker.undecided is None:
             try:
                 walker.sense(progress)
-                return walker.memory
             except Undecided as error:
-                self._error = _given_up(self._tour, self._scene, error)
-                self._error.__cause__ = error
-        raise self._error
+                raise self._given_up(error) from error
+        # Another thread may have found it so meanwhile.
+        if walker.undecided is not None:
+            raise self._given_up(walker.undecided)
+        return walker.memory
+
+    def _given_up(self, error: Undecided) -> Undecided:
+        """A new error each time, that keeps no traceback; with one and the same run."""
+        if self._part is None:
+            self._part = _given_up(self._tour, self._scene, error).run
+        return Undecided(error.comparison, self._part)
 
     def events(self) -> tuple[Event, ...]:
         """What happened, with what was seen."""
