@@ -69,8 +69,8 @@ class Run:
     ``path`` and ``events`` are in the order of the walk; ``visits`` are the numbers of obstacles in the order
     in which the robot walked around them, ``bounds`` the paper's bounds on the length. ``unseen`` obstacles
     never came on the map. ``unvisited`` ones did without being reached, or, but for the Sightseer, without
-    becoming wholly known. ``record`` is the sensing, or what does it when somebody asks; a run that was read from
-    a file has none and repeats the sensing on first use.
+    becoming wholly known. ``record`` is the sensing, or what does it when somebody asks; a run that was read
+    from a file has none and repeats the sensing on first use.
 
     Runs are equal if all their entries but the record are: so is a run that was copied, pickled or read back.
     A run has a hash only if all its lengths and points are rational.
