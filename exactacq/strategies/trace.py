@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from functools import partial
 from itertools import groupby
 from typing import Any
@@ -53,17 +54,13 @@ class Trace:
         The path ends there too. To do so again changes nothing.
         """
         walker = self._walker
-        try:
+        with suppress(Undecided):
             walker.sense()
-        except Undecided as earlier:
-            error = earlier
-        if walker.undecided is not None:
-            error = walker.undecided
         walker.position = walker.pieces[-1].end if walker.pieces else walker.start
         at = walker.pieces[-1].obstacle if walker.pieces else None
         kept = [mark for mark in self._marks if mark[0] <= walker.count and mark[1].args[0] != EventKind.STOP]
         self._marks = [*kept, self._here(EventKind.STOP, at, ending=Ending.UNDECIDED)]
-        return error
+        return walker.undecided or error
 
     def events(self, path: Path) -> tuple[Event, ...]:
         """The events on the whole path, sensed ones among them; `Undecided` as `Walker.sense`."""
