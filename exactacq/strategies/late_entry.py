@@ -1,39 +1,50 @@
-"""Entries of dataclasses that may be made when they are first asked for."""
+"""Entries of dataclasses that may be made when they are first read."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Generic, TypeVar, cast
+from typing import Any, TypeVar, cast
 
 Value = TypeVar("Value")
+Kind = TypeVar("Kind", bound=type)
 
 
-class _Later(Generic[Value]):
+class _Later:
     """A value that is not made yet."""
 
-    def __init__(self, make: Callable[[], Value]) -> None:
+    def __init__(self, make: Callable[[], object]) -> None:
         self.make = make
 
 
 def later(make: Callable[[], Value]) -> Value:
-    """What stands for a value of a `LateEntry` until this is read."""
+    """What stands for the value of a late entry until this is read."""
     return cast(Value, _Later(make))
 
 
-class LateEntry(Generic[Value]):
-    """An entry that is made when it is first read, and kept, if it is given by `later`."""
+def late(*names: str) -> Callable[[Kind], Kind]:
+    """Let entries of a dataclass that have no defaults be late, if `later` stands for their values."""
 
-    def __set_name__(self, owner: type, name: str) -> None:
+    def decorated(kind: Kind) -> Kind:
+        for name in names:
+            setattr(kind, name, _LateEntry(name))
+        return kind
+
+    return decorated
+
+
+class _LateEntry:
+    """An entry that is made when it is first read, and kept, if it is late."""
+
+    def __init__(self, name: str) -> None:
         self._name = name
 
-    def __get__(self, of: Any, owner: type | None = None) -> Value:
+    def __get__(self, of: Any, owner: type | None = None) -> Any:
         if of is None:
-            raise AttributeError(self._name)  # An entry without a default.
+            raise AttributeError(self._name)  # As of any entry without a default.
         value = of.__dict__[self._name]
         if isinstance(value, _Later):
             value = of.__dict__[self._name] = value.make()
-        made: Value = value
-        return made
+        return value
 
-    def __set__(self, of: Any, value: Value) -> None:
+    def __set__(self, of: Any, value: object) -> None:
         of.__dict__[self._name] = value

@@ -26,7 +26,7 @@ from exactacq.sensing.event import Ending, Event, EventKind, Reason
 from exactacq.sensing.map import Body, Map
 from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Path
-from exactacq.strategies.late_entry import LateEntry
+from exactacq.strategies.late_entry import late
 from exactacq.strategies.tables import Table, event_table
 from exactacq.visibility.isovist import Isovist
 
@@ -62,6 +62,7 @@ class Bound:
         return f"{self.name}, {self.source}: {self.value._repr_latex_()} {verdict}"
 
 
+@late("events")
 @dataclass(frozen=True, repr=False, kw_only=True)
 class Run:
     """A finished exploration: a `SightseerRun`, a `SeedSpreaderRun` or an `OwnRun`.
@@ -86,7 +87,7 @@ class Run:
     start: Point
     path: Path
     visits: tuple[int, ...]
-    events: LateEntry[tuple[Event, ...]] = LateEntry()  # noqa: RUF009 - a descriptor is one for all runs
+    events: tuple[Event, ...]
     bounds: tuple[Bound, ...]
     unseen: tuple[int, ...]
     unvisited: tuple[int, ...]
