@@ -72,5 +72,7 @@ def _placed(path: Path, folder: Path) -> Path:
 
 
 if __name__ == "__main__":
+    if any(argument.startswith("-") for argument in sys.argv[1:]):
+        raise SystemExit(__doc__)
     for made in build(Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else KERNEL / "compiled"):
         print(made)
