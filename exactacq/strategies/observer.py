@@ -144,7 +144,7 @@ class Observer:
     @property
     def visited(self) -> tuple[int, ...]:
         """The obstacles around which the robot has walked, in this order."""
-        return tuple(self._own[k] for k in self._walker.visited)
+        return tuple(map(self._own.__getitem__, self._walker.visited))
 
     @property
     def knows_unvisited(self) -> bool:
@@ -265,11 +265,12 @@ class Observer:
         """
         memory = self._walker.memory
         news, now = memory.news(), memory.now
+        own = self._own
         if route is not None:
-            passed = ((k, n) for k, n in route._passed() if k in self._own)
+            passed = ((k, n) for k, n in route._passed() if k in own)
             news |= {k for k, n in passed if k in memory.acquired or now.knows_some(route._ashore(n, now))}
         # A border may cut one edge between two components, of which one was not seen.
-        return frozenset(self._own[k] for k in news if k in self._own)
+        return frozenset(own[k] for k in news if k in own)
 
     # -- routes ------------------------------------------------------------------------------------
 
