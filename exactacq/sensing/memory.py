@@ -353,8 +353,8 @@ class Memory:
         return None
 
     def told(self, count: int) -> int:
-        """The number of reports from the start and from the first *count* pieces."""
-        return self._told[count]
+        """The number of reports from the start and from the first *count* pieces; 0 before it has begun."""
+        return self._told[count] if self._told else 0
 
     def _reported(self, reports: list[Report]) -> list[Report]:
         self.reports += reports

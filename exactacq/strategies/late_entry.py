@@ -40,7 +40,7 @@ class _LateEntry:
 
     def __get__(self, of: Any, owner: type | None = None) -> Any:
         if of is None:
-            raise AttributeError(self._name)  # As of any entry without a default.
+            return self
         value = of.__dict__[self._name]
         if isinstance(value, _Later):
             value = of.__dict__[self._name] = value.make()

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from functools import partial
-from itertools import groupby
 from typing import Any
 
 from exactacq.errors import Undecided
@@ -67,10 +66,12 @@ class Trace:
         return tuple(self._in_order(path))
 
     def _in_order(self, path: Path) -> Iterator[Event]:
-        """The start, and what was seen there; then of each piece what was seen, and what the robot did."""
-        of, (_, start) = groupby(self._marks[1:], key=lambda mark: mark[0]), self._marks[0]
-        done = {after: [mark for _, mark in marks] for after, marks in of}
-        yield start(path=path)
-        for after, reports in enumerate(self._walker.reports):
-            yield from (report.event(path) for report in reports)
-            yield from (mark(path=path) for mark in done.get(after, ()))
+        """What the robot did, and before each of it what it had seen by then."""
+        memory, told = self._walker.memory, 0
+        for number, (after, mark) in enumerate(self._marks):
+            # It had not looked around yet when it was put at the start.
+            seen = memory.told(after) if number else 0
+            yield from (report.event(path) for report in memory.reports[told:seen])
+            yield mark(path=path)
+            told = seen
+        yield from (report.event(path) for report in memory.reports[told:])

@@ -18,7 +18,7 @@ from exactacq.numbers.length import Length
 from exactacq.progress import Meter, Progress
 from exactacq.scene.boundary_walk import Boundary
 from exactacq.sensing.map import Body
-from exactacq.sensing.memory import Memory, Report
+from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Piece
 from exactacq.visibility.links import START, Node
 
@@ -31,8 +31,8 @@ class Walker:
 
     def __init__(self, start: Point, memory: Callable[[], Memory]) -> None:
         self._fresh, self._memory = memory, memory()
-        # What was reported at the start, and from each piece that is sensed.
-        self._reports: list[list[Report]] = []
+        # How many pieces are sensed, the look around at the start counted as one.
+        self._sensed = 0
         self._is_half_taken = False
         # Held while it senses: others may ask meanwhile.
         self.sensing = RLock()
@@ -123,15 +123,9 @@ class Walker:
         return self._memory
 
     @property
-    def reports(self) -> list[list[Report]]:
-        """What it saw at the start, and on each piece of the path; `Undecided` as `sense`."""
-        self.sense()
-        return self._reports
-
-    @property
     def is_sensed(self) -> bool:
         """Whether all of the path is sensed."""
-        return len(self._reports) > len(self.pieces)
+        return self._sensed > self.count
 
     def sense(self, progress: Progress | None = None) -> None:
         """Sense what of the path is not sensed yet; *progress* is told pieces, the start counted as one.
@@ -144,7 +138,7 @@ class Walker:
                 Meter(progress, self.count + 1).close()
             return
         with self.sensing, uncollected():
-            meter = Meter(progress, self.count + 1 - len(self._reports))
+            meter = Meter(progress, self.count + 1 - self._sensed)
             while not self.is_sensed:
                 self._sense_next()
                 meter.add()
@@ -155,23 +149,25 @@ class Walker:
             self._fall_back()
             raise copy(self.undecided)
         if self._is_half_taken:
-            self._reports, self._memory = [], self._fresh()
-        self._is_half_taken, done = True, len(self._reports)
+            self._sensed, self._memory = 0, self._fresh()
+        self._is_half_taken, done = True, self._sensed
         try:
-            found = self._memory.walk(self.pieces[done - 1]) if done else self._memory.begin(self.start)
+            if done:
+                self._memory.walk(self.pieces[done - 1])
+            else:
+                self._memory.begin(self.start)
         except Undecided as error:
             # A copy: it does without what the traceback holds on to.
             self.stuck = self.undecided = copy(error)
             self._fall_back()
             raise
-        self._reports.append(found)
-        self._is_half_taken = False
+        self._sensed, self._is_half_taken = done + 1, False
 
     def _fall_back(self) -> None:
         """End the path where the last piece ends that could be sensed."""
-        if not self._reports:
-            self._reports.append([])
-        count = len(self._reports) - 1
+        # Where even the look around at the start is undecided, it counts as made: nothing was seen.
+        self._sensed = max(self._sensed, 1)
+        count = self._sensed - 1
         for obstacle in [k for k, after in self.visited.items() if after > count]:
             del self.visited[obstacle]
         self.at = self._nodes[count] if count < len(self._nodes) else START
