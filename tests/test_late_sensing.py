@@ -144,7 +144,7 @@ def test_interrupted_it_begins_anew(failing: Callable[[int, BaseException], None
     ]
 
 
-@pytest.mark.parametrize("count", [0, 2, 9])
+@pytest.mark.parametrize("count", [0, 2, 5, 6, 9])
 def test_undecided_it_is_so_each_time(count: int, failing: Callable[[int, BaseException], None]) -> None:
     run = xa.sightseer(xa.load("squares"))
     failing(count, xa.Undecided(WORDS))
@@ -164,6 +164,9 @@ def test_undecided_it_is_so_each_time(count: int, failing: Callable[[int, BaseEx
     assert len(part.path) == count and part.events[-1].ending == "undecided"
     assert part.map.acquired is not None and list(part.path) == list(run.path[:count])
     assert run.length > part.length
+    laps = [xa.Length.sum(p.length for p in part.path if p.obstacle == k) for k in (0, 1)]
+    rounds = [k for k, walked in enumerate(laps) if walked >= run.obstacles[k].perimeter]
+    assert list(part.visits) == rounds and (count != 6 or rounds == [0])
     assert len(part.links) == sum(event.kind == "hit" for event in part.events)
     assert sum(link.traversals for link in part.links) == len(part.links) + sum(
         event.kind == "backtrack" for event in part.events

@@ -245,6 +245,12 @@ LADDER = [*WALLS, box(Q(1, 100), 1, Q(1, 100), 8)]
 
 
 class TestBlockedPairs:
+    def test_a_corner_far_from_one_of_the_two_holds_the_link(self) -> None:
+        """It is 7 from one and 1 from the other, where R is 9: from (1, 1) over (8, 3/2) to (9, 11/7)."""
+        one, other, wall = box(0, 1, 0, 1), box(9, 10, Q(6, 5), 3), box(8, Q(17, 2), -9, Q(3, 2))
+        for shapes in ([one, other, wall], [other, one, wall]):
+            assert weight(shapes, 9) == Real(3152).sqrt() / 7
+
     def test_a_ladder_over_a_corner(self) -> None:
         """The shortest ladder over a box (a, b) is (a^(2/3) + b^(2/3))^(3/2): here (1 + 4)^(3/2)."""
         graph = xa.visibility_graph(build(LADDER), 40)
