@@ -187,6 +187,22 @@ class TestRoots:
         assert [float(t) for t in found] == pytest.approx([-(0.125e-30**0.5), 0.125e-30**0.5])
         assert of_length_on(TURNING, self.way, wall, 8 - gap, Real(-1), Real(1)) == []
 
+    def test_the_view_at_a_root_is_as_long_in_every_form(self) -> None:
+        """A robot halts where it sees just as far as the range, and later asks from there how far that is.
+
+        The numbers of its way have so high a degree that no zero test of the numbers themselves would end.
+        """
+        way = Segment(Point(-ROOT2 - CUBIC, -5), Point(-CUBIC.sqrt() - Real(3).sqrt(), 5))
+        tilted = Segment(Point(2, -5), Point(3, 7))
+        for ahead, square in ((self.wall, 34), (tilted, 31)):
+            t, _ = of_length_on(TURNING, way, ahead, fmpq(square), Real(-1), Real(1))
+            place = chord_at(TURNING, t, way, ahead).start
+            # The line goes on from the place through the corner in the origin.
+            share = (ahead.start - place).cross(ahead.direction) / (-place).cross(ahead.direction)
+            length = place.norm_sq() * share * share
+            assert length.compare(Real(square)) == 0 == Real(square).compare(length)
+            assert length.compare(Real(square) + fmpq(1, 10**60)) == -1
+
     def test_a_way_that_touches_the_circle_on_which_lines_roll(self) -> None:
         # The tangent of the unit circle at 45 degrees (t = tan 67.5 degrees, counted from below: a high end
         # of a sector that starts there) meets the line through angle t; behind stands a wall.

@@ -49,7 +49,7 @@ def decided_sign(value: Any) -> int:
             if ball.abs_upper() < arb(2) ** -limit:
                 return 0
             if limit > ZERO_TEST_BITS and bits >= TRIAL_BITS:
-                if (zero_of := _zero_in(value)) is not None and vanishes_about(value, [zero_of]):
+                if _is_known_zero(value):
                     return 0
                 raise Undecided(
                     f"sign of {decimal_string(value.ball, 20)}...: excluding 0 would take {limit} bits, "
@@ -67,10 +67,18 @@ def _numbers_in(value: Any) -> list[Any]:
     return [key for key, _ in value.generators() if not isinstance(key, int | Sqrt)]
 
 
-def _zero_in(value: Any) -> Node | None:
-    """The zero of a function (see `exactacq.numbers.function_zeros`) that a real is made of, if it is one."""
-    found = [key for key, _ in value.generators() if isinstance(key, Node) and not isinstance(key, Sqrt)]
-    return found[0] if len(found) == 1 else None
+def _is_known_zero(value: Any) -> bool:
+    """Whether a real that is made of zeros of functions (see `function_zeros`) surely is 0.
+
+    It is if it vanishes whatever numbers it is made of, and if it does so with the value of such a function
+    at its zero added or subtracted, which is 0 by definition.
+    """
+    zeros = [number for number in _numbers_in(value) if isinstance(number, Node)]
+    if not zeros:
+        return False
+    known = [number.args[0](type(value).of_atom(number)) for number in zeros]
+    changed = [value, *(value + sign * own for own in known for sign in (-1, 1))]
+    return any(vanishes_about(form, _numbers_in(form)) for form in changed)
 
 
 def _separation_bits(value: Any) -> int:
