@@ -21,15 +21,15 @@ class ViewEnds:
 
     def __init__(self, sweep: RadialSweep, parts: ViewParts, disc: Disc) -> None:
         self.sweep, self.parts, self.disc = sweep, parts, disc
-        self._curves = sweep.faces.table.curves
+        self._vertices = len(sweep.faces.table.vertices)
         self._points: dict[int, Point] = {}
         self._ranks: dict[int, int] = {}
 
     def point(self, end: int, read: bool = False) -> Point:
         """The point of an end; one that is to be *read* is not made late."""
-        if end < len(self._curves):
-            # There are as many vertices as edges.
-            return self.sweep.faces.point if end == HERE else self._curves[end].start
+        if end < self._vertices:
+            faces = self.sweep.faces
+            return faces.point if end == HERE else faces.place(end)
         point = self._points.get(end)
         if point is None:
             point = self._points[end] = self._made(end, read)
