@@ -202,6 +202,9 @@ class TestRoots:
             length = place.norm_sq() * share * share
             assert length.compare(Real(square)) == 0 == Real(square).compare(length)
             assert length.compare(Real(square) + fmpq(1, 10**60)) == -1
+            with pytest.raises(Undecided):
+                # What no ball tells apart is not called equal for being close.
+                length.compare(Real(square) + fmpq(1, 10**25_000))
 
     def test_a_way_that_touches_the_circle_on_which_lines_roll(self) -> None:
         # The tangent of the unit circle at 45 degrees (t = tan 67.5 degrees, counted from below: a high end

@@ -79,6 +79,8 @@ class Tower:
         """The element that a real is."""
         total: Element = {}
         for atom, c in value.terms.items():
+            if max(c.p.bit_length(), c.q.bit_length()) > self.most_bits:
+                raise _TooLong
             total = _sum(total, self._of_atom(atom), c)
         return total
 
