@@ -13,7 +13,7 @@ from stress_floats import told
 import exactacq as xa
 from exactacq import kernel
 from exactacq.files.octagons import random_octagons
-from exactacq.kernel.images import EdgeImages
+from exactacq.kernel.images import EdgeImage
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.study.claims.model import Subject
 from exactacq.study.random_scenes import random_scene
@@ -58,23 +58,15 @@ def spoil(monkeypatch: pytest.MonkeyPatch) -> None:
             setattr(self, name, np.roll(places, 1, axis=0)[:, ::-1] * 0.75 - 1)
         self.radius = self.radius * 3 + 1
 
-    def wrong_images(self: EdgeTable) -> EdgeImages:
-        right = images(self)
-        n = len(right.x)
-        xs, ys = ([float((7 * k + s) % 11) for k in range(n)] for s in (1, 5))
-        none = [0.0] * n
-        return EdgeImages(
-            xs,
-            none,
-            ys,
-            none,
-            (ys, none, xs, none),
-            [2.0] * n,
-            right.kind,
-            right.full,
-            right.following,
-            right.previous,
-        )
+    def wrong_images(self: EdgeTable) -> list[EdgeImage]:
+        found = []
+        for k, right in enumerate(images(self)):
+            x, y = float((7 * k + 1) % 11), float((7 * k + 5) % 11)
+            start, center = (x, 0.0, y, 0.0), (y, 0.0, x, 0.0)
+            found.append(
+                EdgeImage(start, center, 2.0, right.kind, right.full, right.following, right.previous)
+            )
+        return found
 
     monkeypatch.setattr(EdgeTable, "__init__", wrong)
     monkeypatch.setattr(EdgeTable, "images", property(wrong_images))

@@ -295,7 +295,7 @@ def test_views_with_equal_keys_are_equal(name: str | int) -> None:
         at: dict[tuple[int, int], tuple[str, str]] = {}
         for keys, shown, here, there in keyed_views(complex_, e):
             # Families that are seen from a straight leg have the keys of all their lines, single lines fewer.
-            if not table.images.kind[shown] or table.full[shown]:
+            if not table.kinds[shown] or table.full[shown]:
                 for key in keys:
                     shared += (key, shown) in at
                     place, seen = at.setdefault((key, shown), (here, there))

@@ -25,7 +25,7 @@ from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.points import Point
 from exactacq.kernel import bounded
 from exactacq.kernel.crossings import VAGUE, EdgeStates
-from exactacq.kernel.images import EdgeImages
+from exactacq.kernel.images import EdgeImage
 from exactacq.kernel.line_events import line_events
 from exactacq.kernel.near_edges import NearEdges
 from exactacq.kernel.surroundings import FrameLine, Surroundings
@@ -176,29 +176,18 @@ class Hostile:
         return found
 
 
-def images_of(curves: list[Curve]) -> EdgeImages:
+def images_of(curves: list[Curve]) -> list[EdgeImage]:
     """The images of edges without neighbours, whose ends have later numbers than all starts."""
     ends = [c.start.rational for c in curves] + [c.end.rational for c in curves]
-    points = [with_rests(p) for p in ends]
-    middles = [with_rests(c.center.rational if isinstance(c, Arc) else (fmpq(0), fmpq(0))) for c in curves]
-    n = len(curves)
-    return EdgeImages(
-        [x for (x, _), _ in points],
-        [rest for (_, rest), _ in points],
-        [y for _, (y, _) in points],
-        [rest for _, (_, rest) in points],
-        (
-            [x for (x, _), _ in middles],
-            [rest for (_, rest), _ in middles],
-            [y for _, (y, _) in middles],
-            [rest for _, (_, rest) in middles],
-        ),
-        [float(c.radius) if isinstance(c, Arc) else 0.0 for c in curves],
-        [(1 if c.ccw else -1) if isinstance(c, Arc) else 0 for c in curves],
-        [0] * (2 * n),
-        [n + k for k in range(n)],
-        [-1] * (2 * n),
-    )
+    found, n = [], len(curves)
+    for k, point in enumerate(ends):
+        curve = curves[k % n]
+        is_arc = isinstance(curve, Arc)
+        center = with_rests(curve.center.rational if is_arc else (fmpq(0), fmpq(0)))
+        kind = 0 if not is_arc else 1 if curve.ccw else -1
+        radius = float(curve.radius) if is_arc else 0.0
+        found.append(EdgeImage(with_rests(point), center, radius, kind, False, (n + k) % (2 * n), -1))
+    return found
 
 
 def solutions(sector: Sector, side: int) -> list[tuple[int, int]]:
@@ -215,10 +204,10 @@ def test_edges_that_are_near_know_their_ends(sizes: list[int], data: st.DataObje
         first + (k + 1) % n for first, n in zip(accumulated(sizes), sizes, strict=True) for k in range(n)
     ]
     kinds = data.draw(st.lists(st.sampled_from([0, 1, -1]), min_size=len(following), max_size=len(following)))
-    zeros = [0.0] * len(following)
-    images = EdgeImages(
-        zeros, zeros, zeros, zeros, (zeros, zeros, zeros, zeros), zeros, kinds, [], following, []
-    )
+    zero = 0.0, 0.0, 0.0, 0.0
+    images = [
+        EdgeImage(zero, zero, 0.0, kind, False, v, -1) for kind, v in zip(kinds, following, strict=True)
+    ]
     edges = data.draw(st.lists(st.sampled_from(range(len(following))), unique=True))
     near = NearEdges(images, edges)
     assert [near.vertices[j] for j in range(len(edges))] == edges

@@ -16,7 +16,7 @@ from exactacq.kernel.bounded import (
     root,
     total,
 )
-from exactacq.kernel.images import STRAIGHT, EdgeImages
+from exactacq.kernel.images import STRAIGHT, EdgeImage
 
 Place = tuple[float, float, float]
 """A point, or a vector: two components that are held with one bound."""
@@ -25,33 +25,33 @@ RAY: Final = 1
 LINE: Final = 2
 
 
-def crossed(images: EdgeImages, edges: list[int], start: Place, end: Place) -> list[int]:
+def crossed(images: list[EdgeImage], edges: list[int], start: Place, end: Place) -> list[int]:
     """For each of some edges 1 if a segment certainly crosses it between the ends of both, -1 if they
     certainly do not meet, else 0."""
     along = _offset(start, end)
     return [_verdict(images, e, start, end, along, SEGMENT) for e in edges]
 
 
-def met(images: EdgeImages, edges: list[int], place: Place, along: Place) -> list[int]:
+def met(images: list[EdgeImage], edges: list[int], place: Place, along: Place) -> list[int]:
     """Those of some edges that a line through a place along a vector does not certainly miss."""
     return [e for e in edges if _verdict(images, e, place, place, along, LINE) >= 0]
 
 
-def met_ahead(images: EdgeImages, edges: list[int], place: Place, along: Place) -> list[int]:
+def met_ahead(images: list[EdgeImage], edges: list[int], place: Place, along: Place) -> list[int]:
     """Those of some edges that the ray from a place along a vector does not certainly miss."""
     return [e for e in edges if _verdict(images, e, place, place, along, RAY) >= 0]
 
 
-def _verdict(images: EdgeImages, e: int, start: Place, end: Place, along: Place, extent: int) -> int:
+def _verdict(images: list[EdgeImage], e: int, start: Place, end: Place, along: Place, extent: int) -> int:
     """The verdict of `crossed` for an edge and a segment, or the ray or line along a vector."""
-    if images.kind[e] == STRAIGHT:
+    if images[e].kind == STRAIGHT:
         return _straight(images, e, start, end, along, extent)
     return _round(images, e, start, along, extent)
 
 
-def _straight(images: EdgeImages, e: int, start: Place, end: Place, along: Place, extent: int) -> int:
+def _straight(images: list[EdgeImage], e: int, start: Place, end: Place, along: Place, extent: int) -> int:
     """Of a straight edge: both its ends and both ends of the segment lie on different sides, or not."""
-    vertex, following = _vertex(images, e), _vertex(images, images.following[e])
+    vertex, following = _vertex(images, e), _vertex(images, images[e].following)
     one, other = _offset(start, vertex), _offset(start, following)
     first, last = _side(along, one), _side(along, other)
     if first and first == last:
@@ -72,13 +72,13 @@ def _straight(images: EdgeImages, e: int, start: Place, end: Place, along: Place
     return -1 if is_beyond else 0
 
 
-def _round(images: EdgeImages, e: int, start: Place, along: Place, extent: int) -> int:
+def _round(images: list[EdgeImage], e: int, start: Place, along: Place, extent: int) -> int:
     """Of an arc: from p along d its circle is met at the (d . w -+ sqrt(|d|^2 r^2 - (d x w)^2)) / |d|^2-th
     parts of d, with w the way to the centre. A point of the circle is on the arc if it is on that side of the
     chord."""
-    ox, oy, o = _offset(start, _held(images.cx[e], images.cy[e]))
+    ox, oy, o = _offset(start, _held(images[e].cx, images[e].cy))
     dx, dy, d = along
-    radius = images.radius[e]
+    radius = images[e].radius
     square, square_bound = dot(dx, dy, d, dx, dy, d)
     h, h_bound = dot(ox, oy, o, dx, dy, d)
     g, g_bound = cross(dx, dy, d, ox, oy, o)
@@ -91,7 +91,7 @@ def _round(images: EdgeImages, e: int, start: Place, along: Place, extent: int) 
         return -1
     half, half_bound = root(under, under_bound)
     vertex = _vertex(images, e)
-    chord = _offset(vertex, _vertex(images, images.following[e]))
+    chord = _offset(vertex, _vertex(images, images[e].following))
     found = -1
     for sign in (-1.0, 1.0):
         top, top_bound = total(h, h_bound, sign * half, half_bound)
@@ -99,12 +99,12 @@ def _round(images: EdgeImages, e: int, start: Place, along: Place, extent: int) 
         if (extent != LINE and -t > bound) or (extent == SEGMENT and t - 1.0 > bound + UNIT):
             continue
         on = 1
-        if not images.full[e]:
+        if not images[e].full:
             px, p = product(dx, d, t, bound)
             py, q = product(dy, d, t, bound)
             px, p = total(start[0], start[2], px, p)
             py, q = total(start[1], start[2], py, q)
-            on = -images.kind[e] * _side(chord, _offset(vertex, (px, py, max(p, q))))
+            on = -images[e].kind * _side(chord, _offset(vertex, (px, py, max(p, q))))
         if on < 0:
             continue
         is_inside = extent == LINE or (t > bound and (extent == RAY or 1.0 - t > bound + UNIT))
@@ -114,8 +114,8 @@ def _round(images: EdgeImages, e: int, start: Place, along: Place, extent: int) 
     return found
 
 
-def _vertex(images: EdgeImages, v: int) -> Place:
-    return _held(images.x[v], images.y[v])
+def _vertex(images: list[EdgeImage], v: int) -> Place:
+    return _held(images[v].x, images[v].y)
 
 
 def _held(x: float, y: float) -> Place:

@@ -111,7 +111,7 @@ class EdgeStates:
 
     def enters(self, j: int, which: int) -> bool:
         """Whether the line, followed ahead, passes from free to blocked at a crossing."""
-        kind = self.around.images.kind[self.near.edges[j]]
+        kind = self.around.images[self.near.edges[j]].kind
         if kind == STRAIGHT:
             return which == 1
         return (which == 1) == (kind == CONCAVE)
@@ -132,7 +132,7 @@ class EdgeStates:
             return VAGUE
         state = 0
         edge = self.near.edges[j]
-        kind = around.images.kind[edge]
+        kind = around.images[edge].kind
         for sign in (1, -1):
             if around.place[j] == THROUGH:
                 # The line meets the circle in the contact and at twice the foot of the centre.
@@ -141,7 +141,7 @@ class EdgeStates:
                     return VAGUE
                 if ahead != sign:
                     continue
-            if around.images.full[edge]:
+            if around.images[edge].full:
                 state += 1 if sign > 0 else 2
                 continue
             # A convex arc lies to the right of its chord.

@@ -10,7 +10,7 @@ from math import inf
 from typing import Final, final
 
 from exactacq.kernel.curve_images import CurveImage
-from exactacq.kernel.images import ROLLING, SLIDING
+from exactacq.kernel.images import ROLLING, SLIDING, EdgeImage
 from exactacq.kernel.lines import Frame, Line, line_at, meets, parameter_round, side_of
 
 BEHIND: Final = -1
@@ -149,8 +149,8 @@ def by_edge(families: list[FamilyImage]) -> ByEdge:
     return found
 
 
-def perhaps_over_start(families: list[FamilyImage], full: list[int]) -> list[tuple[FamilyImage, int]]:
-    """Families and their parts that may pass the start of a full circle, or touch it; *full* is 1 for these.
+def perhaps_over_start(families: list[FamilyImage], images: list[EdgeImage]) -> list[tuple[FamilyImage, int]]:
+    """Families and their parts that may pass the start of a full circle, or touch it.
 
     There parameters jump. Where they stay within a quarter turn off the start, the part does not pass it.
     """
@@ -158,7 +158,7 @@ def perhaps_over_start(families: list[FamilyImage], full: list[int]) -> list[tup
     for family in families:
         for role in range(-1, 2):
             edge = family.edge(role)
-            if not family.is_known or edge < 0 or not full[edge]:
+            if not family.is_known or edge < 0 or not images[edge].full:
                 continue
             one, other = family.places(role)
             low, high = min(one[0], other[0]), max(one[1], other[1])

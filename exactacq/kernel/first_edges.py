@@ -56,9 +56,9 @@ class EdgeWalk:
 
     def __init__(self, states: EdgeStates) -> None:
         self.states, self.around = states, states.around
-        near, kinds = self.around.near, self.around.images.kind
+        near, images = self.around.near, self.around.images
         self.unsteady = [
-            j for j in near.arcs if kinds[near.edges[j]] == CONCAVE or self.around.place[j] == THROUGH
+            j for j in near.arcs if images[near.edges[j]].kind == CONCAVE or self.around.place[j] == THROUGH
         ]
         self.active: list[int] = []
         self.vague: list[int] = []
@@ -83,7 +83,7 @@ class EdgeWalk:
         if j >= 0:
             found.append(j)
         if side == 0:
-            j = near.edge(self.around.images.previous[number])
+            j = near.edge(self.around.images[number].previous)
             if j >= 0:
                 found.append(j)
 

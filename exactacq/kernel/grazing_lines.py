@@ -13,7 +13,7 @@ from exactacq.kernel.bound_lines import Passed
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import EVERYTHING, Span
 from exactacq.kernel.family_images import NONE
-from exactacq.kernel.images import CONVEX, STRAIGHT, EdgeImages
+from exactacq.kernel.images import CONVEX, STRAIGHT, EdgeImage
 from exactacq.kernel.lines import Line, rounding, side_of
 from exactacq.kernel.single_lines import SingleImage, Spot
 
@@ -45,7 +45,7 @@ class GrazingLine:
 
     def __init__(
         self,
-        images: EdgeImages,
+        images: list[EdgeImage],
         curves: list[CurveImage],
         corners: list[bool],
         met: list[MetEdge],
@@ -63,7 +63,7 @@ class GrazingLine:
         once: set[int] = set()
         more: set[int] = {own}
         for one in self.met:
-            if one.place == 0 or self._images.kind[one.edge] != CONVEX:
+            if one.place == 0 or self._images[one.edge].kind != CONVEX:
                 continue
             if one.edge in once:
                 more.add(one.edge)
@@ -90,7 +90,7 @@ class GrazingLine:
 
     def _is_featured(self, one: MetEdge) -> bool:
         """Whether an edge is met in a corner of segments, or inside an arc, that tells of it too."""
-        kind = self._images.kind[one.edge]
+        kind = self._images[one.edge].kind
         if kind == STRAIGHT:
             return one.vertex == one.edge and self._corners[one.edge]
         return kind == CONVEX and one.vertex < 0
@@ -102,7 +102,7 @@ class GrazingLine:
         for k, one in enumerate(self.met):
             if one.edge in self.blind:
                 continue
-            if self._images.kind[one.edge] == STRAIGHT and one.edge in at:
+            if self._images[one.edge].kind == STRAIGHT and one.edge in at:
                 n = at[one.edge]
                 found[n] = found[n][0], k
             else:
@@ -183,7 +183,7 @@ class GrazingLine:
 
 
 def may_be_pinched(
-    images: EdgeImages, corners: list[bool], line: Line, own: int, is_round: bool, passed: Passed
+    images: list[EdgeImage], corners: list[bool], line: Line, own: int, is_round: bool, passed: Passed
 ) -> int:
     """Whether a tangent line may show, by what it passes, what no line beside it does (see `pinched_lines`).
 
@@ -200,7 +200,7 @@ def may_be_pinched(
     for number, touching, _ in passed:
         if touching:
             is_round = True
-            x, y = images.cx[number], images.cy[number]
+            x, y = images[number].cx, images[number].cy
             side = side_of(line, x, y, rounding(x, y), 0.0)
             if side == 0:
                 return OPEN
@@ -219,18 +219,18 @@ UNSURE: Final = 3
 """A line runs along an edge at a corner; and floats do not tell how it passes. Sides are less."""
 
 
-def _touched_side(images: EdgeImages, corners: list[bool], line: Line, vertex: int, at: set[int]) -> int:
+def _touched_side(images: list[EdgeImage], corners: list[bool], line: Line, vertex: int, at: set[int]) -> int:
     """1 or -1 as a line touches a corner to its left or right, 0 if it enters the obstacle there.
 
     It passes the vertices *at*.
     """
-    first, last = images.previous[vertex], images.following[vertex]
-    if images.kind[first] != STRAIGHT or images.kind[vertex] != STRAIGHT:
+    first, last = images[vertex].previous, images[vertex].following
+    if images[first].kind != STRAIGHT or images[vertex].kind != STRAIGHT:
         return UNSURE
     if first in at or last in at:
         return ALONG
-    back = side_of(line, images.x[first], images.y[first], rounding(images.x[first], images.y[first]), 0.0)
-    on = side_of(line, images.x[last], images.y[last], rounding(images.x[last], images.y[last]), 0.0)
+    back = side_of(line, images[first].x, images[first].y, rounding(images[first].x, images[first].y), 0.0)
+    on = side_of(line, images[last].x, images[last].y, rounding(images[last].x, images[last].y), 0.0)
     if back == 0 or on == 0:
         return UNSURE
     return on if back == on and corners[vertex] else 0

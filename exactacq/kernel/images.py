@@ -23,35 +23,29 @@ REST: Final = 9.860761315262648e-32
 """2^-103: what coordinates with a rest lose, relative to their size."""
 
 
-@final
-class EdgeImages:
-    """The edges of a scene: edge e runs from vertex e to vertex ``following[e]``.
+Held = tuple[float, float, float, float]
+"""A point: x and what it leaves, y and what it leaves."""
 
-    ``kind`` is straight, convex or concave, ``full`` is 1 for a full circle; centre and radius are those of
-    arcs. A radius is held with the bound `UNIT` times itself.
+
+@final
+class EdgeImage:
+    """An edge of a scene with the vertex at which it begins, of the same number; it ends at ``following``.
+
+    ``kind`` is straight, convex or concave; centre and radius are those of an arc. A radius is held with the
+    bound `UNIT` times itself.
     """
 
     def __init__(
-        self,
-        x: list[float],
-        x_rest: list[float],
-        y: list[float],
-        y_rest: list[float],
-        centers: tuple[list[float], list[float], list[float], list[float]],
-        radius: list[float],
-        kind: list[int],
-        full: list[int],
-        following: list[int],
-        previous: list[int],
+        self, start: Held, center: Held, radius: float, kind: int, full: bool, following: int, previous: int
     ) -> None:
-        self.x, self.x_rest, self.y, self.y_rest = x, x_rest, y, y_rest
-        self.cx, self.cx_rest, self.cy, self.cy_rest = centers
+        self.x, self.x_rest, self.y, self.y_rest = start
+        self.cx, self.cx_rest, self.cy, self.cy_rest = center
         self.radius, self.kind, self.full = radius, kind, full
         self.following, self.previous = following, previous
 
-    def place(self, v: int) -> tuple[float, float, float, float]:
-        """A vertex, with rests, as `LineFrame` takes it."""
-        return self.x[v], self.x_rest[v], self.y[v], self.y_rest[v]
+    def place(self) -> Held:
+        """The vertex, as `LineFrame` takes it."""
+        return self.x, self.x_rest, self.y, self.y_rest
 
 
 @final

@@ -33,7 +33,7 @@ def line_events(around: Surroundings, corner: int, low: float, high: float) -> l
     found: list[BoundLine] = []
     kind, span, wide = around.frame.kind, around.span, around.span_bound
     near, images = around.near, around.images
-    vertices, full = near.vertices, images.full
+    vertices = near.vertices
     far = max(abs(low), abs(high)) * WIDEN
     n = -1
     for spot in around.spots:
@@ -42,7 +42,7 @@ def line_events(around: Surroundings, corner: int, low: float, high: float) -> l
         if kind != ROLLING and kind != SLIDING and abs(a) - e > (abs(k) + e) * far:
             continue
         v = vertices[n]
-        if v == corner or full[v]:
+        if v == corner or images[v].full:
             continue
         if kind == ROLLING:
             _roll(found, a, e, k, e, span, wide, v, 0, low, high)
@@ -53,7 +53,7 @@ def line_events(around: Surroundings, corner: int, low: float, high: float) -> l
     for n in range(len(near.arcs)):
         j = near.arcs[n]
         c = near.edges[j]
-        if images.kind[c] != CONVEX or around.place[j] != APART:
+        if images[c].kind != CONVEX or around.place[j] != APART:
             continue
         center = around.centers[n]
         k, a, e = center.x, center.y, center.bound

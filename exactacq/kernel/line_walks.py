@@ -27,7 +27,7 @@ from exactacq.kernel.bounded import (
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import EVERYTHING
 from exactacq.kernel.grazing_lines import MetEdge
-from exactacq.kernel.images import CONVEX, STRAIGHT, EdgeImages
+from exactacq.kernel.images import CONVEX, STRAIGHT, EdgeImage
 from exactacq.kernel.lines import QUARTERS, Line, meets_straight, parameter, rounding, side_of
 from exactacq.kernel.single_lines import Spot
 
@@ -63,7 +63,7 @@ class WalkedLine:
 
     def __init__(
         self,
-        images: EdgeImages,
+        images: list[EdgeImage],
         curves: list[CurveImage],
         edges: list[int],
         line: Line,
@@ -91,7 +91,7 @@ class WalkedLine:
         self.is_blocked_ahead = False
         self.is_blocked_behind = False
         for e in edges:
-            if images.kind[e] == STRAIGHT:
+            if images[e].kind == STRAIGHT:
                 self._meet_straight(e)
             else:
                 self._meet_round(e)
@@ -103,7 +103,7 @@ class WalkedLine:
     # -- what is met -----------------------------------------------------------------------------
 
     def _meet_straight(self, e: int) -> None:
-        v, w = e, self._images.following[e]
+        v, w = e, self._images[e].following
         first, last = self._side(v), self._side(w)
         if not self.is_told:
             return
@@ -116,7 +116,7 @@ class WalkedLine:
             self._add(far, bound, CROSSED, e)
 
     def _meet_round(self, e: int) -> None:
-        v, w = e, self._images.following[e]
+        v, w = e, self._images[e].following
         if self._circles[e] in self._touched:
             end = self._passed_end(e)
             if end != NOTHING:
@@ -132,7 +132,7 @@ class WalkedLine:
             # Crossed, touched or missed, all near the foot.
             self.is_told = self._beyond_chord(e, foot, bound + half_bound) < 0
             return
-        is_whole = self._images.full[e]
+        is_whole = self._images[e].full
         first, last = (1, 1) if is_whole else (self._side(v), self._side(w))
         if not self.is_told:
             return
@@ -153,9 +153,9 @@ class WalkedLine:
 
     def _passed_end(self, e: int) -> int:
         """The vertex at which an arc that the line touches ends there; `NOTHING` if it goes on."""
-        if self._images.full[e]:
+        if self._images[e].full:
             return NOTHING
-        for v in (e, self._images.following[e]):
+        for v in (e, self._images[e].following):
             if v in self._passed:
                 return v
         return NOTHING
@@ -198,14 +198,14 @@ class WalkedLine:
 
     def _beyond_chord(self, e: int, far: float, bound: float) -> int:
         """1 if a place of an arc's circle on the line certainly is on the arc, -1 if it is not, else 0."""
-        if self._images.full[e]:
+        if self._images[e].full:
             return 1
         px, py, error = self.spot(far, bound)
-        ax, ay = self._images.x[e], self._images.y[e]
-        ux, uy, u = self._vector(e, self._images.following[e])
+        ax, ay = self._images[e].x, self._images[e].y
+        ux, uy, u = self._vector(e, self._images[e].following)
         vx, r = total(px, error, -ax, rounding(ax, ay))
         vy, s = total(py, error, -ay, rounding(ax, ay))
-        return -self._images.kind[e] * cross_sign(ux, uy, u, vx, vy, max(r, s))
+        return -self._images[e].kind * cross_sign(ux, uy, u, vx, vy, max(r, s))
 
     def spot(self, far: float, bound: float) -> Spot:
         """A place of the line, so far along it, in lengths."""
@@ -223,7 +223,7 @@ class WalkedLine:
             return 0
         side = self._sides.get(v, 0)
         if side == 0:
-            x, y = self._images.x[v], self._images.y[v]
+            x, y = self._images[v].x, self._images[v].y
             side = self._sides[v] = side_of(self._line, x, y, rounding(x, y), 0.0)
             self.is_told = self.is_told and side != 0
         return side
@@ -245,7 +245,7 @@ class WalkedLine:
         """How far along the line a vertex on it is, in lengths."""
         if v == self._own and not self._is_round:
             return 0.0, 0.0
-        return self._along(self._images.x[v], self._images.y[v])
+        return self._along(self._images[v].x, self._images[v].y)
 
     def _add_vertex(self, v: int, e: int) -> None:
         if v in self._at:
@@ -290,7 +290,7 @@ class WalkedLine:
                 return False
             if vertex == CROSSED or (vertex >= 0 and self._blocks(vertex, sense)):
                 return True
-            if vertex == TOUCHED and self._images.kind[spot.edges[0]] != CONVEX:
+            if vertex == TOUCHED and self._images[spot.edges[0]].kind != CONVEX:
                 self.is_told = False
         return False
 
@@ -303,32 +303,34 @@ class WalkedLine:
         """An edge as it is met in a place."""
         if spot.vertex >= 0:
             end = -inf if spot.vertex == e else inf
-            x, y = self._images.x[spot.vertex], self._images.y[spot.vertex]
+            x, y = self._images[spot.vertex].x, self._images[spot.vertex].y
             return MetEdge(e, spot.vertex, place, (end, end), (x, y, rounding(x, y)))
         curve = self._curves[e]
-        if self._images.kind[e] == STRAIGHT:
+        if self._images[e].kind == STRAIGHT:
             _, _, u, bound, x, y, error = meets_straight(self._line, curve)
             return MetEdge(e, spot.vertex, place, (u - bound, u + bound), (x, y, error))
         # Twice what seems to be enough: the bounds themselves are rounded.
         at = self.spot((spot.low + spot.high) / 2.0, 2.0 * (spot.high - spot.low) * WIDEN)
         u, bound = parameter(curve, at[0], at[1], at[2])
         # At the start of a full circle parameters jump.
-        is_known = not self._images.full[e] or bound < u < QUARTERS - bound
+        is_known = not self._images[e].full or bound < u < QUARTERS - bound
         return MetEdge(e, spot.vertex, place, (u - bound, u + bound) if is_known else EVERYTHING, at)
 
     def _are_joined(self, v: int, w: int) -> bool:
         """Whether a straight edge joins two vertices."""
-        following, kind = self._images.following, self._images.kind
         if v < 0 or w < 0:
             return False
-        return (following[v] == w and kind[v] == STRAIGHT) or (following[w] == v and kind[w] == STRAIGHT)
+        one, other = self._images[v], self._images[w]
+        if one.following == w and one.kind == STRAIGHT:
+            return True
+        return other.following == v and other.kind == STRAIGHT
 
     def _blocks(self, v: int, sense: int) -> bool:
         """Whether the line enters an obstacle at a vertex, as one goes.
 
         The inside is what one passes in turning left from the edge that begins there to the one that ends.
         """
-        before = self._images.previous[v]
+        before = self._images[v].previous
         out, back = self._quarter(v, v, sense), self._quarter(before, v, sense)
         if out == back:
             # What lies behind, or the contact, is not inside, so little is: no more than that quarter.
@@ -338,8 +340,8 @@ class WalkedLine:
 
     def _is_narrow(self, before: int, v: int) -> bool:
         """Whether two edges that leave a vertex to one side certainly leave no room behind it."""
-        if self._images.kind[before] == STRAIGHT and self._images.kind[v] == STRAIGHT:
-            return self._turn(before, v, self._images.following[v]) > 0
+        if self._images[before].kind == STRAIGHT and self._images[v].kind == STRAIGHT:
+            return self._turn(before, v, self._images[v].following) > 0
         touched = self._circles[before] in self._touched and self._circles[v] in self._touched
         return not touched or self._onward(before, v) * self._onward(v, v) < 0
 
@@ -348,20 +350,20 @@ class WalkedLine:
         side = self._leaves(e, v) * sense
         if side:
             return LEFT if side > 0 else RIGHT
-        other = self._images.following[e] if v == e else e
+        other = self._images[e].following if v == e else e
         return BEHIND if self._is_behind(other, v, sense) else AHEAD
 
     def _leaves(self, e: int, v: int) -> int:
         """1 or -1 as an edge leaves its end v on the line to the left or right, 0 if along it, or if open."""
-        kind = self._images.kind[e]
+        kind = self._images[e].kind
         if kind == STRAIGHT:
-            return self._side(self._images.following[e] if v == e else e)
+            return self._side(self._images[e].following if v == e else e)
         curve = self._curves[e]
         if self._circles[e] in self._touched:
             side = side_of(self._line, curve.x, curve.y, rounding(curve.x, curve.y), 0.0)
         else:
             # Across the radius to v: the line goes up it or down.
-            ax, ay = self._images.x[v], self._images.y[v]
+            ax, ay = self._images[v].x, self._images[v].y
             ux, p = total(ax, rounding(ax, ay), -curve.x, rounding(curve.x, curve.y))
             uy, q = total(ay, rounding(ax, ay), -curve.y, rounding(curve.x, curve.y))
             _, _, dx, dy, _, de = self._line
@@ -372,7 +374,7 @@ class WalkedLine:
     def _onward(self, e: int, v: int) -> int:
         """1 or -1 as an arc that touches the line at its end v leaves ahead or back, 0 if that is open."""
         side = self._leaves(e, v)
-        return side * self._images.kind[e] * (1 if v == e else -1)
+        return side * self._images[e].kind * (1 if v == e else -1)
 
     def _turn(self, u: int, v: int, w: int) -> int:
         """1 or -1 if the way over three vertices certainly turns left or right, else 0."""
@@ -382,7 +384,7 @@ class WalkedLine:
 
     def _vector(self, v: int, w: int) -> tuple[float, float, float]:
         """The vector from a vertex to another."""
-        ax, ay, bx, by = self._images.x[v], self._images.y[v], self._images.x[w], self._images.y[w]
+        ax, ay, bx, by = self._images[v].x, self._images[v].y, self._images[w].x, self._images[w].y
         x, p = total(bx, rounding(bx, by), -ax, rounding(ax, ay))
         y, q = total(by, rounding(bx, by), -ay, rounding(ax, ay))
         return x, y, max(p, q)

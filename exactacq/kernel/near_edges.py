@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import final
 
-from exactacq.kernel.images import STRAIGHT, EdgeImages
+from exactacq.kernel.images import STRAIGHT, EdgeImage
 
 
 @final
@@ -16,9 +16,8 @@ class NearEdges:
     place of edge j among them, -1 for a segment.
     """
 
-    def __init__(self, images: EdgeImages, edges: list[int]) -> None:
+    def __init__(self, images: list[EdgeImage], edges: list[int]) -> None:
         self.images, self.edges = images, edges
-        following, kinds = images.following, images.kind
         count = len(edges)
         self._at: dict[int, int] = {}
         self._beyond: dict[int, int] = {}
@@ -30,8 +29,8 @@ class NearEdges:
         for j in range(count):
             at[edges[j]] = j
         for j in range(count):
-            e = edges[j]
-            v = following[e]
+            edge = images[edges[j]]
+            v = edge.following
             # Mostly an edge is followed by the next one in the list.
             if j + 1 < count and edges[j + 1] == v:
                 self.last[j] = j + 1
@@ -43,7 +42,7 @@ class NearEdges:
                     k = beyond[v] = len(self.vertices)
                     self.vertices.append(v)
                 self.last[j] = k
-            if kinds[e] != STRAIGHT:
+            if edge.kind != STRAIGHT:
                 self.middle[j] = len(self.arcs)
                 self.arcs.append(j)
 

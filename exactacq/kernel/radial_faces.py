@@ -27,7 +27,7 @@ from exactacq.kernel.bounded import (
     total,
     verdict,
 )
-from exactacq.kernel.images import CONCAVE, REST, STRAIGHT, EdgeImages
+from exactacq.kernel.images import CONCAVE, REST, STRAIGHT, EdgeImage
 from exactacq.kernel.lattice import Lattice
 
 NONE: Final = -1
@@ -44,7 +44,7 @@ class RadialFaces:
 
     def __init__(
         self,
-        images: EdgeImages,
+        images: list[EdgeImage],
         place: tuple[float, float, float, float, float],
         square: tuple[float, float],
     ) -> None:
@@ -66,10 +66,10 @@ class RadialFaces:
 
     def offset(self, v: int) -> tuple[float, float, float]:
         """The vector from the place to a vertex, with a bound for both components: see `images`."""
-        images = self.images
-        x, y = images.x[v], images.y[v]
-        u = (x - self.px) + (images.x_rest[v] - self.px_rest)
-        w = (y - self.py) + (images.y_rest[v] - self.py_rest)
+        vertex = self.images[v]
+        x, y = vertex.x, vertex.y
+        u = (x - self.px) + (vertex.x_rest - self.px_rest)
+        w = (y - self.py) + (vertex.y_rest - self.py_rest)
         far = abs(x) + abs(y) + abs(self.px) + abs(self.py)
         return u, w, (UNIT * (abs(u) + abs(w)) + REST * far + self.blur + TINY) * WIDEN
 
@@ -92,26 +92,26 @@ class RadialFaces:
         Left out is what certainly lies beyond the range.
         """
         images = self.images
-        following, kinds = images.following, images.kind
-        xs, x_rests, ys, y_rests = images.x, images.x_rest, images.y, images.y_rest
         px, px_rest, py, py_rest, blur = self.px, self.px_rest, self.py, self.py_rest, self.blur + TINY
         here = abs(px) + abs(py)
         open_: list[int] = []
         last = -1
         sx = sy = s = tx = ty = t = 0.0
         for e in edges:
-            if kinds[e] != STRAIGHT:
+            edge = images[e]
+            if edge.kind != STRAIGHT:
                 continue
-            v = following[e]
+            v = edge.following
+            end = images[v]
             # As `offset`.
             if e == last:
                 sx, sy, s = tx, ty, t
             else:
-                x, y = xs[e], ys[e]
-                sx, sy = (x - px) + (x_rests[e] - px_rest), (y - py) + (y_rests[e] - py_rest)
+                x, y = edge.x, edge.y
+                sx, sy = (x - px) + (edge.x_rest - px_rest), (y - py) + (edge.y_rest - py_rest)
                 s = (UNIT * (abs(sx) + abs(sy)) + REST * (abs(x) + abs(y) + here) + blur) * WIDEN
-            x, y = xs[v], ys[v]
-            tx, ty = (x - px) + (x_rests[v] - px_rest), (y - py) + (y_rests[v] - py_rest)
+            x, y = end.x, end.y
+            tx, ty = (x - px) + (end.x_rest - px_rest), (y - py) + (end.y_rest - py_rest)
             t = (UNIT * (abs(tx) + abs(ty)) + REST * (abs(x) + abs(y) + here) + blur) * WIDEN
             last = v
             left, right = sx * ty, sy * tx
@@ -132,18 +132,18 @@ class RadialFaces:
 
     def sides(self, edges: list[int], lattice: Lattice, place: int) -> list[int]:
         """1 or -1 as straight edges turn left or right about the place, which is a vertex, 0 if neither."""
-        xs, ys, following = lattice.x, lattice.y, self.images.following
+        xs, ys = lattice.x, lattice.y
         x, y = xs[place], ys[place]
         found: list[int] = []
         for e in edges:
-            v = following[e]
+            v = self.images[e].following
             turn = (xs[e] - x) * (ys[v] - y) - (ys[e] - y) * (xs[v] - x)
             found.append(1 if turn > 0 else -1 if turn < 0 else 0)
         return found
 
     def add_open(self, e: int) -> None:
         """Add the face that a straight edge is, though its side was open."""
-        v = self.images.following[e]
+        v = self.images[e].following
         sx, sy, s = self.offset(e)
         tx, ty, t = self.offset(v)
         turn, bound = cross(sx, sy, s, tx, ty, t)
@@ -152,13 +152,12 @@ class RadialFaces:
 
     def arcs(self, edges: list[int]) -> list[int]:
         """The arcs among some edges."""
-        kinds = self.images.kind
-        return [e for e in edges if kinds[e] != STRAIGHT]
+        return [e for e in edges if self.images[e].kind != STRAIGHT]
 
     def gap(self, e: int) -> tuple[float, float]:
         """How far the place lies outside the circle of an arc; negative inside."""
         wx, wy, w = self.center(e)
-        r = self.images.radius[e]
+        r = self.images[e].radius
         far, far_bound = length(wx, wy, w)
         return total(far, far_bound, -r, UNIT * r)
 
@@ -188,11 +187,11 @@ class RadialFaces:
                 left.append(e)
             elif gap < 0.0:
                 # From inside nothing is seen of a round obstacle, and all of an arc around the place.
-                if images.kind[e] == CONCAVE and images.full[e]:
+                if images[e].kind == CONCAVE and images[e].full:
                     self.add_arc(e, NONE, NONE)
-                elif images.kind[e] == CONCAVE:
-                    self.add_arc(e, images.following[e], e)
-            elif images.full[e]:
+                elif images[e].kind == CONCAVE:
+                    self.add_arc(e, images[e].following, e)
+            elif images[e].full:
                 enter, leave = self._tangents(e, True, True)
                 self.add_arc(e, leave, enter)
             elif not self._add_part(e):
@@ -207,7 +206,7 @@ class RadialFaces:
         or of the far one if it is concave, is a face, or two if the ends lie on that part and the arc leads
         around the other one.
         """
-        kind, end = self.images.kind[e], self.images.following[e]
+        kind, end = self.images[e].kind, self.images[e].following
         first, last = kind * -self._beyond(e, e), kind * -self._beyond(e, end)
         if first == 0 or last == 0:
             return False
@@ -232,7 +231,7 @@ class RadialFaces:
 
     def _tangents(self, e: int, has_left: bool, has_right: bool) -> tuple[int, int]:
         """The events on both tangent points of an arc's circle, left and right; those asked for are added."""
-        event = len(self.images.kind) + 2 * len(self.circles)
+        event = len(self.images) + 2 * len(self.circles)
         self.circles.append(e)
         if has_left:
             x, y, bound = self.tangent(e, 1)
@@ -244,10 +243,10 @@ class RadialFaces:
 
     def _from_center(self, e: int, v: int) -> tuple[float, float, float]:
         """The vector from an arc's centre to a vertex, as `offset`."""
-        images = self.images
-        x, y, cx, cy = images.x[v], images.y[v], images.cx[e], images.cy[e]
-        u = (x - cx) + (images.x_rest[v] - images.cx_rest[e])
-        w = (y - cy) + (images.y_rest[v] - images.cy_rest[e])
+        vertex, arc = self.images[v], self.images[e]
+        x, y, cx, cy = vertex.x, vertex.y, arc.cx, arc.cy
+        u = (x - cx) + (vertex.x_rest - arc.cx_rest)
+        w = (y - cy) + (vertex.y_rest - arc.cy_rest)
         far = abs(x) + abs(y) + abs(cx) + abs(cy)
         return u, w, (UNIT * (abs(u) + abs(w)) + REST * far + TINY) * WIDEN
 
@@ -255,7 +254,7 @@ class RadialFaces:
         """The sign of r^2 + w . z, with w from the place to an arc's centre and z from there to a vertex."""
         wx, wy, w = self.center(e)
         x, y, z = self._from_center(e, v)
-        r = self.images.radius[e]
+        r = self.images[e].radius
         square, square_bound = product(r, UNIT * r, r, UNIT * r)
         m, bound = dot(wx, wy, w, x, y, z)
         m, bound = total(m, bound, square, square_bound)
@@ -269,8 +268,8 @@ class RadialFaces:
         """
         wx, wy, w = self.center(e)
         dx, dy = away * wx, away * wy
-        start, end = e, self.images.following[e]
-        if self.images.kind[e] == CONCAVE:
+        start, end = e, self.images[e].following
+        if self.images[e].kind == CONCAVE:
             start, end = end, start
         ax, ay, a = self._from_center(e, start)
         bx, by, b = self._from_center(e, end)
@@ -289,7 +288,7 @@ class RadialFaces:
         last = self.slot(high) if high >= 0 else NONE
         wx, wy, w = self.center(e)
         far, far_bound = length(wx, wy, w)
-        r = self.images.radius[e]
+        r = self.images[e].radius
         far, far_bound = total(far, far_bound, r, UNIT * r)
         self._add(e, first, last, self.reach(far, 0.0, far_bound) > 0)
 
@@ -314,17 +313,17 @@ class RadialFaces:
     def line(self, e: int) -> tuple[float, float, float, float, float]:
         """Of a straight edge from s to t: the vector a from s to t with a bound, and s x t with its own."""
         sx, sy, s = self.offset(e)
-        tx, ty, t = self.offset(self.images.following[e])
+        tx, ty, t = self.offset(self.images[e].following)
         ax, ay = tx - sx, ty - sy
         turn, bound = cross(sx, sy, s, tx, ty, t)
         return ax, ay, (s + t + UNIT * (abs(ax) + abs(ay))) * WIDEN, turn, bound
 
     def center(self, e: int) -> tuple[float, float, float]:
         """The vector from the place to an arc's centre, as `offset`."""
-        images = self.images
-        x, y = images.cx[e], images.cy[e]
-        u = (x - self.px) + (images.cx_rest[e] - self.px_rest)
-        w = (y - self.py) + (images.cy_rest[e] - self.py_rest)
+        arc = self.images[e]
+        x, y = arc.cx, arc.cy
+        u = (x - self.px) + (arc.cx_rest - self.px_rest)
+        w = (y - self.py) + (arc.cy_rest - self.py_rest)
         far = abs(x) + abs(y) + abs(self.px) + abs(self.py)
         return u, w, (UNIT * (abs(u) + abs(w)) + REST * far + self.blur + TINY) * WIDEN
 
@@ -334,7 +333,7 @@ class RadialFaces:
         With w to the centre, r the radius and h^2 = (|w| - r) (|w| + r) it is h w +- r left(w).
         """
         wx, wy, w = self.center(e)
-        r = self.images.radius[e]
+        r = self.images[e].radius
         far, far_bound = length(wx, wy, w)
         gap, gap_bound = total(far, far_bound, -r, UNIT * r)
         most, most_bound = total(far, far_bound, r, UNIT * r)
@@ -357,7 +356,7 @@ class RadialFaces:
         """
         e = self.edge[f]
         images = self.images
-        if images.kind[e] == STRAIGHT:
+        if images[e].kind == STRAIGHT:
             ax, ay, a, turn, turn_bound = self.line(e)
             below, bound = cross(dx, dy, d, ax, ay, a)
             return quotient(turn, turn_bound, below, bound)
@@ -367,14 +366,14 @@ class RadialFaces:
         if e in self.own:
             return quotient(2.0 * h, 2.0 * h_bound, square, square_bound)
         g, g_bound = cross(dx, dy, d, wx, wy, w)
-        r = images.radius[e]
+        r = images[e].radius
         size, size_bound = root(square, square_bound)
         across, across_bound = product(size, size_bound, r, UNIT * r)
         plus, plus_bound = total(across, across_bound, g, g_bound)
         minus, minus_bound = total(across, across_bound, -g, g_bound)
         under, under_bound = product(plus, plus_bound, minus, minus_bound)
         half, half_bound = root(under, under_bound)
-        top, top_bound = total(h, h_bound, -images.kind[e] * half, half_bound)
+        top, top_bound = total(h, h_bound, -images[e].kind * half, half_bound)
         return quotient(top, top_bound, square, square_bound)
 
     def _extent(

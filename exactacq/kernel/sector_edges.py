@@ -6,7 +6,7 @@ from typing import Final
 
 from exactacq.kernel.bounded import WIDEN, dot_sign, total
 from exactacq.kernel.family_images import side_of_all
-from exactacq.kernel.images import SLIDING, STRAIGHT, TURNING, EdgeImages
+from exactacq.kernel.images import SLIDING, STRAIGHT, TURNING, EdgeImage
 from exactacq.kernel.lines import Frame, Line, line_at, rounding
 
 NO_VERTEX: Final = -1
@@ -15,7 +15,7 @@ BEHIND: Final = 2
 
 
 def may_be_met(
-    images: EdgeImages,
+    images: list[EdgeImage],
     edges: list[int],
     frame: Frame,
     low: tuple[float, float],
@@ -33,24 +33,25 @@ def may_be_met(
     found: list[int] = []
     vertex, there = NO_VERTEX, 0
     for e in edges:
-        if images.kind[e] != STRAIGHT:
-            x, y = images.cx[e], images.cy[e]
-            here = _where(frame, first, last, x, y, (images.radius[e] + rounding(x, y)) * WIDEN, goes_back)
+        edge = images[e]
+        if edge.kind != STRAIGHT:
+            x, y = edge.cx, edge.cy
+            here = _where(frame, first, last, x, y, (edge.radius + rounding(x, y)) * WIDEN, goes_back)
             if here == 0:
                 found.append(e)
             continue
         # Mostly an edge begins where the last one ends.
         here = there if e == vertex else _where_is(images, e, frame, first, last, goes_back)
-        vertex = images.following[e]
+        vertex = edge.following
         there = _where_is(images, vertex, frame, first, last, goes_back)
         if here == 0 or here != there:
             found.append(e)
     return found
 
 
-def _where_is(images: EdgeImages, v: int, frame: Frame, first: Line, last: Line, goes_back: bool) -> int:
+def _where_is(images: list[EdgeImage], v: int, frame: Frame, first: Line, last: Line, goes_back: bool) -> int:
     """Where a vertex lies."""
-    x, y = images.x[v], images.y[v]
+    x, y = images[v].x, images[v].y
     return _where(frame, first, last, x, y, rounding(x, y), goes_back)
 
 

@@ -13,7 +13,7 @@ from typing import Final, final
 
 from exactacq.kernel.bounded import UNIT
 from exactacq.kernel.box_tree import BoxNode, in_order
-from exactacq.kernel.images import CONVEX, STRAIGHT, EdgeImages
+from exactacq.kernel.images import CONVEX, STRAIGHT, EdgeImage
 
 MOST: Final = 16
 """So many segments are looked at: those that hide most."""
@@ -56,7 +56,9 @@ class Shadow:
         return True
 
 
-def shadows(images: EdgeImages, edges: list[int], places: tuple[Spot, ...], slack: float) -> list[Shadow]:
+def shadows(
+    images: list[EdgeImage], edges: list[int], places: tuple[Spot, ...], slack: float
+) -> list[Shadow]:
     """Of what hides most from the middle of some places the shadows: of straight edges and whole discs."""
     mx = my = 0.0
     for x, y in places:
@@ -65,12 +67,12 @@ def shadows(images: EdgeImages, edges: list[int], places: tuple[Spot, ...], slac
     sizes: list[float] = []
     found: list[Ends] = []
     for e in edges:
-        kind = images.kind[e]
-        if kind == STRAIGHT:
-            v = images.following[e]
-            ends = images.x[e], images.y[e], images.x[v], images.y[v]
-        elif kind == CONVEX and images.full[e]:
-            ends = _across(images.cx[e], images.cy[e], images.radius[e], mx, my)
+        edge = images[e]
+        if edge.kind == STRAIGHT:
+            following = images[edge.following]
+            ends = edge.x, edge.y, following.x, following.y
+        elif edge.kind == CONVEX and edge.full:
+            ends = _across(edge.cx, edge.cy, edge.radius, mx, my)
         else:
             continue
         ax, ay, bx, by = ends[0] - mx, ends[1] - my, ends[2] - mx, ends[3] - my

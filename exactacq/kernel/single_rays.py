@@ -82,8 +82,8 @@ def blocks(sweep: FaceSweep, rank: int, vertex: int, along: bool) -> int:
     faces = sweep.faces
     x, y, b = faces.vector(sweep.groups[rank][0])
     images = faces.images
-    before, following = images.previous[vertex], images.following[vertex]
-    if images.kind[vertex] != STRAIGHT or images.kind[before] != STRAIGHT:
+    before, following = images[vertex].previous, images[vertex].following
+    if images[vertex].kind != STRAIGHT or images[before].kind != STRAIGHT:
         return 0
     u, v, p = difference(faces, before, vertex)
     s, t, q = difference(faces, vertex, following)

@@ -59,26 +59,27 @@ class Surroundings:
         for e in own:
             j = near.edge(e)
             if j >= 0:
-                is_out = images.kind[e] == STRAIGHT or frame.kind == ROLLING
+                is_out = images[e].kind == STRAIGHT or frame.kind == ROLLING
                 self.place[j] = LEFT_OUT if is_out else THROUGH
-        self.spots = self._spots(near.vertices, images.x, images.x_rest, images.y, images.y_rest)
-        arcs = [near.edges[j] for j in near.arcs]
-        self.centers = self._spots(arcs, images.cx, images.cx_rest, images.cy, images.cy_rest)
+        self.spots = self._spots(near.vertices, False)
+        self.centers = self._spots([near.edges[j] for j in near.arcs], True)
 
-    def _spots(
-        self, points: list[int], x: list[float], x_rest: list[float], y: list[float], y_rest: list[float]
-    ) -> list[FramePoint]:
-        """Points in the frame, by their numbers in lists of coordinates with rests."""
+    def _spots(self, edges: list[int], are_centers: bool) -> list[FramePoint]:
+        """Vertices or centres of arcs in the frame."""
         frame = self.frame
         ux, uy, cx, cy, cx_rest, cy_rest = frame.ux, frame.uy, frame.x, frame.y, frame.x_rest, frame.y_rest
         length = abs(ux) + abs(uy)
         base, least = abs(cx) + abs(cy), frame.blur + TINY
         for_size = frame.bound + 2.0 * UNIT * length
         found: list[FramePoint] = []
-        for k in points:
-            px, py = x[k], y[k]
-            dx = (px - cx) + (x_rest[k] - cx_rest)
-            dy = (py - cy) + (y_rest[k] - cy_rest)
+        for e in edges:
+            edge = self.images[e]
+            if are_centers:
+                px, py, px_rest, py_rest = edge.cx, edge.cy, edge.cx_rest, edge.cy_rest
+            else:
+                px, py, px_rest, py_rest = edge.x, edge.y, edge.x_rest, edge.y_rest
+            dx = (px - cx) + (px_rest - cx_rest)
+            dy = (py - cy) + (py_rest - cy_rest)
             size = abs(dx) + abs(dy)
             b = UNIT * size + REST * (abs(px) + abs(py) + base) + least
             bound = (length * b + for_size * (size + 2.0 * b) + TINY) * WIDEN
@@ -87,7 +88,7 @@ class Surroundings:
 
     def radius(self, e: int) -> tuple[float, float]:
         """The radius of an arc, in the frame."""
-        r = self.images.radius[e]
+        r = self.images[e].radius
         return product(self.scale, self.scale_bound, r, UNIT * r)
 
 

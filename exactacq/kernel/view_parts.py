@@ -69,7 +69,7 @@ class ViewParts:
             start, end = part
             if within[face] and not (here and start in here and end in here):
                 self.parts.append([part])
-            elif self.faces.images.kind[self.faces.edge[face]] == STRAIGHT:
+            elif self.faces.images[self.faces.edge[face]].kind == STRAIGHT:
                 self.parts.append(self._clipped(n, face, start, end))
             else:
                 self.doubts.append(n)
@@ -156,7 +156,7 @@ class ViewParts:
             return -inf, inf
         kind, face, which = self.made[end - self.base]
         e = faces.edge[face] if kind != GIVEN else -1
-        if kind == GIVEN or faces.images.kind[e] != STRAIGHT:
+        if kind == GIVEN or faces.images[e].kind != STRAIGHT:
             return -inf, inf
         ax, ay, a, turn, turn_bound = faces.line(e)
         sx, sy, s = faces.offset(e)

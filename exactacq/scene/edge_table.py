@@ -23,7 +23,7 @@ from exactacq.geometry.points import Point
 from exactacq.kernel import images
 from exactacq.kernel.box_tree import BoxNode, box_tree
 from exactacq.kernel.curve_images import CurveImage
-from exactacq.kernel.images import EdgeImages
+from exactacq.kernel.images import EdgeImage
 from exactacq.kernel.lattice import Lattice
 from exactacq.kernel.line_keys import LineNumbers
 from exactacq.kernel.lines import Line
@@ -71,8 +71,11 @@ class EdgeTable:
         self.next: Ints = np.arange(1, len(self.curves) + 1)
         self.next[firsts[1:] - 1] = firsts[:-1]
         self.previous: Ints = np.argsort(self.next)
+        self.following: list[int] = self.next.tolist()
+        self.preceding: list[int] = self.previous.tolist()
         self.vertices = [_pair(c.start) for c in self.curves]
         self.kind = np.array([_kind(c) for c in self.curves], dtype=np.int8)
+        self.kinds: list[int] = self.kind.tolist()
         self.full = np.array([isinstance(c, Arc) and c.full for c in self.curves], dtype=bool)
         self.start: Floats = np.array([_floats(v) for v in self.vertices], dtype=float).reshape(-1, 2)
         self.end = self.start[self.next] if len(self.curves) else self.start
@@ -131,23 +134,22 @@ class EdgeTable:
         return LineNumbers([self.circles.get(e, e) for e in range(len(self.curves))])
 
     @cached_property
-    def images(self) -> EdgeImages:
+    def images(self) -> list[EdgeImage]:
         """The edges as the compiled loops take them."""
-        xs, ys = zip(*(with_rests(v) for v in self.vertices), strict=True) if self.curves else ((), ())
-        centers = [_pair(c.center) if isinstance(c, Arc) else (fmpq(0), fmpq(0)) for c in self.curves]
-        us, vs = zip(*map(with_rests, centers), strict=True) if self.curves else ((), ())
-        return EdgeImages(
-            [x for x, _ in xs],
-            [rest for _, rest in xs],
-            [y for y, _ in ys],
-            [rest for _, rest in ys],
-            ([u for u, _ in us], [rest for _, rest in us], [v for v, _ in vs], [rest for _, rest in vs]),
-            self.radius.tolist(),
-            self.kind.tolist(),
-            self.full.tolist(),
-            self.next.tolist(),
-            self.previous.tolist(),
-        )
+        centers = (_pair(c.center) if isinstance(c, Arc) else (fmpq(0), fmpq(0)) for c in self.curves)
+        return [
+            EdgeImage(with_rests(vertex), with_rests(center), *rest)
+            for vertex, center, *rest in zip(
+                self.vertices,
+                centers,
+                self.radius.tolist(),
+                self.kinds,
+                self.full.tolist(),
+                self.following,
+                self.preceding,
+                strict=True,
+            )
+        ]
 
     @cached_property
     def lattice(self) -> tuple[fmpz, Lattice] | None:
@@ -305,10 +307,10 @@ def _pair(point: Any) -> tuple[fmpq, fmpq]:
     return pair  # type: ignore[no-any-return]
 
 
-def with_rests(pair: tuple[fmpq, fmpq]) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Each coordinate as the nearest float and what that leaves, as a float."""
+def with_rests(pair: tuple[fmpq, fmpq]) -> tuple[float, float, float, float]:
+    """Each coordinate as the nearest float, and what that leaves, as a float."""
     x, y = map(float, pair)
-    return (x, float(pair[0] - _of_float(x))), (y, float(pair[1] - _of_float(y)))
+    return x, float(pair[0] - _of_float(x)), y, float(pair[1] - _of_float(y))
 
 
 def _of_float(value: float) -> fmpq:

@@ -147,7 +147,7 @@ class Acquisition:
         """The number of a place of an edge, if it is one of the edge's ends, as a vertex."""
         table = self.shares.complex.table
         curve = table.curves[e]
-        return e if point is curve.start else int(table.next[e]) if point is curve.end else None
+        return e if point is curve.start else table.following[e] if point is curve.end else None
 
     def _in_range(self, leg: Leg, point: Point) -> Iterator[Place]:
         """The places of a leg that are as far from a point as the range."""

@@ -98,7 +98,7 @@ class FamilySweeper:
         single_lines: list[SingleImage] = []
         around = self._near(self.table.spots(e))
         for sector in normals(self.table.curves[e]):
-            ends = (e, int(self.table.next[e])) if isinstance(sector, Sliding) else NO_ENDS
+            ends = (e, self.table.following[e]) if isinstance(sector, Sliding) else NO_ENDS
             self._add(images, sector, around, (e,), Side(e, Role.CONTACT), None, ends, goes_back=False)
         for feature in self._features.get(e, ()):
             # Edges out of reach of a corner would only divide its families further.
@@ -159,7 +159,7 @@ class FamilySweeper:
         incoming, outgoing = feature.edges
         curves = self.table.curves
         first = incoming if isinstance(curves[incoming], Segment) else NONE
-        return first, int(self.table.next[outgoing]) if isinstance(curves[outgoing], Segment) else NONE
+        return first, self.table.following[outgoing] if isinstance(curves[outgoing], Segment) else NONE
 
     def _corner_normals(self, feature: Feature) -> Iterator[Sector]:
         """The normals of the boundary at a convex corner."""
@@ -247,7 +247,7 @@ class FamilySweeper:
             return feature.edges[0], feature.edges[1]
         (e,) = feature.edges
         curves = self.table.curves
-        before, after = int(self.table.previous[e]), int(self.table.next[e])
+        before, after = self.table.preceding[e], self.table.following[e]
         ends = leaving(curves[before], at_end=True), leaving(curves[e], at_end=False)
         incoming = before if parallel(*ends) else e
         ends = leaving(curves[e], at_end=True), leaving(curves[after], at_end=False)

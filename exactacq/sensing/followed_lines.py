@@ -158,7 +158,7 @@ class LineFollower:
             if point == curve.start:
                 vertex = e
             elif point == curve.end:
-                vertex = int(self.table.next[e])
+                vertex = self.table.following[e]
         return MetEdge(e, vertex, place, self._images.hull(e, (point,)), held_point(point))
 
     def _vertex(self, vertex: int, e: int) -> Pin:

@@ -80,7 +80,7 @@ class LegSights:
         self.complex, self.leg, self._given = complex_, leg, way
         self._view, self._clipper = view, complex_.clipper
         self._rail = None if leg.edge is None else leg.rail
-        self._previous = complex_.table.images.previous
+        self._previous = complex_.table.preceding
         circles = complex_.table.line_numbers.circles
         self._scene = complex_.table.curve_images, self._previous, circles, complex_.images.reach
         self._span = LegSpan(bounds(leg.span.low, None), bounds(leg.span.high, None))
@@ -236,7 +236,7 @@ class LegSights:
         e, table = self.leg.edge, self.complex.table
         if e is None:
             return set()
-        beside = int(table.previous[e]), int(table.next[e])
+        beside = table.preceding[e], table.following[e]
         middle = self.leg.rail.point(rational_between(self.leg.span.low, self.leg.span.high))
         return {e, *(f for f in beside if _is_left_of(middle, table.curves[f]))}
 

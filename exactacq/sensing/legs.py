@@ -273,7 +273,7 @@ def _on_edge(table: EdgeTable, rail: Rail, e: int, piece: Segment) -> Leg:
 
 def _beside(table: EdgeTable, e: int) -> tuple[int, int]:
     """The edges before and after an edge."""
-    return int(table.previous[e]), int(table.next[e])
+    return table.preceding[e], table.following[e]
 
 
 def _through_space(table: EdgeTable, way: Segment) -> list[Leg]:

@@ -119,7 +119,7 @@ class PencilFamilies:
         lines, feature, contact = self.lines, self._feature, self.contact
         own = NONE if feature is None else self._namer.number(feature)
         frame, at = lines.sector.image, (contact.edge, self._corner)
-        curves, following = images.curves, images.table.images.following
+        curves, following = images.curves, images.table.following
         found = pencil_images(lines.rows, frame, at, self.goes_back, own, numbers, curves, following, self)
         images.unroll(found, lines)
         return found
@@ -127,7 +127,7 @@ class PencilFamilies:
     @property
     def _corner(self) -> int:
         """The vertex at which the contact stays, or `NONE`."""
-        e, following = self.contact.edge, self.lines.table.images.following
+        e, following = self.contact.edge, self.lines.table.following
         return NONE if not self.contact.fixed else following[e] if self.contact.at_end else e
 
     def family(self, image: FamilyImage) -> LineFamily:
@@ -167,7 +167,7 @@ class PencilFamilies:
 
 def start_of(image: FamilyImage, role: Role, table: EdgeTable) -> int | None:
     """What parameters are at the start of the full circle that lines meet, if surely none passes it."""
-    if not (image.is_known and table.images.full[image.edge(role)]):
+    if not (image.is_known and table.images[image.edge(role)].full):
         return None
     ends = [(low, high) for low, high, *_ in image.places(role)]
     return None if EVERYTHING in ends else 4 if (inf, inf) in ends else 0

@@ -60,7 +60,7 @@ class LineImages:
     def unroll(self, families: list[FamilyImage], lines: Pencil) -> None:
         """Tell of those of a pencil's families that meet full circles where they may pass their start."""
         if self.has_full:
-            for image, role in perhaps_over_start(families, self.table.images.full):
+            for image, role in perhaps_over_start(families, self.table.images):
                 self._unroll(image, Role(role), lines, image.edge(role))
 
     def _unroll(self, image: FamilyImage, role: Role, lines: Pencil, edge: int) -> None:

@@ -61,7 +61,7 @@ class OwnLine:
         along = self.line.end - start
         for e in self._near:
             curve = table.curves[e]
-            for number, corner in ((e, curve.start), (int(table.next[e]), curve.end)):
+            for number, corner in ((e, curve.start), (table.following[e], curve.end)):
                 if numbers.feature(number, False) in touches or along.cross(corner - start).sign() == 0:
                     yield e, corner
             if isinstance(curve, Arc):

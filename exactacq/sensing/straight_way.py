@@ -97,7 +97,7 @@ class StraightWay:
             return []
         x, y = point.xy
         near = self.table.around((x, y), (x, y), 0.0)
-        numbers = {number for e in near for number in (e, int(self.table.next[e]))}
+        numbers = {number for e in near for number in (e, self.table.following[e])}
         return [number for number in numbers if self.table.vertices[number] == point.rational]
 
     def foot(self, point: Point) -> Point:

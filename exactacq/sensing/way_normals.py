@@ -39,7 +39,7 @@ class WayNormals:
             sweep = pencil(way.table, sector, (), complex_.range.above)
             frame = SLIDING, line.x, line.y, line.wx, line.wy, 0.0, sense
             no_names = (NONE, NONE), False, NONE, LineNumbers([])
-            curves, following = complex_.images.curves, way.table.images.following
+            curves, following = complex_.images.curves, way.table.following
             images = pencil_images(sweep.rows, frame, *no_names, curves, following, sweep)
             complex_.images.unroll(images, sweep)
             found += images

@@ -20,7 +20,7 @@ from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.points import Point
 from exactacq.kernel.box_tree import BoxNode, box_tree
-from exactacq.kernel.images import EdgeImages
+from exactacq.kernel.images import EdgeImage
 from exactacq.numbers.real import Real
 from exactacq.recent import Recent
 from exactacq.scene.edge_table import CONCAVE, CONVEX, NEAR_KEPT, STRAIGHT, EdgeTable
@@ -45,13 +45,16 @@ class ChainTable(EdgeTable):
         spans = np.cumsum([self.solids, *(len(chain.pieces) for chain in chains)]).tolist()
         self.ends = [(first, last - 1) for first, last in itertools.pairwise(spans)]
         """Of each chain the first and the last forward edge."""
-        following = [int(e) for e in solid.next] + [0] * len(self._pieces)
+        self.following = following = [*solid.following, *([0] * len(self._pieces))]
         for first, last in self.ends:
             for e in range(first, last + 1):
                 following[e] = e + 1 if e < last else self.twin(e)
                 following[self.twin(e)] = self.twin(e - 1) if e > first else e
         self.next = np.array(following, dtype=np.intp)
         self.previous = np.argsort(self.next)
+        self.preceding = self.previous.tolist()
+        kinds = (STRAIGHT if isinstance(c, Segment) else CONVEX if c.ccw else CONCAVE for c in self.curves)
+        self.kinds = list(kinds)
         owners = [len(solid.obstacles) + k for k, chain in enumerate(chains) for _ in chain.pieces]
         self.owners = [*solid.owners, *owners, *owners]
         self.owner = np.array(self.owners, dtype=np.intp)
@@ -67,32 +70,17 @@ class ChainTable(EdgeTable):
         return box_tree([(x0, y0, x1, y1) for x0, y0, x1, y1 in self.boxes.tolist()])
 
     @cached_property
-    def images(self) -> EdgeImages:
+    def images(self) -> list[EdgeImage]:
         """The edges as `kernel.clearance` takes them, which looks at no rests of coordinates."""
-        old, made = self.solid.images, self.curves[self.solids :]
-        starts = [curve.start.xy for curve in made]
-        centers = [curve.center.xy if isinstance(curve, Arc) else (0.0, 0.0) for curve in made]
-        none = [0.0] * len(made)
-        return EdgeImages(
-            [*old.x, *(x for x, _ in starts)],
-            [*old.x_rest, *none],
-            [*old.y, *(y for _, y in starts)],
-            [*old.y_rest, *none],
-            (
-                [*old.cx, *(x for x, _ in centers)],
-                [*old.cx_rest, *none],
-                [*old.cy, *(y for _, y in centers)],
-                [*old.cy_rest, *none],
-            ),
-            self.radius.tolist(),
-            [
-                *old.kind,
-                *(STRAIGHT if isinstance(c, Segment) else CONVEX if c.ccw else CONCAVE for c in made),
-            ],
-            [*old.full, *([False] * len(made))],
-            self.next.tolist(),
-            self.previous.tolist(),
-        )
+        found, radii = self.solid.images.copy(), self.radius.tolist()
+        for e in range(self.solids, len(self.curves)):
+            curve = self.curves[e]
+            x, y = curve.start.xy
+            u, v = curve.center.xy if isinstance(curve, Arc) else (0.0, 0.0)
+            start, center = (x, 0.0, y, 0.0), (u, 0.0, v, 0.0)
+            around = self.following[e], self.preceding[e]
+            found.append(EdgeImage(start, center, radii[e], self.kinds[e], False, *around))
+        return found
 
     # -- the two sides of chains -----------------------------------------------------------------------
 

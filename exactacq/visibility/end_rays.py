@@ -36,7 +36,7 @@ def end_rays(table: EdgeTable, e: int) -> Iterator[EndRays]:
     """The rays from both ends of an edge. A full circle has none, nor an end in a corner that is narrow."""
     if table.full[e]:
         return
-    for incoming, outgoing in ((int(table.previous[e]), e), (e, int(table.next[e]))):
+    for incoming, outgoing in ((table.preceding[e], e), (e, table.following[e])):
         curves = table.curves[incoming], table.curves[outgoing]
         before, after = leaving(curves[0], at_end=True), leaving(curves[1], at_end=False)
         is_start = outgoing == e
@@ -57,4 +57,4 @@ def _far_end(table: EdgeTable, e: int, vertex: int) -> int:
     """The other vertex of an edge at a vertex, if it is straight; else `NONE`."""
     if not isinstance(table.curves[e], Segment):
         return NONE
-    return int(table.next[e]) if vertex == e else e
+    return table.following[e] if vertex == e else e

@@ -69,7 +69,7 @@ def features(table: EdgeTable) -> list[Feature]:
 def corners_of_segments(table: EdgeTable) -> list[bool]:
     """By vertices, whether a corner of two segments is there at which the obstacle is convex."""
     if table not in _corners_kept:
-        kind, found = table.images.kind, [False] * len(table.curves)
+        kind, found = table.kinds, [False] * len(table.curves)
         for feature in features(table):
             if not feature.round:
                 incoming, vertex = feature.edges
@@ -84,7 +84,7 @@ def _features(table: EdgeTable) -> list[Feature]:
         if isinstance(curve, Arc) and curve.ccw:
             found.append(_arc_feature(table, e, curve))
         if not table.full[e]:
-            corner = _corner_feature(table, e, int(table.next[e]))
+            corner = _corner_feature(table, e, table.following[e])
             if corner is not None:
                 found.append(corner)
     return found

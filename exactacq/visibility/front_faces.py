@@ -202,7 +202,7 @@ class FrontFaces:
                 arcs += self._arc(e)
         self.cone = self._cone(arcs) if own else None
         for e in self.on_ray:
-            self.special += (e, int(table.next[e]))
+            self.special += (e, table.following[e])
         for event in self.special:
             if event < len(table.vertices):
                 faces.slot(event)
@@ -235,7 +235,7 @@ class FrontFaces:
         if lattice is not None and len(self.own) == 2:
             # Two edges meet at the vertex at which the second one begins.
             return self.floats.sides(edges, lattice[1], self.own[1])
-        return [sign(cross(self.offset(e), self.offset(int(self.table.next[e])))) for e in edges]
+        return [sign(cross(self.offset(e), self.offset(self.table.following[e]))) for e in edges]
 
     # -- events ------------------------------------------------------------------------------------
 
@@ -313,7 +313,7 @@ class FrontFaces:
         is_tangent = table.line_numbers.circles[e] in self.facts.tangent
         if not is_tangent and (self.floats.reaches(e) or self._reaches(arc)) < 0:
             return []
-        end = int(table.next[e])
+        end = table.following[e]
         # If an own edge is another arc of the same circle, the point is on it.
         outside = -1 if any(table.circles.get(own) == table.circles[e] for own in self.own) else 0
         if (outside or self.floats.beside(e) or self._is_outside(arc)) <= 0:
@@ -395,7 +395,7 @@ class FrontFaces:
         table = self.table
         incoming, outgoing = self.own[0], self.own[-1]
         before, after = table.curves[incoming], table.curves[outgoing]
-        low = self._departure(after, outgoing, int(table.next[outgoing]), 1)
+        low = self._departure(after, outgoing, table.following[outgoing], 1)
         high = self._departure(before, incoming, incoming, -1)
         self.special += (low, high)
         if isinstance(before, Arc) and not before.ccw and before is after and before.full:
@@ -404,7 +404,7 @@ class FrontFaces:
             if isinstance(before, Arc) and not before.ccw:
                 arcs.append((incoming, high, incoming))
             if isinstance(after, Arc) and not after.ccw:
-                arcs.append((outgoing, int(table.next[outgoing]), low))
+                arcs.append((outgoing, table.following[outgoing], low))
         if len(self.own) == 2 and parallel(self.offset(low), self.offset(high)):
             return None if is_spike(before, after) else Cone(low, low)
         return Cone(low, high)

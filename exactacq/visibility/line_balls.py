@@ -175,7 +175,7 @@ def first_meetings(
     edges *own*, along which the line does not run; there it does not meet them.
     """
     nearest: dict[int, tuple[arb, int, int]] = {}
-    curves, following = table.curves, table.images.following
+    curves, following = table.curves, table.following
     # Two edges meet at a vertex, which is looked at once.
     sighted: dict[int, Sighted] = {}
     with workprec(LONG):

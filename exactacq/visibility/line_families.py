@@ -397,5 +397,4 @@ def _place(point: Vector) -> tuple[tuple[float, float, float, float], float]:
     if isinstance(x, Real) or isinstance(y, Real):
         (u, p), (v, q) = held(x), held(y)
         return (u, 0.0, v, 0.0), max(p, q)
-    (u, rest), (v, other) = with_rests((x, y))
-    return (u, rest, v, other), margin(0.0)
+    return with_rests((x, y)), margin(0.0)

@@ -221,10 +221,10 @@ class Links:
         """
         curves = self.table.curves
         if foot is curves[e].start:
-            x, y = leaving(curves[int(self.table.previous[e])], at_end=True)
+            x, y = leaving(curves[self.table.preceding[e]], at_end=True)
             x, y = -x, -y
         elif foot is curves[e].end:
-            x, y = leaving(curves[int(self.table.next[e])], at_end=False)
+            x, y = leaving(curves[self.table.following[e]], at_end=False)
         else:
             return True
         nearer: Real = (other.x - foot.x) * x + (other.y - foot.y) * y

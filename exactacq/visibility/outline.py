@@ -137,7 +137,7 @@ def _from_here(view: BoundaryView, far: int, rank: int, outward: bool) -> list[R
         return (edge, a, b, near) if outward else (edge, b, a, near)
 
     for e in view.own:
-        for vertex in (e, int(view.table.next[e])):
+        for vertex in (e, view.table.following[e]):
             if not (view.runs_out(e, vertex) and view.sweep.rank.get(vertex) == rank):
                 continue
             excess = view.disc.excess(view.sweep.faces.place(vertex))

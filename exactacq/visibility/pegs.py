@@ -190,7 +190,7 @@ class Pegs:
 
     def _add_of_chain(self, table: ChainTable, e: int) -> None:
         """The arc that an edge of a chain is on its side, and the corner at its end."""
-        curve, following = table.curves[e], int(table.next[e])
+        curve, following = table.curves[e], table.following[e]
         if isinstance(curve, Arc) and curve.ccw:
             peg = Peg(len(self.pegs), curve.center, (e,), arc=curve)
             self.on_edge[e] = [peg]
@@ -224,7 +224,7 @@ class Pegs:
     def _join(self, peg: Peg, arc: Arc) -> None:
         """Find what a walk along an arc goes on to."""
         (e,), curves = peg.edges, self.table.curves
-        following = int(self.table.next[e])
+        following = self.table.following[e]
         if arc.start is curves[e].start and e in self.at_vertex:
             peg.before, peg.owns_start = self.at_vertex[e].number, False
         if arc.end is not curves[e].end:
@@ -271,7 +271,7 @@ class Pegs:
             return ()
         (e,), table = peg.edges, self.table
         if isinstance(table, ChainTable) and e >= table.solids:
-            return (int(table.previous[e]), e) if at_start else (e, int(table.next[e]))
+            return (table.preceding[e], e) if at_start else (e, table.following[e])
         return table.edges_at(contact)
 
     def may_leave(self, entry: int, contact: Point, along: Point) -> bool:

@@ -100,7 +100,7 @@ def along_way(table: EdgeTable, place: Balls, way: Segment, features: Sequence[i
     along = way.end - way.start
     for ray in _alignments(table, place, balls(along), lambda: (way.start, along), features, None):
         end = way.end if ray.sense > 0 else way.start
-        convex = (e for e in table.edges_at(end) if table.images.kind[e] != CONCAVE)
+        convex = (e for e in table.edges_at(end) if table.kinds[e] != CONCAVE)
         yield replace(ray, met=dict.fromkeys(convex, end))
 
 

@@ -262,7 +262,7 @@ class RadialSweep:
         table = self.table
         if event >= len(table.vertices):
             return False
-        before = table.images.previous[event]
+        before = table.preceding[event]
         if clear := single_rays.blocks(self._floats, rank, event, event in own or before in own):
             return clear > 0
         incoming, outgoing = table.curves[before], table.curves[event]

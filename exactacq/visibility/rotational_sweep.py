@@ -185,7 +185,7 @@ def swept(
     if sector.is_rational:
         edges = may_be_met(images, edges, sector.image, *sector.span, goes_back)
     near = NearEdges(images, edges)
-    frame = sector.frame(None if vertex == NOTHING else images.place(vertex))
+    frame = sector.frame(None if vertex == NOTHING else images[vertex].place())
     # The edges through the centre of an arc whose normals go there: all of these pass that point.
     is_inward = frame.kind == SPOKES and frame.sense < 0
     through = table.edges_at(Point(*sector.center)) if is_inward else ()
@@ -196,7 +196,7 @@ def swept(
         known_line(*low, [(first, 0, 0)] if near.has_vertex(first) else [], sector.low),
         known_line(*high, [(last, 0, 0)] if near.has_vertex(last) else [], sector.high),
         list(_break_events(table, sector, breaks, through)) if breaks or through else [],
-        images.following[own[0]] if len(own) == 2 else NOTHING,
+        table.following[own[0]] if len(own) == 2 else NOTHING,
         bool(through),
         None if breaks or vertex == NOTHING else _on_lattice(table, sector, frame.kind, vertex),
     )

@@ -340,7 +340,7 @@ class Tangents:
         """Whether a segment that meets some edges touches a further peg on its way."""
         pegs, table = self.pegs, self.table
         ends = pegs.entries[i][0], pegs.entries[j][0]
-        vertices = {v for e in edges for v in (e, int(table.next[e]))}
+        vertices = {v for e in edges for v in (e, table.following[e])}
         points = [pegs.at_vertex[v] for v in vertices if v in pegs.at_vertex]
         if any(line.passes(peg.center) for peg in points if peg not in ends):
             return True

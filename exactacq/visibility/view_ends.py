@@ -62,7 +62,7 @@ class ViewEnds:
         if point is curve.start:
             return e
         if point is curve.end:
-            return int(table.next[e])
+            return table.following[e]
         end = self.parts.add(GIVEN, HERE, HERE)
         self._points[end] = point
         if at_range:

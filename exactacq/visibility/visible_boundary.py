@@ -125,7 +125,7 @@ class BoundaryView:
     def bracket(self, e: int, part: Part) -> tuple[float, float]:
         """Bounds of the parameters of a part of an edge, no full circle; infinite at the edge's ends."""
         start, end = part
-        following, parts = self.table.images.following[e], self.parts
+        following, parts = self.table.following[e], self.parts
         low = -inf if start == e else inf if start == following else parts.bracket(start)[0]
         high = inf if end == following else -inf if end == e else parts.bracket(end)[1]
         return low, high
@@ -157,7 +157,7 @@ class BoundaryView:
     def _tidied(self, pieces: dict[int, list[Part]]) -> dict[int, list[Part]]:
         """Vertices that the range leaves alone on an edge moved to the edge that starts there, or dropped
         where a piece has them."""
-        following = self.table.images.following
+        following = self.table.following
         for e in [e for e, parts in pieces.items() if parts and parts[-1][0] == parts[-1][1]]:
             vertex = pieces[e][-1][0]
             if vertex != following[e] or vertex == e:
@@ -167,7 +167,7 @@ class BoundaryView:
                 onward.insert(0, pieces[e][-1])
             pieces[e].pop()
         for e in [e for e, parts in pieces.items() if parts and parts[0][0] == parts[0][1]]:
-            vertex, before = pieces[e][0][0], self.table.images.previous[e]
+            vertex, before = pieces[e][0][0], self.table.preceding[e]
             if vertex == e and before != e:
                 ends = pieces.get(before, ())
                 if ends and ends[-1][1] == vertex:
@@ -313,8 +313,8 @@ class BoundaryView:
             return self.buries(self.sweep.direction(rank))
         if ranks[cone.low] == rank or ranks[cone.high] == rank:
             # Along a single edge, or along straight ones.
-            if len(self.own) == 1 or not any(self.table.images.kind[e] for e in self.own):
-                return bool(self.table.images.kind[self.own[0]] == CONCAVE)
+            if len(self.own) == 1 or not any(self.table.kinds[e] for e in self.own):
+                return bool(self.table.kinds[self.own[0]] == CONCAVE)
             return self.buries(self.sweep.direction(rank))
         return self.sweep.first[rank - 1] == self.sweep.first[rank] == BLOCKED
 
@@ -338,7 +338,7 @@ class BoundaryView:
 
     def _runs_along(self, e: int, rank: int, met: list[int], blocker: int | None) -> bool:
         """Whether a straight edge on the ray is seen along its length."""
-        ends = e, int(self.table.next[e])
+        ends = e, self.table.following[e]
         if e in self.own:
             return any(self.sweep.rank.get(end) == rank and self.runs_out(e, end) for end in ends)
         nearer = [event for event in met if event in ends][:1]
@@ -356,7 +356,7 @@ class BoundaryView:
         """Whether an edge through the point is straight and leads from there to a vertex, an end of it."""
         if not isinstance(self.table.curves[e], Segment):
             return False
-        return len(self.own) == 1 or vertex == (e if e == self.own[0] else int(self.table.next[e]))
+        return len(self.own) == 1 or vertex == (e if e == self.own[0] else self.table.following[e])
 
     def at_range(self, rank: int) -> Point:
         """The point of the range circle in the direction of a rank, always the same object."""
@@ -371,7 +371,7 @@ class BoundaryView:
 
     def _add_ray(self, ray: SingleRay, found: dict[int, list[Placed]]) -> None:
         sweep, table = self.sweep, self.table
-        covered = {e for edge in ray.along for e in (edge, int(table.next[edge]))}
+        covered = {e for edge in ray.along for e in (edge, table.following[edge])}
         for face, high in ((sweep.first[ray.rank - 1], True), (sweep.first[ray.rank], False)):
             if face >= 0 and (sweep.high if high else sweep.low)[face] == ray.rank:
                 covered.add((sweep.ends_high if high else sweep.ends_low)[face])
