@@ -66,9 +66,9 @@ def samples(arc: Arc, count: int = 24) -> list[tuple[mpf, mpf]]:
 def told(table: EdgeTable, place: xa.Point) -> list[tuple[int, list[xa.Point]]]:
     """The faces of arcs, by edge, with the points where they end."""
     faces = FrontFaces(table, place, Range(fmpq(40)), ())
-    ends = zip(faces.edges, faces.ends_low, faces.ends_high, strict=True)
+    ends = [(face.edge, faces.ends(face.number)) for face in faces.floats.faces]
     return sorted(
-        [(e, [faces.place(end) for end in pair if end != NOWHERE]) for e, *pair in ends if e in ARCS],
+        [(e, [faces.place(end) for end in pair if end != NOWHERE]) for e, pair in ends if e in ARCS],
         key=lambda face: (face[0], [point.xy for point in face[1]]),
     )
 
@@ -84,9 +84,9 @@ def check(place: xa.Point) -> None:
         arc = TABLE.curves[e]
         assert isinstance(arc, Arc)
         spans = []
-        for f, edge in enumerate(faces.edges):
-            if edge == e:
-                ends = faces.ends_low[f], faces.ends_high[f]
+        for face in faces.floats.faces:
+            if face.edge == e:
+                ends = faces.ends(face.number)
                 spans.append(None if NOWHERE in ends else [faces.place(event) for event in ends])
         for u, v in samples(arc):
             cx, cy = number(arc.center.x), number(arc.center.y)

@@ -395,14 +395,21 @@ for scene in (random_octagons(12, 3), xa.load("circles"), xa.load("plate"), xa.l
             for n, e in enumerate(faces.arcs(every)):
                 faces.add_event(10**6 + n, *faces.tangent(e, 1))
             sweep = FaceSweep(faces)
-            total.update(repr((sweep.look_up(), sweep.least, sweep.most)).encode())
-            sweep.group()
+            east = [event.number for event in sweep.look_up()]
+            told = [(event.number, event.least, event.most) for event in faces.events]
+            total.update(repr((east, told)).encode())
+            sweep.order()
+            for at, events in reversed(sweep.open):
+                sweep.part(at, [events])
             sweep.rank()
             sweep.look(-1, -1)
             parts = ViewParts(sweep, sweep.sights(), 10**7, [])
-            total.update(repr((sweep.groups, sweep.first, parts.parts, parts.outline([]))).encode())
+            ranks = [[event.number for event in sweep.events(k)] for k in range(len(sweep.leads))]
+            sights = [(s.face, s.low, s.high, s.start, s.end, parts.within(s)) for s in parts.sights]
+            pieces = [(p.edge, p.start, p.end, p.near) for p in parts.outline([])]
+            total.update(repr((ranks, sweep.first, sights, pieces)).encode())
             brackets = [parts.bracket(parts.base + n) for n in range(len(parts.made))]
-            rays = [met_on(sweep, rank, [], 10**6) for rank in range(len(sweep.groups))]
+            rays = [met_on(sweep, rank, [], 10**6) for rank in range(len(sweep.leads))]
             total.update(repr((brackets, rays)).encode())
 print(kernel.DESCRIPTION, total.hexdigest())
 """

@@ -145,7 +145,7 @@ def test_views_are_as_exact_numbers_tell_them(k: int, monkeypatch: pytest.Monkey
 
     def view() -> list[tuple[object, ...]]:
         sweep = RadialSweep(TABLE, place, Range(fmpq(80)), None)
-        firsts = [sweep.edges[f] if f >= 0 else f for f in sweep.first]
+        firsts = [sweep.edge(f) if f >= 0 else f for f in sweep.first]
         return [*zip(firsts, ([*map(int, sweep.events(rank))] for rank in range(sweep.count)), strict=False)]
 
     found = view()

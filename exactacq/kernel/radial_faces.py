@@ -6,8 +6,6 @@ edge is one face or none: it runs clockwise, from its start s to its end t, so i
 and t as offsets from the place.
 
 Events are numbered by whoever asks: a vertex by its number, points that are no vertices by larger numbers.
-Here they have *slots* besides, in the order in which they come. A slot has a vector to its event, or some
-positive multiple of it; both components are held with one bound.
 """
 
 from __future__ import annotations
@@ -31,12 +29,53 @@ from exactacq.kernel.images import CONCAVE, REST, STRAIGHT, EdgeImage
 from exactacq.kernel.lattice import Lattice
 
 NONE: Final = -1
-"""The slot of a face's end if it has none: a full circle around the place."""
+"""In place of the number of a face's event: it is a full circle around the place."""
+
+
+@final
+class Event:
+    """A direction in which faces end, by the number of the point that lies there.
+
+    (x, y) is the vector to that point, or some positive multiple of it, both components held with ``bound``.
+    The sweep (see `exactacq.kernel.radial_sweep`) finds bounds of its key, its rank among the directions, and
+    the faces that begin there or stop, counterclockwise, -1 for none; and ``beside`` it another event in
+    the same direction.
+    """
+
+    def __init__(self, number: int, x: float, y: float, bound: float) -> None:
+        self.number = number
+        self.x, self.y, self.bound = x, y, bound
+        self.least = self.most = 0.0
+        self.rank = self.begins = self.stops = -1
+        self.beside: Event | None = None
+
+
+@final
+class Face:
+    """A face: its edge and both events, None of a full circle around the place.
+
+    ``within`` says whether all of it certainly lies within range. Of a straight one from s to t, seen from
+    the place, (ax, ay) is the vector a from s to t held with ``a``, and ``turn`` is s x t with its bound.
+    """
+
+    def __init__(self, number: int, edge: int, low: Event | None, high: Event | None, within: bool) -> None:
+        self.number, self.edge, self.low, self.high, self.within = number, edge, low, high, within
+        self.ax = self.ay = self.a = self.turn = self.turn_bound = 0.0
+        self.at = 0
+        """Where it is among the faces that a ray meets."""
+
+    def low_rank(self) -> int:
+        """The rank of the direction in which it begins, counterclockwise, -1 if there is none."""
+        return -1 if self.low is None else self.low.rank
+
+    def high_rank(self) -> int:
+        """The rank of the direction in which it stops."""
+        return -1 if self.high is None else self.high.rank
 
 
 @final
 class RadialFaces:
-    """The faces of one place, as parallel lists.
+    """The faces of one place, and their events.
 
     The place is held like a vertex: both coordinates with their rests, and a bound for what these leave.
     ``square`` is the square of the range.
@@ -53,15 +92,9 @@ class RadialFaces:
         """The edges through the place, once they are known."""
         self.px, self.px_rest, self.py, self.py_rest, self.blur = place
         self.square, self.square_bound = square
-        self.slots: dict[int, int] = {}
-        self.events: list[int] = []
-        self.given: dict[int, tuple[float, float, float]] = {}
-        """Vectors of events, by slot, where they are not the offsets of vertices."""
-        # Of the faces: edge, slots of both ends, and whether all of it certainly lies within range.
-        self.edge: list[int] = []
-        self.low: list[int] = []
-        self.high: list[int] = []
-        self.within: list[bool] = []
+        self.faces: list[Face] = []
+        self.events: list[Event] = []
+        self._numbered: dict[int, Event] = {}
         self.circles: list[int] = []
 
     def offset(self, v: int) -> tuple[float, float, float]:
@@ -87,7 +120,7 @@ class RadialFaces:
         return 1 if rest > bound else -1 if -rest > bound else 0
 
     def add_straight(self, edges: list[int]) -> list[int]:
-        """Add the faces that straight edges are; those whose side is open are returned.
+        """Add the faces that straight edges are, in ascending order; those whose side is open are returned.
 
         Left out is what certainly lies beyond the range.
         """
@@ -97,12 +130,15 @@ class RadialFaces:
         open_: list[int] = []
         last = -1
         sx = sy = s = tx = ty = t = 0.0
+        # The event at which the last face ended, and that with which the first one of an obstacle began:
+        # no others can be met again.
+        tail: Event | None = None
+        opening: Event | None = None
         for e in edges:
             edge = images[e]
             if edge.kind != STRAIGHT:
                 continue
             v = edge.following
-            end = images[v]
             # As `offset`.
             if e == last:
                 sx, sy, s = tx, ty, t
@@ -110,6 +146,7 @@ class RadialFaces:
                 x, y = edge.x, edge.y
                 sx, sy = (x - px) + (edge.x_rest - px_rest), (y - py) + (edge.y_rest - py_rest)
                 s = (UNIT * (abs(sx) + abs(sy)) + REST * (abs(x) + abs(y) + here) + blur) * WIDEN
+            end = images[v]
             x, y = end.x, end.y
             tx, ty = (x - px) + (end.x_rest - px_rest), (y - py) + (end.y_rest - py_rest)
             t = (UNIT * (abs(tx) + abs(ty)) + REST * (abs(x) + abs(y) + here) + blur) * WIDEN
@@ -124,10 +161,18 @@ class RadialFaces:
             near = self._extent(sx, sy, s, tx, ty, t, turn, bound)
             if near < 0:
                 continue
-            if -turn > bound:
-                self._add(e, self.slot(v), self.slot(e), near > 0)
-            else:
+            if not -turn > bound:
                 open_.append(e)
+                continue
+            low = opening if opening is not None and opening.number == v else self._new(v, tx, ty, t)
+            if tail is not None and tail.number == e:
+                high = tail
+            else:
+                high = self._new(e, sx, sy, s)
+                if edge.previous > e:
+                    opening = high
+            tail = low
+            self._add_line(e, low, high, near > 0, (tx - sx, ty - sy, s + t), (turn, bound))
         return open_
 
     def sides(self, edges: list[int], lattice: Lattice, place: int) -> list[int]:
@@ -148,7 +193,8 @@ class RadialFaces:
         tx, ty, t = self.offset(v)
         turn, bound = cross(sx, sy, s, tx, ty, t)
         near = self._extent(sx, sy, s, tx, ty, t, turn, bound)
-        self._add(e, self.slot(v), self.slot(e), near > 0)
+        low, high = self.event(v), self.event(e)
+        self._add_line(e, low, high, near > 0, (tx - sx, ty - sy, s + t), (turn, bound))
 
     def arcs(self, edges: list[int]) -> list[int]:
         """The arcs among some edges."""
@@ -284,39 +330,41 @@ class RadialFaces:
 
     def add_arc(self, e: int, low: int, high: int) -> None:
         """Add a face of an arc between two events (`NONE` for none): vertices, or events that are added."""
-        first = self.slot(low) if low >= 0 else NONE
-        last = self.slot(high) if high >= 0 else NONE
+        first = self.event(low) if low >= 0 else None
+        last = self.event(high) if high >= 0 else None
         wx, wy, w = self.center(e)
         far, far_bound = length(wx, wy, w)
         r = self.images[e].radius
         far, far_bound = total(far, far_bound, r, UNIT * r)
         self._add(e, first, last, self.reach(far, 0.0, far_bound) > 0)
 
-    def add_event(self, event: int, x: float, y: float, e: float) -> None:
+    def add_event(self, number: int, x: float, y: float, bound: float) -> None:
         """Add an event with its vector; for a vertex too it is taken instead of the offset."""
-        self.given[self.slot(event)] = x, y, e
+        event = self.found(number)
+        if event is None:
+            self._new(number, x, y, bound)
+        else:
+            event.x, event.y, event.bound = x, y, bound
 
-    def slot(self, event: int) -> int:
-        """The slot of an event, a new one if it has none."""
-        k = self.slots.get(event, -1)
-        if k < 0:
-            k = self.slots[event] = len(self.events)
-            self.events.append(event)
-        return k
+    def event(self, number: int) -> Event:
+        """The event with a number; of a vertex that has none a new one."""
+        event = self.found(number)
+        if event is None:
+            x, y, bound = self.offset(number)
+            event = self._new(number, x, y, bound)
+        return event
 
-    def vector(self, k: int) -> tuple[float, float, float]:
-        """The vector of a slot's event, with a bound for both components."""
-        if self.given and k in self.given:
-            return self.given[k]
-        return self.offset(self.events[k])
+    def found(self, number: int) -> Event | None:
+        """The event with a number, or None."""
+        known = self._numbered
+        for k in range(len(known), len(self.events)):
+            known[self.events[k].number] = self.events[k]
+        return known.get(number)
 
-    def line(self, e: int) -> tuple[float, float, float, float, float]:
-        """Of a straight edge from s to t: the vector a from s to t with a bound, and s x t with its own."""
-        sx, sy, s = self.offset(e)
-        tx, ty, t = self.offset(self.images[e].following)
-        ax, ay = tx - sx, ty - sy
-        turn, bound = cross(sx, sy, s, tx, ty, t)
-        return ax, ay, (s + t + UNIT * (abs(ax) + abs(ay))) * WIDEN, turn, bound
+    def _new(self, number: int, x: float, y: float, bound: float) -> Event:
+        event = Event(number, x, y, bound)
+        self.events.append(event)
+        return event
 
     def center(self, e: int) -> tuple[float, float, float]:
         """The vector from the place to an arc's centre, as `offset`."""
@@ -348,32 +396,31 @@ class RadialFaces:
         y, y_bound = total(y, y_bound, v, v_bound)
         return x, y, max(x_bound, y_bound)
 
-    def way(self, f: int, dx: float, dy: float, d: float) -> tuple[float, float]:
+    def way(self, face: Face, dx: float, dy: float, d: float) -> tuple[float, float]:
         """How many times a vector, its components held with d, leads from the place to a face that covers it.
 
         On the line through s along a it is s x a / (d x a), and s x a = s x t. On a circle about w it is
         (d . w -+ sqrt(|d|^2 r^2 - (d x w)^2)) / |d|^2, and 2 d . w / |d|^2 if the place is on it.
         """
-        e = self.edge[f]
-        images = self.images
-        if images[e].kind == STRAIGHT:
-            ax, ay, a, turn, turn_bound = self.line(e)
-            below, bound = cross(dx, dy, d, ax, ay, a)
-            return quotient(turn, turn_bound, below, bound)
+        e = face.edge
+        edge = self.images[e]
+        if edge.kind == STRAIGHT:
+            below, bound = cross(dx, dy, d, face.ax, face.ay, face.a)
+            return quotient(face.turn, face.turn_bound, below, bound)
         wx, wy, w = self.center(e)
         square, square_bound = dot(dx, dy, d, dx, dy, d)
         h, h_bound = dot(dx, dy, d, wx, wy, w)
         if e in self.own:
             return quotient(2.0 * h, 2.0 * h_bound, square, square_bound)
         g, g_bound = cross(dx, dy, d, wx, wy, w)
-        r = images[e].radius
+        r = edge.radius
         size, size_bound = root(square, square_bound)
         across, across_bound = product(size, size_bound, r, UNIT * r)
         plus, plus_bound = total(across, across_bound, g, g_bound)
         minus, minus_bound = total(across, across_bound, -g, g_bound)
         under, under_bound = product(plus, plus_bound, minus, minus_bound)
         half, half_bound = root(under, under_bound)
-        top, top_bound = total(h, h_bound, -images[e].kind * half, half_bound)
+        top, top_bound = total(h, h_bound, -edge.kind * half, half_bound)
         return quotient(top, top_bound, square, square_bound)
 
     def _extent(
@@ -408,8 +455,22 @@ class RadialFaces:
         behind, behind_bound = dot(tx, ty, t, ax, ay, a)
         return -1 if ahead > ahead_bound or -behind > behind_bound else 0
 
-    def _add(self, e: int, low: int, high: int, within: bool) -> None:
-        self.edge.append(e)
-        self.low.append(low)
-        self.high.append(high)
-        self.within.append(within)
+    def _add_line(
+        self,
+        e: int,
+        low: Event,
+        high: Event,
+        within: bool,
+        vector: tuple[float, float, float],
+        turn: tuple[float, float],
+    ) -> None:
+        """Add a straight face, by the vector along it, with the bounds of what it is the difference of."""
+        face = self._add(e, low, high, within)
+        ax, ay, a = vector
+        face.ax, face.ay, face.a = ax, ay, (a + UNIT * (abs(ax) + abs(ay))) * WIDEN
+        face.turn, face.turn_bound = turn
+
+    def _add(self, e: int, low: Event | None, high: Event | None, within: bool) -> Face:
+        face = Face(len(self.faces), e, low, high, within)
+        self.faces.append(face)
+        return face

@@ -10,11 +10,12 @@ others are farther away than the vertex.
 from __future__ import annotations
 
 from math import inf
+from operator import attrgetter
 from typing import Final, final
 
 from exactacq.kernel.bounded import TINY, UNIT, WIDEN, cross
 from exactacq.kernel.lattice import Lattice, place_among
-from exactacq.kernel.radial_faces import RadialFaces
+from exactacq.kernel.radial_faces import Event, Face, RadialFaces
 
 NOTHING: Final = -1
 """No face within reach."""
@@ -25,13 +26,34 @@ DOUBT: Final = -3
 WIDE: Final = 1.9
 """Where the keys of a cell's sides differ by more, a quarter turn from its first side is inside."""
 
+LEAST: Final = attrgetter("least")
+NUMBER: Final = attrgetter("number")
+
+Part = tuple[int, int]
+"""The numbers of the ends of a closed piece of an edge, in the boundary's direction."""
+
+
+@final
+class Sight:
+    """A face that comes first from the rank ``low`` to ``high``, counterclockwise; or `NOTHING` or `BLOCKED`.
+
+    All around if the ranks are equal. ``start`` and ``end`` are the numbers of the ends of what is seen of
+    it, in the boundary's direction, and ``parts`` what of that is within range, None for all of it: see
+    `exactacq.kernel.view_parts`.
+    """
+
+    def __init__(self, face: int, low: int, high: int) -> None:
+        self.face, self.low, self.high = face, low, high
+        self.start = self.end = -1
+        self.parts: list[Part] | None = None
+
 
 @final
 class FaceSweep:
     """The sweep about a place, in the steps `look_up`, `group`, `rank`, `look` and `sights`.
 
     Between them whoever asks decides what the floats leave open: on which side of the east a direction is
-    (`look_up`), which directions of a group are one (``open_groups``), which face comes first (``doubts``).
+    (`look_up`), which of some directions are one (``open``), which face comes first (``doubts``).
 
     The order is that of *keys*: (x, y) has the key y / (|x| + |y|) in the first quarter, and every quarter
     turn adds 1. Let both components be held with b, and n = |x| + |y|. On the way from what is held to what
@@ -42,100 +64,107 @@ class FaceSweep:
 
     def __init__(self, faces: RadialFaces) -> None:
         self.faces = faces
-        # Bounds of the keys, by slot.
-        self.least: list[float] = []
-        self.most: list[float] = []
-        # Slots by direction, counterclockwise from the east, and the numbers of groups that may be several.
-        self.groups: list[list[int]] = []
-        self.open_groups: list[int] = []
-        # The ranks of the slots, and of the directions in which faces end.
-        self.ranks: list[int] = []
-        self.low: list[int] = []
-        self.high: list[int] = []
-        # The first face of every cell; cells where it is open, and the faces that it may be.
+        self.leads: list[Event] = []
+        """An event of every direction, counterclockwise from the east."""
+        self.open: list[tuple[int, list[Event]]] = []
+        """What may be several directions: its place among the leads, and its events."""
         self.first: list[int] = []
+        """The first face of every cell, by number."""
         self.doubts: list[int] = []
         self.rivals: list[list[int]] = []
+        """Cells where that is open, and the faces that it may be."""
 
     # -- the order of directions -------------------------------------------------------------------
 
-    def look_up(self) -> list[int]:
-        """Compute the keys; returns the slots whose direction may be on either side of the east."""
-        faces, least, most = self.faces, self.least, self.most
-        events, given = faces.events, faces.given
-        found: list[int] = []
-        for k in range(len(events)):
-            x, y, b = faces.vector(k) if given else faces.offset(events[k])
+    def look_up(self) -> list[Event]:
+        """Compute the keys; returns the events whose direction may be on either side of the east."""
+        found: list[Event] = []
+        for event in self.faces.events:
+            x, y, b = event.x, event.y, event.bound
             size = abs(x) + abs(y)
             room = size - 2.0 * b
             if not room > TINY:
-                least.append(-inf)
-                most.append(inf)
+                event.least, event.most = -inf, inf
                 continue
             if y >= 0.0:
                 key = y / size if x >= 0.0 else 1.0 - x / size
             else:
                 key = 2.0 - y / size if x < 0.0 else 3.0 + x / size
             bound = (b / room + 8.0 * UNIT) * WIDEN
-            least.append(key - bound)
-            most.append(key + bound)
+            event.least, event.most = key - bound, key + bound
             if x > 0.0 and abs(y) <= b:
-                found.append(k)
+                found.append(event)
         return found
 
-    def put(self, k: int, upper: bool) -> None:
+    def put(self, event: Event, upper: bool) -> None:
         """Tell on which side of the east a direction next to it is; the east itself is on the upper one."""
-        bound = self.most[k] - self.least[k]
-        self.least[k] = 0.0 if upper else 4.0 - bound
-        self.most[k] = bound if upper else 4.0
+        bound = event.most - event.least
+        event.least = 0.0 if upper else 4.0 - bound
+        event.most = bound if upper else 4.0
 
-    def group(self) -> None:
-        """Group the slots by direction: those in a group may be one."""
-        least, most, groups = self.least, self.most, self.groups
-        reached = -inf
-        for k in sorted(range(len(least)), key=least.__getitem__):
-            if least[k] > reached or not groups:
-                groups.append([k])
-                reached = most[k]
-            else:
-                if len(groups[-1]) == 1:
-                    self.open_groups.append(len(groups) - 1)
-                groups[-1].append(k)
-                reached = max(reached, most[k])
+    def order(self) -> None:
+        """Order the directions, as far as the keys tell."""
+        leads, reached, at_open = self.leads, -inf, -1
+        for event in sorted(self.faces.events, key=LEAST):
+            if event.least > reached or not leads:
+                leads.append(event)
+                reached = event.most
+                continue
+            at = len(leads) - 1
+            if at != at_open:
+                self.open.append((at, [leads[at]]))
+                at_open = at
+            self.open[-1][1].append(event)
+            reached = max(reached, event.most)
 
-    def parted(self, slots: list[int], lattice: Lattice, center: int) -> list[list[int]]:
-        """The slots of a group by direction about a vertex, as whole numbers tell it, counterclockwise.
+    def parted(self, events: list[Event], lattice: Lattice, center: int) -> list[list[Event]]:
+        """Events by direction about a vertex, as whole numbers tell it, counterclockwise.
 
         None at all if one of them is no vertex.
         """
-        events = self.faces.events
         vectors: list[tuple[int, int]] = []
-        groups: list[list[int]] = []
-        for event, k in sorted([(events[k], k) for k in slots]):
-            if event >= len(lattice.x):
+        groups: list[list[Event]] = []
+        for event in sorted(events, key=NUMBER):
+            number = event.number
+            if number >= len(lattice.x):
                 return []
-            x, y = lattice.x[event] - lattice.x[center], lattice.y[event] - lattice.y[center]
+            x, y = lattice.x[number] - lattice.x[center], lattice.y[number] - lattice.y[center]
             at, is_there = place_among(vectors, x, y)
             if is_there:
-                groups[at].append(k)
+                groups[at].append(event)
             else:
                 vectors.insert(at, (x, y))
-                groups.insert(at, [k])
+                groups.insert(at, [event])
         return groups
 
+    def part(self, at: int, groups: list[list[Event]]) -> None:
+        """Tell which directions an open one is; the last ones first, as their places change."""
+        self.leads[at : at + 1] = [group[0] for group in groups]
+        for group in groups:
+            for k in range(1, len(group)):
+                group[k - 1].beside = group[k]
+
     def rank(self) -> None:
-        """Number the directions, after every group is one."""
-        faces, groups = self.faces, self.groups
-        self.ranks = ranks = [0] * len(faces.events)
-        for rank in range(len(groups)):
-            for k in groups[rank]:
-                ranks[k] = rank
-        self.low = [ranks[k] if k >= 0 else -1 for k in faces.low]
-        self.high = [ranks[k] if k >= 0 else -1 for k in faces.high]
+        """Number the directions, after all of them are told apart."""
+        leads = self.leads
+        for rank in range(len(leads)):
+            event: Event | None = leads[rank]
+            while event is not None:
+                event.rank = rank
+                event = event.beside
+
+    def events(self, rank: int) -> list[Event]:
+        """The events in a direction."""
+        found: list[Event] = []
+        event: Event | None = self.leads[rank]
+        while event is not None:
+            found.append(event)
+            event = event.beside
+        return found
 
     def several(self) -> list[int]:
-        """The ranks of directions with more than one event."""
-        return [rank for rank in range(len(self.groups)) if len(self.groups[rank]) > 1]
+        """The ranks of directions with more than one event, ascending."""
+        return [rank for rank in range(len(self.leads)) if self.leads[rank].beside is not None]
 
     # -- what comes first --------------------------------------------------------------------------
 
@@ -144,64 +173,70 @@ class FaceSweep:
 
         Between two directions, all around if they are one, the place's own obstacle lies; negative for none.
         """
-        faces, groups = self.faces, self.groups
-        count = len(groups)
+        faces, leads, first = self.faces.faces, self.leads, self.first
+        count = len(leads)
         cells = max(count, 1)
         blocked = 0
         if cone_low >= 0:
             blocked = (cone_high - cone_low) % cells
             if blocked == 0:
                 blocked = cells
-        begins, stops = [-1] * len(faces.events), [-1] * len(faces.events)
         # First those of the last cell.
-        active: list[int] = []
-        for f in range(len(faces.edge)):
-            if self.low[f] != self.high[f]:
-                begins[faces.low[f]] = f
-                stops[faces.high[f]] = f
-            if self.low[f] > self.high[f] or faces.low[f] < 0:
-                active.append(f)
-        known, near = False, NOTHING
+        active: list[Face] = []
+        for face in faces:
+            low, high = face.low, face.high
+            if low is None or high is None:
+                _enter(active, face)
+            elif low.rank != high.rank:
+                low.begins = high.stops = face.number
+                if low.rank > high.rank:
+                    _enter(active, face)
+        near, known = NOTHING, False
+        fresh: list[Face] = []
         for rank in range(cells):
-            fresh: list[int] = []
-            for k in groups[rank] if count else fresh:
-                f, g = stops[k], begins[k]
-                if f >= 0 and g >= 0 and len(groups[rank]) == 1:
-                    active[active.index(f)] = g
-                    if near == f:
-                        near = g
-                    break
-                if f >= 0:
-                    active.remove(f)
-                    if near == f:
-                        known = False
-                if g >= 0:
-                    fresh.append(g)
-                    active.append(g)
+            if fresh:
+                fresh.clear()
+            event = leads[rank] if count else None
+            if event is not None and event.stops >= 0 and event.begins >= 0 and event.beside is None:
+                # One face goes on as another.
+                begun = faces[event.begins]
+                begun.at = faces[event.stops].at
+                active[begun.at] = begun
+                if near == event.stops:
+                    near = event.begins
+                event = None
+            while event is not None:
+                if event.stops >= 0:
+                    _leave(active, faces[event.stops])
+                    known = known and near != event.stops
+                if event.begins >= 0:
+                    _enter(active, faces[event.begins])
+                    fresh.append(faces[event.begins])
+                event = event.beside
             if cone_low >= 0 and (rank - cone_low) % cells < blocked:
-                self.first.append(BLOCKED)
+                first.append(BLOCKED)
                 known = False
                 continue
             if not known:
                 near = self._choose(active, rank)
             elif fresh:
                 if near >= 0:
-                    fresh.append(near)
+                    fresh.append(faces[near])
                 near = self._choose(fresh, rank)
             known = near != DOUBT
-            self.first.append(near)
+            first.append(near)
 
-    def _choose(self, tried: list[int], cell: int) -> int:
+    def _choose(self, tried: list[Face], cell: int) -> int:
         """The nearest of some faces in a cell, by one ray."""
         if len(tried) < 2:
-            return tried[0] if tried else NOTHING
+            return tried[0].number if tried else NOTHING
         found = DOUBT
         dx, dy, sure = self.ray(cell)
         if sure:
             least = rest = inf
             best_low = inf
-            for f in tried:
-                m, e = self.faces.way(f, dx, dy, 0.0)
+            for face in tried:
+                m, e = self.faces.way(face, dx, dy, 0.0)
                 if not e < inf:
                     rest = -inf
                     break
@@ -209,14 +244,14 @@ class FaceSweep:
                 low, high = m - e, m + e
                 if high < least:
                     rest = min(rest, best_low)
-                    found, least, best_low = f, high, low
+                    found, least, best_low = face.number, high, low
                 elif low < rest:
                     rest = low
             if not rest > least:
                 found = DOUBT
         if found == DOUBT:
             self.doubts.append(cell)
-            self.rivals.append(tried.copy())
+            self.rivals.append([face.number for face in tried])
         return found
 
     def ray(self, cell: int) -> tuple[float, float, bool]:
@@ -224,40 +259,61 @@ class FaceSweep:
 
         Of the sum of two directions both vector products tell. A quarter turn adds 1 to a key.
         """
-        faces, groups = self.faces, self.groups
-        count = len(groups)
+        leads = self.leads
+        count = len(leads)
         if count == 0:
             return 1.0, 0.0, True
-        a, b = groups[cell][0], groups[(cell + 1) % count][0]
-        ax, ay, p = faces.vector(a)
-        bx, by, q = faces.vector(b)
-        gap = self.least[b] - self.most[a] if cell + 1 < count else self.least[b] - self.most[a] + 4.0
+        is_last = cell + 1 == count
+        a, b = leads[cell], leads[0 if is_last else cell + 1]
+        gap = b.least - a.most
+        if is_last:
+            gap += 4.0
         if gap > WIDE:
-            return -ay, ax, self.most[a] - self.least[a] < 1.0
-        n, m = abs(ax) + abs(ay), abs(bx) + abs(by)
+            return -a.y, a.x, a.most - a.least < 1.0
+        n, m = abs(a.x) + abs(a.y), abs(b.x) + abs(b.y)
         if not (n > TINY and m > TINY):
             return 1.0, 0.0, False
-        dx, dy = ax / n + bx / m, ay / n + by / m
-        after, after_bound = cross(ax, ay, p, dx, dy, 0.0)
-        before, before_bound = cross(dx, dy, 0.0, bx, by, q)
+        dx, dy = a.x / n + b.x / m, a.y / n + b.y / m
+        after, after_bound = cross(a.x, a.y, a.bound, dx, dy, 0.0)
+        before, before_bound = cross(dx, dy, 0.0, b.x, b.y, b.bound)
         return dx, dy, after > after_bound and before > before_bound
 
-    def sights(self) -> list[tuple[int, int, int]]:
-        """Cells with the same first face joined: (face, rank of its low side, of its high side).
-
-        They begin at a change; empty if there is none.
-        """
+    def sights(self) -> list[Sight]:
+        """Cells with the same first face joined, from a change on; empty if there is none."""
         first = self.first
-        changes = [k for k in range(len(first)) if first[k] != first[k - 1]]
-        count = len(changes)
-        return [(first[changes[k]], changes[k], changes[(k + 1) % count]) for k in range(count)]
-
-    def covering(self, rank: int) -> list[int]:
-        """The faces that cover a direction and do not end there."""
-        cells = max(len(self.groups), 1)
-        found: list[int] = []
-        for f in range(len(self.low)):
-            low, high = self.low[f], self.high[f]
-            if low < 0 or 0 < (rank - low) % cells < (high - low) % cells:
-                found.append(f)
+        if not first:
+            return []
+        found: list[Sight] = []
+        before = first[len(first) - 1]
+        for k in range(len(first)):
+            face = first[k]
+            if face != before:
+                if found:
+                    found[len(found) - 1].high = k
+                found.append(Sight(face, k, k))
+                before = face
+        if found:
+            found[len(found) - 1].high = found[0].low
         return found
+
+    def covering(self, rank: int) -> list[Face]:
+        """The faces that cover a direction and do not end there."""
+        cells = max(len(self.leads), 1)
+        found: list[Face] = []
+        for face in self.faces.faces:
+            low, high = face.low_rank(), face.high_rank()
+            if low < 0 or 0 < (rank - low) % cells < (high - low) % cells:
+                found.append(face)
+        return found
+
+
+def _enter(active: list[Face], face: Face) -> None:
+    face.at = len(active)
+    active.append(face)
+
+
+def _leave(active: list[Face], face: Face) -> None:
+    last = active.pop()
+    if last is not face:
+        active[face.at] = last
+        last.at = face.at

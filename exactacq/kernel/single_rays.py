@@ -18,18 +18,18 @@ def met(sweep: FaceSweep, rank: int, here: list[int], vertices: int) -> tuple[bo
     *here* are events that are the place itself; of others that are no vertices nothing is known.
     """
     faces = sweep.faces
-    slots = sweep.groups[rank]
-    x, y, b = faces.vector(slots[0])
+    events = sweep.events(rank)
+    x, y, b = events[0].x, events[0].y, events[0].bound
     struck, low, high = NOTHING, inf, inf
     rest = inf
-    for f in sweep.covering(rank):
-        m, e = faces.way(f, x, y, b)
+    for face in sweep.covering(rank):
+        m, e = faces.way(face, x, y, b)
         if not e < inf:
             return False, NOTHING, [], 0
         e = e * WIDEN + UNIT * abs(m)
         if m + e < high:
             rest = min(rest, low)
-            struck, low, high = f, m - e, m + e
+            struck, low, high = face.number, m - e, m + e
         elif m - e < rest:
             rest = m - e
     if struck != NOTHING and not rest > high:
@@ -38,8 +38,8 @@ def met(sweep: FaceSweep, rank: int, here: list[int], vertices: int) -> tuple[bo
     reached = -inf
     found: list[int] = []
     ways: list[tuple[float, float, int]] = []
-    for k in slots:
-        event = faces.events[k]
+    for one in events:
+        event = one.number
         if event in here:
             continue
         if event >= vertices:
@@ -65,7 +65,7 @@ def met(sweep: FaceSweep, rank: int, here: list[int], vertices: int) -> tuple[bo
         found.append(event)
     inside = 0
     if struck != NOTHING:
-        m, e = faces.way(struck, x, y, b)
+        m, e = faces.way(faces.faces[struck], x, y, b)
         px, p = product(m, e, x, b)
         py, q = product(m, e, y, b)
         inside = faces.reach(px, py, max(p, q))
@@ -80,7 +80,8 @@ def blocks(sweep: FaceSweep, rank: int, vertex: int, along: bool) -> int:
     on and the way back.
     """
     faces = sweep.faces
-    x, y, b = faces.vector(sweep.groups[rank][0])
+    lead = sweep.events(rank)[0]
+    x, y, b = lead.x, lead.y, lead.bound
     images = faces.images
     before, following = images[vertex].previous, images[vertex].following
     if images[vertex].kind != STRAIGHT or images[before].kind != STRAIGHT:
@@ -104,8 +105,8 @@ def blocks(sweep: FaceSweep, rank: int, vertex: int, along: bool) -> int:
 
 def _is_on(sweep: FaceSweep, rank: int, vertex: int) -> bool:
     """Whether a vertex is known to lie in a direction."""
-    slot = sweep.faces.slots.get(vertex, -1)
-    return slot >= 0 and sweep.ranks[slot] == rank
+    event = sweep.faces.found(vertex)
+    return event is not None and event.rank == rank
 
 
 def difference(faces: RadialFaces, a: int, b: int) -> tuple[float, float, float]:

@@ -13,7 +13,8 @@ from typing import Final, final
 
 from exactacq.kernel.bounded import UNIT, WIDEN, cross, dot, length, product, quotient, root, total
 from exactacq.kernel.images import STRAIGHT
-from exactacq.kernel.radial_sweep import BLOCKED, FaceSweep
+from exactacq.kernel.radial_faces import Event, Face
+from exactacq.kernel.radial_sweep import BLOCKED, FaceSweep, Part, Sight
 
 HIT: Final = 0
 """An end (HIT, face, rank of the direction)."""
@@ -33,75 +34,82 @@ FROM_HERE: Final = -3
 """What joins the place itself to a point, with the rank of the direction."""
 OWN: Final = -4
 """The place itself, as a part between the pieces next to its own obstacle."""
-Part = tuple[int, int]
-"""The ends of a closed piece of an edge, in the boundary's direction."""
-Piece = tuple[int, int, int, int]
-"""Of the outline: edge, `RANGE` or `WINDOW`; both ends, counterclockwise; the nearer one of a window."""
+
+
+@final
+class Piece:
+    """A piece of the outline: its edge, `RANGE` or `WINDOW`, and both ends, counterclockwise.
+
+    ``near`` is the end of a window that is nearer, and ``sight`` the number of the sight that it is made of.
+    """
+
+    def __init__(self, edge: int, start: int, end: int, near: int, sight: int) -> None:
+        self.edge, self.start, self.end, self.near, self.sight = edge, start, end, near, sight
 
 
 @final
 class ViewParts:
     """The parts of all sights; of one that goes all around nothing is told.
 
-    ``parts`` has, for every sight, what of it is within range, and ``ends`` those of the whole sight. Where
-    floats leave the parts open there are none, and ``doubts`` tell the sight's number. *here* are the events
-    that are the place itself.
+    Each sight gets the ends of all that is seen of it, and the parts of that within range. Where floats leave
+    these open there are none, and ``doubts`` tell the sight's number. *here* are the events that are the
+    place itself.
     """
 
-    def __init__(
-        self, sweep: FaceSweep, sights: list[tuple[int, int, int]], base: int, here: list[int]
-    ) -> None:
+    def __init__(self, sweep: FaceSweep, sights: list[Sight], base: int, here: list[int]) -> None:
         self.sweep, self.faces = sweep, sweep.faces
         self.sights, self.base, self.here = sights, base, here
         self.made: list[tuple[int, int, int]] = []
-        self.parts: list[list[Part]] = []
-        self.ends: list[Part] = []
         self.doubts: list[int] = []
-        within = self.faces.within
+        faces, images = self.faces.faces, self.faces.images
         for n in range(len(sights)):
-            face, low, high = sights[n]
-            if face < 0 or low == high:
-                self.ends.append((HERE, HERE))
-                self.parts.append([])
+            sight = sights[n]
+            if sight.face < 0:
                 continue
-            part = self._end(face, high, False), self._end(face, low, True)
-            self.ends.append(part)
-            start, end = part
-            if within[face] and not (here and start in here and end in here):
-                self.parts.append([part])
-            elif self.faces.images[self.faces.edge[face]].kind == STRAIGHT:
-                self.parts.append(self._clipped(n, face, start, end))
+            if sight.low == sight.high:
+                sight.parts = []
+                continue
+            face = faces[sight.face]
+            sight.start = self._end(face.high, sight.high, face)
+            sight.end = self._end(face.low, sight.low, face)
+            if face.within and not (here and sight.start in here and sight.end in here):
+                continue
+            if images[face.edge].kind == STRAIGHT:
+                sight.parts = self._clipped(n, face, sight.start, sight.end)
             else:
                 self.doubts.append(n)
-                self.parts.append([])
+                sight.parts = []
 
     def add(self, kind: int, face: int, which: int) -> int:
         """The number of a new end."""
         self.made.append((kind, face, which))
         return self.base + len(self.made) - 1
 
+    def within(self, sight: Sight) -> list[Part]:
+        """What is seen of a sight within range."""
+        if sight.parts is None:
+            return [(sight.start, sight.end)] if sight.face >= 0 else []
+        return sight.parts
+
     def rows(self) -> list[tuple[int, int, int, Part]]:
         """What is seen of edges: (edge, face, position on the face in the boundary's direction, part)."""
-        cells = max(len(self.sweep.groups), 1)
+        cells = max(len(self.sweep.leads), 1)
         found: list[tuple[int, int, int, Part]] = []
-        for n in range(len(self.sights)):
-            for part in self.parts[n]:
-                face, _, high = self.sights[n]
-                found.append((self.faces.edge[face], face, (self.sweep.high[face] - high) % cells, part))
+        for sight in self.sights:
+            for part in self.within(sight):
+                face = self.faces.faces[sight.face]
+                found.append((face.edge, face.number, (face.high_rank() - sight.high) % cells, part))
         return found
 
     # -- clipping ----------------------------------------------------------------------------------
 
-    def _end(self, face: int, rank: int, is_low: bool) -> int:
-        faces, sweep = self.faces, self.sweep
-        if is_low:
-            if rank == sweep.low[face]:
-                return faces.events[faces.low[face]]
-        elif rank == sweep.high[face]:
-            return faces.events[faces.high[face]]
-        return self.add(HIT, face, rank)
+    def _end(self, event: Event | None, rank: int, face: Face) -> int:
+        """The number of a sight's end: that of the face's own event, if it lies in that direction."""
+        if event is not None and event.rank == rank:
+            return event.number
+        return self.add(HIT, face.number, rank)
 
-    def _clipped(self, n: int, face: int, start: int, end: int) -> list[Part]:
+    def _clipped(self, n: int, face: Face, start: int, end: int) -> list[Part]:
         """What the range leaves of a straight piece, of which a part is nearest to the foot of the place.
 
         Both ends beyond, the piece is out of range if the foot is not between them or if the line is too far,
@@ -114,35 +122,34 @@ class ViewParts:
         if first > 0 and last > 0:
             return [(start, end)]
         if first > 0 and last < 0:
-            return [(start, self.add(CROSSING, face, 1))]
+            return [(start, self.add(CROSSING, face.number, 1))]
         if first < 0 and last > 0:
-            return [(self.add(CROSSING, face, -1), end)]
+            return [(self.add(CROSSING, face.number, -1), end)]
         if first < 0 and last < 0:
-            ax, ay, a, turn, turn_bound = faces.line(faces.edge[face])
+            ax, ay, a = face.ax, face.ay, face.a
             before, before_bound = dot(sx, sy, s, ax, ay, a)
             after, after_bound = dot(tx, ty, t, ax, ay, a)
             if before > before_bound or -after > after_bound:
                 return []
             size, size_bound = length(ax, ay, a)
-            far, far_bound = quotient(turn, turn_bound, size, size_bound)
+            far, far_bound = quotient(face.turn, face.turn_bound, size, size_bound)
             near = faces.reach(far, 0.0, far_bound)
             if near < 0:
                 return []
             if near > 0 and -before > before_bound and after > after_bound:
-                return [(self.add(CROSSING, face, -1), self.add(CROSSING, face, 1))]
+                return [(self.add(CROSSING, face.number, -1), self.add(CROSSING, face.number, 1))]
         self.doubts.append(n)
         return []
 
-    def vector(self, face: int, end: int) -> tuple[float, float, float]:
+    def vector(self, face: Face, end: int) -> tuple[float, float, float]:
         """The vector from the place to an end of a part of a straight face, a vertex or a hit."""
         faces = self.faces
         if end < self.base:
             return faces.offset(end)
-        slot = self.sweep.groups[self.made[end - self.base][2]][0]
-        x, y, b = faces.vector(slot)
-        m, e = faces.way(face, x, y, b)
-        px, p = product(m, e, x, b)
-        py, q = product(m, e, y, b)
+        event = self.sweep.leads[self.made[end - self.base][2]]
+        m, e = faces.way(face, event.x, event.y, event.bound)
+        px, p = product(m, e, event.x, event.bound)
+        py, q = product(m, e, event.y, event.bound)
         return px, py, max(p, q)
 
     def bracket(self, end: int) -> tuple[float, float]:
@@ -154,17 +161,18 @@ class ViewParts:
         faces = self.faces
         if end < self.base:
             return -inf, inf
-        kind, face, which = self.made[end - self.base]
-        e = faces.edge[face] if kind != GIVEN else -1
-        if kind == GIVEN or faces.images[e].kind != STRAIGHT:
+        kind, number, which = self.made[end - self.base]
+        if kind == GIVEN:
             return -inf, inf
-        ax, ay, a, turn, turn_bound = faces.line(e)
-        sx, sy, s = faces.offset(e)
+        face = faces.faces[number]
+        if faces.images[face.edge].kind != STRAIGHT:
+            return -inf, inf
+        ax, ay, a, turn, turn_bound = face.ax, face.ay, face.a, face.turn, face.turn_bound
+        sx, sy, s = faces.offset(face.edge)
         if kind == HIT:
-            slot = self.sweep.groups[which][0]
-            x, y, b = faces.vector(slot)
-            top, top_bound = cross(sx, sy, s, x, y, b)
-            below, below_bound = cross(x, y, b, ax, ay, a)
+            event = self.sweep.leads[which]
+            top, top_bound = cross(sx, sy, s, event.x, event.y, event.bound)
+            below, below_bound = cross(event.x, event.y, event.bound, ax, ay, a)
             m, bound = quotient(top, top_bound, below, below_bound)
         else:
             square, square_bound = dot(ax, ay, a, ax, ay, a)
@@ -181,110 +189,108 @@ class ViewParts:
     # -- the outline -------------------------------------------------------------------------------
 
     def outline(self, at_range: list[int]) -> list[Piece]:
-        """The closed outline from the east on, joined; for more than one sight.
+        """The closed outline from the east on, joined; for more than one sight. Without any it is empty.
 
         *at_range* are ends that are exactly as far away as the range. A single piece that is an arc of the
         range is all of its circle.
         """
         count = len(self.sights)
-        edges: list[int] = []
-        starts: list[int] = []
-        ends: list[int] = []
-        of: list[int] = []
+        strips: list[Piece] = []
         for k in range(count):
-            n = (k - 1) % count
-            face, low, high = self.sights[n]
-            if face == BLOCKED:
-                edges.append(OWN)
-                starts.append(HERE)
-                ends.append(HERE)
-                of.append(n)
+            n = k - 1 if k else count - 1
+            sight = self.sights[n]
+            if sight.face == BLOCKED:
+                strips.append(Piece(OWN, HERE, HERE, HERE, n))
                 continue
-            reached, stop = -2 - low, NOWHERE
-            if face >= 0:
-                edge = self.faces.edge[face]
-                stop, at_low = self._placed(self.ends[n])
-                for m in range(len(self.parts[n]) - 1, -1, -1):
-                    start, end = self._placed(self.parts[n][m])
-                    if self.parts[n][m][0] == self.parts[n][m][1]:
+            reached = -2 - sight.low
+            if sight.face >= 0:
+                edge = self.faces.faces[sight.face].edge
+                stop, at_low = self._placed(sight.start), self._placed(sight.end)
+                if sight.parts is None:
+                    if sight.start != sight.end:
+                        strips.append(Piece(edge, at_low, stop, HERE, n))
                         continue
-                    if end != at_low:
-                        edges.append(RANGE)
-                        starts.append(reached)
-                        ends.append(end)
-                        of.append(n)
-                    edges.append(edge)
-                    starts.append(end)
-                    ends.append(start)
-                    of.append(n)
-                    reached = at_low = start
+                else:
+                    for m in range(len(sight.parts) - 1, -1, -1):
+                        first, last = sight.parts[m]
+                        if first == last:
+                            continue
+                        start, end = self._placed(first), self._placed(last)
+                        if end != at_low:
+                            strips.append(Piece(RANGE, reached, end, HERE, n))
+                        strips.append(Piece(edge, end, start, HERE, n))
+                        reached = at_low = start
                 if at_low == stop:
                     continue
-            edges.append(RANGE)
-            starts.append(reached)
-            ends.append(-2 - high)
-            of.append(n)
-        return self._joined(edges, starts, ends, of, at_range)
+            strips.append(Piece(RANGE, reached, -2 - sight.high, HERE, n))
+        return self._joined(strips, at_range) if strips else []
 
-    def _placed(self, part: Part) -> Part:
-        """The ends of a part, the place itself by its own number."""
-        if not self.here:
-            return part
-        start, end = part
-        return HERE if start in self.here else start, HERE if end in self.here else end
+    def _placed(self, end: int) -> int:
+        """The number of an end, the place itself by its own."""
+        return HERE if self.here and end in self.here else end
 
-    def _joined(
-        self, edges: list[int], starts: list[int], ends: list[int], of: list[int], at_range: list[int]
-    ) -> list[Piece]:
+    def _joined(self, strips: list[Piece], at_range: list[int]) -> list[Piece]:
         """Parts joined where they continue each other, with windows where they do not meet."""
         found: list[Piece] = []
         pending: list[Piece] = []
         # Of the parts that became pieces the first and the last one, and where the windows before them begin.
-        first = last = -1
+        first: Piece | None = None
+        last: Piece | None = None
         lead, leads = 0, False
-        before = len(edges) - 1
-        for k in range(len(edges)):
+        before = strips[len(strips) - 1]
+        reached = before.end
+        for strip in strips:
             begin = len(found)
             if pending:
                 found += pending
                 pending = []
-            if ends[before] != starts[k] and of[before] != of[k]:
-                self._add_window(found, ends[before], starts[k], of[before], of[k], at_range)
+            if reached != strip.start and before.sight != strip.sight:
+                self._add_window(found, reached, strip.start, before, strip, at_range)
             has_windows = len(found) > begin
-            before = k
-            if edges[k] == OWN:
+            before, reached = strip, strip.end
+            if strip.edge == OWN:
                 pending = found[begin:]
                 del found[begin:]
-            elif last >= 0 and not has_windows and edges[last] == edges[k]:
-                # The piece goes on: it was the last one found.
-                found[-1] = edges[k], found[-1][1], ends[k], HERE
+            elif last is not None and not has_windows and last.edge == strip.edge:
+                # The piece goes on.
+                last.end = strip.end
             else:
-                lead, last = begin, k
-                found.append((edges[k], starts[k], ends[k], HERE))
-                if first < 0:
-                    first, leads = k, has_windows
+                lead, last = begin, strip
+                found.append(strip)
+                if first is None:
+                    first, leads = strip, has_windows
         if pending:
             return pending + found
-        if first != last and not leads and edges[last] == edges[first]:
-            edge, start, _, _ = found[-1]
-            found[-1] = edge, start, found[0][2], HERE
-            return found[lead:] + found[1:lead]
-        return found
+        if first is None or last is None or first is last or leads or last.edge != first.edge:
+            return found
+        last.end = first.end
+        return found[lead:] + found[1:lead]
 
     def _add_window(
-        self, found: list[Piece], end: int, start: int, before: int, after: int, at_range: list[int]
+        self, found: list[Piece], end: int, start: int, before: Piece, after: Piece, at_range: list[int]
     ) -> None:
         """Add what joins the end of a sight to the start of the next: perhaps nothing, or a window."""
         if end < HERE and start < HERE:
             return
-        rank = self.sights[after][1]
+        rank = self.sights[after.sight].low
         if end == HERE or start == HERE:
-            found.append((FROM_HERE, end, start, rank))
+            found.append(Piece(FROM_HERE, end, start, rank, after.sight))
         elif end < HERE or start < HERE:
             near = start if end < HERE else end
             if near not in at_range:
-                found.append((WINDOW, end, start, near))
+                found.append(Piece(WINDOW, end, start, near, after.sight))
         else:
-            stops = self.sweep.high[self.sights[before][0]] == rank
-            begins = self.sweep.low[self.sights[after][0]] == rank
-            found.append((WINDOW, end, start, HERE if stops == begins else end if stops else start))
+            faces, sights = self.faces.faces, self.sights
+            stops = faces[sights[before.sight].face].high_rank() == rank
+            begins = faces[sights[after.sight].face].low_rank() == rank
+            near = HERE if stops == begins else end if stops else start
+            found.append(Piece(WINDOW, end, start, near, after.sight))
+
+
+def open_pieces(pieces: list[Piece]) -> list[int]:
+    """Which pieces are to be decided: next to the place, and windows of which either end may be nearer."""
+    return [
+        n
+        for n in range(len(pieces))
+        if pieces[n].edge == FROM_HERE or (pieces[n].edge == WINDOW and pieces[n].near == HERE)
+    ]

@@ -18,7 +18,7 @@ from exactacq.geometry.late import BITS as LATE_BITS
 from exactacq.geometry.late import Balls, Pin, balls
 from exactacq.geometry.points import Point
 from exactacq.kernel.extents import Span
-from exactacq.kernel.view_parts import Part
+from exactacq.kernel.radial_sweep import Part
 from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable

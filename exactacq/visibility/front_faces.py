@@ -157,11 +157,11 @@ class Cone:
 class FrontFaces:
     """The faces within reach of one free point, with their events.
 
-    ``edges``, ``ends_low`` and ``ends_high``: edge number and events of each face; it covers the directions
-    counterclockwise from low to high, and runs from high to low. ``own`` are the edges through the point, at
+    ``floats`` are the faces as the sweep takes them. A face covers the directions counterclockwise from its
+    low event to its high one, and runs from high to low. ``own`` are the edges through the point, at
     a vertex the incoming one first, found if not given; ``on_ray`` the other straight edges that the point
     sees edge-on; ``here`` are the events that are the point itself, and ``count`` is more than their
-    numbers; ``floats`` are the faces as the sweep takes them. *facts* are what is known of the point
+    numbers. *facts* are what is known of the point
     beforehand.
     """
 
@@ -205,16 +205,19 @@ class FrontFaces:
             self.special += (e, table.following[e])
         for event in self.special:
             if event < len(table.vertices):
-                faces.slot(event)
+                faces.event(event)
         for e, low, high in arcs:
             faces.add_arc(e, low, high)
-        self.edges: list[int] = faces.edge
-        events = faces.events
-        self.ends_low = [events[k] if k >= 0 else NOWHERE for k in faces.low]
-        self.ends_high = [events[k] if k >= 0 else NOWHERE for k in faces.high]
 
     def __len__(self) -> int:
-        return len(self.edges)
+        return len(self.floats.faces)
+
+    def ends(self, face: int) -> tuple[int, int]:
+        """The events in which a face begins and stops, counterclockwise, or NOWHERE."""
+        found = self.floats.faces[face]
+        if found.low is None or found.high is None:
+            return NOWHERE, NOWHERE
+        return found.low.number, found.high.number
 
     def _edges_at_point(self, open_: list[int], round_: list[int]) -> tuple[int, ...]:
         """The edges through the point, at a vertex the incoming one first.

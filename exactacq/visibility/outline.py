@@ -9,17 +9,13 @@ first in each direction and from which ends are within range.
 from __future__ import annotations
 
 from enum import Enum
-from typing import TypeAlias
 
 from exactacq.geometry.coordinates import dot, minus, raw, sign
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
-from exactacq.kernel.view_parts import FROM_HERE, HERE, RANGE, WINDOW, Piece
+from exactacq.kernel.view_parts import HERE, RANGE, WINDOW, Piece, open_pieces
 from exactacq.visibility.radial_sweep import BLOCKED, NOTHING
 from exactacq.visibility.visible_boundary import BoundaryView
-
-Row: TypeAlias = Piece
-"""A piece by its edge and the numbers of its ends (see `exactacq.kernel.view_parts`)."""
 
 
 class ViewKind(Enum):
@@ -38,39 +34,42 @@ class ViewPiece:
 
     __slots__ = ("_curve", "_row", "_view")
 
-    def __init__(self, view: BoundaryView, row: Row) -> None:
+    _curve: Curve
+
+    def __init__(self, view: BoundaryView, row: Piece) -> None:
         self._view, self._row = view, row
-        self._curve: Curve | None = None
 
     @property
     def kind(self) -> ViewKind:
         """What ends the view there."""
-        edge = self._row[0]
+        edge = self._row.edge
         return ViewKind.EDGE if edge >= 0 else ViewKind.RANGE if edge == RANGE else ViewKind.WINDOW
 
     @property
     def obstacle(self) -> int | None:
         """The number of the obstacle that is seen; None for windows and range arcs."""
-        edge = self._row[0]
+        edge = self._row.edge
         return self._view.table.owners[edge] if edge >= 0 else None
 
     @property
     def edge(self) -> int | None:
         """The number of the edge that is seen, in its obstacle; None for windows and range arcs."""
-        edge = self._row[0]
+        edge = self._row.edge
         return self._view.table.numbers[edge] if edge >= 0 else None
 
     @property
     def near(self) -> Point | None:
         """The end of a window where its feature lies."""
-        return _point(self._view, self._row[3]) if self._row[0] == WINDOW else None
+        return _point(self._view, self._row.near) if self._row.edge == WINDOW else None
 
     @property
     def curve(self) -> Curve:
         """The exact curve; made at the first access."""
-        if self._curve is None:
+        try:
+            return self._curve
+        except AttributeError:
             self._curve = _curve(self._view, self._row)
-        return self._curve
+            return self._curve
 
     def __repr__(self) -> str:
         seen = "" if self.obstacle is None else f" {self.edge} of {self.obstacle}"
@@ -80,45 +79,52 @@ class ViewPiece:
 def outline(view: BoundaryView) -> tuple[ViewPiece, ...]:
     """The closed outline of a view, from the east on; empty if the point sees nothing but along a ray."""
     sights = view.sweep.sights
-    rows = _rows(view) if len(sights) > 1 else _all_around(view, sights[0][0])
+    rows = _rows(view) if len(sights) > 1 else _all_around(view, sights[0].face)
     return tuple([ViewPiece(view, row) for row in rows])
 
 
-def _all_around(view: BoundaryView, face: int) -> list[Row]:
+def _all_around(view: BoundaryView, face: int) -> list[Piece]:
     """The outline where nothing or one full circle is seen in all directions."""
     if face == BLOCKED:
         return []
     if face != NOTHING:
-        e = view.sweep.edges[face]
+        e = view.sweep.edge(face)
         spans = view.all_around(face)
         if len(spans) == 2:
-            return [(e, e, e, HERE)]
+            return [_piece(e, e, e)]
         for start, end in spans:
             if start is not end:
                 a, b = view.ends.number(e, start), view.ends.number(e, end)
-                return [(e, b, a, HERE), (RANGE, a, b, HERE)]
-    return [(RANGE, HERE, HERE, HERE)]
+                return [_piece(e, b, a), _piece(RANGE, a, b)]
+    return [_piece(RANGE, HERE, HERE)]
 
 
-def _rows(view: BoundaryView) -> list[Row]:
-    parts, rows = view.parts, list[Row]()
+def _piece(edge: int, start: int, end: int, near: int = HERE) -> Piece:
+    """A piece that is made here, of no single sight."""
+    return Piece(edge, start, end, near, HERE)
+
+
+def _rows(view: BoundaryView) -> list[Piece]:
+    parts = view.parts
     here = parts.here
     at_range = [
         end
         for n in parts.doubts
-        for part in parts.parts[n]
+        for part in parts.within(parts.sights[n])
         for end in part
-        if end in parts.ends[n] and end not in here and view.disc.excess(view.ends.point(end)) == 0
+        if end in (parts.sights[n].start, parts.sights[n].end)
+        and end not in here
+        and view.disc.excess(view.ends.point(end)) == 0
     ]
-    for row in parts.outline(at_range):
-        edge, start, end, near = row
-        if edge == FROM_HERE:
-            rows += _from_here(view, end if start == HERE else start, near, start == HERE)
-        elif edge == WINDOW and near == HERE:
-            rows.append((WINDOW, start, end, _nearer(view, start, end)))
+    rows = parts.outline(at_range)
+    for n in reversed(open_pieces(rows)):
+        row = rows[n]
+        if row.edge == WINDOW:
+            row.near = _nearer(view, row.start, row.end)
         else:
-            rows.append(row)
-    return [(RANGE, HERE, HERE, HERE)] if len(rows) == 1 and rows[0][0] == RANGE else rows
+            is_outward = row.start == HERE
+            rows[n : n + 1] = _from_here(view, row.end if is_outward else row.start, row.near, is_outward)
+    return [_piece(RANGE, HERE, HERE)] if len(rows) == 1 and rows[0].edge == RANGE else rows
 
 
 def _nearer(view: BoundaryView, one: int, other: int) -> int:
@@ -127,14 +133,14 @@ def _nearer(view: BoundaryView, one: int, other: int) -> int:
     return one if sign(dot(a, a) - dot(b, b)) < 0 else other
 
 
-def _from_here(view: BoundaryView, far: int, rank: int, outward: bool) -> list[Row]:
+def _from_here(view: BoundaryView, far: int, rank: int, outward: bool) -> list[Piece]:
     """From a boundary point to a far one: along a straight own edge as far as it goes, then a window.
 
     The pieces come from the point on if *outward*, else to it.
     """
 
-    def row(edge: int, a: int, b: int, near: int) -> Row:
-        return (edge, a, b, near) if outward else (edge, b, a, near)
+    def row(edge: int, a: int, b: int, near: int) -> Piece:
+        return _piece(edge, a, b, near) if outward else _piece(edge, b, a, near)
 
     for e in view.own:
         for vertex in (e, view.table.following[e]):
@@ -153,8 +159,8 @@ def _point(view: BoundaryView, end: int) -> Point:
     return view.at_range(-2 - end) if end < HERE else view.ends.point(end, read=True)
 
 
-def _curve(view: BoundaryView, row: Row) -> Curve:
-    edge, first, last, _ = row
+def _curve(view: BoundaryView, row: Piece) -> Curve:
+    edge, first, last = row.edge, row.start, row.end
     if edge == RANGE and first == HERE:
         return range_circle(view)
     start, end = _point(view, first), _point(view, last)

@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from itertools import groupby
 from operator import itemgetter
-from typing import TypeAlias
 
 from flint import arb, fmpq
 
@@ -22,6 +21,8 @@ from exactacq.geometry.points import Point
 from exactacq.grouping import in_groups
 from exactacq.kernel import radial_sweep as floats
 from exactacq.kernel import single_rays
+from exactacq.kernel.radial_faces import Event
+from exactacq.kernel.radial_sweep import Sight
 from exactacq.kernel.view_parts import ViewParts
 from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import rational
@@ -36,13 +37,6 @@ from exactacq.visibility.sensor_range import Range
 
 NOTHING, BLOCKED = floats.NOTHING, floats.BLOCKED
 """First faces of cells without one: nothing within reach, and inside the point's own obstacle."""
-
-
-FirstFace: TypeAlias = "tuple[int, int, int]"
-"""A face that comes first in the directions counterclockwise from one rank to another.
-
-The face may be NOTHING or BLOCKED. All around if the ranks are equal; without events both are NOWHERE.
-"""
 
 
 class RadialSweep:
@@ -63,64 +57,74 @@ class RadialSweep:
     ) -> None:
         self.table = table
         self.faces = faces = FrontFaces(table, point, range_, own, facts)
-        self.edges, self.ends_low, self.ends_high = faces.edges, faces.ends_low, faces.ends_high
-        """The edge of every face, and the events that end it."""
         self._floats = floats.FaceSweep(faces.floats)
         self._order_events()
-        self.count = len(self._floats.groups)
-        self.low, self.high = self._floats.low, self._floats.high
+        self.count = len(self._floats.leads)
         self.first = self._first()
         self.sights = self._sights()
+
+    def edge(self, face: int) -> int:
+        """The edge of a face."""
+        return self.faces.floats.faces[face].edge
+
+    def low(self, face: int) -> int:
+        """The rank of the direction in which a face begins, counterclockwise, or NOWHERE."""
+        return self.faces.floats.faces[face].low_rank()
+
+    def high(self, face: int) -> int:
+        """The rank of the direction in which a face stops."""
+        return self.faces.floats.faces[face].high_rank()
 
     # -- directions --------------------------------------------------------------------------------
 
     def _order_events(self) -> None:
         """Group the events by direction, counterclockwise from the east: exact where floats leave doubt."""
         faces, sweep = self.faces, self._floats
-        events = faces.floats.events
-        for slot in sweep.look_up():
-            x, y = faces.offset(events[slot])
+        for event in sweep.look_up():
+            x, y = faces.offset(event.number)
             upper = (sign(y) or (0 if sign(x) > 0 else -1)) >= 0
-            sweep.put(slot, upper)
-        sweep.group()
-        lattice, own = self.table.lattice, faces.own
-        for k in reversed(sweep.open_groups):
-            slots, parted = sweep.groups[k], list[list[int]]()
+            sweep.put(event, upper)
+        sweep.order()
+        own = faces.own
+        for at, events in reversed(sweep.open):
+            lattice, parted = self.table.lattice, list[list[Event]]()
             if lattice is not None and len(own) == 2:
                 # Two edges meet at the vertex at which the second one begins.
-                parted = sweep.parted(slots, lattice[1], own[1])
-            sweep.groups[k : k + 1] = parted or self._sorted(slots)
+                parted = sweep.parted(events, lattice[1], own[1])
+            sweep.part(at, parted or self._sorted(events))
         sweep.rank()
         self.rank: dict[int, int] = {}
         """Of the events that matter by themselves."""
-        several = sweep.several() if sweep.open_groups else []
+        several = sweep.several() if sweep.open else []
         if faces.special:
-            self.rank = {event: sweep.ranks[faces.floats.slots[event]] for event in events}
+            self.rank = {event.number: event.rank for event in faces.floats.events}
         self.special = sorted({*several, *(self.rank[event] for event in faces.special)})
 
     def events(self, rank: int) -> list[int]:
         """The events in a direction."""
-        events = self.faces.floats.events
-        return [events[slot] for slot in self._floats.groups[rank]]
+        return [event.number for event in self._floats.events(rank)]
 
-    def _sorted(self, slots: list[int]) -> list[list[int]]:
-        """Slots grouped by exact direction, counterclockwise."""
-        events = self.faces.floats.events
-        slots = sorted(slots, key=events.__getitem__)
-        if all(events[slot] < len(self.table.vertices) for slot in slots):
-            vectors = [self.faces.offset(events[slot]) for slot in slots]
+    def _sorted(self, events: list[Event]) -> list[list[Event]]:
+        """Events grouped by exact direction, counterclockwise."""
+        known = {event.number: event for event in events}
+        return [[known[number] for number in group] for group in self._grouped(sorted(known))]
+
+    def _grouped(self, events: list[int]) -> list[list[int]]:
+        """Events by number likewise."""
+        faces = self.faces
+        if all(event < len(self.table.vertices) for event in events):
+            vectors = [faces.offset(event) for event in events]
             if all(isinstance(x, fmpq) and isinstance(y, fmpq) for x, y in vectors):
-                turns = sorted(zip(map(_turned, vectors), slots, strict=True), key=itemgetter(0))
-                return [[slot for _, slot in group] for _, group in groupby(turns, key=itemgetter(0))]
+                turns = sorted(zip(map(_turned, vectors), events, strict=True), key=itemgetter(0))
+                return [[event for _, event in group] for _, group in groupby(turns, key=itemgetter(0))]
         # On a coarse lattice most directions that look the same are; with rounded coordinates most differ.
-        is_coarse = self.table.is_coarse
-        balls = {} if is_coarse else {slot: self.faces.long_offset(events[slot]) for slot in slots}
+        balls = {} if self.table.is_coarse else {event: faces.long_offset(event) for event in events}
 
         def compare(a: int, b: int) -> int:
             turn = clear_turn(balls[a], balls[b]) if balls else 0
-            return -(turn or _turn(*(self.faces.offset(events[k]) for k in (a, b))))
+            return -(turn or _turn(faces.offset(a), faces.offset(b)))
 
-        return in_groups(slots, compare)
+        return in_groups(events, compare)
 
     def direction(self, rank: int) -> Vector:
         """The exact direction of a rank, rational where one of its events shows it."""
@@ -163,7 +167,7 @@ class RadialSweep:
         best: tuple[arb, int] | None = None
         with workprec(LONG):
             for f in faces:
-                e = self.edges[f]
+                e = self.edge(f)
                 met = None if e in self.faces.own else CurveBalls(curves[e], LONG).met((x, y, dx, dy), 1)
                 if met is None or (best is not None and met[0].overlaps(best[0])):
                     return None
@@ -173,7 +177,7 @@ class RadialSweep:
 
     def parameter(self, ray: Point, face: int) -> Real:
         """How many times a ray's vector leads from the point to a face that covers it."""
-        e = self.edges[face]
+        e = self.edge(face)
         return _parameter(self.table.curves[e], self.faces.point, e in self.faces.own, ray)
 
     def _inner_direction(self, cell: int) -> Vector:
@@ -194,15 +198,15 @@ class RadialSweep:
                     return ray
             bits *= 2
 
-    def _sights(self) -> list[FirstFace]:
+    def _sights(self) -> list[Sight]:
         """Cells with the same first face joined, the first sight starting at a change."""
         found = self._floats.sights()
         if not found:
             face = self.first[0]
             rank = NOWHERE if not self.count else 0
-            if face >= 0 and self.low[face] != NOWHERE:
-                rank = self.low[face]
-            return [(face, rank, rank)]
+            if face >= 0 and self.low(face) != NOWHERE:
+                rank = self.low(face)
+            return [Sight(face, rank, rank)]
         return found
 
     def parts(self) -> ViewParts:
@@ -211,24 +215,25 @@ class RadialSweep:
 
     def rank_of(self, event: int) -> int:
         """The rank of an event's direction."""
-        return self._floats.ranks[self.faces.floats.slots[event]]
+        return self.faces.floats.event(event).rank
 
     # -- points ------------------------------------------------------------------------------------
 
     def at(self, face: int, rank: int, is_low: bool) -> Point:
         """The point of a face in the direction of a rank that the face covers, or that ends it."""
-        if rank == (self.low if is_low else self.high)[face]:
+        if rank == (self.low if is_low else self.high)(face):
             return self.end(face, is_low)
         return self.late_hit(face, rank)
 
     def end(self, face: int, is_low: bool) -> Point:
         """The point that ends a face."""
-        event = (self.ends_low if is_low else self.ends_high)[face]
-        return self.table.curves[self.edges[face]].start if event == NOWHERE else self.faces.place(event)
+        low, high = self.faces.ends(face)
+        event = low if is_low else high
+        return self.table.curves[self.edge(face)].start if event == NOWHERE else self.faces.place(event)
 
     def hit(self, face: int, rank: int) -> Point:
         """The point of a face in the direction of a rank that it covers."""
-        faces, e = self.faces, self.edges[face]
+        faces, e = self.faces, self.edge(face)
         curve = self.table.curves[e]
         if (ray := faces.ray(self.events(rank))) is not None:
             known = ray.met.get(e)
@@ -237,7 +242,7 @@ class RadialSweep:
 
     def late_hit(self, face: int, rank: int) -> Point:
         """The point of a face in the direction of a rank that it covers, made when it is looked into."""
-        faces, e = self.faces, self.edges[face]
+        faces, e = self.faces, self.edge(face)
         curve, own = self.table.curves[e], e in faces.own
         group = self.events(rank)
         if len(group) > 1 or faces.ray(group) is not None:
@@ -248,7 +253,7 @@ class RadialSweep:
 
     def covering(self, rank: int) -> list[int]:
         """The faces that cover a rank's direction and do not end there."""
-        return self._floats.covering(rank)
+        return [face.number for face in self._floats.covering(rank)]
 
     def met(self, rank: int) -> tuple[int, list[int], int] | None:
         """What a ray in the direction of events meets (see `exactacq.kernel.single_rays`); None if that is

@@ -45,7 +45,7 @@ class ViewEnds:
                 point = sweep.hit(face, rank) if read else sweep.late_hit(face, rank)
             else:
                 assert kind == CROSSING, "points that were given are known"
-                line = sweep.table.curves[sweep.edges[face]]
+                line = sweep.table.curves[sweep.edge(face)]
                 assert isinstance(line, Segment)
                 point, rank = crossing(line, self.disc, rank), AT_RANGE
         self._ranks[end] = rank

@@ -16,7 +16,8 @@ from typing import Any, TypeAlias
 from exactacq.geometry.coordinates import Vector, advance, dot, minus, raw, sign, square_root
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.points import Point
-from exactacq.kernel.view_parts import Part, ViewParts
+from exactacq.kernel.radial_sweep import Part
+from exactacq.kernel.view_parts import ViewParts
 from exactacq.scene.edge_table import CONCAVE, EdgeTable
 from exactacq.visibility.features import enters
 from exactacq.visibility.place_facts import NOTHING_KNOWN, Hold, PlaceFacts
@@ -98,13 +99,13 @@ class BoundaryView:
         parts = sweep.parts()
         ends = ViewEnds(sweep, parts, self.disc)
         for n in parts.doubts:
-            face = sweep.sights[n][0]
-            e, (start, end) = sweep.edges[face], parts.ends[n]
+            sight = parts.sights[n]
+            e, start, end = sweep.edge(sight.face), sight.start, sight.end
             whole = ends.point(start), ends.point(end)
             at = zip(whole, (start, end), strict=True)
             self.disc.on_rim += [point for point, k in at if self._is_at_rim(e, ends.rank(k))]
             spans = self._clipped(e, whole)
-            parts.parts[n] = [self._known(e, span, whole, (start, end), ends) for span in spans]
+            sight.parts = [self._known(e, span, whole, (start, end), ends) for span in spans]
         return ends
 
     def _known(self, e: int, span: Span, whole: Span, numbers: Part, ends: ViewEnds) -> Part:
@@ -136,10 +137,10 @@ class BoundaryView:
         found: dict[int, list[Placed]] = {}
         for e, face, order, part in self.parts.rows():
             found.setdefault(e, []).append((face, order, part))
-        face, low, high = self.sweep.sights[0]
-        if face >= 0 and low == high:
-            e = self.sweep.edges[face]
-            found[e] = [(face, 0, self._numbered(e, span)) for span in self.all_around(face)]
+        first = self.sweep.sights[0]
+        if first.face >= 0 and first.low == first.high:
+            e = self.sweep.edge(first.face)
+            found[e] = [(first.face, 0, self._numbered(e, span)) for span in self.all_around(first.face)]
         for ray in self.rays:
             self._add_ray(ray, found)
         self._add_own(found)
@@ -176,7 +177,7 @@ class BoundaryView:
 
     def all_around(self, face: int) -> list[Span]:
         """The parts within range of a face that is seen all around."""
-        curve = self.table.curves[self.sweep.edges[face]]
+        curve = self.table.curves[self.sweep.edge(face)]
         # All around is seen only a full circle: from inside a circle a ray meets it once, so that a part
         # of it covers less; from outside, and so of straight edges, a face covers less than half a turn.
         assert isinstance(curve, Arc)
@@ -251,8 +252,8 @@ class BoundaryView:
             if face == BLOCKED:
                 continue
             if ray.blocker is not None:
-                ends_here = (sweep.high if high else sweep.low)[face] == rank
-                reached = ends_here and (sweep.ends_high if high else sweep.ends_low)[face] == ray.blocker
+                ends_here = (sweep.high if high else sweep.low)(face) == rank
+                reached = ends_here and sweep.faces.ends(face)[high] == ray.blocker
             elif ray.face is not None:
                 reached = face == ray.face
             else:
@@ -264,7 +265,7 @@ class BoundaryView:
     def _ray(self, rank: int) -> SingleRay | None:
         sweep = self.sweep
         before, after = sweep.first[rank - 1], sweep.first[rank]
-        if before == after >= 0 and sweep.low[before] != rank:
+        if before == after >= 0 and sweep.low(before) != rank:
             return None
         if self._is_buried(rank):
             return None
@@ -280,7 +281,7 @@ class BoundaryView:
         face = None
         if blocker is None and struck != NOTHING:
             place = None if inside else sweep.hit(struck, rank)
-            is_told = inside > 0 or self._is_at_rim(sweep.edges[struck], rank)
+            is_told = inside > 0 or self._is_at_rim(sweep.edge(struck), rank)
             if is_told or (place is not None and self.disc.excess(place) <= 0):
                 face = struck
         edges = *self._edge_on.get(rank, ()), *self.own
@@ -373,8 +374,8 @@ class BoundaryView:
         sweep, table = self.sweep, self.table
         covered = {e for edge in ray.along for e in (edge, table.following[edge])}
         for face, high in ((sweep.first[ray.rank - 1], True), (sweep.first[ray.rank], False)):
-            if face >= 0 and (sweep.high if high else sweep.low)[face] == ray.rank:
-                covered.add((sweep.ends_high if high else sweep.ends_low)[face])
+            if face >= 0 and (sweep.high if high else sweep.low)(face) == ray.rank:
+                covered.add(sweep.faces.ends(face)[high])
         for e in ray.along:
             if e not in self.own:
                 curve = table.curves[e]
@@ -386,17 +387,17 @@ class BoundaryView:
             if event < len(table.vertices):
                 found.setdefault(event, []).append((-2, 0, (event, event)))
                 continue
-            for face, ends in enumerate(zip(sweep.ends_low, sweep.ends_high, strict=True)):
-                if event not in ends:
-                    continue
-                order = LAST if sweep.ends_low[face] == event else -1
-                found.setdefault(sweep.edges[face], []).append((face, order, (event, event)))
+            for face in range(len(sweep.faces)):
+                ends = sweep.faces.ends(face)
+                if event in ends:
+                    order = LAST if ends[0] == event else -1
+                    found.setdefault(sweep.edge(face), []).append((face, order, (event, event)))
         struck = ray.face
         if struck is not None and struck not in (sweep.first[ray.rank - 1], sweep.first[ray.rank]):
             # Only this ray reaches it.
-            order = (sweep.high[struck] - ray.rank) % max(sweep.count, 1)
-            end = self.ends.number(sweep.edges[struck], self._end(ray))
-            found.setdefault(sweep.edges[struck], []).append((struck, order, (end, end)))
+            order = (sweep.high(struck) - ray.rank) % max(sweep.count, 1)
+            end = self.ends.number(sweep.edge(struck), self._end(ray))
+            found.setdefault(sweep.edge(struck), []).append((struck, order, (end, end)))
 
     def _add_own(self, found: dict[int, list[Placed]]) -> None:
         """The straight edges through the point, or the point alone."""
