@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from reprlib import repr as short
 from typing import Any
 from unicodedata import category
@@ -126,13 +125,19 @@ class AuditError(ExactacqError, AssertionError):
     """
 
 
-@contextmanager
-def about(part: str) -> Iterator[None]:
+class about:  # noqa: N801  # It is used as a word: ``with about("start"):``.
     """Put the name of a part before what a `FormatError` says of it."""
-    try:
-        yield
-    except FormatError as error:
-        raise FormatError(f"{part}: {error}") from None
+
+    __slots__ = ("_part",)
+
+    def __init__(self, part: str) -> None:
+        self._part = part
+
+    def __enter__(self) -> None: ...
+
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
+        if isinstance(error, FormatError):
+            raise FormatError(f"{self._part}: {error}") from None
 
 
 def shown(value: object) -> str:

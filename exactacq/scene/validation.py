@@ -181,7 +181,8 @@ def sensor_flaws(start: Point | None, radius: fmpq | None) -> Iterator[str]:
         yield f"radius {_number(radius)}: a sensing radius must be positive"
     if radius is not None and radius > LIMIT:
         yield f"radius: a sensing radius of more than {LIMIT_TEXT} is not supported"
-    if start is not None and any(abs(c) > LIMIT for c in start.rational or (start.x, start.y)):
+    x, y = (0, 0) if start is None else start.rational or (start.x, start.y)
+    if abs(x) > LIMIT or abs(y) > LIMIT:
         yield f"start: it must not lie farther than {LIMIT_TEXT} from the axes"
 
 

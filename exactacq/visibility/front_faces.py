@@ -174,8 +174,8 @@ class FrontFaces:
         facts: PlaceFacts = NOTHING_KNOWN,
     ) -> None:
         self.table, self.point, self.range, self.facts = table, point, range_, facts
-        self._rays = {touched: ray for ray in facts.rays for touched in ray.touched}
-        self.origin, self.around = raw(point), balls(point)
+        self._rays = {touched: ray for ray in facts.rays for touched in ray.touched} if facts.rays else {}
+        self.origin = raw(point)
         self._marks: dict[int, SweepEnd] = {}
         self.here: list[int] = []
         self.on_ray: list[int] = []
@@ -190,12 +190,8 @@ class FrontFaces:
             own = self._edges_at_point(open_, round_)
         self.own = own
         faces.own = list(own)
-        others = [e for e in open_ if e not in own]
-        for e, side in zip(others, self._sides(others), strict=True):
-            if side < 0:
-                faces.add_open(e)
-            elif side == 0:
-                self.on_ray.append(e)
+        if open_:
+            self._decide(open_)
         arcs: list[tuple[int, int, int]] = []
         for e in round_:
             if e not in own:
@@ -209,6 +205,11 @@ class FrontFaces:
         for e, low, high in arcs:
             faces.add_arc(e, low, high)
 
+    @property
+    def around(self) -> Balls:
+        """Balls around the point."""
+        return balls(self.point)
+
     def __len__(self) -> int:
         return len(self.floats.faces)
 
@@ -218,6 +219,15 @@ class FrontFaces:
         if found.low is None or found.high is None:
             return NOWHERE, NOWHERE
         return found.low.number, found.high.number
+
+    def _decide(self, edges: list[int]) -> None:
+        """Add what straight edges show whose side floats leave open."""
+        others = [e for e in edges if e not in self.own]
+        for e, side in zip(others, self._sides(others), strict=True):
+            if side < 0:
+                self.floats.add_open(e)
+            elif side == 0:
+                self.on_ray.append(e)
 
     def _edges_at_point(self, open_: list[int], round_: list[int]) -> tuple[int, ...]:
         """The edges through the point, at a vertex the incoming one first.
@@ -438,7 +448,7 @@ def _held(vector: Vector) -> tuple[float, float, float]:
 
 def _image(place: Vector) -> tuple[float, float, float, float, float]:
     """A place in floats: each coordinate and what it leaves, and a bound of what is left then."""
-    (x, u, p), (y, v, q) = (_with_rest(c) for c in place)
+    (x, u, p), (y, v, q) = _with_rest(place[0]), _with_rest(place[1])
     return x, u, y, v, margin(max(p, q))
 
 

@@ -15,7 +15,7 @@ from flint import arb, fmpq
 from exactacq.geometry.coordinates import Vector, advance, cross, dot, minus, raw, sign, square_root
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import spans
-from exactacq.geometry.late import ball_of, balls, clearly_between, from_to, late_point
+from exactacq.geometry.late import Balls, ball_of, balls, clearly_between, from_to, late_point
 from exactacq.geometry.points import Point
 from exactacq.numbers.rationals import ball_sign
 
@@ -29,17 +29,26 @@ class Disc:
     The points *on_rim*, told apart as objects, are known to lie on its circle.
     """
 
-    __slots__ = ("around", "center", "on_rim", "square", "square_ball")
+    __slots__ = ("_balls", "center", "on_rim", "point", "square")
+    _balls: tuple[Balls, arb]
 
     def __init__(self, point: Point, square: fmpq, on_rim: Sequence[Point] = ()) -> None:
-        self.center, self.square, self.on_rim = raw(point), square, [*on_rim]
-        self.around, self.square_ball = balls(point), arb(square)
+        self.point, self.center, self.square, self.on_rim = point, raw(point), square, [*on_rim]
+
+    @property
+    def balls(self) -> tuple[Balls, arb]:
+        """Balls around the centre, and one around the radius' square."""
+        try:
+            return self._balls
+        except AttributeError:
+            self._balls = balls(self.point), arb(self.square)
+            return self._balls
 
     def excess(self, point: Point) -> int:
         """-1, 0 or 1 as a point is nearer to the centre than the radius, as near, or farther."""
-        (x, y), (cx, cy) = balls(point), self.around
+        (x, y), ((cx, cy), square) = balls(point), self.balls
         x, y = x - cx, y - cy
-        if clear := ball_sign(x * x + y * y - self.square_ball):
+        if clear := ball_sign(x * x + y * y - square):
             return clear
         if any(point is known for known in self.on_rim):
             return 0
@@ -132,10 +141,10 @@ class _Secant:
     def __init__(self, line: Segment, disc: Disc) -> None:
         self.line, self.disc = line, disc
         self.start, self.along = start, (u, v) = balls(line.start), balls(line.direction)
-        x, y = disc.around[0] - start[0], disc.around[1] - start[1]
+        x, y = disc.balls[0][0] - start[0], disc.balls[0][1] - start[1]
         height = u * y - v * x
         self.foot, self.square = x * u + y * v, u * u + v * v
-        self.rest = self.square * disc.square_ball - height * height
+        self.rest = self.square * disc.balls[1] - height * height
 
     def misses(self, start: Point, end: Point) -> bool:
         """Whether a piece of the line, both of whose ends are outside the disc, does not meet it."""
@@ -157,7 +166,7 @@ class _Secant:
     def _forward(self, point: Point) -> int:
         """1 or -1 as the foot of the centre is clearly ahead of a point of the line or behind it, or 0."""
         x, y = balls(point)
-        center = self.disc.around
+        center = self.disc.balls[0]
         return ball_sign((center[0] - x) * self.along[0] + (center[1] - y) * self.along[1])
 
     def crossing(self, side: int) -> Point:
@@ -215,9 +224,9 @@ class _CircleCut:
     def point(self, side: int) -> Point:
         """Where the circle leaves the range to the left (1) or right (-1) of w; a late point."""
         x, y = balls(self.arc.center)
-        u, v = x - self.disc.around[0], y - self.disc.around[1]
+        u, v = x - self.disc.balls[0][0], y - self.disc.balls[0][1]
         square, radius_sq = u * u + v * v, arb(self.arc.radius_sq)
-        level = (self.disc.square_ball - square - radius_sq) / 2
+        level = (self.disc.balls[1] - square - radius_sq) / 2
         height = (radius_sq * square - level * level).sqrt() * side
         around = x + (u * level - v * height) / square, y + (v * level + u * height) / square
         return late_point(around, _crossing, self.arc, self.w, self.level, side)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import cached_property
 from typing import ClassVar
-from weakref import WeakKeyDictionary
+from weakref import WeakKeyDictionary, ref
 
 from exactacq.errors import InvalidScene, about
 from exactacq.geometry.points import Location, Point
@@ -19,6 +19,8 @@ class SceneTables:
     """What is made of a scene when it is first needed; kept as long as the scene itself."""
 
     _known: ClassVar[WeakKeyDictionary[Scene, SceneTables]] = WeakKeyDictionary()
+    _last: ClassVar[tuple[ref[Scene], ref[SceneTables]] | None] = None
+    """The scene that was asked for last: mostly it is asked for again."""
 
     def __init__(self, scene: Scene) -> None:
         self.obstacles = scene.obstacles
@@ -27,9 +29,12 @@ class SceneTables:
     @classmethod
     def of(cls, scene: Scene) -> SceneTables:
         """The tables of a scene, made at the first call; `FormatError` for what is none."""
+        if (last := cls._last) is not None and last[0]() is scene and (found := last[1]()) is not None:
+            return found
         known = cls._known.get(as_scene(scene))
         if known is None:
             known = cls._known[scene] = cls(scene)
+        cls._last = ref(scene), ref(known)
         return known
 
     @cached_property

@@ -83,18 +83,14 @@ class BoundaryView:
         """What is within range."""
         return Disc(self.point, self.range.square, self._facts.corners)
 
-    @cached_property
+    @property
     def parts(self) -> ViewParts:
         """What the range leaves of every sight."""
-        return self._decided.parts
+        return self.ends.parts
 
     @cached_property
     def ends(self) -> ViewEnds:
         """The points where parts end."""
-        return self._decided
-
-    @cached_property
-    def _decided(self) -> ViewEnds:
         sweep = self.sweep
         parts = sweep.parts()
         ends = ViewEnds(sweep, parts, self.disc)
