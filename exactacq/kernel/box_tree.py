@@ -12,6 +12,8 @@ from math import ceil, sqrt
 from operator import attrgetter
 from typing import Final, cast, final
 
+from mypy_extensions import mypyc_attr
+
 from exactacq.kernel.bounded import UNIT
 from exactacq.kernel.lines import Line
 
@@ -22,6 +24,7 @@ Box = tuple[float, float, float, float]
 """(x0, y0, x1, y1)."""
 
 
+@mypyc_attr(acyclic=True)
 @final
 class BoxNode:
     """A box with its number, or the box around a group, whose number is -1."""

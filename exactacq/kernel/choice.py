@@ -10,6 +10,8 @@ from collections.abc import Mapping, Sequence
 from math import inf
 from typing import Final, final
 
+from mypy_extensions import mypyc_attr
+
 from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent, Span
 
 NOBODY: Final[list[tuple[int, bool]]] = []
@@ -17,6 +19,7 @@ Known = Mapping[int, Sequence[Span]]
 """What is known of edges, by their numbers, rounded inward."""
 
 
+@mypyc_attr(acyclic=True)
 @final
 class LegSpan:
     """A leg, by bounds of the parameters of both its ends."""

@@ -11,6 +11,8 @@ from __future__ import annotations
 from math import inf
 from typing import Final, final
 
+from mypy_extensions import mypyc_attr
+
 from exactacq.kernel.bounded import TINY, UNIT, cross, length, product, total
 from exactacq.kernel.choice import LegSpan
 from exactacq.kernel.curve_images import CurveImage
@@ -43,6 +45,7 @@ AFTER: Span = (inf, inf)
 """Of one that is its end or lies behind it."""
 
 
+@mypyc_attr(acyclic=True)
 @final
 class Sight:
     """An interval of a leg from which edge ``edge`` is seen along the lines of a family.
@@ -70,6 +73,7 @@ class Sight:
         self.lengths, self.origin = lengths, origin
 
 
+@mypyc_attr(acyclic=True)
 @final
 class Turn:
     """A change at an end of a sight, number ``end``: of edge ``edge``, at place ``rank`` in the leg's order.
@@ -83,6 +87,7 @@ class Turn:
         self.is_short, self.unsure = is_short, unsure
 
 
+@mypyc_attr(acyclic=True)
 @final
 class AtEnd:
     """An edge in sight inside a leg up to its end, with the names of what bounds its views; see `Turn`."""

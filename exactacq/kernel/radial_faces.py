@@ -12,6 +12,8 @@ from __future__ import annotations
 
 from typing import Final, final
 
+from mypy_extensions import mypyc_attr
+
 from exactacq.kernel.bounded import (
     TINY,
     UNIT,
@@ -32,6 +34,7 @@ NONE: Final = -1
 """In place of the number of a face's event: it is a full circle around the place."""
 
 
+@mypyc_attr(acyclic=True)
 @final
 class Event:
     """A direction in which faces end, by the number of the point that lies there.
@@ -50,6 +53,7 @@ class Event:
         self.beside: Event | None = None
 
 
+@mypyc_attr(acyclic=True)
 @final
 class Face:
     """A face: its edge and both events, None of a full circle around the place.

@@ -13,6 +13,8 @@ from math import inf
 from operator import attrgetter
 from typing import Final, final
 
+from mypy_extensions import mypyc_attr
+
 from exactacq.kernel.bounded import TINY, UNIT, WIDEN, cross
 from exactacq.kernel.lattice import Lattice, place_among
 from exactacq.kernel.radial_faces import Event, Face, RadialFaces
@@ -33,6 +35,7 @@ Part = tuple[int, int]
 """The numbers of the ends of a closed piece of an edge, in the boundary's direction."""
 
 
+@mypyc_attr(acyclic=True)
 @final
 class Sight:
     """A face that comes first from the rank ``low`` to ``high``, counterclockwise; or `NOTHING` or `BLOCKED`.

@@ -11,6 +11,8 @@ from __future__ import annotations
 from math import hypot
 from typing import Final, final
 
+from mypy_extensions import mypyc_attr
+
 from exactacq.kernel.bounded import UNIT
 from exactacq.kernel.box_tree import BoxNode, in_order
 from exactacq.kernel.images import CONVEX, STRAIGHT, EdgeImage
@@ -24,6 +26,7 @@ Ends = tuple[float, float, float, float]
 """Both ends of a segment."""
 
 
+@mypyc_attr(acyclic=True)
 @final
 class HalfPlane:
     """An open half-plane: a place on its rim, and the normal that points into it, of that size."""
@@ -33,6 +36,7 @@ class HalfPlane:
         self.size = abs(nx) + abs(ny)
 
 
+@mypyc_attr(acyclic=True)
 @final
 class Shadow:
     """What one segment hides: the points that lie in all of some half-planes."""

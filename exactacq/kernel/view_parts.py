@@ -11,6 +11,8 @@ from __future__ import annotations
 from math import inf
 from typing import Final, final
 
+from mypy_extensions import mypyc_attr
+
 from exactacq.kernel.bounded import UNIT, WIDEN, cross, dot, length, product, quotient, root, total
 from exactacq.kernel.images import STRAIGHT
 from exactacq.kernel.radial_faces import Event, Face
@@ -36,6 +38,7 @@ OWN: Final = -4
 """The place itself, as a part between the pieces next to its own obstacle."""
 
 
+@mypyc_attr(acyclic=True)
 @final
 class Piece:
     """A piece of the outline: its edge, `RANGE` or `WINDOW`, and both ends, counterclockwise.
