@@ -1,9 +1,9 @@
 """A tree of boxes that finds those near a window: a packed R-tree.
 
-Boxes are sorted into groups of neighbours, each with the box around it, and these again (Leutenegger, Lopez
-and Edgington, "STR: a simple and efficient algorithm for R-tree packing", 1997). So a search takes time near
-what it finds, whatever the boxes' sizes and wherever they lie. Margins are the caller's: distances are
-compared as they are computed.
+Boxes in a row that touch each other, as those of a boundary's edges do, make a run with the box around it.
+Runs are sorted into groups of neighbours, and these again (Leutenegger, Lopez and Edgington, "STR: a simple
+and efficient algorithm for R-tree packing", 1997). So a search takes time near what it finds, whatever the
+boxes' sizes and wherever they lie. Margins are the caller's: distances are compared as they are computed.
 """
 
 from __future__ import annotations
@@ -18,7 +18,8 @@ from exactacq.kernel.bounded import UNIT
 from exactacq.kernel.lines import Line
 
 GROUP: Final = 12
-"""Boxes in a group at most; from 8 to 20 a search takes about the same."""
+"""Boxes in a run or a group at most; from 8 to 20 a search takes about the same."""
+NUMBER: Final = attrgetter("number")
 
 Box = tuple[float, float, float, float]
 """(x0, y0, x1, y1)."""
@@ -27,7 +28,7 @@ Box = tuple[float, float, float, float]
 @mypyc_attr(acyclic=True)
 @final
 class BoxNode:
-    """A box with its number, or the box around a group, whose number is -1."""
+    """A box with its number, or the box around a group: its number is that of a run's first box, else -1."""
 
     def __init__(self, box: Box, number: int, group: list[BoxNode]) -> None:
         self.x0, self.y0, self.x1, self.y1 = box
@@ -38,10 +39,19 @@ class BoxNode:
 
     def near(self, window: Box, reach: float) -> list[int]:
         """The numbers of the boxes at most as far as *reach* from a window, in ascending order."""
-        found: list[object] = []
         x0, y0, x1, y1 = window
-        self._search(x0, y0, x1, y1, reach * reach, found)
-        return in_order(found)
+        square = reach * reach
+        runs: list[BoxNode] = []
+        self._search(x0, y0, x1, y1, square, runs)
+        runs.sort(key=NUMBER)
+        found: list[object] = []
+        for run in runs:
+            if not run.group:
+                found.append(run.label)
+            for box in run.group:
+                if box.square_from(x0, y0, x1, y1) <= square:
+                    found.append(box.label)
+        return cast(list[int], found)
 
     def square_from(self, x0: float, y0: float, x1: float, y1: float) -> float:
         """The squared distance of the box from a window."""
@@ -87,31 +97,24 @@ class BoxNode:
             error = shift + turn * (max(-west, east) + max(-south, north))
             if low > error or -high > error:
                 continue
-            if node.number >= 0:
+            if not node.group:
                 found.append(node.number)
             else:
                 node._search_along(x, y, dx, dy, shift, turn, square, found)
 
-    def _search(self, x0: float, y0: float, x1: float, y1: float, square: float, found: list[object]) -> None:
+    def _search(self, x0: float, y0: float, x1: float, y1: float, square: float, runs: list[BoxNode]) -> None:
         for node in self.group:
             if node.square_from(x0, y0, x1, y1) > square:
                 continue
             if node.number >= 0:
-                found.append(node.label)
+                runs.append(node)
             else:
-                node._search(x0, y0, x1, y1, square, found)
-
-
-def in_order(labels: list[object]) -> list[int]:
-    """The numbers that are labels, in ascending order."""
-    numbers = cast(list[int], labels)
-    numbers.sort()
-    return numbers
+                node._search(x0, y0, x1, y1, square, runs)
 
 
 def box_tree(boxes: list[Box]) -> BoxNode:
     """The tree of some boxes, numbered in their order."""
-    nodes = [BoxNode(boxes[k], k, []) for k in range(len(boxes))]
+    nodes = _runs([BoxNode(boxes[k], k, []) for k in range(len(boxes))])
     while len(nodes) > GROUP:
         # Strips of neighbours from left to right, each cut into groups from bottom to top.
         strip = GROUP * ceil(sqrt(len(nodes) / GROUP))
@@ -121,12 +124,30 @@ def box_tree(boxes: list[Box]) -> BoxNode:
             some = nodes[start : start + strip]
             some.sort(key=attrgetter("y"))
             for k in range(0, len(some), GROUP):
-                groups.append(_around(some[k : k + GROUP]))
+                groups.append(_around(some[k : k + GROUP], -1))
         nodes = groups
-    return _around(nodes)
+    return _around(nodes, -1)
 
 
-def _around(group: list[BoxNode]) -> BoxNode:
+def _runs(boxes: list[BoxNode]) -> list[BoxNode]:
+    """Boxes in a row that touch each other grouped; those that do not are left alone."""
+    found: list[BoxNode] = []
+    run: list[BoxNode] = []
+    for box in boxes:
+        if run and (len(run) == GROUP or not _touch(run[-1], box)):
+            found.append(_around(run, run[0].number) if len(run) > 1 else run[0])
+            run = []
+        run.append(box)
+    if run:
+        found.append(_around(run, run[0].number) if len(run) > 1 else run[0])
+    return found
+
+
+def _touch(a: BoxNode, b: BoxNode) -> bool:
+    return a.x0 <= b.x1 and b.x0 <= a.x1 and a.y0 <= b.y1 and b.y0 <= a.y1
+
+
+def _around(group: list[BoxNode], number: int) -> BoxNode:
     x0 = y0 = x1 = y1 = 0.0
     for k in range(len(group)):
         node = group[k]
@@ -134,4 +155,4 @@ def _around(group: list[BoxNode]) -> BoxNode:
         y0 = node.y0 if k == 0 or node.y0 < y0 else y0
         x1 = node.x1 if k == 0 or node.x1 > x1 else x1
         y1 = node.y1 if k == 0 or node.y1 > y1 else y1
-    return BoxNode((x0, y0, x1, y1), -1, group)
+    return BoxNode((x0, y0, x1, y1), number, group)

@@ -9,12 +9,12 @@ are a convex set: what is hidden from several places is hidden from all places b
 from __future__ import annotations
 
 from math import hypot
-from typing import Final, final
+from typing import Final, cast, final
 
 from mypy_extensions import mypyc_attr
 
 from exactacq.kernel.bounded import UNIT
-from exactacq.kernel.box_tree import BoxNode, in_order
+from exactacq.kernel.box_tree import NUMBER, Box, BoxNode
 from exactacq.kernel.images import CONVEX, STRAIGHT, EdgeImage
 
 MOST: Final = 16
@@ -103,41 +103,40 @@ def shadows(
     return made
 
 
-def lit(
-    tree: BoxNode, window: tuple[float, float, float, float], reach: float, hiding: list[Shadow], slack: float
-) -> list[int]:
+def lit(tree: BoxNode, window: Box, reach: float, hiding: list[Shadow], slack: float) -> list[int]:
     """The numbers of the boxes at most as far as *reach* from a window that no shadow contains, ascending."""
+    runs: list[BoxNode] = []
+    _search(tree, window, reach * reach, hiding, slack, runs)
+    runs.sort(key=NUMBER)
     found: list[object] = []
-    x0, y0, x1, y1 = window
-    _search(tree, x0, y0, x1, y1, reach * reach, hiding, slack, found)
-    return in_order(found)
+    for run in runs:
+        for box in run.group or [run]:
+            if _is_lit(box, window, reach * reach, hiding, slack):
+                found.append(box.label)
+    return cast(list[int], found)
 
 
 def _search(
-    around: BoxNode,
-    x0: float,
-    y0: float,
-    x1: float,
-    y1: float,
-    square: float,
-    hiding: list[Shadow],
-    slack: float,
-    found: list[object],
+    around: BoxNode, window: Box, square: float, hiding: list[Shadow], slack: float, runs: list[BoxNode]
 ) -> None:
     for node in around.group:
-        if node.square_from(x0, y0, x1, y1) > square:
-            continue
-        is_hidden = False
-        for shadow in hiding:
-            if shadow.hides(node, slack):
-                is_hidden = True
-                break
-        if is_hidden:
+        if not _is_lit(node, window, square, hiding, slack):
             continue
         if node.number >= 0:
-            found.append(node.label)
+            runs.append(node)
         else:
-            _search(node, x0, y0, x1, y1, square, hiding, slack, found)
+            _search(node, window, square, hiding, slack, runs)
+
+
+def _is_lit(node: BoxNode, window: Box, square: float, hiding: list[Shadow], slack: float) -> bool:
+    """Whether a box comes near the window, and no shadow contains it."""
+    x0, y0, x1, y1 = window
+    if node.square_from(x0, y0, x1, y1) > square:
+        return False
+    for shadow in hiding:  # noqa: SIM110  # A generator is slow when it is compiled.
+        if shadow.hides(node, slack):
+            return False
+    return True
 
 
 def _across(cx: float, cy: float, radius: float, x: float, y: float) -> Ends:
