@@ -15,7 +15,7 @@ import exactacq as xa
 from exactacq.kernel.bound_lines import BoundLine
 from exactacq.kernel.images import SLIDING, TURNING
 from exactacq.kernel.lattice import Lattice, LatticeLines
-from exactacq.kernel.radial_faces import Event
+from exactacq.kernel.radial_faces import FaceEnd
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.complex_edges import normals
@@ -206,7 +206,7 @@ def test_directions_about_a_corner(name: str, monkeypatch: pytest.MonkeyPatch) -
     asked: list[EdgeTable] = []
     by_values = RadialSweep._sorted
 
-    def noted(self: RadialSweep, events: list[Event]) -> list[list[Event]]:
+    def noted(self: RadialSweep, events: list[FaceEnd]) -> list[list[FaceEnd]]:
         asked.append(self.table)
         return by_values(self, events)
 

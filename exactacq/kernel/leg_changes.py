@@ -1,9 +1,8 @@
 """Where the sight of edges changes along a leg: from where they are seen, and the order of the ends.
 
-An edge is seen from the union of closed intervals, one for each family that shows it. Most of their ends are
-no events: they lie within the union, or where one family ends another begins on the same line. Floats and the
-numbers of lines tell that. Of the ends that are left floats tell the order, but for *clusters*, which exact
-numbers have to part.
+An edge is seen from a union of closed intervals, one for each family that shows it. Most ends are no events:
+they lie within the union, or a family begins on the line where another ends. Floats and the numbers of lines
+tell that. Of those left floats tell the order, but for *clusters*, which exact numbers have to part.
 """
 
 from __future__ import annotations
@@ -51,9 +50,8 @@ class Sight:
     """An interval of a leg from which edge ``edge`` is seen along the lines of a family.
 
     Both ends have bounds, in extended numbers, and the keys of the lines there: equal keys and bounds that
-    overlap, one place. ``name`` tells the feature and the side of it that bounds the views, `NONE` if they
-    bound nothing of what is seen. The view at each end is shorter than the range (`SHORT`), as long (`LONG`)
-    or either (`EITHER`). ``origin`` tells where it comes from.
+    overlap, one place. ``name`` tells the feature and side that bound the views, `NONE` if none does. The
+    view at an end is shorter than the range (`SHORT`), as long, or either. ``origin`` is what it comes from.
     """
 
     def __init__(
@@ -73,7 +71,6 @@ class Sight:
         self.lengths, self.origin = lengths, origin
 
 
-@mypyc_attr(acyclic=True)
 @final
 class Turn:
     """A change at an end of a sight, number ``end``: of edge ``edge``, at place ``rank`` in the leg's order.
@@ -87,7 +84,6 @@ class Turn:
         self.is_short, self.unsure = is_short, unsure
 
 
-@mypyc_attr(acyclic=True)
 @final
 class AtEnd:
     """An edge in sight inside a leg up to its end, with the names of what bounds its views; see `Turn`."""

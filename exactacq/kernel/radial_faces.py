@@ -36,7 +36,7 @@ NONE: Final = -1
 
 @mypyc_attr(acyclic=True)
 @final
-class Event:
+class FaceEnd:
     """A direction in which faces end, by the number of the point that lies there.
 
     (x, y) is the vector to that point, or some positive multiple of it, both components held with ``bound``.
@@ -50,7 +50,7 @@ class Event:
         self.x, self.y, self.bound = x, y, bound
         self.least = self.most = 0.0
         self.rank = self.begins = self.stops = -1
-        self.beside: Event | None = None
+        self.beside: FaceEnd | None = None
 
 
 @mypyc_attr(acyclic=True)
@@ -62,7 +62,9 @@ class Face:
     the place, (ax, ay) is the vector a from s to t held with ``a``, and ``turn`` is s x t with its bound.
     """
 
-    def __init__(self, number: int, edge: int, low: Event | None, high: Event | None, within: bool) -> None:
+    def __init__(
+        self, number: int, edge: int, low: FaceEnd | None, high: FaceEnd | None, within: bool
+    ) -> None:
         self.number, self.edge, self.low, self.high, self.within = number, edge, low, high, within
         self.ax = self.ay = self.a = self.turn = self.turn_bound = 0.0
         self.at = 0
@@ -97,8 +99,8 @@ class RadialFaces:
         self.px, self.px_rest, self.py, self.py_rest, self.blur = place
         self.square, self.square_bound = square
         self.faces: list[Face] = []
-        self.events: list[Event] = []
-        self._numbered: dict[int, Event] = {}
+        self.events: list[FaceEnd] = []
+        self._numbered: dict[int, FaceEnd] = {}
         self.circles: list[int] = []
 
     def offset(self, v: int) -> tuple[float, float, float]:
@@ -136,8 +138,8 @@ class RadialFaces:
         sx = sy = s = tx = ty = t = 0.0
         # The event at which the last face ended, and that with which the first one of an obstacle began:
         # no others can be met again.
-        tail: Event | None = None
-        opening: Event | None = None
+        tail: FaceEnd | None = None
+        opening: FaceEnd | None = None
         for e in edges:
             edge = images[e]
             if edge.kind != STRAIGHT:
@@ -350,7 +352,7 @@ class RadialFaces:
         else:
             event.x, event.y, event.bound = x, y, bound
 
-    def event(self, number: int) -> Event:
+    def event(self, number: int) -> FaceEnd:
         """The event with a number; of a vertex that has none a new one."""
         event = self.found(number)
         if event is None:
@@ -358,15 +360,15 @@ class RadialFaces:
             event = self._new(number, x, y, bound)
         return event
 
-    def found(self, number: int) -> Event | None:
+    def found(self, number: int) -> FaceEnd | None:
         """The event with a number, or None."""
         known = self._numbered
         for k in range(len(known), len(self.events)):
             known[self.events[k].number] = self.events[k]
         return known.get(number)
 
-    def _new(self, number: int, x: float, y: float, bound: float) -> Event:
-        event = Event(number, x, y, bound)
+    def _new(self, number: int, x: float, y: float, bound: float) -> FaceEnd:
+        event = FaceEnd(number, x, y, bound)
         self.events.append(event)
         return event
 
@@ -462,8 +464,8 @@ class RadialFaces:
     def _add_line(
         self,
         e: int,
-        low: Event,
-        high: Event,
+        low: FaceEnd,
+        high: FaceEnd,
         within: bool,
         vector: tuple[float, float, float],
         turn: tuple[float, float],
@@ -474,7 +476,7 @@ class RadialFaces:
         face.ax, face.ay, face.a = ax, ay, (a + UNIT * (abs(ax) + abs(ay))) * WIDEN
         face.turn, face.turn_bound = turn
 
-    def _add(self, e: int, low: Event | None, high: Event | None, within: bool) -> Face:
+    def _add(self, e: int, low: FaceEnd | None, high: FaceEnd | None, within: bool) -> Face:
         face = Face(len(self.faces), e, low, high, within)
         self.faces.append(face)
         return face

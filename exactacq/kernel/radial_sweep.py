@@ -17,7 +17,7 @@ from mypy_extensions import mypyc_attr
 
 from exactacq.kernel.bounded import TINY, UNIT, WIDEN, cross
 from exactacq.kernel.lattice import Lattice, place_among
-from exactacq.kernel.radial_faces import Event, Face, RadialFaces
+from exactacq.kernel.radial_faces import Face, FaceEnd, RadialFaces
 
 NOTHING: Final = -1
 """No face within reach."""
@@ -37,7 +37,7 @@ Part = tuple[int, int]
 
 @mypyc_attr(acyclic=True)
 @final
-class Sight:
+class FirstFace:
     """A face that comes first from the rank ``low`` to ``high``, counterclockwise; or `NOTHING` or `BLOCKED`.
 
     All around if the ranks are equal. ``start`` and ``end`` are the numbers of the ends of what is seen of
@@ -67,9 +67,9 @@ class FaceSweep:
 
     def __init__(self, faces: RadialFaces) -> None:
         self.faces = faces
-        self.leads: list[Event] = []
+        self.leads: list[FaceEnd] = []
         """An event of every direction, counterclockwise from the east."""
-        self.open: list[tuple[int, list[Event]]] = []
+        self.open: list[tuple[int, list[FaceEnd]]] = []
         """What may be several directions: its place among the leads, and its events."""
         self.first: list[int] = []
         """The first face of every cell, by number."""
@@ -79,9 +79,9 @@ class FaceSweep:
 
     # -- the order of directions -------------------------------------------------------------------
 
-    def look_up(self) -> list[Event]:
+    def look_up(self) -> list[FaceEnd]:
         """Compute the keys; returns the events whose direction may be on either side of the east."""
-        found: list[Event] = []
+        found: list[FaceEnd] = []
         for event in self.faces.events:
             x, y, b = event.x, event.y, event.bound
             size = abs(x) + abs(y)
@@ -99,7 +99,7 @@ class FaceSweep:
                 found.append(event)
         return found
 
-    def put(self, event: Event, upper: bool) -> None:
+    def put(self, event: FaceEnd, upper: bool) -> None:
         """Tell on which side of the east a direction next to it is; the east itself is on the upper one."""
         bound = event.most - event.least
         event.least = 0.0 if upper else 4.0 - bound
@@ -120,13 +120,13 @@ class FaceSweep:
             self.open[-1][1].append(event)
             reached = max(reached, event.most)
 
-    def parted(self, events: list[Event], lattice: Lattice, center: int) -> list[list[Event]]:
+    def parted(self, events: list[FaceEnd], lattice: Lattice, center: int) -> list[list[FaceEnd]]:
         """Events by direction about a vertex, as whole numbers tell it, counterclockwise.
 
         None at all if one of them is no vertex.
         """
         vectors: list[tuple[int, int]] = []
-        groups: list[list[Event]] = []
+        groups: list[list[FaceEnd]] = []
         for event in sorted(events, key=NUMBER):
             number = event.number
             if number >= len(lattice.x):
@@ -140,7 +140,7 @@ class FaceSweep:
                 groups.insert(at, [event])
         return groups
 
-    def part(self, at: int, groups: list[list[Event]]) -> None:
+    def part(self, at: int, groups: list[list[FaceEnd]]) -> None:
         """Tell which directions an open one is; the last ones first, as their places change."""
         self.leads[at : at + 1] = [group[0] for group in groups]
         for group in groups:
@@ -151,15 +151,15 @@ class FaceSweep:
         """Number the directions, after all of them are told apart."""
         leads = self.leads
         for rank in range(len(leads)):
-            event: Event | None = leads[rank]
+            event: FaceEnd | None = leads[rank]
             while event is not None:
                 event.rank = rank
                 event = event.beside
 
-    def events(self, rank: int) -> list[Event]:
+    def events(self, rank: int) -> list[FaceEnd]:
         """The events in a direction."""
-        found: list[Event] = []
-        event: Event | None = self.leads[rank]
+        found: list[FaceEnd] = []
+        event: FaceEnd | None = self.leads[rank]
         while event is not None:
             found.append(event)
             event = event.beside
@@ -281,19 +281,19 @@ class FaceSweep:
         before, before_bound = cross(dx, dy, 0.0, b.x, b.y, b.bound)
         return dx, dy, after > after_bound and before > before_bound
 
-    def sights(self) -> list[Sight]:
+    def sights(self) -> list[FirstFace]:
         """Cells with the same first face joined, from a change on; empty if there is none."""
         first = self.first
         if not first:
             return []
-        found: list[Sight] = []
+        found: list[FirstFace] = []
         before = first[len(first) - 1]
         for k in range(len(first)):
             face = first[k]
             if face != before:
                 if found:
                     found[len(found) - 1].high = k
-                found.append(Sight(face, k, k))
+                found.append(FirstFace(face, k, k))
                 before = face
         if found:
             found[len(found) - 1].high = found[0].low

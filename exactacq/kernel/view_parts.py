@@ -15,8 +15,8 @@ from mypy_extensions import mypyc_attr
 
 from exactacq.kernel.bounded import UNIT, WIDEN, cross, dot, length, product, quotient, root, total
 from exactacq.kernel.images import STRAIGHT
-from exactacq.kernel.radial_faces import Event, Face
-from exactacq.kernel.radial_sweep import BLOCKED, FaceSweep, Part, Sight
+from exactacq.kernel.radial_faces import Face, FaceEnd
+from exactacq.kernel.radial_sweep import BLOCKED, FaceSweep, FirstFace, Part
 
 HIT: Final = 0
 """An end (HIT, face, rank of the direction)."""
@@ -40,14 +40,16 @@ OWN: Final = -4
 
 @mypyc_attr(acyclic=True)
 @final
-class Piece:
+class OutlinePiece:
     """A piece of the outline: its edge, `RANGE` or `WINDOW`, and both ends, counterclockwise.
 
     ``near`` is the end of a window that is nearer, and ``sight`` the number of the sight that it is made of.
+    Its ``curve`` is made, and kept here, by whoever asks.
     """
 
     def __init__(self, edge: int, start: int, end: int, near: int, sight: int) -> None:
         self.edge, self.start, self.end, self.near, self.sight = edge, start, end, near, sight
+        self.curve: object | None = None
 
 
 @final
@@ -59,7 +61,7 @@ class ViewParts:
     place itself.
     """
 
-    def __init__(self, sweep: FaceSweep, sights: list[Sight], base: int, here: list[int]) -> None:
+    def __init__(self, sweep: FaceSweep, sights: list[FirstFace], base: int, here: list[int]) -> None:
         self.sweep, self.faces = sweep, sweep.faces
         self.sights, self.base, self.here = sights, base, here
         self.made: list[tuple[int, int, int]] = []
@@ -88,7 +90,7 @@ class ViewParts:
         self.made.append((kind, face, which))
         return self.base + len(self.made) - 1
 
-    def within(self, sight: Sight) -> list[Part]:
+    def within(self, sight: FirstFace) -> list[Part]:
         """What is seen of a sight within range."""
         if sight.parts is None:
             return [(sight.start, sight.end)] if sight.face >= 0 else []
@@ -106,7 +108,7 @@ class ViewParts:
 
     # -- clipping ----------------------------------------------------------------------------------
 
-    def _end(self, event: Event | None, rank: int, face: Face) -> int:
+    def _end(self, event: FaceEnd | None, rank: int, face: Face) -> int:
         """The number of a sight's end: that of the face's own event, if it lies in that direction."""
         if event is not None and event.rank == rank:
             return event.number
@@ -191,19 +193,19 @@ class ViewParts:
 
     # -- the outline -------------------------------------------------------------------------------
 
-    def outline(self, at_range: list[int]) -> list[Piece]:
+    def outline(self, at_range: list[int]) -> list[OutlinePiece]:
         """The closed outline from the east on, joined; for more than one sight. Without any it is empty.
 
         *at_range* are ends that are exactly as far away as the range. A single piece that is an arc of the
         range is all of its circle.
         """
         count = len(self.sights)
-        strips: list[Piece] = []
+        strips: list[OutlinePiece] = []
         for k in range(count):
             n = k - 1 if k else count - 1
             sight = self.sights[n]
             if sight.face == BLOCKED:
-                strips.append(Piece(OWN, HERE, HERE, HERE, n))
+                strips.append(OutlinePiece(OWN, HERE, HERE, HERE, n))
                 continue
             reached = -2 - sight.low
             if sight.face >= 0:
@@ -211,7 +213,7 @@ class ViewParts:
                 stop, at_low = self._placed(sight.start), self._placed(sight.end)
                 if sight.parts is None:
                     if sight.start != sight.end:
-                        strips.append(Piece(edge, at_low, stop, HERE, n))
+                        strips.append(OutlinePiece(edge, at_low, stop, HERE, n))
                         continue
                 else:
                     for m in range(len(sight.parts) - 1, -1, -1):
@@ -220,25 +222,25 @@ class ViewParts:
                             continue
                         start, end = self._placed(first), self._placed(last)
                         if end != at_low:
-                            strips.append(Piece(RANGE, reached, end, HERE, n))
-                        strips.append(Piece(edge, end, start, HERE, n))
+                            strips.append(OutlinePiece(RANGE, reached, end, HERE, n))
+                        strips.append(OutlinePiece(edge, end, start, HERE, n))
                         reached = at_low = start
                 if at_low == stop:
                     continue
-            strips.append(Piece(RANGE, reached, -2 - sight.high, HERE, n))
+            strips.append(OutlinePiece(RANGE, reached, -2 - sight.high, HERE, n))
         return self._joined(strips, at_range) if strips else []
 
     def _placed(self, end: int) -> int:
         """The number of an end, the place itself by its own."""
         return HERE if self.here and end in self.here else end
 
-    def _joined(self, strips: list[Piece], at_range: list[int]) -> list[Piece]:
+    def _joined(self, strips: list[OutlinePiece], at_range: list[int]) -> list[OutlinePiece]:
         """Parts joined where they continue each other, with windows where they do not meet."""
-        found: list[Piece] = []
-        pending: list[Piece] = []
+        found: list[OutlinePiece] = []
+        pending: list[OutlinePiece] = []
         # Of the parts that became pieces the first and the last one, and where the windows before them begin.
-        first: Piece | None = None
-        last: Piece | None = None
+        first: OutlinePiece | None = None
+        last: OutlinePiece | None = None
         lead, leads = 0, False
         before = strips[len(strips) - 1]
         reached = before.end
@@ -270,27 +272,33 @@ class ViewParts:
         return found[lead:] + found[1:lead]
 
     def _add_window(
-        self, found: list[Piece], end: int, start: int, before: Piece, after: Piece, at_range: list[int]
+        self,
+        found: list[OutlinePiece],
+        end: int,
+        start: int,
+        before: OutlinePiece,
+        after: OutlinePiece,
+        at_range: list[int],
     ) -> None:
         """Add what joins the end of a sight to the start of the next: perhaps nothing, or a window."""
         if end < HERE and start < HERE:
             return
         rank = self.sights[after.sight].low
         if end == HERE or start == HERE:
-            found.append(Piece(FROM_HERE, end, start, rank, after.sight))
+            found.append(OutlinePiece(FROM_HERE, end, start, rank, after.sight))
         elif end < HERE or start < HERE:
             near = start if end < HERE else end
             if near not in at_range:
-                found.append(Piece(WINDOW, end, start, near, after.sight))
+                found.append(OutlinePiece(WINDOW, end, start, near, after.sight))
         else:
             faces, sights = self.faces.faces, self.sights
             stops = faces[sights[before.sight].face].high_rank() == rank
             begins = faces[sights[after.sight].face].low_rank() == rank
             near = HERE if stops == begins else end if stops else start
-            found.append(Piece(WINDOW, end, start, near, after.sight))
+            found.append(OutlinePiece(WINDOW, end, start, near, after.sight))
 
 
-def open_pieces(pieces: list[Piece]) -> list[int]:
+def open_pieces(pieces: list[OutlinePiece]) -> list[int]:
     """Which pieces are to be decided: next to the place, and windows of which either end may be nearer."""
     return [
         n

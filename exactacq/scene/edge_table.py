@@ -73,7 +73,8 @@ class EdgeTable:
         self.previous: Ints = np.argsort(self.next)
         self.following: list[int] = self.next.tolist()
         self.preceding: list[int] = self.previous.tolist()
-        self.vertices = [_pair(c.start) for c in self.curves]
+        self.starts: list[Point] = [c.start for c in self.curves]
+        self.vertices = [_pair(start) for start in self.starts]
         self.kind = np.array([_kind(c) for c in self.curves], dtype=np.int8)
         self.kinds: list[int] = self.kind.tolist()
         self.full = np.array([isinstance(c, Arc) and c.full for c in self.curves], dtype=bool)

@@ -300,8 +300,8 @@ class FrontFaces:
 
     def place(self, event: int) -> Point:
         """The point where an event lies."""
-        is_vertex = event < len(self.table.vertices)
-        return self.table.curves[event].start if is_vertex else self.mark(event).point
+        starts = self.table.starts
+        return starts[event] if event < len(starts) else self.mark(event).point
 
     def mark(self, event: int) -> SweepEnd:
         """An event that is no vertex; a tangent of a round obstacle is made when it is first asked for."""

@@ -9,11 +9,13 @@ first in each direction and from which ends are within range.
 from __future__ import annotations
 
 from enum import Enum
+from itertools import repeat
+from typing import cast
 
 from exactacq.geometry.coordinates import dot, minus, raw, sign
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
-from exactacq.kernel.view_parts import HERE, RANGE, WINDOW, Piece, open_pieces
+from exactacq.kernel.view_parts import HERE, RANGE, WINDOW, OutlinePiece, open_pieces
 from exactacq.visibility.radial_sweep import BLOCKED, NOTHING
 from exactacq.visibility.visible_boundary import BoundaryView
 
@@ -32,11 +34,9 @@ class ViewKind(Enum):
 class ViewPiece:
     """One piece of an isovist's outline, run counterclockwise as the point sees it."""
 
-    __slots__ = ("_curve", "_row", "_view")
+    __slots__ = ("_row", "_view")
 
-    _curve: Curve
-
-    def __init__(self, view: BoundaryView, row: Piece) -> None:
+    def __init__(self, view: BoundaryView, row: OutlinePiece) -> None:
         self._view, self._row = view, row
 
     @property
@@ -65,11 +65,10 @@ class ViewPiece:
     @property
     def curve(self) -> Curve:
         """The exact curve; made at the first access."""
-        try:
-            return self._curve
-        except AttributeError:
-            self._curve = _curve(self._view, self._row)
-            return self._curve
+        curve = self._row.curve
+        if curve is None:
+            curve = self._row.curve = _curve(self._view, self._row)
+        return cast(Curve, curve)
 
     def __repr__(self) -> str:
         seen = "" if self.obstacle is None else f" {self.edge} of {self.obstacle}"
@@ -80,10 +79,10 @@ def outline(view: BoundaryView) -> tuple[ViewPiece, ...]:
     """The closed outline of a view, from the east on; empty if the point sees nothing but along a ray."""
     sights = view.sweep.sights
     rows = _rows(view) if len(sights) > 1 else _all_around(view, sights[0].face)
-    return tuple([ViewPiece(view, row) for row in rows])
+    return tuple(map(ViewPiece, repeat(view), rows))
 
 
-def _all_around(view: BoundaryView, face: int) -> list[Piece]:
+def _all_around(view: BoundaryView, face: int) -> list[OutlinePiece]:
     """The outline where nothing or one full circle is seen in all directions."""
     if face == BLOCKED:
         return []
@@ -99,12 +98,12 @@ def _all_around(view: BoundaryView, face: int) -> list[Piece]:
     return [_piece(RANGE, HERE, HERE)]
 
 
-def _piece(edge: int, start: int, end: int, near: int = HERE) -> Piece:
+def _piece(edge: int, start: int, end: int, near: int = HERE) -> OutlinePiece:
     """A piece that is made here, of no single sight."""
-    return Piece(edge, start, end, near, HERE)
+    return OutlinePiece(edge, start, end, near, HERE)
 
 
-def _rows(view: BoundaryView) -> list[Piece]:
+def _rows(view: BoundaryView) -> list[OutlinePiece]:
     parts = view.parts
     here = parts.here
     at_range = [
@@ -133,13 +132,13 @@ def _nearer(view: BoundaryView, one: int, other: int) -> int:
     return one if sign(dot(a, a) - dot(b, b)) < 0 else other
 
 
-def _from_here(view: BoundaryView, far: int, rank: int, outward: bool) -> list[Piece]:
+def _from_here(view: BoundaryView, far: int, rank: int, outward: bool) -> list[OutlinePiece]:
     """From a boundary point to a far one: along a straight own edge as far as it goes, then a window.
 
     The pieces come from the point on if *outward*, else to it.
     """
 
-    def row(edge: int, a: int, b: int, near: int) -> Piece:
+    def row(edge: int, a: int, b: int, near: int) -> OutlinePiece:
         return _piece(edge, a, b, near) if outward else _piece(edge, b, a, near)
 
     for e in view.own:
@@ -159,7 +158,7 @@ def _point(view: BoundaryView, end: int) -> Point:
     return view.at_range(-2 - end) if end < HERE else view.ends.point(end, read=True)
 
 
-def _curve(view: BoundaryView, row: Piece) -> Curve:
+def _curve(view: BoundaryView, row: OutlinePiece) -> Curve:
     edge, first, last = row.edge, row.start, row.end
     if edge == RANGE and first == HERE:
         return range_circle(view)

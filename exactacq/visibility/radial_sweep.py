@@ -21,8 +21,8 @@ from exactacq.geometry.points import Point
 from exactacq.grouping import in_groups
 from exactacq.kernel import radial_sweep as floats
 from exactacq.kernel import single_rays
-from exactacq.kernel.radial_faces import Event
-from exactacq.kernel.radial_sweep import Sight
+from exactacq.kernel.radial_faces import FaceEnd
+from exactacq.kernel.radial_sweep import FirstFace
 from exactacq.kernel.view_parts import ViewParts
 from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import rational
@@ -87,7 +87,7 @@ class RadialSweep:
         sweep.order()
         own = faces.own
         for at, events in reversed(sweep.open):
-            lattice, parted = self.table.lattice, list[list[Event]]()
+            lattice, parted = self.table.lattice, list[list[FaceEnd]]()
             if lattice is not None and len(own) == 2:
                 # Two edges meet at the vertex at which the second one begins.
                 parted = sweep.parted(events, lattice[1], own[1])
@@ -104,7 +104,7 @@ class RadialSweep:
         """The events in a direction."""
         return [event.number for event in self._floats.events(rank)]
 
-    def _sorted(self, events: list[Event]) -> list[list[Event]]:
+    def _sorted(self, events: list[FaceEnd]) -> list[list[FaceEnd]]:
         """Events grouped by exact direction, counterclockwise."""
         known = {event.number: event for event in events}
         return [[known[number] for number in group] for group in self._grouped(sorted(known))]
@@ -128,9 +128,10 @@ class RadialSweep:
 
     def direction(self, rank: int) -> Vector:
         """The exact direction of a rank, rational where one of its events shows it."""
+        lead = self._floats.leads[rank]
+        if lead.beside is None:
+            return self.faces.offset(lead.number)
         group = self.events(rank)
-        if len(group) == 1:
-            return self.faces.offset(group[0])
         if (ray := self.faces.ray(group)) is not None:
             return ray.direction
         vectors = map(self.faces.offset, group)
@@ -198,7 +199,7 @@ class RadialSweep:
                     return ray
             bits *= 2
 
-    def _sights(self) -> list[Sight]:
+    def _sights(self) -> list[FirstFace]:
         """Cells with the same first face joined, the first sight starting at a change."""
         found = self._floats.sights()
         if not found:
@@ -206,7 +207,7 @@ class RadialSweep:
             rank = NOWHERE if not self.count else 0
             if face >= 0 and self.low(face) != NOWHERE:
                 rank = self.low(face)
-            return [Sight(face, rank, rank)]
+            return [FirstFace(face, rank, rank)]
         return found
 
     def parts(self) -> ViewParts:

@@ -21,15 +21,14 @@ class ViewEnds:
 
     def __init__(self, sweep: RadialSweep, parts: ViewParts, disc: Disc) -> None:
         self.sweep, self.parts, self.disc = sweep, parts, disc
-        self._vertices = len(sweep.faces.table.vertices)
+        self._starts = sweep.faces.table.starts
         self._points: dict[int, Point] = {}
         self._ranks: dict[int, int] = {}
 
     def point(self, end: int, read: bool = False) -> Point:
         """The point of an end; one that is to be *read* is not made late."""
-        if end < self._vertices:
-            faces = self.sweep.faces
-            return faces.point if end == HERE else faces.place(end)
+        if end < len(self._starts):
+            return self._starts[end] if end >= 0 else self.sweep.faces.point
         point = self._points.get(end)
         if point is None:
             point = self._points[end] = self._made(end, read)
