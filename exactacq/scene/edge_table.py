@@ -6,7 +6,7 @@ margins of the pruning code are multiples of it.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Hashable, Iterable, Sequence
 from functools import cached_property
 from math import inf
 from typing import Any
@@ -185,7 +185,11 @@ class EdgeTable:
         """
         x, y = point.xy
         near = self.around((x, y), (x, y), 0.0)
-        found = [e for e in near if self.curves[e].may_pass(point, BITS) and self.curves[e].passes(point)]
+        return self.passing(near, point)
+
+    def passing(self, edges: Iterable[int], point: Point) -> tuple[int, ...]:
+        """Those of some edges that pass through a point: at a vertex the incoming one first."""
+        found = [e for e in edges if _passes(self.curves[e], point)]
         if len(found) == 2 and self.curves[found[0]].start == point:
             found.reverse()
         return tuple(found)
@@ -213,8 +217,10 @@ class EdgeTable:
         key = low, high, reach
         found = self._around.get(key)
         if found is None:
-            slack = 8 * self._error(low, high)
-            found = self.tree.near((*low, *high), reach + slack)
+            window = *low, *high
+            # Eight times `_error`.
+            slack = 2.0**-47 * max(self._largest, *map(abs, window))
+            found = self.tree.near(window, reach + slack)
             self._around.put(key, found)
         return found
 
@@ -280,6 +286,13 @@ class EdgeTable:
         bound = np.where(self.kind[edges] == STRAIGHT, straight, curved)
         bounds: Floats = np.maximum(bound * (1 - 1e-14) - 8 * self.roundoff, 0.0)
         return bounds
+
+
+def _passes(curve: Curve, point: Point) -> bool:
+    """Whether a curve contains a point, which may be the very object at which it ends."""
+    if point is curve.start or point is curve.end:
+        return True
+    return curve.may_pass(point, BITS) and curve.passes(point)
 
 
 def corners(box: Sequence[float]) -> tuple[Spot, ...]:

@@ -235,12 +235,8 @@ class FrontFaces:
         They are among the straight ones on whose line the point may be, and the arcs on whose circle it may
         be.
         """
-        curves, point, faces = self.table.curves, self.point, self.floats
-        some = open_ + [e for e in round_ if not faces.beside(e)]
-        found = [e for e in some if curves[e].may_pass(point, BITS) and curves[e].passes(point)]
-        if len(found) == 2 and curves[found[0]].start == point:
-            found.reverse()
-        return tuple(found)
+        some = open_ + [e for e in round_ if not self.floats.beside(e)]
+        return self.table.passing(some, self.point)
 
     def _sides(self, edges: list[int]) -> list[int]:
         """1 or -1 as straight edges turn left or right about the point, 0 if it is on their line; exact."""
