@@ -74,15 +74,19 @@ class OwnLine:
 
     def _beyond(self, end: Point, onward: Point) -> Iterator[tuple[int, Point]]:
         """What the way's line meets beyond an end, as far as it is seen from there."""
-        own, view = self.table.edges_at(end), self._view(end)
-        edges = [e for e in self._near if e in view.edges]
-        for e in met_ahead(self.table.images, edges, held_point(end), held_point(onward)):
+        own = self.table.edges_at(end)
+        edges = met_ahead(self.table.images, self._near, held_point(end), held_point(onward))
+        # The line meets a straight edge through the end only there, unless it runs along it.
+        edges = [e for e in edges if e not in own or self._leads_on(e, end, onward)]
+        if not edges:
+            return
+        view = self._view(end)
+        for e in edges:
             curve = self.table.curves[e]
+            if e not in view.edges:
+                continue
             if e in own and isinstance(curve, Segment):
-                # The line meets it at its end only there, unless it runs along it.
-                if len(line_contacts(end, onward, curve)) == 2:
-                    far = max((curve.start, curve.end), key=lambda p: (p - end).dot(onward))
-                    yield e, far
+                yield e, max((curve.start, curve.end), key=lambda p: (p - end).dot(onward))
                 continue
             for share in _again(end, onward, curve) if e in own else line_contacts(end, onward, curve):
                 if share.sign() > 0:
@@ -94,6 +98,11 @@ class OwnLine:
                     places = [u, rail.top] if full and u.sign() == 0 else [u]
                     if any(Cover(tuple(view.spans[e])).contains(place) for place in places):
                         yield e, point
+
+    def _leads_on(self, e: int, end: Point, onward: Point) -> bool:
+        """Whether an edge through an end is an arc, or straight and along the line."""
+        curve = self.table.curves[e]
+        return isinstance(curve, Arc) or len(line_contacts(end, onward, curve)) == 2
 
     def _view(self, end: Point) -> Seen:
         """What is seen from an end of the way."""
