@@ -207,10 +207,10 @@ def test_bounds_hold(seed: int) -> None:
         table = EdgeTable(scene.obstacles)
         view = BoundaryView(table, place, Range(fmpq(rng.choice((2, 4, 9)))))
         faces = view.sweep.faces.floats
-        for k, event in enumerate(faces.events):
-            x, y, b = faces.vector(k)
-            u, v = (float(c) for c in view.sweep.faces.offset(event))
-            if event < len(table.vertices) and k not in faces.given:
+        for event in faces.events:
+            x, y, b = event.x, event.y, event.bound
+            u, v = (float(c) for c in view.sweep.faces.offset(event.number))
+            if event.number < len(table.vertices):
                 assert abs(u - x) <= b + 1e-15 * abs(u) and abs(v - y) <= b + 1e-15 * abs(v)
             size = abs(u) + abs(v)
             assert abs(u * y - v * x) <= size * b * 2 + 1e-14 * size * (abs(x) + abs(y))

@@ -53,7 +53,7 @@ class FirstFace:
 
 @final
 class FaceSweep:
-    """The sweep about a place, in the steps `look_up`, `group`, `rank`, `look` and `sights`.
+    """The sweep about a place, in the steps `look_up`, `order`, `rank`, `look` and `sights`.
 
     Between them whoever asks decides what the floats leave open: on which side of the east a direction is
     (`look_up`), which of some directions are one (``open``), which face comes first (``doubts``).
