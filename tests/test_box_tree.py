@@ -47,6 +47,24 @@ def test_what_is_found_is_what_is_near(seed: int) -> None:
 
 
 @given(st.integers(0, 10**6))
+def test_boxes_in_a_row_that_touch_are_found_in_order(seed: int) -> None:
+    """As those of boundaries: chains whose boxes share corners, of any lengths, some alone, anywhere."""
+    rng = Random(seed)
+    boxes: list[Box] = []
+    for _ in range(rng.randint(1, 30)):
+        x, y = rng.randint(-20, 20), rng.randint(-20, 20)
+        for _ in range(rng.choice([1, 2, 3, 11, 12, 13, 25])):
+            u, v = x + rng.randint(-2, 2), y + rng.randint(-2, 2)
+            boxes.append((min(x, u), min(y, v), max(x, u), max(y, v)))
+            x, y = u, v
+    tree = box_tree(boxes)
+    for _ in range(10):
+        window = rng.choice(boxes)
+        reach = rng.choice([0, 1, 2, 5, 60])
+        assert tree.near(window, reach) == [k for k, box in enumerate(boxes) if gap(box, window) <= reach]
+
+
+@given(st.integers(0, 10**6))
 def test_what_is_found_along_a_line_is_what_it_may_meet(seed: int) -> None:
     """Exactly: a box that the line meets is found, also where only its corner is on it; few others are."""
     rng = Random(seed)
