@@ -6,6 +6,7 @@ import math
 import random
 from fractions import Fraction
 from itertools import pairwise
+from weakref import ref
 from xml.etree import ElementTree
 
 import pytest
@@ -13,6 +14,7 @@ from nightly import some
 
 from exactacq import Circle, InvalidScene, Length, Outline, Point, Polygon, Real, Scene, isovist
 from exactacq.files.octagons import random_octagons
+from exactacq.gc_pause import uncollected
 
 SQUARE = Polygon([(1, -1), (2, -1), (2, 1), (1, 1)])
 ROOM = Circle((0, 0), 5)
@@ -261,3 +263,13 @@ def test_among_many_octagons() -> None:
     view = isovist(scene, (0, 0), 10)
     assert Length(0) < view.area < turns(100)
     assert {piece.obstacle for piece in view.pieces} > {None}
+
+
+def test_a_view_is_no_part_of_a_cycle() -> None:
+    """So it goes with its last user, and makes no work for the search for cyclic garbage."""
+    view = isovist(Scene([Circle((3, 0), 1), Circle((0, 3), 1)]), (0, 0), radius=4)
+    assert [piece.curve for piece in view.pieces] and view.seen()
+    known = ref(view._view)
+    with uncollected():
+        del view
+        assert known() is None

@@ -50,6 +50,8 @@ SAMPLES = 16
 """If it is so at none of so many edges, it is looked for nowhere."""
 BITS = 64
 """Precision of the balls that tell which edges are not near a point."""
+ROUNDOFF = 2.0**-50
+"""What differences of coordinates are off by at most, relative to the largest of them."""
 
 
 class EdgeTable:
@@ -202,7 +204,7 @@ class EdgeTable:
         far = self._largest
         for x, y in places:
             far = max(far, abs(x), abs(y))
-        return 2.0**-50 * far
+        return ROUNDOFF * far
 
     def near(self, low: tuple[float, float], high: tuple[float, float], reach: float) -> Ints:
         """The edges whose boxes come within *reach* of the box from *low* to *high*."""
@@ -218,8 +220,7 @@ class EdgeTable:
         found = self._around.get(key)
         if found is None:
             window = *low, *high
-            # Eight times `_error`.
-            slack = 2.0**-47 * max(self._largest, *map(abs, window))
+            slack = 8 * ROUNDOFF * max(self._largest, *map(abs, window))
             found = self.tree.near(window, reach + slack)
             self._around.put(key, found)
         return found
