@@ -42,7 +42,7 @@ class FaceEnd:
     (x, y) is the vector to that point, or some positive multiple of it, both components held with ``bound``.
     The sweep (see `exactacq.kernel.radial_sweep`) finds bounds of its key, its rank among the directions, and
     the faces that begin there or stop, counterclockwise, -1 for none; and ``beside`` it another event in
-    the same direction.
+    the same direction. While directions are put in order, ``after`` is the next one.
     """
 
     def __init__(self, number: int, x: float, y: float, bound: float) -> None:
@@ -51,6 +51,7 @@ class FaceEnd:
         self.least = self.most = 0.0
         self.rank = self.begins = self.stops = -1
         self.beside: FaceEnd | None = None
+        self.after: FaceEnd | None = None
 
 
 @mypyc_attr(acyclic=True)

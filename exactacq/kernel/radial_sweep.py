@@ -28,7 +28,6 @@ DOUBT: Final = -3
 WIDE: Final = 1.9
 """Where the keys of a cell's sides differ by more, a quarter turn from its first side is inside."""
 
-LEAST: Final = attrgetter("least")
 NUMBER: Final = attrgetter("number")
 
 Part = tuple[int, int]
@@ -108,7 +107,11 @@ class FaceSweep:
     def order(self) -> None:
         """Order the directions, as far as the keys tell."""
         leads, reached, at_open = self.leads, -inf, -1
-        for event in sorted(self.faces.events, key=LEAST):
+        following = _in_order(self.faces.events)
+        while following is not None:
+            event = following
+            following = event.after
+            event.after = None
             if event.least > reached or not leads:
                 leads.append(event)
                 reached = event.most
@@ -308,6 +311,56 @@ class FaceSweep:
             if low < 0 or 0 < (rank - low) % cells < (high - low) % cells:
                 found.append(face)
         return found
+
+
+def _in_order(events: list[FaceEnd]) -> FaceEnd | None:
+    """The event whose key is least; from each the next one follows, in ascending order of these bounds.
+
+    A merge sort of chains, for a list is sorted by keys that are objects. The events of one boundary mostly
+    come in falling order: then they are a chain to begin with.
+    """
+    chains: list[FaceEnd] = []
+    head: FaceEnd | None = None
+    for event in events:
+        if head is not None:
+            if event.least <= head.least:
+                event.after = head
+            else:
+                chains.append(head)
+        head = event
+    if head is None:
+        return None
+    chains.append(head)
+    while len(chains) > 1:
+        merged: list[FaceEnd] = []
+        for k in range(1, len(chains), 2):
+            merged.append(_merged(chains[k - 1], chains[k]))
+        if len(chains) % 2:
+            merged.append(chains[len(chains) - 1])
+        chains = merged
+    return chains[0]
+
+
+def _merged(one: FaceEnd, other: FaceEnd) -> FaceEnd:
+    """Two chains in one."""
+    if other.least < one.least:
+        one, other = other, one
+    last, left, right = one, one.after, other
+    while left is not None:
+        if right.least < left.least:
+            last.after = right
+            last = right
+            rest = right.after
+            if rest is None:
+                last.after = left
+                return one
+            right = rest
+        else:
+            last.after = left
+            last = left
+            left = left.after
+    last.after = right
+    return one
 
 
 def _enter(active: list[Face], face: Face) -> None:

@@ -57,8 +57,9 @@ def is_surd(terms: Terms) -> bool:
 
 def square_root(q: fmpq) -> dict[Atom, fmpq]:
     """The square root of a positive rational; its two parts are factored apart, as they are coprime."""
-    (over, a), (under, b) = square_free(int(q.p)), square_free(int(q.q))
-    return {a * b: fmpq(over * under) / q.q}
+    below = int(q.q)
+    (over, a), (under, b) = square_free(int(q.p)), square_free(below)
+    return {a * b: fmpq(over * under, below)}
 
 
 def denested(terms: Terms) -> dict[Atom, fmpq] | None:

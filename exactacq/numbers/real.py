@@ -114,9 +114,7 @@ class Real(Exact):
     def _form(cls, terms: Mapping[Atom, fmpq]) -> Real:
         if not terms or (len(terms) == 1 and 1 in terms):
             return real(terms.get(1, ZERO))
-        self = object.__new__(Real)
-        self.rational, self._linear, self._bits, self._sign = None, terms, 0, None
-        return self
+        return _irrational(terms)
 
     @classmethod
     def of_atom(cls, atom: Atom) -> Real:
@@ -225,15 +223,11 @@ class Real(Exact):
             return real(offset + factor * self.rational)
         if not factor:
             return real(offset)
-        if len(self.terms) == 1 and offset:
-            ((atom, c),) = self.terms.items()
-            return Real._form({atom: c * factor, 1: offset})
-        terms = {atom: c * factor for atom, c in self.terms.items()}
-        whole = terms.pop(1, None)
-        whole = offset if whole is None else whole + offset
-        if whole:
-            terms[1] = whole
-        return Real._form(terms)
+        if len(own := self.terms) == 1 and offset:
+            ((atom, c),) = own.items()
+            return _irrational({atom: c * factor, 1: offset})
+        terms = {atom: c * factor for atom, c in own.items()}
+        return _irrational(add_to(terms, {1: offset}) if offset else terms)
 
     def __mul__(self, other: object) -> Real:
         right = other if isinstance(other, Real) else _coerce(other)
@@ -550,6 +544,13 @@ def real(q: fmpq) -> Real:
     """A rational as a Real, without any check: the commonest of all steps."""
     self = object.__new__(Real)
     self.rational, self._linear, self._bits, self._sign = q, None, 0, None
+    return self
+
+
+def _irrational(terms: Mapping[Atom, fmpq]) -> Real:
+    """A form of which an atom is no rational."""
+    self = object.__new__(Real)
+    self.rational, self._linear, self._bits, self._sign = None, terms, 0, None
     return self
 
 

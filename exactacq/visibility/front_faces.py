@@ -280,6 +280,11 @@ class FrontFaces:
             return long_vector(self.offset(event))
         return self.mark(event).long()
 
+    @property
+    def has_rays(self) -> bool:
+        """Whether any ray is known."""
+        return bool(self._rays)
+
     def ray(self, events: Iterable[int]) -> Alignment | None:
         """The known ray that touches one of some events, or None."""
         if not self._rays:

@@ -9,7 +9,6 @@ first in each direction and from which ends are within range.
 from __future__ import annotations
 
 from enum import Enum
-from itertools import repeat
 from typing import cast
 
 from exactacq.geometry.coordinates import dot, minus, raw, sign
@@ -36,8 +35,19 @@ class ViewPiece:
 
     __slots__ = ("_row", "_view")
 
-    def __init__(self, view: BoundaryView, row: OutlinePiece) -> None:
-        self._view, self._row = view, row
+    _row: OutlinePiece
+    _view: BoundaryView
+
+    @classmethod
+    def of(cls, view: BoundaryView, rows: list[OutlinePiece]) -> tuple[ViewPiece, ...]:
+        """The pieces of a view's outline."""
+        # Without a call of its own for each: there are many, and of most little is asked.
+        found, new = [], cls.__new__
+        for row in rows:
+            piece = new(cls)
+            piece._row, piece._view = row, view
+            found.append(piece)
+        return tuple(found)
 
     @property
     def kind(self) -> ViewKind:
@@ -79,7 +89,7 @@ def outline(view: BoundaryView) -> tuple[ViewPiece, ...]:
     """The closed outline of a view, from the east on; empty if the point sees nothing but along a ray."""
     sights = view.sweep.sights
     rows = _rows(view) if len(sights) > 1 else _all_around(view, sights[0].face)
-    return tuple(map(ViewPiece, repeat(view), rows))
+    return ViewPiece.of(view, rows)
 
 
 def _all_around(view: BoundaryView, face: int) -> list[OutlinePiece]:
@@ -159,10 +169,12 @@ def _point(view: BoundaryView, end: int) -> Point:
 
 
 def _curve(view: BoundaryView, row: OutlinePiece) -> Curve:
-    edge, first, last = row.edge, row.start, row.end
+    edge, first, last, vertices = row.edge, row.start, row.end, view.table.starts
     if edge == RANGE and first == HERE:
         return range_circle(view)
-    start, end = _point(view, first), _point(view, last)
+    count = len(vertices)
+    start = vertices[first] if 0 <= first < count else _point(view, first)
+    end = vertices[last] if 0 <= last < count else _point(view, last)
     if edge == RANGE:
         return Arc(start, end, view.point, view.range.square, ccw=True, full=start is end)
     curve = view.table.curves[edge] if edge >= 0 else None

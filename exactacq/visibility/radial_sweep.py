@@ -236,7 +236,7 @@ class RadialSweep:
         """The point of a face in the direction of a rank that it covers."""
         faces, e = self.faces, self.edge(face)
         curve = self.table.curves[e]
-        if (ray := faces.ray(self.events(rank))) is not None:
+        if faces.has_rays and (ray := faces.ray(self.events(rank))) is not None:
             known = ray.met.get(e)
             return _hit(curve, ray.contact, False, ray.direction) if known is None else known
         return _hit(curve, faces.point, e in faces.own, self.direction(rank))

@@ -96,7 +96,12 @@ def of_circle(circle: Arc, disc: Disc) -> list[Span] | None:
 
 
 def crossing(line: Segment, disc: Disc, side: int) -> Point:
-    """Where a segment that certainly does so enters (-1) or leaves (1) a disc; a late point."""
+    """Where a segment that certainly does so enters (-1) or leaves (1) a disc."""
+    return _on_line(line, disc.center, disc.square, side)
+
+
+def late_crossing(line: Segment, disc: Disc, side: int) -> Point:
+    """That point, made when it is looked into."""
     return _Secant(line, disc).crossing(side)
 
 

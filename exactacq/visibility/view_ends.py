@@ -10,7 +10,7 @@ from exactacq.geometry.curves import Segment
 from exactacq.geometry.points import Point
 from exactacq.kernel.view_parts import CROSSING, GIVEN, HERE, HIT, ViewParts
 from exactacq.visibility.radial_sweep import RadialSweep
-from exactacq.visibility.range_clip import Disc, Span, crossing
+from exactacq.visibility.range_clip import Disc, Span, crossing, late_crossing
 
 AT_RANGE = -1
 """In place of the rank of a point's direction."""
@@ -46,7 +46,8 @@ class ViewEnds:
                 assert kind == CROSSING, "points that were given are known"
                 line = sweep.table.curves[sweep.edge(face)]
                 assert isinstance(line, Segment)
-                point, rank = crossing(line, self.disc, rank), AT_RANGE
+                point = (crossing if read else late_crossing)(line, self.disc, rank)
+                rank = AT_RANGE
         self._ranks[end] = rank
         return point
 
