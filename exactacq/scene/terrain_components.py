@@ -19,6 +19,7 @@ from typing import NamedTuple
 from exactacq.errors import InvalidScene
 from exactacq.geometry.boundary_index import BoundaryIndex
 from exactacq.geometry.box_index import box
+from exactacq.geometry.coordinates import raw
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.intersections import contacts
@@ -196,12 +197,15 @@ def sides(terrain: Terrain) -> list[Segment]:
 
 
 def lies_inside(edge: Curve, terrain: Terrain) -> bool:
-    """Whether floats show that an edge lies strictly inside the terrain.
+    """Whether an edge is seen to lie strictly inside the terrain: its ends, or the box of an arc.
 
     Boxes are rounded outward, and compared with the exact limits.
     """
-    left, bottom, right, top = map(rational, box(edge))
     west, south, east, north = terrain.limits
+    if isinstance(edge, Segment):
+        ends = raw(edge.start), raw(edge.end)
+        return all(west < x < east and south < y < north for x, y in ends)
+    left, bottom, right, top = map(rational, box(edge))
     return bool(west < left and south < bottom and right < east and top < north)
 
 

@@ -25,6 +25,7 @@ from flint import fmpq
 
 from exactacq.errors import InvalidScene
 from exactacq.geometry.box_index import BoxIndex, Separator, bounds, united
+from exactacq.geometry.coordinates import cross, raw, sign
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import Contact, ContactKind, contacts
 from exactacq.geometry.loops import winding
@@ -227,6 +228,15 @@ def _is_tiny(edge: Curve) -> bool:
     return (edge.end - edge.start).norm_sq().compare(1 / (LIMIT * LIMIT)) < 0
 
 
+def _meet_in_one(one: Curve, other: Curve) -> bool:
+    """Whether two straight edges have an end in common, and are not on one line."""
+    if not (isinstance(one, Segment) and isinstance(other, Segment)):
+        return False
+    if one.end is not other.start and one.start is not other.end:
+        return False
+    return sign(cross(raw(one.direction), raw(other.direction))) != 0
+
+
 def _is_full(edge: Curve) -> bool:
     return isinstance(edge, Arc) and edge.full
 
@@ -264,6 +274,8 @@ class _Arrangement:
         for i, j in self._candidates():
             a, b = self.owner[i], self.owner[j]
             shared = self._shared(i, j) if a == b else []
+            if shared and _meet_in_one(self.curves[i], self.curves[j]):
+                continue
             for contact in contacts(self.curves[i], self.curves[j]):
                 point = contact.kind is not ContactKind.OVERLAP
                 if point and any(contact.start == vertex for vertex in shared):

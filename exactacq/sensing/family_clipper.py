@@ -26,10 +26,10 @@ TOP = Real(4)
 class RailsAndWay(Sequence[Rail]):
     """Rails by number and one more, that of a way: without a copy, as families of every way keep it."""
 
-    __slots__ = ("_rails", "_way")
+    __slots__ = ("_count", "_rails", "_way")
 
     def __init__(self, rails: Sequence[Rail], way: Rail) -> None:
-        self._rails, self._way = rails, way
+        self._rails, self._way, self._count = rails, way, len(rails)
 
     @overload
     def __getitem__(self, e: int) -> Rail: ...
@@ -38,10 +38,10 @@ class RailsAndWay(Sequence[Rail]):
     def __getitem__(self, e: int | slice) -> Rail | Sequence[Rail]:
         if isinstance(e, slice):
             return [*self._rails, self._way][e]
-        return self._way if e in (-1, len(self._rails)) else self._rails[e]
+        return self._rails[e] if 0 <= e < self._count else self._way
 
     def __len__(self) -> int:
-        return len(self._rails) + 1
+        return self._count + 1
 
 
 class FamilyClipper:

@@ -181,15 +181,15 @@ def swept(
     numbers. *vertex* is that in the sector's centre, if it is known. Unless it *goes_back* nothing is asked
     of what is behind the contact.
     """
-    images = table.images
+    images, (low, high) = table.images, sector.span
     if sector.is_rational:
-        edges = may_be_met(images, edges, sector.image, *sector.span, goes_back)
+        edges = may_be_met(images, edges, sector.image, low, high, goes_back)
     near = NearEdges(images, edges)
     frame = sector.frame(None if vertex == NOTHING else images[vertex].place())
     # The edges through the centre of an arc whose normals go there: all of these pass that point.
     is_inward = frame.kind == SPOKES and frame.sense < 0
     through = table.edges_at(Point(*sector.center)) if is_inward else ()
-    (first, last), (low, high) = ends, sector.span
+    first, last = ends
     sweep = PencilSweep(
         # A tangent of a circle meets none of its arcs but at the contact.
         Surroundings(near, frame, table.on_circle_of(own[0]) if sector.round else own),

@@ -23,6 +23,7 @@ from exactacq.strategies.moves import Passage
 from exactacq.strategies.robot import Robot
 from exactacq.strategies.routes import Route
 from exactacq.strategies.seed_spreader.horizon import Horizon, at_most, reach_begins
+from exactacq.strategies.seed_spreader.hulls import hull, overlap
 from exactacq.strategies.seed_spreader.prediction.decide import sees_later
 from exactacq.strategies.seed_spreader.range_thresholds import first_out_of_reach, is_in_reach
 
@@ -219,7 +220,8 @@ class Line:
 
         def blockers(field: Sequence[float]) -> list[Curve]:
             others = chart.known_in(field, but=(obstacle,))
-            return [*targets, *(part.curve for part in others if part.curve is not None)]
+            near = [curve for curve in targets if overlap(hull(curve), field)]
+            return near + [part.curve for part in others if part.curve is not None]
 
         return sees_later(self.x, start, stop, targets, blockers, self.robot.radius, points, including)
 

@@ -32,7 +32,7 @@ from exactacq.geometry.points import Point, distance_sq
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real, rational
 from exactacq.strategies.seed_spreader.horizon import Horizon
-from exactacq.strategies.seed_spreader.hulls import hull, overlap
+from exactacq.strategies.seed_spreader.hulls import hull
 from exactacq.strategies.seed_spreader.prediction.at_range import ordinates_at_range
 from exactacq.strategies.seed_spreader.prediction.pieces import (
     ANGLE,
@@ -95,7 +95,7 @@ def sees_later(
         return False
     hulls = [hull(curve) for curve in goals] + [(*point.xy, *point.xy) for point in dots]
     field = walk.field(hulls)
-    known = list(unique([*goals, *(c for c in blockers(field) if overlap(hull(c), field))]))
+    known = list(unique([*goals, *blockers(field)]))
     return _Candidates(walk, known, len(list(unique(goals))), dots, field).run()
 
 
