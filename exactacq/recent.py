@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterator
+from itertools import chain
 from typing import Generic, TypeVar
 
 Key = TypeVar("Key", bound=Hashable)
@@ -41,5 +42,4 @@ class Recent(Generic[Key, Answer]):
 
     def items(self) -> Iterator[tuple[Key, Answer]]:
         """All that is kept."""
-        yield from self._before.items()
-        yield from self._of.items()
+        return chain(self._before.items(), self._of.items())

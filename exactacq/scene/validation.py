@@ -25,7 +25,7 @@ from flint import fmpq
 
 from exactacq.errors import InvalidScene
 from exactacq.geometry.box_index import BoxIndex, Separator, bounds, united
-from exactacq.geometry.coordinates import cross, raw, sign
+from exactacq.geometry.coordinates import cross, dot, minus, raw, sign
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import Contact, ContactKind, contacts
 from exactacq.geometry.loops import winding
@@ -36,6 +36,7 @@ from exactacq.scene.shapes import Circle, Shape, Terrain
 
 LIMIT, LIMIT_TEXT = fmpq(10) ** 100, "10^100"
 """Largest coordinate and radius, inverse of the shortest edge: squares of floats must not overflow."""
+LARGEST_SQ, SMALLEST_SQ = LIMIT**2, 1 / LIMIT**2
 LISTED = 50
 """Violations listed one by one; the rest are counted."""
 COUNTED = 5000
@@ -215,9 +216,9 @@ def _size_flaws(loop: ValidatedLoop) -> Iterator[Violation]:
     """What is too large or too small for the float images that prune; exact decisions have no such limit."""
     rule = f"sizes must lie between 1/{LIMIT_TEXT} and {LIMIT_TEXT}"
     for i, edge in enumerate(loop.edges):
-        if abs(edge.start.x) > LIMIT or abs(edge.start.y) > LIMIT:
+        if any(abs(c) > LIMIT for c in raw(edge.start)):
             yield _of(loop, f"vertex {i} lies too far from the origin: {rule}")
-        elif isinstance(edge, Arc) and edge.radius_sq > LIMIT * LIMIT:
+        elif isinstance(edge, Arc) and edge.radius_sq > LARGEST_SQ:
             flaw = f"edge {i} bends too little, its radius is too large: {rule}"
             yield _of(loop, flaw, edge.start)
         elif not _is_point(edge) and not _is_full(edge) and _is_tiny(edge):
@@ -225,7 +226,8 @@ def _size_flaws(loop: ValidatedLoop) -> Iterator[Violation]:
 
 
 def _is_tiny(edge: Curve) -> bool:
-    return (edge.end - edge.start).norm_sq().compare(1 / (LIMIT * LIMIT)) < 0
+    vector = minus(raw(edge.end), raw(edge.start))
+    return bool(dot(vector, vector) < SMALLEST_SQ)
 
 
 def _meet_in_one(one: Curve, other: Curve) -> bool:

@@ -74,11 +74,7 @@ class LinePoints:
                 return contact + direction * foot
             vertex = self._rails[number].curve.start
             for end in (curve.start, curve.end):
-                if (
-                    not touching
-                    and end.rational == vertex.rational
-                    and _is_met(direction, curve, end, side.role)
-                ):
+                if not touching and _is_same(end, vertex) and _is_met(direction, curve, end, side.role):
                     return end
         return None
 
@@ -98,7 +94,7 @@ class LinePoints:
                 return True, (x + dx * foot, y + dy * foot)
             vertex = self._rails[number].curve.start
             for end in (curve.start, curve.end):
-                if not touching and end.rational == vertex.rational:
+                if not touching and _is_same(end, vertex):
                     sense = _sense((dx, dy), curve, end)
                     if not sense:
                         return False, None
@@ -126,6 +122,11 @@ class LinePoints:
             # A line along the edge: where the others meet the edge has a limit. Normals of an arc all pass
             # through its centre. A tangent meets another one half way, by angle, between the two contacts.
             return Point(*sector.center) if isinstance(sector, Spokes) else contact
+
+
+def _is_same(end: Point, vertex: Point) -> bool:
+    """Whether an end of an edge is a vertex: mostly it is the very object, or floats differ."""
+    return end is vertex or (end.xy == vertex.xy and end.rational == vertex.rational)
 
 
 def _in_one_form(contact: Point, direction: Point) -> tuple[Point, Point]:
