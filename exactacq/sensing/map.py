@@ -68,8 +68,8 @@ class Map:
 
     A boundary point is *known* if it was visible from some point of the path so far. An obstacle is *seen* if
     a point of its boundary is known, *acquired* if all of it is, *incomplete* if some but not all of it is.
-    Obstacles are given by their numbers in the run, from 0 (``Run.obstacles``). Linear in the number of known
-    parts; `knows` may raise `Undecided`.
+    Obstacles are given by their numbers in the run, from 0 (``Run.obstacles``); ValueError for any other
+    number. Linear in the number of known parts; `knows` may raise `Undecided`.
 
     >>> import exactacq as xa
     >>> run = xa.sightseer(xa.load("circles"))
@@ -119,7 +119,7 @@ class Map:
         [(0, '2*acos(-17/25)')]
         """
         if i not in self._known:
-            edges = range(len(self.obstacles[i].edges))
+            edges = range(len(self._targets_of(i)))
             self._known[i] = tuple(part for k in edges for part in self._on_edge(i, k))
         return self._known[i]
 
@@ -145,6 +145,7 @@ class Map:
         >>> xa.sightseer(xa.load("squares")).map.spots(0, xa.Point(-9, -9))
         ()
         """
+        self._targets_of(i)
         return self.spots_on(i, point, self.obstacles[i].edges_at(point))
 
     def spots_on(self, i: int, point: Point, edges: Iterable[int]) -> Spots:
@@ -155,7 +156,8 @@ class Map:
         >>> run.map.spots_on(0, xa.Point(7, 0), (0,)) == run.map.spots(0, xa.Point(7, 0))
         True
         """
-        targets = (self._targets.of[i][k] for k in edges)
+        of = self._targets_of(i)
+        targets = (of[k] for k in edges)
         return tuple((target.edge, u) for target in targets for u in self._parameters(target, point))
 
     def _parameters(self, target: Target, point: Point) -> list[Real]:
@@ -236,7 +238,7 @@ class Map:
         (21/5, 2*sqrt(21)/5) (4570733/1100105, 1994094/1100105)
         (21/5, -2*sqrt(21)/5) (6204175/1485497, -2707456/1485497)
         """
-        for target in self._targets.of[i]:
+        for target in self._targets_of(i):
             for part in self._parts(target):
                 little = (part.high - part.low) / CLOSE
                 if little.sign() == 0:
@@ -299,10 +301,18 @@ class Map:
     def _cover(self, e: int) -> Cover:
         return self._covers.get(e, EMPTY)
 
+    def _targets_of(self, i: int) -> Sequence[Target]:
+        """What there is to know of an obstacle, edge by edge."""
+        count = len(self.obstacles)
+        if i not in range(count):
+            raise ValueError(f"no obstacle {i!r}: this map has {count}, numbered from 0")
+        return self._targets.of[i]
+
     def _is_seen(self, i: int) -> bool:
-        return any(self._parts(target) for target in self._targets.of[i])
+        return any(self._parts(target) for target in self._targets_of(i))
 
     def _is_acquired(self, i: int) -> bool:
+        self._targets_of(i)
         return self._targets.is_whole(i, self._covers)
 
     def _is_told_beside(self, i: int, k: int, part: Interval) -> bool:
