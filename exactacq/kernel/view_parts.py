@@ -9,7 +9,7 @@ place itself, and -2 - k the point of the circle of the range in direction k.
 from __future__ import annotations
 
 from math import inf
-from typing import Final, final
+from typing import Any, Final, final
 
 from mypy_extensions import mypyc_attr
 
@@ -49,7 +49,7 @@ class OutlinePiece:
 
     def __init__(self, edge: int, start: int, end: int, near: int, sight: int) -> None:
         self.edge, self.start, self.end, self.near, self.sight = edge, start, end, near, sight
-        self.curve: object | None = None
+        self.curve: Any = None
 
 
 @final

@@ -9,7 +9,6 @@ first in each direction and from which ends are within range.
 from __future__ import annotations
 
 from enum import Enum
-from typing import cast
 
 from exactacq.geometry.coordinates import dot, minus, raw, sign
 from exactacq.geometry.curves import Arc, Curve, Segment
@@ -75,10 +74,10 @@ class ViewPiece:
     @property
     def curve(self) -> Curve:
         """The exact curve; made at the first access."""
-        curve = self._row.curve
+        curve: Curve | None = self._row.curve
         if curve is None:
             curve = self._row.curve = _curve(self._view, self._row)
-        return cast(Curve, curve)
+        return curve
 
     def __repr__(self) -> str:
         seen = "" if self.obstacle is None else f" {self.edge} of {self.obstacle}"

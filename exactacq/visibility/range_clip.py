@@ -190,7 +190,10 @@ def _foot(line: Segment, center: Vector, radius_sq: fmpq) -> tuple[Any, Any, Any
 
 def _on_line(line: Segment, center: Vector, radius_sq: fmpq, side: int) -> Point:
     foot, square, rest = _foot(line, center, radius_sq)
-    return advance(raw(line.start), raw(line.direction), (foot + square_root(rest) * side) / square)
+    half = square_root(rest)
+    is_rational = type(foot) is type(square) is fmpq
+    share = half.affine(side / square, foot / square) if is_rational else (foot + half * side) / square
+    return advance(raw(line.start), raw(line.direction), share)
 
 
 # -- arcs ------------------------------------------------------------------------------------------
