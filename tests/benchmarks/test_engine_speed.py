@@ -8,34 +8,12 @@ prints how far it came, and how fast.
 
 from __future__ import annotations
 
-import json
 import subprocess
 import sys
-from os import environ, pathsep
 from pathlib import Path
 
 import pytest
-
-MEASURE = """
-import json, resource, time
-import exactacq as xa
-from exactacq.files.octagons import random_octagons
-
-def loop():
-    start, total = time.process_time(), 0
-    for k in range(10_000_000):
-        total += k
-    return time.process_time() - start
-
-{make}
-xa.sightseer(random_octagons(2, 1), radius=3)
-before = loop()
-start = time.process_time()
-done = {work}
-spent = time.process_time() - start
-most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-print(json.dumps([2 * spent / (before + loop()), most, str(done)]))
-"""
+from measuring import measured
 
 OCTAGONS = "scene = random_octagons({n}, 1)"
 TERRAIN = """
@@ -149,8 +127,6 @@ WORKS = {
     "random scenes, Seed Spreader": (CAMPAIGN, "judged('seed-spreader', 40)"),
     "sweeps, 30 octagons": (SWEEPS.format(n=30), "swept()"),
 }
-HERE = {"PYTHONPATH": pathsep.join([str(Path(__file__).parent), environ.get("PYTHONPATH", "")])}
-"""The programs import modules beside this one."""
 
 
 @pytest.mark.parametrize("kernel", ["as it is", "python"])
@@ -158,19 +134,10 @@ HERE = {"PYTHONPATH": pathsep.join([str(Path(__file__).parent), environ.get("PYT
 def test_works(benchmark: object, name: str, kernel: str) -> None:
     if benchmark.disabled and (name != "Sightseer, 10 octagons" or kernel == "python"):
         pytest.skip("takes too long for the everyday suite: run with --benchmark-enable")
-    make, work = WORKS[name]
-    program = MEASURE.replace("{make}", make).replace("{work}", work)
     wish = {"EXACTACQ_KERNEL": "python"} if kernel == "python" else {}
-    command = [sys.executable, "-c", program]
-    answer = benchmark.pedantic(
-        subprocess.run,
-        (command,),
-        {"capture_output": True, "check": True, "env": {**environ, **HERE, **wish}},
-        rounds=1,
-    )
-    loops, megabytes, run = json.loads(answer.stdout)
-    print(f"\n{name} (kernel {kernel}): {loops:.1f} loops, {megabytes:.0f} MB; {run}")
-    assert loops > 0
+    found = measured(benchmark, *WORKS[name], wish)
+    print(f"\n{name} (kernel {kernel}): {found.loops:.1f} loops, {found.megabytes:.0f} MB; {found.result}")
+    assert found.loops > 0
 
 
 def test_many_octagons(benchmark: object) -> None:
