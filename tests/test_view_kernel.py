@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
-from math import inf
+from itertools import pairwise
+from math import atan2, inf, pi
 from random import Random
 
 import pytest
@@ -20,6 +21,8 @@ from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.interval_union import Cover
 from exactacq.geometry.points import Location
+from exactacq.kernel.radial_faces import RadialFaces
+from exactacq.kernel.radial_sweep import FaceSweep
 from exactacq.numbers.rationals import rational
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.end_names import Seen
@@ -221,3 +224,22 @@ def test_bounds_hold(seed: int) -> None:
                 start, end = (rail.parameter(point) for point in view.ends.span(part))
                 assert abs(low) == inf or start >= fmpq(*low.as_integer_ratio()), (e, part)
                 assert abs(high) == inf or end <= fmpq(*high.as_integer_ratio()), (e, part)
+
+
+@given(st.lists(st.tuples(st.integers(-9, 9), st.integers(-9, 9)), max_size=60))
+def test_directions_stand_in_the_order_of_their_angles(vectors: list[tuple[int, int]]) -> None:
+    """Each vector once, counterclockwise from the east, and equal directions in one place."""
+    faces = RadialFaces([], (0.0, 0.0, 0.0, 0.0, 0.0), (1.0, 0.0))
+    vectors = [vector for vector in vectors if any(vector)]
+    for number, (x, y) in enumerate(vectors):
+        faces.add_event(number, float(x), float(y), 1e-15)
+    sweep = FaceSweep(faces)
+    for event in sweep.look_up():
+        sweep.put(event, vectors[event.number][1] >= 0)
+    sweep.order()
+    opened = {at: [event.number for event in events] for at, events in sweep.open}
+    groups = [opened.get(at, [lead.number]) for at, lead in enumerate(sweep.leads)]
+    assert sorted(number for group in groups for number in group) == list(range(len(vectors)))
+    angles = [{atan2(*vectors[number][::-1]) % (2 * pi) for number in group} for group in groups]
+    assert all(max(group) - min(group) < 1e-12 for group in angles)
+    assert all(max(one) < min(other) for one, other in pairwise(angles))

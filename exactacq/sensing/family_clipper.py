@@ -38,7 +38,11 @@ class RailsAndWay(Sequence[Rail]):
     def __getitem__(self, e: int | slice) -> Rail | Sequence[Rail]:
         if isinstance(e, slice):
             return [*self._rails, self._way][e]
-        return self._rails[e] if 0 <= e < self._count else self._way
+        if 0 <= e < self._count:
+            return self._rails[e]
+        if e not in (-1, self._count):
+            raise IndexError(f"no rail {e}")
+        return self._way
 
     def __len__(self) -> int:
         return self._count + 1
