@@ -11,7 +11,7 @@ from flint import fmpq
 
 from exactacq.geometry.points import Point
 from exactacq.numbers.rationals import rational_sign
-from exactacq.numbers.real import Real, real
+from exactacq.numbers.real import Real
 
 Vector: TypeAlias = "tuple[Any, Any]"
 """Coordinates, each an fmpq if the Real is rational and the Real itself otherwise."""
@@ -80,4 +80,4 @@ def between(start: Vector, end: Vector, direction: Vector, strict: bool) -> bool
 
 def square_root(square: Any) -> Real:
     """The non-negative square root."""
-    return (real(square) if type(square) is fmpq else Real(square)).sqrt()
+    return Real(square).sqrt()

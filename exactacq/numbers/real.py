@@ -108,7 +108,7 @@ class Real(Exact):
     _linear: Mapping[Atom, fmpq] | None
 
     def __new__(cls, value: object = 0) -> Real:
-        return value if isinstance(value, Real) else real(rational(value))
+        return value if isinstance(value, Real) else real(value if type(value) is fmpq else rational(value))
 
     @classmethod
     def _form(cls, terms: Mapping[Atom, fmpq]) -> Real:

@@ -119,7 +119,7 @@ class Map:
         [(0, '2*acos(-17/25)')]
         """
         if i not in self._known:
-            edges = range(len(self._targets_of(i)))
+            edges = range(len(self._body(i).edges))
             self._known[i] = tuple(part for k in edges for part in self._on_edge(i, k))
         return self._known[i]
 
@@ -145,8 +145,7 @@ class Map:
         >>> xa.sightseer(xa.load("squares")).map.spots(0, xa.Point(-9, -9))
         ()
         """
-        self._targets_of(i)
-        return self.spots_on(i, point, self.obstacles[i].edges_at(point))
+        return self.spots_on(i, point, self._body(i).edges_at(point))
 
     def spots_on(self, i: int, point: Point, edges: Iterable[int]) -> Spots:
         """Where a point lies that is known to be on some edges of obstacle i, as `spots` tells it.
@@ -156,8 +155,7 @@ class Map:
         >>> run.map.spots_on(0, xa.Point(7, 0), (0,)) == run.map.spots(0, xa.Point(7, 0))
         True
         """
-        of = self._targets_of(i)
-        targets = (of[k] for k in edges)
+        targets = (self._targets.of[self._checked(i)][k] for k in edges)
         return tuple((target.edge, u) for target in targets for u in self._parameters(target, point))
 
     def _parameters(self, target: Target, point: Point) -> list[Real]:
@@ -238,7 +236,7 @@ class Map:
         (21/5, 2*sqrt(21)/5) (4570733/1100105, 1994094/1100105)
         (21/5, -2*sqrt(21)/5) (6204175/1485497, -2707456/1485497)
         """
-        for target in self._targets_of(i):
+        for target in self._targets.of[self._checked(i)]:
             for part in self._parts(target):
                 little = (part.high - part.low) / CLOSE
                 if little.sign() == 0:
@@ -301,19 +299,21 @@ class Map:
     def _cover(self, e: int) -> Cover:
         return self._covers.get(e, EMPTY)
 
-    def _targets_of(self, i: int) -> Sequence[Target]:
-        """What there is to know of an obstacle, edge by edge."""
+    def _checked(self, i: int) -> int:
+        """A number that an obstacle has."""
         count = len(self.obstacles)
         if i not in range(count):
             raise ValueError(f"no obstacle {i!r}: this map has {count}, numbered from 0")
-        return self._targets.of[i]
+        return i
+
+    def _body(self, i: int) -> Body:
+        return self.obstacles[self._checked(i)]
 
     def _is_seen(self, i: int) -> bool:
-        return any(self._parts(target) for target in self._targets_of(i))
+        return any(self._parts(target) for target in self._targets.of[self._checked(i)])
 
     def _is_acquired(self, i: int) -> bool:
-        self._targets_of(i)
-        return self._targets.is_whole(i, self._covers)
+        return self._targets.is_whole(self._checked(i), self._covers)
 
     def _is_told_beside(self, i: int, k: int, part: Interval) -> bool:
         """Whether a known point of an edge is a corner of which another edge tells.

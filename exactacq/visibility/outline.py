@@ -171,6 +171,7 @@ def _curve(view: BoundaryView, row: OutlinePiece) -> Curve:
     edge, first, last, vertices = row.edge, row.start, row.end, view.table.starts
     if edge == RANGE and first == HERE:
         return range_circle(view)
+    # Most ends are vertices.
     count = len(vertices)
     start = vertices[first] if 0 <= first < count else _point(view, first)
     end = vertices[last] if 0 <= last < count else _point(view, last)
