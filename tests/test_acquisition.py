@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import ChainMap
 from fractions import Fraction
 from random import Random
 
@@ -15,9 +16,11 @@ from exactacq import Point, Real
 from exactacq.files.octagons import random_octagons
 from exactacq.geometry.box_index import box
 from exactacq.geometry.curves import Arc
+from exactacq.geometry.interval_union import Cover
 from exactacq.geometry.late import late_point
 from exactacq.numbers.rationals import ends
 from exactacq.sensing.acquisition import Acquisition, Place, between, clusters, distance_bounds
+from exactacq.sensing.leg_views import Shares
 
 NEAR = fmpq(1, 2**40)
 """So much before and after the place the obstacle is asked about."""
@@ -27,21 +30,29 @@ NEAR = fmpq(1, 2**40)
 def told(monkeypatch: pytest.MonkeyPatch) -> list[tuple[bool | None, bool | None]]:
     """For every acquisition inside a leg whether the obstacle is whole just before and just after it."""
     found: list[tuple[bool | None, bool | None]] = []
-    plain = Acquisition.place
+    begun, plain = Acquisition.__init__, Acquisition.place
+    # The acquisition itself looks only at what may be the last.
+    everything: list[Shares] = []
+
+    def begin(self: Acquisition, shares: Shares, k: int, before: ChainMap[int, Cover]) -> None:
+        everything[:] = [shares]
+        begun(self, shares, k, before)
 
     def checked(self: Acquisition) -> Place:
         u, place = plain(self)
+        (shares,) = everything
         leg, (low, high) = self.shares.leg, u.enclosure(80)
         step = NEAR if leg.ahead else -NEAR
         before, after = (low - step, high + step) if leg.ahead else (high - step, low + step)
         whole: list[bool | None] = [None, None]
         for k, (v, bound, side) in enumerate(((before, leg.first, 1), (after, leg.last, -1))):
             if leg.order(Real(v), bound) == side:
-                known = self.shares.cut(leg.upto(Real(v), leg.rail.point(v)), {self.k}).taught(self.before)
-                whole[k] = self.shares.targets.is_whole(self.k, {**self.before, **known})
+                known = shares.cut(leg.upto(Real(v), leg.rail.point(v)), {self.k}).taught(self.before)
+                whole[k] = shares.targets.is_whole(self.k, {**self.before, **known})
         found.append((whole[0], whole[1]))
         return u, place
 
+    monkeypatch.setattr(Acquisition, "__init__", begin)
     monkeypatch.setattr(Acquisition, "place", checked)
     return found
 

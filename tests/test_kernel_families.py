@@ -13,10 +13,14 @@ from nightly import some
 from strategies import arc_terrain, degenerate_terrain
 
 import exactacq as xa
-from exactacq.kernel.choice import LegSpan, Source, mattering
+from exactacq.geometry.curve_images import curve_image
+from exactacq.geometry.curves import Segment
+from exactacq.kernel.choice import Source, mattering
 from exactacq.kernel.extents import EVERYTHING, Extent, Span
 from exactacq.kernel.family_images import NONE
 from exactacq.kernel.images import ROLLING
+from exactacq.kernel.leg_spans import LegSpan
+from exactacq.kernel.whole_edges import last_shown
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.complex_edges import FamilySweeper
 from exactacq.sensing.line_family import single_of
@@ -77,6 +81,8 @@ BLUR = 1 / 1024
 NEARBY = [Q(0), Q(0), Q(0), Q(1, 4096)]
 """Most places are equal or far apart, and some are so close that floats do not part them."""
 LEG = Q(0), Q(1)
+SEGMENT = curve_image(Segment(xa.Point(0, 0), xa.Point(1, 0)))
+"""The curve of a leg where that does not matter."""
 Exact = tuple[Q, Q]
 
 
@@ -115,6 +121,8 @@ class Planted:
         if self.source[0] == self.source[1]:
             surely, told, keys = (inf, -inf), (inf, -inf), [[-rng.randrange(1, 10**9)]] * 2
         shown = blurred((c, d), width)
+        if rng.random() < 0.8:
+            shown, told = (extended(span, (c, d)) for span in (shown, told))
         one = Extent(self.edge, shown, outer, surely, *keys, None, 0, 1, rng.random() < 0.9, told)
         one.in_range = self.sure
         return one
@@ -125,12 +133,19 @@ def blurred(span: Exact, outward: int) -> Span:
     return float(span[0]) - outward * BLUR, float(span[1]) + outward * BLUR
 
 
+def extended(span: Span, exact: Exact) -> Span:
+    """Bounds of an interval of an edge from 0 to 1, where it is known that it ends where the edge does."""
+    if span[0] > span[1]:
+        return span
+    return -inf if exact[0] == 0 else span[0], inf if exact[1] == 1 else span[1]
+
+
 def planted(rng: Random) -> Iterator[Planted]:
     """Families at a leg from 0 to 1, some of them seen from beyond, with many places in common."""
     for _ in range(rng.randint(1, 12)):
         a = Q(rng.randrange(-2, 9), 8) + rng.choice(NEARBY)
         b = a + Q(rng.randrange(1, 6), 8) + rng.choice(NEARBY)
-        c, d = (Q(rng.randrange(9), 8) + rng.choice(NEARBY) for _ in range(2))
+        c, d = (min(Q(rng.randrange(9), 8) + rng.choice(NEARBY), Q(1)) for _ in range(2))
         sure = rng.random() < 0.8
         if rng.random() < 0.2:
             yield Planted(
@@ -159,16 +174,22 @@ def test_what_is_left_out_changes_nothing(seed: int) -> None:
     And an obstacle is in sight where one that matters shows it, or where it surely is, and nowhere else.
     """
     rng = Random(seed)
-    some = list(planted(rng))
+    some = [*planted(rng), *planted(rng)]
     extents = [one.extent(rng) for one in some]
     some_known = [[], [(Q(-1), Q(2))], [(Q(rng.randrange(4), 8), Q(rng.randrange(4, 9), 8))]]
     known = {e: rng.choice(some_known) for e in (0, 1)}
     owners = {0: [(0, True)], 1: [(0, True), (1, False)]}
     ahead = rng.random() < 0.5
     leg = LegSpan((-BLUR, BLUR), (1 - BLUR, 1 + BLUR))
-    inside = {e: [blurred(span, -1) for span in spans] for e, spans in known.items()}
-    numbers, groups = mattering(extents, leg, owners, {0, 1}, set(), inside, ahead)
+    inside = {e: [extended(blurred(span, -1), span) for span in spans] for e, spans in known.items()}
+    numbers, groups, spared = mattering(extents, leg, owners, {0, 1}, set(), inside, ahead)
     assert all(n in numbers for n, one in enumerate(extents) if not one.is_known and one.edge in owners)
+    # What is spared may matter for the time: with it nothing is left out.
+    in_time = {*numbers, *(n for _, kept in spared for n in kept)}
+    for e, _ in spared:
+        assert e == 0, "of edge 1 only a part counts for obstacle 1"
+        told = [one.told_within(*LEG) for one in some if one.edge == e]
+        assert covers(united([*known[e], *told]), (Q(0), Q(1)))
     assert not any(some[n].edge == 2 for n in numbers)
     # Of edge 1 only a part counts for obstacle 1: floats do not tell that it is this which is seen.
     assert not any(owner == 1 for owner, *_ in groups)
@@ -177,7 +198,7 @@ def test_what_is_left_out_changes_nothing(seed: int) -> None:
         for e in (0, 1):
             shown = [(n, one.told_within(*part)) for n, one in enumerate(some) if one.edge == e]
             everything = united([*known[e], *(span for _, span in shown)])
-            assert united([*known[e], *(span for n, span in shown if n in numbers)]) == everything
+            assert united([*known[e], *(span for n, span in shown if n in in_time)]) == everything
     for k in (0, 1):
         of_k = [n for n, one in enumerate(some) if k in [owner for owner, _ in owners.get(one.edge, [])]]
         times = {n: clipped(some[n].part) for n in of_k}
@@ -185,6 +206,75 @@ def test_what_is_left_out_changes_nothing(seed: int) -> None:
         inner = [time for time in united(list(times.values())) if LEG[0] < time[1] and time[0] < LEG[1]]
         chosen = united([*sure, *(times[n] for n in of_k if n in numbers)])
         assert [time for time in chosen if LEG[0] < time[1] and time[0] < LEG[1]] == inner
+
+
+@pytest.mark.parametrize("seed", some(range(400), 130))
+def test_when_an_edge_is_known_all_over(seed: int) -> None:
+    """At the latest moment that floats tell for some edges, each of them is known all over."""
+    rng = Random(seed)
+    families = [*planted(rng), *planted(rng)]
+    extents = [one.extent(rng) for one in families]
+    leg = LegSpan((-BLUR, BLUR), (1 - BLUR, 1 + BLUR))
+    known = {e: [(Q(0), Q(rng.randrange(8), 8))] for e in range(3)}
+    inside = {e: [extended(blurred(span, -1), span) for span in spans] for e, spans in known.items()}
+    ahead = rng.random() < 0.5
+    found, (low, high) = last_shown([0, 1, 2], extents, leg, inside, ahead, SEGMENT, [])
+    assert found == [0, 1, 2] and (low if ahead else -high) == -inf
+    for e in range(3):
+        (edge,), (low, high) = last_shown([e], extents, leg, inside, ahead, SEGMENT, [])
+        place = high if ahead else low
+        if abs(place) < inf:
+            part = (Q(0), Q(place)) if ahead else (Q(place), Q(1))
+            told = [one.told_within(*part) for one in families if one.edge == edge]
+            assert covers(united([*known[e], *told]), (Q(0), Q(1)))
+
+
+def test_some_edges_are_known_all_over() -> None:
+    """The laws above speak of cases that there are."""
+    spared, timed = 0, 0
+    for seed in range(130):
+        rng = Random(seed)
+        extents = [one.extent(rng) for _ in range(3) for one in planted(rng)]
+        leg = LegSpan((-BLUR, BLUR), (1 - BLUR, 1 + BLUR))
+        spared += len(mattering(extents, leg, {0: [(0, True)]}, {0}, set(), {}, True)[2])
+        timed += last_shown([0], extents, leg, {}, True, SEGMENT, [])[1][1] < inf
+    assert spared > 5 and timed > 5, (spared, timed)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_before_an_edge_is_in_front_it_is_behind(seed: int) -> None:
+    """Before the earliest moment all of a straight leg lies strictly on the closed side of the edge."""
+    rng = Random(seed)
+    told = 0
+    for _ in range(60):
+        far = rng.choice([0, 0, 10**6])
+        (ax, ay), (bx, by), (px, py), (qx, qy) = (
+            (far + Q(rng.randrange(-9, 10), 7) + rng.choice(NEARBY), Q(rng.randrange(-9, 10), 7))
+            for _ in range(4)
+        )
+        if (ax, ay) == (bx, by) or (px, py) == (qx, qy):
+            continue
+        leg, edge = (
+            curve_image(Segment(xa.Point(*one), xa.Point(*other)))
+            for one, other in (((ax, ay), (bx, by)), ((px, py), (qx, qy)))
+        )
+        ahead = rng.random() < 0.5
+        _, (low, high) = last_shown([0], [], LegSpan((0.0, 0.0), (1.0, 1.0)), {}, ahead, leg, [edge])
+        bound = Q(low if ahead else high) if abs(low if ahead else high) < inf else None
+        heights = [(qx - px) * (y - py) - (qy - py) * (x - px) for x, y in ((ax, ay), (bx, by))]
+        if bound is None:
+            continue
+        told += 1
+        # Heights are linear along the leg: left of the edge, in its obstacle, they are positive.
+        at = heights[0] + (heights[1] - heights[0]) * bound
+        slope = (heights[1] - heights[0]) * (1 if ahead else -1)
+        assert slope < 0 and at >= 0
+    assert told > 5
+
+
+def covers(spans: list[Exact], whole: Exact) -> bool:
+    """Whether one of some separate intervals contains another one."""
+    return any(low <= whole[0] and whole[1] <= high for low, high in spans)
 
 
 def sure_interval(some: list[Planted], first: Source, last: Source) -> Exact:

@@ -16,11 +16,11 @@ from strategies import arc_terrain, build, circle_grid, degenerate_terrain, rand
 import exactacq as xa
 from exactacq import kernel
 from exactacq.files.octagons import random_octagons
-from exactacq.kernel.choice import LegSpan
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.family_images import AHEAD, BEHIND, CONTACT, NONE, EndLine, FamilyImage
 from exactacq.kernel.images import SLIDING, TURNING
 from exactacq.kernel.leg_changes import BEGINS, BOTH_SHORT, ENDS, TURNS, LegChanges, Sight
+from exactacq.kernel.leg_spans import LegSpan
 from exactacq.kernel.range_cuts import range_cut
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.leg_views import Shares

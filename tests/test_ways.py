@@ -66,7 +66,7 @@ def test_lines_that_cross_a_way_are_found(seed: int) -> None:
     """Each that does is found, with its place; one that is far from doing so is not."""
     rng = Random(seed)
     far = rng.choice([0, 0, 10**6, 10**12])
-    left_out = crossing = 0
+    left_out = crossing = whole = 0
     for _ in range(60):
         points = [place(rng, far) for _ in range(4)]
         line, way = (points[0], points[1]), (points[2], points[3])
@@ -80,14 +80,23 @@ def test_lines_that_cross_a_way_are_found(seed: int) -> None:
         shown = curve_image(segments[0])
         ends, run = (spot(line[0]), spot(line[1])), rng.choice([None, shown])
         single = SingleImage((NONE, 0), (EVERYTHING, EVERYTHING), *ends, run, [], None, (0, 0, 0))
-        found = extents_of_crossing_lines([[single]], {0}, image, [shown])
+        radius = rng.choice([Q(2), Q(5), Q(20)])
+        found = extents_of_crossing_lines([[single]], {0}, image, [shown], float(radius))
         exact = met(line, way)
         if exact is not None:
             (one,) = found
             assert one.origin is single and one.source[0] <= exact[1] <= one.source[1]
             crossing += 1
         left_out += not found
+        if found and found[0].told == EVERYTHING:
+            assert exact is not None and run is not None
+            (ax, ay), (bx, by) = way
+            x, y = ax + (bx - ax) * exact[1], ay + (by - ay) * exact[1]
+            # The run is the segment of the line itself here.
+            assert all((px - x) ** 2 + (py - y) ** 2 < radius**2 for px, py in line)
+            whole += 1
     assert crossing >= 5 and (left_out >= 5 or far == 10**12)
+    assert whole >= 1 or far
 
 
 @pytest.mark.parametrize("seed", range(8))

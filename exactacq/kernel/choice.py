@@ -6,42 +6,15 @@ into sight or goes out of it.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from math import inf
 from typing import Final, final
 
-from mypy_extensions import mypyc_attr
-
 from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent, Span
+from exactacq.kernel.leg_spans import Known, LegSpan, is_covered
+from exactacq.kernel.whole_edges import is_shown_whole
 
 NOBODY: Final[list[tuple[int, bool]]] = []
-Known = Mapping[int, Sequence[Span]]
-"""What is known of edges, by their numbers, rounded inward."""
-
-
-@mypyc_attr(acyclic=True)
-@final
-class LegSpan:
-    """A leg, by bounds of the parameters of both its ends."""
-
-    def __init__(self, low: Span, high: Span) -> None:
-        self.low, self.high = low, high
-
-    def outer(self, source: Span) -> Span:
-        """What of an interval may lie in the leg; the ends of the leg are infinite."""
-        low, high = source
-        if high < self.low[0] or low > self.high[1]:
-            return NOTHING
-        if high == -inf or low == inf:
-            return source
-        return -inf if low <= self.low[1] else low, inf if high >= self.high[0] else high
-
-    def inner(self, surely: Span) -> Span:
-        """What of an interval, rounded inward, surely lies in the leg; ends as above."""
-        first, last = surely
-        if first > last or last < self.low[1] or first > self.high[0]:
-            return NOTHING
-        return -inf if first <= self.low[0] else first, inf if last >= self.high[1] else last
 
 
 @final
@@ -59,6 +32,9 @@ class Source:
 Group = tuple[int, Source, Source]
 """An obstacle, and of families that show it from connected places, surely and in range, the one that begins
 first and the one that ends last."""
+Spared = tuple[int, list[int]]
+"""An edge that surely is known all over at the end of a leg, and families that show when what of it becomes
+known."""
 
 
 def mattering(
@@ -69,12 +45,13 @@ def mattering(
     along: set[int],
     known: Known,
     ahead: bool,
-) -> tuple[list[int], list[Group]]:
+) -> tuple[list[int], list[Group], list[Spared]]:
     """Which of some families matter on a leg, by their numbers, and from where obstacles surely are seen.
 
     *owners* are the obstacles that edges count for, and whether all of the edge does. The leg lies on the
     boundaries of the obstacles *along*, which are in sight anyway. The robot walks it *ahead*, from its low
-    end, or back.
+    end, or back. Of edges that surely are known all over at its end it is told which families matter for when
+    what of them is shown; they are not among those that matter at all.
     """
     chosen = [False] * len(extents)
     sources: dict[int, list[Source]] = {}
@@ -113,9 +90,15 @@ def mattering(
                 sources[k].append(
                     Source(n, outer, surely if whole else NOTHING, one, whole and is_single and one.in_range)
                 )
+    spared: list[Spared] = []
     for e, numbers in news.items():
-        for n in _untold([extents[m] for m in numbers], span, known.get(e), ahead):
-            chosen[numbers[n]] = True
+        new = [extents[m] for m in numbers]
+        untold = [numbers[n] for n in _untold(new, span, known.get(e), ahead)]
+        if all(whole for _, whole in owners[e]) and is_shown_whole(new, span, known.get(e)):
+            spared.append((e, untold))
+            continue
+        for n in untold:
+            chosen[n] = True
     groups: list[Group] = []
     for k, some in sources.items():
         found = [SightGroup(group) for group in _joined([s for s in some if s.surely[0] <= s.surely[1]])]
@@ -127,7 +110,7 @@ def mattering(
                     groups.append((k, source, source))
                 else:
                     chosen[source.number] = True
-    return [n for n in range(len(extents)) if chosen[n]], groups
+    return [n for n in range(len(extents)) if chosen[n]], groups, spared
 
 
 def _extreme_views(extents: list[Extent]) -> set[tuple[int, int]]:
@@ -185,10 +168,7 @@ def _untold(some: list[Extent], span: LegSpan, known: Sequence[Span] | None, ahe
     whole = [
         one
         for one in some
-        if one.told[0] <= one.told[1]
-        and one.surely[0] < one.surely[1]
-        and span.low[1] <= one.source[0]
-        and one.source[1] <= span.high[0]
+        if one.told[0] <= one.told[1] and one.surely[0] < one.surely[1] and span.contains(one.source)
     ]
     found: list[int] = []
     for n in range(len(some)):
@@ -196,7 +176,7 @@ def _untold(some: list[Extent], span: LegSpan, known: Sequence[Span] | None, ahe
         spans = [
             other.told for other in whole if (_is_before(other, one) if ahead else _is_before(one, other))
         ]
-        if not spans or not _is_covered(one.shown, spans if known is None else [*spans, *known]):
+        if not spans or not is_covered(one.shown, spans if known is None else [*spans, *known]):
             found.append(n)
     return found
 
@@ -210,18 +190,6 @@ def _is_before(one: Extent, other: Extent) -> bool:
         and other.surely[0] <= other.surely[1]
         and _have_common(one.last_keys, other.first_keys)
     )
-
-
-def _is_covered(shown: Span, spans: list[Span]) -> bool:
-    """Whether intervals together contain all of one."""
-    low, high = shown
-    for a, b in sorted(spans):
-        if a > low:
-            return False
-        if b >= high:
-            return True
-        low = max(low, b)
-    return False
 
 
 @final

@@ -13,11 +13,11 @@ from typing import Final, final
 from mypy_extensions import mypyc_attr
 
 from exactacq.kernel.bounded import TINY, UNIT, cross, length, product, total
-from exactacq.kernel.choice import LegSpan
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import Extent, Span, extent, views_in_range
 from exactacq.kernel.family_images import AHEAD, BEHIND, CONTACT, NONE, FamilyImage
 from exactacq.kernel.images import ROLLING, SLIDING, TURNING
+from exactacq.kernel.leg_spans import LegSpan
 from exactacq.kernel.line_keys import key_of_corners, key_of_normal
 from exactacq.kernel.lines import Line, meets_straight
 from exactacq.kernel.range_cuts import range_cut

@@ -124,6 +124,12 @@ def reaches(line: Line, curve: CurveImage, side: int) -> tuple[float, float, flo
     return far, fe, cot, cot_bound
 
 
+def line_along(segment: CurveImage) -> Line:
+    """The line of a segment."""
+    x, y, dx, dy = segment.x, segment.y, segment.wx, segment.wy
+    return x, y, dx, dy, UNIT * max(abs(x), abs(y)) + TINY, UNIT * max(abs(dx), abs(dy)) + TINY
+
+
 def meets_straight(line: Line, segment: CurveImage) -> Meeting:
     """Where a line meets a segment's line."""
     x, y, dx, dy, ce, de = line

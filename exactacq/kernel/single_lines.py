@@ -5,10 +5,10 @@ from __future__ import annotations
 from math import inf
 from typing import final
 
-from exactacq.kernel.bounded import TINY, UNIT, WIDEN, length, product, quotient, total
+from exactacq.kernel.bounded import UNIT, WIDEN, length, product, quotient, total
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent, Span, view_keys
-from exactacq.kernel.lines import Line, meets_straight, side_of
+from exactacq.kernel.lines import Line, line_along, meets_straight, side_of
 from exactacq.kernel.ways import WayImage
 
 Spot = tuple[float, float, float]
@@ -49,23 +49,21 @@ class SingleImage:
         """1 or -1 if a place is certainly left or right of the line, else 0."""
         return side_of(self.line, x, y, error, 0.0)
 
-    def is_shorter_than(self, least: float) -> bool:
-        """Whether the view is certainly shorter than that; from all of a segment along its own line."""
+    def is_shorter_than(self, least: float, place: Spot) -> bool:
+        """Whether the view from a place of the line is certainly shorter than that, to all of the run."""
         if self.is_point:
-            return self._is_near(self.near, least)
+            return _is_nearer(place, self.near, least)
         x, y, dx, dy, p, q = self.line
         start: Spot = x, y, p
         dx, p = total(x, p, dx, q)
         dy, q = total(y, p, dy, q)
         stop: Spot = dx, dy, max(p, q)
-        return self._is_near(start, least) and self._is_near(stop, least)
+        return _is_nearer(place, start, least) and _is_nearer(place, stop, least)
 
-    def _is_near(self, spot: Spot, least: float) -> bool:
-        """Whether the place is certainly nearer to another than that."""
-        x, p = total(spot[0], spot[2], -self.place[0], self.place[2])
-        y, q = total(spot[1], spot[2], -self.place[1], self.place[2])
-        size, bound = length(x, y, max(p, q))
-        return size + bound * WIDEN < least * (1.0 - UNIT)
+    @property
+    def shows_edge(self) -> bool:
+        """Whether all of an edge is shown, from wherever the line is in range."""
+        return not self.is_point and self.seen == EVERYTHING
 
     def extent(self, leg: CurveImage, curves: list[CurveImage], is_back: bool) -> Extent:
         """What is shown at most, and from where on a *leg*: of the run, or of the place if that *is_back*.
@@ -79,17 +77,19 @@ class SingleImage:
         return Extent(edge, seen, source, NOTHING, keys, keys, self, int(is_back), int(not is_back), True)
 
 
+def _is_nearer(one: Spot, other: Spot, least: float) -> bool:
+    """Whether two places certainly are nearer to each other than that."""
+    x, p = total(other[0], other[2], -one[0], one[2])
+    y, q = total(other[1], other[2], -one[1], one[2])
+    size, bound = length(x, y, max(p, q))
+    return size + bound * WIDEN < least * (1.0 - UNIT)
+
+
 def _line_through(place: Spot, near: Spot) -> Line:
     """The line from a place to another."""
     x, p = total(near[0], near[2], -place[0], place[2])
     y, q = total(near[1], near[2], -place[1], place[2])
     return place[0], place[1], x, y, place[2], max(p, q)
-
-
-def line_along(segment: CurveImage) -> Line:
-    """The line of a segment."""
-    x, y, dx, dy = segment.x, segment.y, segment.wx, segment.wy
-    return x, y, dx, dy, UNIT * max(abs(x), abs(y)) + TINY, UNIT * max(abs(dx), abs(dy)) + TINY
 
 
 def place_beyond(near: Spot, segment: CurveImage, sense: int, reach: tuple[float, float]) -> Spot:
@@ -142,25 +142,32 @@ def extents_of_lines(
         if some is None:
             continue
         for one in some:
-            is_near = one.is_shorter_than(least)
+            is_near = one.is_shorter_than(least, one.place)
             if one.edge == edge:
                 found.append(one.extent(leg, curves, False))
                 found[-1].in_range = is_near
+                if is_near and one.shows_edge:
+                    found[-1].told = EVERYTHING
             if one.shown == edge:
                 back = one.extent(leg, curves, True)
                 back.in_range = is_near
-                if is_near and not one.is_point and one.seen == EVERYTHING:
+                if is_near and one.shows_edge:
                     back.surely = EVERYTHING
                 found.append(back)
     return found
 
 
 def extents_of_crossing_lines(
-    groups: list[list[SingleImage]], wanted: set[int], way: WayImage, curves: list[CurveImage]
+    groups: list[list[SingleImage]],
+    wanted: set[int],
+    way: WayImage,
+    curves: list[CurveImage],
+    least: float,
 ) -> list[Extent]:
     """What lines that may cross a way between their two points show of *wanted* edges from it.
 
-    Others leave the whole way on one side, or have both their points on one side of it.
+    Others leave the whole way on one side, or have both their points on one side of it. *least* bounds the
+    range from below.
     """
     ax, ay, bx, by, error = way.ends
     across = line_along(way.line)
@@ -169,24 +176,26 @@ def extents_of_crossing_lines(
         for one in group:
             if one.shown not in wanted:
                 continue
-            side = one.side(ax, ay, error)
-            if side and side == one.side(bx, by, error):
+            side, other = one.side(ax, ay, error), one.side(bx, by, error)
+            if side and side == other:
                 continue
             px, py, p = one.place
             qx, qy, q = one.near
-            side = side_of(across, px, py, p, 0.0)
-            if side and side == side_of(across, qx, qy, q, 0.0):
+            there, beyond = side_of(across, px, py, p, 0.0), side_of(across, qx, qy, q, 0.0)
+            if there and there == beyond:
                 continue
             extent = one.extent(way.line, curves, False)
-            extent.source = _crossing(one, way)
+            is_crossed = side != 0 and other != 0 and there != 0 and beyond != 0
+            _, _, u, bound, x, y, e = meets_straight(one.line, way.line)
+            end = way.end_of([], one.keys)
+            if end:
+                extent.source = end, end
+            elif bound < inf:
+                extent.source = u - bound, u + bound
+                spot: Spot = x, y, e
+                if is_crossed and one.shows_edge and one.is_shorter_than(least, spot):
+                    extent.told = EVERYTHING
+            else:
+                extent.source = EVERYTHING
             found.append(extent)
     return found
-
-
-def _crossing(one: SingleImage, way: WayImage) -> Span:
-    """Where a line crosses a way."""
-    end = way.end_of([], one.keys)
-    if end:
-        return end, end
-    _, _, u, bound, _, _, _ = meets_straight(one.line, way.line)
-    return (u - bound, u + bound) if bound < inf else EVERYTHING

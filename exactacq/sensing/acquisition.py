@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections import ChainMap
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from math import hypot
+from math import hypot, inf
 from typing import TypeAlias
 
 from flint import fmpq
@@ -45,7 +45,10 @@ class Acquisition:
     """Obstacle *k*, which is whole after a leg; *before* is known at its start, with the view from there."""
 
     def __init__(self, shares: Shares, k: int, before: ChainMap[int, Cover]) -> None:
-        self.shares, self.k, self.before = shares.teaching(k, before), k, before
+        # Others than those edges are known all over before the first place that counts.
+        edges, (self._low, self._high) = shares.last_shown(k, before)
+        self.shares, self.k, self.before = shares.teaching(k, before, edges), k, before
+        self._targets = [target for target in self.shares.targets.of[k] if target.edge in edges]
 
     def place(self) -> Place:
         """The first place at which the obstacle is whole."""
@@ -56,7 +59,7 @@ class Acquisition:
         for _ in range(2):
             groups = self._moments(stretch)
             cluster, stretch = self._closing(groups, stretch)
-            if len(groups) == 1:
+            if len(groups) == 1 or self._is_untaught(stretch.known):
                 break
         # What balls cannot part is compared here, and only here; with an end of the leg too if it is close.
         here = [u for u, _ in cluster]
@@ -80,12 +83,23 @@ class Acquisition:
             middle = (low + high) // 2
             u = between(clusters[middle], clusters[middle + 1])
             here = Real(u), leg.rail.point(u)
-            partly = self._partly_known(leg.upto(*here))
+            partly = None if self._is_late(u) else self._partly_known(leg.upto(*here))
             if partly is None:
                 high, end = middle, here
             else:
                 low, begin, known = middle + 1, here, partly
         return clusters[low], Meanwhile(leg.between(begin, end), known)
+
+    def _is_late(self, u: fmpq) -> bool:
+        """Whether bounds tell that the obstacle is whole before a place."""
+        if self.shares.leg.ahead:
+            return self._high < inf and u > as_fraction(self._high)
+        return self._low > -inf and u < as_fraction(self._low)
+
+    def _is_untaught(self, known: ChainMap[int, Cover]) -> bool:
+        """Whether no more is known than at the start of the leg: then no gap has moved."""
+        edges = [target.edge for target in self._targets]
+        return all(known.get(e) is self.before.get(e) for e in edges)
 
     def _partly_known(self, part: Leg) -> ChainMap[int, Cover] | None:
         """What is known after the beginning of the leg; None if the obstacle is whole there.
@@ -101,7 +115,7 @@ class Acquisition:
         return None if self._is_whole(known) else known
 
     def _is_whole(self, covers: ChainMap[int, Cover]) -> bool:
-        return self.shares.targets.is_whole(self.k, covers)
+        return all(target.is_in(covers.get(target.edge, EMPTY)) for target in self._targets)
 
     def _moments(self, stretch: Meanwhile) -> list[list[Place]]:
         """The places of a stretch, in its order, at one of which the last gap closes; in clusters.
@@ -118,7 +132,7 @@ class Acquisition:
         for _, part in shares.ends.get(k, ()):
             found += [(part.low, part.start), (part.high, part.end)]
         corners: set[int] = set()
-        for e, span, _ in shares.targets.of[k]:
+        for e, span, _ in self._targets:
             for gap in stretch.known.get(e, EMPTY).gaps(span):
                 for u, point in ((gap.low, gap.start), (gap.high, gap.end)):
                     found += shares.reaching(k, e, u, point)
@@ -141,7 +155,18 @@ class Acquisition:
             inside = inside[1:]
         if len(inside) > 1 and len(inside[-1]) == 1 and leg.last is not shares.leg.last:
             inside = inside[:-1]
-        return inside
+        return self._around(inside)
+
+    def _around(self, groups: list[list[Place]]) -> list[list[Place]]:
+        """Clusters in order without those that bounds exclude; one is left on each side, to look between."""
+        places = [[_enclosure(u) for u, _ in group] for group in groups]
+        low, high = self._low, self._high
+        early = [low > -inf and max(top for _, top in some) < as_fraction(low) for some in places]
+        late = [high < inf and min(bottom for bottom, _ in some) > as_fraction(high) for some in places]
+        before, after = (early, late) if self.shares.leg.ahead else (late, early)
+        first = max((n for n, is_before in enumerate(before) if is_before), default=0)
+        last = next((n for n, is_after in enumerate(after) if is_after), len(groups) - 1)
+        return groups[first : last + 1]
 
     def _corner(self, e: int, point: Point) -> int | None:
         """The number of a place of an edge, if it is one of the edge's ends, as a vertex."""
@@ -204,6 +229,11 @@ def between(one: Sequence[Place], other: Sequence[Place]) -> fmpq:
     a, b = ([_enclosure(u) for u, _ in cluster] for cluster in (one, other))
     a, b = (a, b) if a[0] < b[0] else (b, a)
     return rational_between(Real(max(high for _, high in a)), Real(min(low for low, _ in b)))
+
+
+def as_fraction(bound: float) -> fmpq:
+    """A finite float as it is."""
+    return fmpq(*bound.as_integer_ratio())
 
 
 def _enclosure(u: Real) -> tuple[fmpq, fmpq]:

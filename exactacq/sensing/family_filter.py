@@ -6,6 +6,7 @@ Floats with proven bounds tell (see `exactacq.kernel.choice`); what they leave o
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from functools import cached_property
 from math import inf
 from typing import TypeAlias
 
@@ -15,8 +16,11 @@ from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.interval_union import EMPTY, Cover, Interval
 from exactacq.geometry.late import unmade_point
 from exactacq.geometry.points import Point
-from exactacq.kernel.choice import LegSpan, Source, mattering
-from exactacq.kernel.extents import Extent, Span
+from exactacq.kernel.choice import Source, mattering
+from exactacq.kernel.curve_images import CurveImage
+from exactacq.kernel.extents import EVERYTHING, Extent, Span
+from exactacq.kernel.leg_spans import LegSpan
+from exactacq.kernel.whole_edges import last_shown
 from exactacq.numbers.real import Real
 from exactacq.sensing.free_way import PinOf
 from exactacq.sensing.legs import Leg
@@ -59,7 +63,8 @@ class KnownSpans(Mapping[int, Sequence[Span]]):
 class FamilyFilter:
     """Chooses the families of one leg that matter, for some obstacles; *known* is rounded inward.
 
-    ``in_sight`` then has, for obstacles, intervals of the leg from which they are surely seen.
+    ``in_sight`` then has, for obstacles, intervals of the leg from which they are surely seen. By edges that
+    surely are known all over at its end, ``spared`` has the families that tell when what of them is shown.
     """
 
     def __init__(
@@ -74,13 +79,17 @@ class FamilyFilter:
         self.leg, self.targets, self.known, self._facts = leg, targets, known, facts
         self.obstacles, self.along = set(obstacles), set(along)
         self.in_sight: dict[int, list[Interval]] = {}
+        self.spared: dict[int, list[Extent]] = {}
+        self._offered: list[Extent] = []
 
     def choose(self, extents: list[Extent], pin: PinOf) -> list[Extent]:
         """Those that matter; *pin* tells where the first or the last line of one meets the leg."""
-        span, rail = self.leg.span, None if self.leg.edge is None else self.leg.rail
-        part = LegSpan(bounds(span.low, rail), bounds(span.high, rail))
-        owners, obstacles, ahead = self.targets.owners, self.obstacles, self.leg.ahead
-        numbers, groups = mattering(extents, part, owners, obstacles, self.along, self.known, ahead)
+        self._offered = extents
+        part, owners, obstacles, ahead = self._part, self.targets.owners, self.obstacles, self.leg.ahead
+        numbers, groups, spared = mattering(extents, part, owners, obstacles, self.along, self.known, ahead)
+        if self._facts:
+            numbers += [n for _, some in spared for n in some]
+            spared = []
         chosen = {_family(extents[n]): extents[n] for n in numbers}
         for k, first, last in groups:
             if first.is_alone:
@@ -91,7 +100,26 @@ class FamilyFilter:
                 interval = Interval(low, start, high, end) if low.compare(high) <= 0 else None
             if interval is not None:
                 self.in_sight.setdefault(k, []).append(interval)
+        for e, some in spared:
+            self.spared[e] = [one for n in some if _family(one := extents[n]) not in chosen]
         return list(chosen.values())
+
+    @cached_property
+    def _part(self) -> LegSpan:
+        span, rail = self.leg.span, None if self.leg.edge is None else self.leg.rail
+        return LegSpan(bounds(span.low, rail), bounds(span.high, rail))
+
+    def last_shown(
+        self, edges: Collection[int], leg: CurveImage, curves: list[CurveImage]
+    ) -> tuple[Collection[int], Span]:
+        """Which of some edges that are known all over at the end of the leg may be the last to become so.
+
+        With bounds of the parameter of the place where the last one does. The curve of the leg is given in
+        floats, as those of the scene's edges.
+        """
+        if not edges:
+            return edges, EVERYTHING
+        return last_shown(list(edges), self._offered, self._part, self.known, self.leg.ahead, leg, curves)
 
     def _single(self, source: Source, chosen: dict[Family, Extent], pin: PinOf) -> Interval | None:
         """The place from which a single line shows something, unless it is *chosen* or beyond the leg."""

@@ -65,7 +65,7 @@ class WayViews:
                 yield from self.crossing.views(family_of(image), certain, self.wanted)
         else:
             found = list(choose([*crossing, *found], self._pin_of))
-        yield from self._views(found)
+        yield from self.views(found)
         yield from self.own_line.families()
 
     def _pin_of(self, one: Extent, is_last: bool) -> Pin | None:
@@ -78,9 +78,10 @@ class WayViews:
         Which of them pass the way's ends is known where families were asked for before.
         """
         groups, curves = [edge.whole_lines for edge in self._near], self.way.table.curve_images
-        return extents_of_crossing_lines(groups, set(self.wanted), self.way.image, curves)
+        least = self.way.complex.images.reach[0]
+        return extents_of_crossing_lines(groups, set(self.wanted), self.way.image, curves, least)
 
-    def _views(self, extents: Iterable[Extent]) -> Iterator[ViewFamily]:
+    def views(self, extents: Iterable[Extent]) -> Iterator[ViewFamily]:
         """The families that extents tell of."""
         # By families: the edges that they show, on which side of the contact they cross the way, and of which
         # sides all views are known to be in range.

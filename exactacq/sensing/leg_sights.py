@@ -24,7 +24,6 @@ from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.late import Pin, late_point
 from exactacq.geometry.points import Point
 from exactacq.grouping import in_groups
-from exactacq.kernel.choice import LegSpan
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import Extent, Span, by_source
 from exactacq.kernel.family_images import NONE, FamilyImage
@@ -40,6 +39,7 @@ from exactacq.kernel.leg_changes import (
     normal_sights,
     sights,
 )
+from exactacq.kernel.leg_spans import LegSpan
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real

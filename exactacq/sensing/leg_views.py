@@ -13,9 +13,10 @@ from functools import cached_property, partial
 from itertools import chain
 from typing import TypeAlias
 
+from exactacq.geometry.curve_images import curve_image
 from exactacq.geometry.interval_union import EMPTY, Cover, Interval
 from exactacq.geometry.points import Point
-from exactacq.kernel.extents import Span
+from exactacq.kernel.extents import EVERYTHING, Extent, Span
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
 from exactacq.sensing.cut_ends import CutEnd
@@ -32,6 +33,8 @@ from exactacq.sensing.visibility_complex import VisibilityComplex
 
 Covers: TypeAlias = "Mapping[int, Cover]"
 """What is known of each edge, by its number; nothing is known of an edge that is missing."""
+Families: TypeAlias = "Iterator[tuple[ViewFamily, int]]"
+"""Families at a leg, and which of their sides lies on it."""
 
 
 @dataclass(slots=True)
@@ -89,12 +92,19 @@ class Shares:
         self.in_sight: Mapping[int, Sequence[Interval]] = {}
         self._pins: NamedPins | None = None
         self._way = way
-        self.of = self._found(known) if of is None else of
+        # The edges that are known all over at the end of the leg; and families that tell when what of them is
+        # shown, as long as nobody asks, with what makes them and what chose them.
+        self._shown_whole: tuple[int, ...] = ()
+        self._spared: dict[int, list[Extent]] = {}
+        self._made: Callable[[Iterable[Extent]], Families] = partial(_made_on_edge, complex_)
+        self._filter: FamilyFilter | None = None
+        self.of = self._found(self._families(known)) if of is None else of
         self.ends = self._seen_ends() if ends is None else ends
 
-    def _found(self, known: Mapping[int, Sequence[Span]] | None) -> dict[int, list[Share]]:
+    def _found(self, families: Families) -> dict[int, list[Share]]:
+        """The shares of some families at the leg."""
         parts: list[tuple[int, ViewFamily, int, None]] = []
-        for family, side in self._families(known):
+        for family, side in families:
             for k, target in self.targets.on(family.edges[1 - side]):
                 if k in self.obstacles:
                     whole = target.whole
@@ -146,7 +156,7 @@ class Shares:
             view = self.view(leg.start if u is leg.first else leg.end, leg.own(u))
         return view.pinned(end, family, side)
 
-    def _families(self, known: Mapping[int, Sequence[Span]] | None) -> Iterator[tuple[ViewFamily, int]]:
+    def _families(self, known: Mapping[int, Sequence[Span]] | None) -> Families:
         """The families at the leg; only those that matter if it is told what is *known*."""
         complex_, leg, obstacles = self.complex, self.leg, self.obstacles
         along = [k for k in obstacles if self._is_along(k)]
@@ -160,13 +170,29 @@ class Shares:
             way = StraightWay(complex_, leg) if self._way is None else self._way
             crossing = WayViews(way, frozenset(near).intersection(edges), self.view)
             self._pins = way.clipper.views.pins
+            self._made = lambda extents: ((family, 0) for family in crossing.views(extents))
             yield from ((family, 0) for family in crossing.families(choose))
         else:
             extents = complex_.extents(leg.edge)
-            for one in extents if choose is None else choose(extents, complex_.pin):
-                yield from complex_.views(one)
+            yield from self._made(extents if choose is None else choose(extents, complex_.pin))
         if chooser is not None:
             self.in_sight = chooser.in_sight
+            self._spared, self._shown_whole = chooser.spared, tuple(chooser.spared)
+            self._filter = chooser
+
+    def _make_spared(self, obstacles: Collection[int], edges: Collection[int] | None = None) -> None:
+        """Make the families of some obstacles that were spared: when they show something is asked.
+
+        Of some *edges*, if these are given.
+        """
+        on = self.targets.on
+        asked = [e for e in self._spared if any(k in obstacles for k, _ in on(e))]
+        if edges is not None:
+            asked = [e for e in asked if e in edges]
+        if asked:
+            extents = [one for e in asked for one in self._spared.pop(e)]
+            for k, shares in self._found(self._made(extents)).items():
+                self.of[k] += shares
 
     @cached_property
     def _clipper(self) -> FamilyClipper:
@@ -176,6 +202,7 @@ class Shares:
     def cut(self, leg: Leg, obstacles: Collection[int] | None = None) -> Shares:
         """What a part of the leg shows, of some of the obstacles if these are given."""
         obstacles = self.obstacles if obstacles is None else obstacles
+        self._make_spared(obstacles)
         kept: dict[int, list[Share]] = {}
         parts: list[tuple[int, ViewFamily, int, Share]] = []
         for k in obstacles:
@@ -195,9 +222,24 @@ class Shares:
         }
         return Shares(self.complex, self.targets, leg, obstacles, self.view, of=of, ends=ends)
 
-    def teaching(self, k: int, covers: Covers) -> Shares:
-        """What the leg shows of one obstacle without the families that show only what *covers* contain."""
-        of = [share for share in self.of[k] if _is_new(share, covers)]
+    def last_shown(self, k: int, covers: Covers) -> tuple[Collection[int], Span]:
+        """Which edges of an obstacle that is whole at the end of the leg may be the last to become known.
+
+        With bounds of the parameter of the place where it becomes whole. *covers* are known before the leg.
+        """
+        parts = [part for part in self.targets.of[k] if not part.is_in(covers.get(part.edge, EMPTY))]
+        edges = [part.edge for part in parts]
+        own = {share.edge for share in self.of[k] if share.family.free_views is None}
+        is_told = all(part.whole for part in parts) and k not in self.ends
+        if self._filter is None or not is_told or self.leg.edge in edges or not own.isdisjoint(edges):
+            return edges, EVERYTHING
+        curve = curve_image(self.leg.rail.curve)
+        return self._filter.last_shown(edges, curve, self.complex.images.curves)
+
+    def teaching(self, k: int, covers: Covers, edges: Collection[int]) -> Shares:
+        """What the leg shows of some edges of one obstacle without what shows only what *covers* contain."""
+        self._make_spared({k}, edges)
+        of = [share for share in self.of[k] if share.edge in edges and _is_new(share, covers)]
         ends = {k: self.ends[k]} if k in self.ends else {}
         return Shares(self.complex, self.targets, self.leg, {k}, self.view, of={k: of}, ends=ends)
 
@@ -231,8 +273,8 @@ class Shares:
 
     def taught_between(self, covers: Covers) -> dict[int, Cover]:
         """The covers that grow, perhaps by less where the views from the ends of the leg tell more."""
-        learned: dict[int, Cover] = {}
-        leg = self.leg
+        leg, rails = self.leg, self.complex.clipper.rails
+        learned = {e: Cover((Interval.whole(rails[e]),)) for e in self._shown_whole}
         for shares in self.of.values():
             for share in sorted(shares, key=lambda share: size(share.shown), reverse=True):
                 add(learned, covers, share.edge, share.shown)
@@ -256,7 +298,8 @@ class Shares:
                 continue
             spans: Mapping[int, Sequence[Interval]] = view.spans
             if known is not None:
-                spans = view.beyond(known, self.targets.counting(view.edges, self.obstacles))
+                edges = [e for e in view.edges if e not in self._shown_whole]
+                spans = view.beyond(known, self.targets.counting(edges, self.obstacles))
             for _, (e, interval) in self.targets.within(self.obstacles, spans):
                 add(learned, covers, e, interval)
 
@@ -372,6 +415,11 @@ class Shares:
                 family = self._clipper.clipped(share.family, 1 - share.side, single)
                 if family is not None:
                     yield family.first.places[share.side], family.first.points[share.side]
+
+
+def _made_on_edge(complex_: VisibilityComplex, extents: Iterable[Extent]) -> Families:
+    """The families at a boundary edge that extents tell of."""
+    return chain.from_iterable(map(complex_.views, extents))
 
 
 def size(interval: Interval) -> float:
