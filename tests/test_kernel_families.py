@@ -218,10 +218,10 @@ def test_when_an_edge_is_known_all_over(seed: int) -> None:
     known = {e: [(Q(0), Q(rng.randrange(8), 8))] for e in range(3)}
     inside = {e: [extended(blurred(span, -1), span) for span in spans] for e, spans in known.items()}
     ahead = rng.random() < 0.5
-    found, (low, high) = last_shown([0, 1, 2], extents, leg, inside, ahead, SEGMENT, [])
+    found, (low, high), _ = last_shown([0, 1, 2], extents, leg, inside, ahead, SEGMENT, [])
     assert found == [0, 1, 2] and (low if ahead else -high) == -inf
     for e in range(3):
-        (edge,), (low, high) = last_shown([e], extents, leg, inside, ahead, SEGMENT, [])
+        (edge,), (low, high), _ = last_shown([e], extents, leg, inside, ahead, SEGMENT, [])
         place = high if ahead else low
         if abs(place) < inf:
             part = (Q(0), Q(place)) if ahead else (Q(place), Q(1))
@@ -259,7 +259,7 @@ def test_before_an_edge_is_in_front_it_is_behind(seed: int) -> None:
             for one, other in (((ax, ay), (bx, by)), ((px, py), (qx, qy)))
         )
         ahead = rng.random() < 0.5
-        _, (low, high) = last_shown([0], [], LegSpan((0.0, 0.0), (1.0, 1.0)), {}, ahead, leg, [edge])
+        _, (low, high), _ = last_shown([0], [], LegSpan((0.0, 0.0), (1.0, 1.0)), {}, ahead, leg, [edge])
         bound = Q(low if ahead else high) if abs(low if ahead else high) < inf else None
         heights = [(qx - px) * (y - py) - (qy - py) * (x - px) for x, y in ((ax, ay), (bx, by))]
         if bound is None:

@@ -26,13 +26,14 @@ def last_shown(
     ahead: bool,
     leg: CurveImage,
     curves: list[CurveImage],
-) -> tuple[list[int], Span]:
+) -> tuple[list[int], Span, int]:
     """Which of some edges that become known all over on a leg may be the last, and when at the earliest and
     at the latest.
 
-    All *extents* at the leg of families that show something new of the edges are needed. The leg lies on the
-    curve *leg*; no *curves* are given if floats are to tell nothing. Where the robot walks back, a later
-    moment has a lower parameter.
+    If that is where the leg crosses the edge's line to its front, and it is seen along that line, the number
+    of the extent that tells so; else -1. All *extents* at the leg of families that show something new of the
+    edges are needed. The leg lies on the curve *leg*; no *curves* are given if floats are to tell nothing.
+    Where the robot walks back, a later moment has a lower parameter.
     """
     moments: list[Span] = []
     latest = -inf
@@ -46,7 +47,18 @@ def last_shown(
         if moments[n][1] >= latest:
             found.append(edges[n])
             end = max(end, moments[n][1])
-    return found, (latest, end) if ahead else (-end, -latest)
+    along = _along(found[0], extents, span) if len(found) == 1 and latest > -inf else -1
+    return found, (latest, end) if ahead else (-end, -latest), along
+
+
+def _along(edge: int, extents: list[Extent], span: LegSpan) -> int:
+    """The number of the extent by which all of an edge surely is seen along its own line, -1 if none does."""
+    for n in range(len(extents)):
+        one = extents[n]
+        is_line = one.surely[0] > one.surely[1]
+        if one.edge == edge and is_line and one.told == EVERYTHING and span.contains(one.source):
+            return n
+    return -1
 
 
 def _comes_in_front(leg: CurveImage, edge: CurveImage, ahead: bool) -> float:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections import ChainMap
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from math import hypot, inf
 from typing import TypeAlias
 
@@ -45,16 +46,25 @@ class Acquisition:
     """Obstacle *k*, which is whole after a leg; *before* is known at its start, with the view from there."""
 
     def __init__(self, shares: Shares, k: int, before: ChainMap[int, Cover]) -> None:
-        # Others than those edges are known all over before the first place that counts.
-        edges, (self._low, self._high) = shares.last_shown(k, before)
-        self.shares, self.k, self.before = shares.teaching(k, before, edges), k, before
-        self._targets = [target for target in self.shares.targets.of[k] if target.edge in edges]
+        self.k, self.before, self._every = k, before, shares
+        # All other edges are known all over before the last of these is.
+        self._last = shares.last_shown(k, before)
+        edges, (self._low, self._high), _ = self._last
+        self._targets = [target for target in shares.targets.of[k] if target.edge in edges]
+
+    @cached_property
+    def shares(self) -> Shares:
+        """What the leg shows of the edges that may be the last, as far as it is not known before."""
+        return self._every.teaching(self.k, self.before, self._last.edges)
 
     def place(self) -> Place:
         """The first place at which the obstacle is whole."""
-        leg = self.shares.leg
+        leg = self._every.leg
         if self._is_whole(self.before):
             return leg.first, leg.start
+        if self._last.along is not None:
+            # Before, the robot is behind the edge; there it sees all of it.
+            return self._every.place_of(self._last.along)
         stretch = Meanwhile(leg, self.before)
         for _ in range(2):
             groups = self._moments(stretch)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import cached_property
 from math import inf
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from flint import fmpq
 
@@ -60,6 +60,17 @@ class KnownSpans(Mapping[int, Sequence[Span]]):
         return len(self._covers)
 
 
+class LastShown(NamedTuple):
+    """Which of some edges may be the last to become known all over, and bounds of where on the leg that is.
+
+    It is where the edge is seen ``along`` its own line, if that is there.
+    """
+
+    edges: Collection[int]
+    span: Span = EVERYTHING
+    along: Extent | None = None
+
+
 class FamilyFilter:
     """Chooses the families of one leg that matter, for some obstacles; *known* is rounded inward.
 
@@ -109,17 +120,18 @@ class FamilyFilter:
         span, rail = self.leg.span, None if self.leg.edge is None else self.leg.rail
         return LegSpan(bounds(span.low, rail), bounds(span.high, rail))
 
-    def last_shown(
-        self, edges: Collection[int], leg: CurveImage, curves: list[CurveImage]
-    ) -> tuple[Collection[int], Span]:
+    def last_shown(self, edges: Collection[int], leg: CurveImage, curves: list[CurveImage]) -> LastShown:
         """Which of some edges that are known all over at the end of the leg may be the last to become so.
 
-        With bounds of the parameter of the place where the last one does. The curve of the leg is given in
-        floats, as those of the scene's edges.
+        The curve of the leg is given in floats, as those of the scene's edges.
         """
         if not edges:
-            return edges, EVERYTHING
-        return last_shown(list(edges), self._offered, self._part, self.known, self.leg.ahead, leg, curves)
+            return LastShown(edges)
+        offered = self._offered
+        found, span, along = last_shown(
+            list(edges), offered, self._part, self.known, self.leg.ahead, leg, curves
+        )
+        return LastShown(found, span, None if along < 0 else offered[along])
 
     def _single(self, source: Source, chosen: dict[Family, Extent], pin: PinOf) -> Interval | None:
         """The place from which a single line shows something, unless it is *chosen* or beyond the leg."""

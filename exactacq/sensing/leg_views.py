@@ -16,13 +16,13 @@ from typing import TypeAlias
 from exactacq.geometry.curve_images import curve_image
 from exactacq.geometry.interval_union import EMPTY, Cover, Interval
 from exactacq.geometry.points import Point
-from exactacq.kernel.extents import EVERYTHING, Extent, Span
+from exactacq.kernel.extents import Extent, Span
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.real import Real
 from exactacq.sensing.cut_ends import CutEnd
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.family_clipper import FamilyClipper
-from exactacq.sensing.family_filter import FamilyFilter
+from exactacq.sensing.family_filter import FamilyFilter, LastShown
 from exactacq.sensing.free_way import WayViews
 from exactacq.sensing.legs import Leg
 from exactacq.sensing.named_pins import NamedPins
@@ -222,19 +222,24 @@ class Shares:
         }
         return Shares(self.complex, self.targets, leg, obstacles, self.view, of=of, ends=ends)
 
-    def last_shown(self, k: int, covers: Covers) -> tuple[Collection[int], Span]:
+    def last_shown(self, k: int, covers: Covers) -> LastShown:
         """Which edges of an obstacle that is whole at the end of the leg may be the last to become known.
 
-        With bounds of the parameter of the place where it becomes whole. *covers* are known before the leg.
+        *covers* are known before the leg.
         """
         parts = [part for part in self.targets.of[k] if not part.is_in(covers.get(part.edge, EMPTY))]
         edges = [part.edge for part in parts]
         own = {share.edge for share in self.of[k] if share.family.free_views is None}
         is_told = all(part.whole for part in parts) and k not in self.ends
         if self._filter is None or not is_told or self.leg.edge in edges or not own.isdisjoint(edges):
-            return edges, EVERYTHING
+            return LastShown(edges)
         curve = curve_image(self.leg.rail.curve)
         return self._filter.last_shown(edges, curve, self.complex.images.curves)
+
+    def place_of(self, single: Extent) -> tuple[Real, Point]:
+        """Where on the leg a single line meets it that surely shows something."""
+        family, side = next(self._made([single]))
+        return family.first.places[side], family.first.points[side]
 
     def teaching(self, k: int, covers: Covers, edges: Collection[int]) -> Shares:
         """What the leg shows of some edges of one obstacle without what shows only what *covers* contain."""
