@@ -219,25 +219,26 @@ class _Candidates:
     def _sees_from_grid(self) -> bool:
         """Whether some of a grid of lines of sight is free: most walks that see something are told here."""
         walk, n = self.walk, GRID
-        steps = range(1, n + 1) if walk.sense > 0 else range(n)
-        ys = [rational(self.low + (self.high - self.low) * (k / n)) for k in steps]
+        # From the far end on.
+        steps = range(n, 0, -1) if walk.sense > 0 else range(n)
         ends = [(k, rail, u) for k, rail in enumerate(map(Rail, self.targets)) for u in _inner(rail)]
         if not ends:
             return False
         q = np.array([rail.point(u).xy for _, rail, u in ends])
-        owner = np.array([k for k, _, _ in ends])
-        rows = np.repeat(np.arange(len(ys)), len(ends))
-        columns = np.tile(np.arange(len(ends)), len(ys))
-        p = np.array([(float(walk.x), float(y)) for y in ys])[rows]
-        q, leave = q[columns], self.pieces.tangents(owner[columns], q[columns])
-        size = np.hypot(*(q - p).T)
-        free = (size < walk.reach * (1 - 1e-6)) & (cross(leave, p - q) < -ANGLE * size)
-        free[free] = ~self.pieces.block(p[free], q[free], np.zeros(int(free.sum())))
-        tries = np.flatnonzero(free)[:: -walk.sense][:TRIES]
-        return any(
-            self._is_seen(Point(walk.x, ys[rows[k]]), ends[columns[k]][1].point(ends[columns[k]][2]))
-            for k in tries
-        )
+        leave = self.pieces.tangents(np.array([k for k, _, _ in ends]), q)
+        tries = TRIES
+        for y in (rational(self.low + (self.high - self.low) * (k / n)) for k in steps):
+            p = np.array([float(walk.x), float(y)])
+            size = np.hypot(*(q - p).T)
+            free = np.flatnonzero((size < walk.reach * (1 - 1e-6)) & (cross(leave, p - q) < -ANGLE * size))
+            free = free[~self.pieces.block(np.tile(p, (len(free), 1)), q[free], np.zeros(len(free)))]
+            for _, rail, u in (ends[k] for k in free[:: -walk.sense][:tries]):
+                if self._is_seen(Point(walk.x, y), rail.point(u)):
+                    return True
+            tries -= min(tries, len(free))
+            if not tries:
+                break
+        return False
 
     # -- lines of sight along the walk's own line --------------------------------------------------
 
