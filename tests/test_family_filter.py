@@ -408,7 +408,7 @@ def chosen_places(
     line = Extent(4, (1, 1), (c - blur, c + blur), nothing, [9], [9], "line", 0, 1, True)
     family.in_range = line.in_range = True
     known = {4: [(-inf, inf)]}
-    chooser = family_filter.FamilyFilter(leg, Targets.whole(table, rails), [1], [], known)
+    chooser = family_filter.FamilyFilter(leg, Targets.whole(table, rails), [1], [], known, {})
 
     def pin(one: Extent, is_last: bool) -> tuple[xa.Point, Real]:
         u = single if one is line else end if is_last else begin

@@ -20,7 +20,7 @@ from exactacq.kernel.extents import EVERYTHING, Extent, Span
 from exactacq.kernel.family_images import NONE
 from exactacq.kernel.images import ROLLING
 from exactacq.kernel.leg_spans import LegSpan
-from exactacq.kernel.whole_edges import last_shown
+from exactacq.kernel.whole_edges import last_shown, not_covered
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.complex_edges import FamilySweeper
 from exactacq.sensing.line_family import single_of
@@ -180,17 +180,26 @@ def test_what_is_left_out_changes_nothing(seed: int) -> None:
     known = {e: rng.choice(some_known) for e in (0, 1)}
     owners = {0: [(0, True)], 1: [(0, True), (1, False)]}
     ahead = rng.random() < 0.5
-    leg = LegSpan((-BLUR, BLUR), (1 - BLUR, 1 + BLUR))
-    inside = {e: [extended(blurred(span, -1), span) for span in spans] for e, spans in known.items()}
-    numbers, groups, spared = mattering(extents, leg, owners, {0, 1}, set(), inside, ahead)
+    leg = LegSpan((-BLUR, BLUR), (1 - BLUR, 1 + BLUR), ahead)
+    view = {0: rng.choice(some_known), 1: rng.choice(some_known)}
+    inside, at_end = (
+        {e: [extended(blurred(span, -1), span) for span in spans] for e, spans in one.items()}
+        for one in (known, view)
+    )
+    numbers, groups, spared, complete = mattering(extents, leg, owners, {0, 1}, set(), inside, at_end)
     assert all(n in numbers for n, one in enumerate(extents) if not one.is_known and one.edge in owners)
     # What is spared may matter for the time: with it nothing is left out.
     in_time = {*numbers, *(n for _, kept in spared for n in kept)}
-    for e, _ in spared:
-        assert e == 0, "of edge 1 only a part counts for obstacle 1"
-        told = [one.told_within(*LEG) for one in some if one.edge == e]
-        assert covers(united([*known[e], *told]), (Q(0), Q(1)))
-    assert not any(some[n].edge == 2 for n in numbers)
+    assert complete in ([], [0]), "of edge 1 only a part counts for obstacle 1"
+    for e in (0, 1):
+        told = {n: one.told_within(*LEG) for n, one in enumerate(some) if one.edge == e}
+        before = [*known[e], *view[e]]
+        everything = united([*before, *told.values()])
+        if e in complete:
+            assert covers(everything, (Q(0), Q(1)))
+        else:
+            assert united([*before, *(span for n, span in told.items() if n in numbers)]) == everything
+    assert not any(some[n].edge == 2 for n in in_time)
     # Of edge 1 only a part counts for obstacle 1: floats do not tell that it is this which is seen.
     assert not any(owner == 1 for owner, *_ in groups)
     for place in (Q(k, 16) for k in range(17)):
@@ -208,20 +217,30 @@ def test_what_is_left_out_changes_nothing(seed: int) -> None:
         assert [time for time in chosen if LEG[0] < time[1] and time[0] < LEG[1]] == inner
 
 
+def test_of_families_that_show_the_same_one_is_kept() -> None:
+    """Each is told by the other one; they cannot both be left out."""
+    one, other = (
+        Extent(0, EVERYTHING, (0.2, 0.8), (0.3, 0.7), [], [], None, 0, 1, True, EVERYTHING) for _ in range(2)
+    )
+    leg = LegSpan((0.0, 0.0), (1.0, 1.0))
+    assert len(not_covered([one, other], leg, [])) == 1
+    assert not_covered([one, other], leg, [(-inf, 0.5), (0.4, inf)]) == []
+
+
 @pytest.mark.parametrize("seed", some(range(400), 130))
 def test_when_an_edge_is_known_all_over(seed: int) -> None:
     """At the latest moment that floats tell for some edges, each of them is known all over."""
     rng = Random(seed)
     families = [*planted(rng), *planted(rng)]
     extents = [one.extent(rng) for one in families]
-    leg = LegSpan((-BLUR, BLUR), (1 - BLUR, 1 + BLUR))
+    ahead = rng.random() < 0.5
+    leg = LegSpan((-BLUR, BLUR), (1 - BLUR, 1 + BLUR), ahead)
     known = {e: [(Q(0), Q(rng.randrange(8), 8))] for e in range(3)}
     inside = {e: [extended(blurred(span, -1), span) for span in spans] for e, spans in known.items()}
-    ahead = rng.random() < 0.5
-    found, (low, high), _ = last_shown([0, 1, 2], extents, leg, inside, ahead, SEGMENT, [])
+    found, (low, high), _ = last_shown([0, 1, 2], extents, leg, inside, SEGMENT, [])
     assert found == [0, 1, 2] and (low if ahead else -high) == -inf
     for e in range(3):
-        (edge,), (low, high), _ = last_shown([e], extents, leg, inside, ahead, SEGMENT, [])
+        (edge,), (low, high), _ = last_shown([e], extents, leg, inside, SEGMENT, [])
         place = high if ahead else low
         if abs(place) < inf:
             part = (Q(0), Q(place)) if ahead else (Q(place), Q(1))
@@ -236,8 +255,8 @@ def test_some_edges_are_known_all_over() -> None:
         rng = Random(seed)
         extents = [one.extent(rng) for _ in range(3) for one in planted(rng)]
         leg = LegSpan((-BLUR, BLUR), (1 - BLUR, 1 + BLUR))
-        spared += len(mattering(extents, leg, {0: [(0, True)]}, {0}, set(), {}, True)[2])
-        timed += last_shown([0], extents, leg, {}, True, SEGMENT, [])[1][1] < inf
+        spared += len(mattering(extents, leg, {0: [(0, True)]}, {0}, set(), {}, {})[3])
+        timed += last_shown([0], extents, leg, {}, SEGMENT, [])[1][1] < inf
     assert spared > 5 and timed > 5, (spared, timed)
 
 
@@ -259,7 +278,8 @@ def test_before_an_edge_is_in_front_it_is_behind(seed: int) -> None:
             for one, other in (((ax, ay), (bx, by)), ((px, py), (qx, qy)))
         )
         ahead = rng.random() < 0.5
-        _, (low, high), _ = last_shown([0], [], LegSpan((0.0, 0.0), (1.0, 1.0)), {}, ahead, leg, [edge])
+        span = LegSpan((0.0, 0.0), (1.0, 1.0), ahead)
+        _, (low, high), _ = last_shown([0], [], span, {}, leg, [edge])
         bound = Q(low if ahead else high) if abs(low if ahead else high) < inf else None
         heights = [(qx - px) * (y - py) - (qy - py) * (x - px) for x, y in ((ax, ay), (bx, by))]
         if bound is None:

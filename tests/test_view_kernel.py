@@ -224,6 +224,15 @@ def test_bounds_hold(seed: int) -> None:
                 start, end = (rail.parameter(point) for point in view.ends.span(part))
                 assert abs(low) == inf or start >= fmpq(*low.as_integer_ratio()), (e, part)
                 assert abs(high) == inf or end <= fmpq(*high.as_integer_ratio()), (e, part)
+                low, high = view.surely(e, part)
+                if low <= high:
+                    first, last = (_plain(bound, rail) for bound in (low, high))
+                    assert start <= first <= last <= end, (e, part)
+
+
+def _plain(bound: float, rail: Rail) -> Real:
+    """A parameter that is given in extended numbers."""
+    return Real(0) if bound == -inf else rail.top if bound == inf else Real(bound)
 
 
 @given(st.lists(st.tuples(st.integers(-9, 9), st.integers(-9, 9)), max_size=60))

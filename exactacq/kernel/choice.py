@@ -12,7 +12,7 @@ from typing import Final, final
 
 from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent, Span
 from exactacq.kernel.leg_spans import Known, LegSpan, is_covered
-from exactacq.kernel.whole_edges import is_shown_whole
+from exactacq.kernel.whole_edges import is_shown_whole, not_covered, spans_of
 
 NOBODY: Final[list[tuple[int, bool]]] = []
 
@@ -33,8 +33,7 @@ Group = tuple[int, Source, Source]
 """An obstacle, and of families that show it from connected places, surely and in range, the one that begins
 first and the one that ends last."""
 Spared = tuple[int, list[int]]
-"""An edge that surely is known all over at the end of a leg, and families that show when what of it becomes
-known."""
+"""An edge, and families that tell no more than when what of it becomes known."""
 
 
 def mattering(
@@ -44,14 +43,14 @@ def mattering(
     obstacles: set[int],
     along: set[int],
     known: Known,
-    ahead: bool,
-) -> tuple[list[int], list[Group], list[Spared]]:
+    at_end: Known,
+) -> tuple[list[int], list[Group], list[Spared], list[int]]:
     """Which of some families matter on a leg, by their numbers, and from where obstacles surely are seen.
 
     *owners* are the obstacles that edges count for, and whether all of the edge does. The leg lies on the
-    boundaries of the obstacles *along*, which are in sight anyway. The robot walks it *ahead*, from its low
-    end, or back. Of edges that surely are known all over at its end it is told which families matter for when
-    what of them is shown; they are not among those that matter at all.
+    boundaries of the obstacles *along*, which are in sight anyway. What is seen from where it ends is in
+    *at_end*. Families that tell only when something becomes known are spared, and told apart. Last come the
+    edges that surely are known all over at the end of the leg.
     """
     chosen = [False] * len(extents)
     sources: dict[int, list[Source]] = {}
@@ -91,14 +90,26 @@ def mattering(
                     Source(n, outer, surely if whole else NOTHING, one, whole and is_single and one.in_range)
                 )
     spared: list[Spared] = []
+    complete: list[int] = []
     for e, numbers in news.items():
         new = [extents[m] for m in numbers]
-        untold = [numbers[n] for n in _untold(new, span, known.get(e), ahead)]
-        if all(whole for _, whole in owners[e]) and is_shown_whole(new, span, known.get(e)):
-            spared.append((e, untold))
-            continue
-        for n in untold:
-            chosen[n] = True
+        seen = spans_of(e, known, at_end)
+        is_complete = all(whole for _, whole in owners[e]) and is_shown_whole(new, span, seen)
+        if is_complete:
+            complete.append(e)
+        untold = [numbers[n] for n in _untold(new, span, known.get(e))]
+        needed = [] if is_complete else not_covered([extents[m] for m in untold], span, seen)
+        for n in needed:
+            chosen[untold[n]] = True
+        left = [m for m in untold if not chosen[m]]
+        if left:
+            spared.append((e, left))
+    groups = _groups(sources, chosen)
+    return [n for n in range(len(extents)) if chosen[n]], groups, spared, complete
+
+
+def _groups(sources: dict[int, list[Source]], chosen: list[bool]) -> list[Group]:
+    """From where obstacles surely are seen; what else may be seen is *chosen*."""
     groups: list[Group] = []
     for k, some in sources.items():
         found = [SightGroup(group) for group in _joined([s for s in some if s.surely[0] <= s.surely[1]])]
@@ -110,7 +121,7 @@ def mattering(
                     groups.append((k, source, source))
                 else:
                     chosen[source.number] = True
-    return [n for n in range(len(extents)) if chosen[n]], groups, spared
+    return groups
 
 
 def _extreme_views(extents: list[Extent]) -> set[tuple[int, int]]:
@@ -159,7 +170,7 @@ def _is_known(one: Extent, known: Known) -> bool:
     return spans is not None and any(a <= low and high <= b for a, b in spans)
 
 
-def _untold(some: list[Extent], span: LegSpan, known: Sequence[Span] | None, ahead: bool) -> list[int]:
+def _untold(some: list[Extent], span: LegSpan, known: Sequence[Span] | None) -> list[int]:
     """Of families that show something new of one edge those that are not certainly the later to show it.
 
     All of such a one is known, or shown by families that end where it begins or before. These do not depend
@@ -174,7 +185,9 @@ def _untold(some: list[Extent], span: LegSpan, known: Sequence[Span] | None, ahe
     for n in range(len(some)):
         one = some[n]
         spans = [
-            other.told for other in whole if (_is_before(other, one) if ahead else _is_before(one, other))
+            other.told
+            for other in whole
+            if (_is_before(other, one) if span.ahead else _is_before(one, other))
         ]
         if not spans or not is_covered(one.shown, spans if known is None else [*spans, *known]):
             found.append(n)

@@ -17,10 +17,10 @@ Known = Mapping[int, Sequence[Span]]
 @mypyc_attr(acyclic=True)
 @final
 class LegSpan:
-    """A leg, by bounds of the parameters of both its ends."""
+    """A leg, by bounds of the parameters of both its ends; the robot walks it *ahead* or back."""
 
-    def __init__(self, low: Span, high: Span) -> None:
-        self.low, self.high = low, high
+    def __init__(self, low: Span, high: Span, ahead: bool = True) -> None:
+        self.low, self.high, self.ahead = low, high, ahead
 
     def contains(self, source: Span) -> bool:
         """Whether all of an interval surely lies in the leg."""

@@ -1,4 +1,5 @@
-"""Edges that become known all over on a leg: which surely do, and when the last of some does."""
+"""What families show of edges together: what of it is told by some of them, which edges become known all over
+on a leg, and when the last of some does."""
 
 from __future__ import annotations
 
@@ -7,15 +8,45 @@ from math import inf
 
 from exactacq.kernel.bounded import TINY, UNIT, cross_sign
 from exactacq.kernel.curve_images import CurveImage
-from exactacq.kernel.extents import EVERYTHING, Extent, Span
+from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent, Span
 from exactacq.kernel.leg_spans import Known, LegSpan, is_covered
 from exactacq.kernel.lines import line_along, meets_straight
 
 
-def is_shown_whole(some: list[Extent], span: LegSpan, known: Sequence[Span] | None) -> bool:
-    """Whether an edge surely is known all over at the end of the leg, by what is known and families show."""
-    spans = [one.told for one in some if one.told[0] <= one.told[1] and span.contains(one.source)]
-    return bool(spans) and is_covered(EVERYTHING, spans if known is None else [*spans, *known])
+def spans_of(edge: int, known: Known, others: Known) -> list[Span]:
+    """What is known of an edge, and what others tell of it."""
+    found: list[Span] = []
+    for some in (known.get(edge), others.get(edge)):
+        if some is not None:
+            found += some
+    return found
+
+
+def is_shown_whole(some: list[Extent], span: LegSpan, seen: list[Span]) -> bool:
+    """Whether an edge surely is known all over at the end of the leg, by what is *seen* and families show."""
+    return is_covered(EVERYTHING, seen + [_told(one, span) for one in some])
+
+
+def not_covered(some: list[Extent], span: LegSpan, seen: list[Span]) -> list[int]:
+    """Some of the families at a leg that show all that they do together, but for what is *seen*.
+
+    The one that shows least is the first to be left out.
+    """
+    told = [_told(one, span) for one in some]
+    kept = [True] * len(some)
+    for _, n in sorted([(_size(some[n].shown), n) for n in range(len(some))]):
+        spans = seen + [told[m] for m in range(len(some)) if kept[m] and m != n]
+        kept[n] = not is_covered(some[n].shown, spans)
+    return [n for n in range(len(some)) if kept[n]]
+
+
+def _told(one: Extent, span: LegSpan) -> Span:
+    """What a family surely shows from the leg."""
+    return one.told if span.contains(one.source) else NOTHING
+
+
+def _size(span: Span) -> float:
+    return 0.0 if span[0] == span[1] else span[1] - span[0]
 
 
 def last_shown(
@@ -23,7 +54,6 @@ def last_shown(
     extents: list[Extent],
     span: LegSpan,
     known: Known,
-    ahead: bool,
     leg: CurveImage,
     curves: list[CurveImage],
 ) -> tuple[list[int], Span, int]:
@@ -35,11 +65,12 @@ def last_shown(
     edges are needed. The leg lies on the curve *leg*; no *curves* are given if floats are to tell nothing.
     Where the robot walks back, a later moment has a lower parameter.
     """
+    ahead = span.ahead
     moments: list[Span] = []
     latest = -inf
     for e in edges:
         first = _comes_in_front(leg, curves[e], ahead) if curves else -inf
-        moments.append((first, _end_of_news(e, extents, span, known.get(e), ahead)))
+        moments.append((first, _end_of_news(e, extents, span, known.get(e))))
         latest = max(latest, first)
     end = -inf
     found: list[int] = []
@@ -79,14 +110,12 @@ def _comes_in_front(leg: CurveImage, edge: CurveImage, ahead: bool) -> float:
     return u - bound if ahead else -u - bound
 
 
-def _end_of_news(
-    edge: int, extents: list[Extent], span: LegSpan, known: Sequence[Span] | None, ahead: bool
-) -> float:
+def _end_of_news(edge: int, extents: list[Extent], span: LegSpan, known: Sequence[Span] | None) -> float:
     """After which moment an edge surely is known all over; infinite if that is open."""
     shown: list[tuple[float, Span]] = []
     for one in extents:
         if one.edge == edge and one.told[0] <= one.told[1] and span.contains(one.source):
-            shown.append((one.source[1] if ahead else -one.source[0], one.told))
+            shown.append((one.source[1] if span.ahead else -one.source[0], one.told))
     spans = [] if known is None else [*known]
     for moment, told in sorted(shown):
         spans.append(told)

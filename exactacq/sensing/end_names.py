@@ -73,6 +73,25 @@ class SeenSpans(Mapping[int, "list[Interval]"]):
         return found
 
 
+class SureSpans(Mapping[int, "list[Span]"]):
+    """What surely is seen of edges from a place, by floats, in extended numbers; nothing of full circles."""
+
+    def __init__(self, view: BoundaryView, rails: Sequence[Rail]) -> None:
+        self._view, self._rails = view, rails
+
+    def __getitem__(self, e: int) -> list[Span]:
+        if self._rails[e].is_closed:
+            return []
+        spans = (self._view.surely(e, part) for part in self._view.seen_parts[e])
+        return [(low, high) for low, high in spans if low <= high]
+
+    def __iter__(self) -> Iterator[int]:
+        return iter(self._view.seen_parts)
+
+    def __len__(self) -> int:
+        return len(self._view.seen_parts)
+
+
 class Seen:
     """What is seen from a place.
 
@@ -102,6 +121,11 @@ class Seen:
     def edges(self) -> Collection[int]:
         """The edges of which something is seen."""
         return self._view.seen_parts
+
+    @property
+    def surely(self) -> SureSpans:
+        """What surely is seen of edges, by floats."""
+        return SureSpans(self._view, self._rails)
 
     def beyond(self, known: Mapping[int, Sequence[Span]], edges: Iterable[int]) -> dict[int, list[Interval]]:
         """Of `spans` of some edges those that *known* does not surely contain, by edge.

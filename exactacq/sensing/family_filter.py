@@ -85,22 +85,29 @@ class FamilyFilter:
         obstacles: Collection[int],
         along: Collection[int],
         known: Mapping[int, Sequence[Span]],
+        at_end: Mapping[int, Sequence[Span]],
         facts: bool = False,
     ) -> None:
         self.leg, self.targets, self.known, self._facts = leg, targets, known, facts
         self.obstacles, self.along = set(obstacles), set(along)
         self.in_sight: dict[int, list[Interval]] = {}
         self.spared: dict[int, list[Extent]] = {}
+        self.complete: list[int] = []
+        self._at_end = at_end
         self._offered: list[Extent] = []
 
     def choose(self, extents: list[Extent], pin: PinOf) -> list[Extent]:
         """Those that matter; *pin* tells where the first or the last line of one meets the leg."""
         self._offered = extents
-        part, owners, obstacles, ahead = self._part, self.targets.owners, self.obstacles, self.leg.ahead
-        numbers, groups, spared = mattering(extents, part, owners, obstacles, self.along, self.known, ahead)
+        part, owners, obstacles = self._part, self.targets.owners, self.obstacles
+        numbers, groups, spared, complete = mattering(
+            extents, part, owners, obstacles, self.along, self.known, self._at_end
+        )
         if self._facts:
             numbers += [n for _, some in spared for n in some]
             spared = []
+        else:
+            self.complete = complete
         chosen = {_family(extents[n]): extents[n] for n in numbers}
         for k, first, last in groups:
             if first.is_alone:
@@ -118,7 +125,7 @@ class FamilyFilter:
     @cached_property
     def _part(self) -> LegSpan:
         span, rail = self.leg.span, None if self.leg.edge is None else self.leg.rail
-        return LegSpan(bounds(span.low, rail), bounds(span.high, rail))
+        return LegSpan(bounds(span.low, rail), bounds(span.high, rail), self.leg.ahead)
 
     def last_shown(self, edges: Collection[int], leg: CurveImage, curves: list[CurveImage]) -> LastShown:
         """Which of some edges that are known all over at the end of the leg may be the last to become so.
@@ -128,9 +135,7 @@ class FamilyFilter:
         if not edges:
             return LastShown(edges)
         offered = self._offered
-        found, span, along = last_shown(
-            list(edges), offered, self._part, self.known, self.leg.ahead, leg, curves
-        )
+        found, span, along = last_shown(list(edges), offered, self._part, self.known, leg, curves)
         return LastShown(found, span, None if along < 0 else offered[along])
 
     def _single(self, source: Source, chosen: dict[Family, Extent], pin: PinOf) -> Interval | None:

@@ -92,9 +92,9 @@ class Shares:
         self.in_sight: Mapping[int, Sequence[Interval]] = {}
         self._pins: NamedPins | None = None
         self._way = way
-        # The edges that are known all over at the end of the leg; and families that tell when what of them is
-        # shown, as long as nobody asks, with what makes them and what chose them.
-        self._shown_whole: tuple[int, ...] = ()
+        # The edges that are known all over at the end of the leg. And by edges the families that tell when
+        # something is shown, as long as nobody asks, with what makes them and what chose them.
+        self._shown_whole: Collection[int] = ()
         self._spared: dict[int, list[Extent]] = {}
         self._made: Callable[[Iterable[Extent]], Families] = partial(_made_on_edge, complex_)
         self._filter: FamilyFilter | None = None
@@ -160,9 +160,10 @@ class Shares:
         """The families at the leg; only those that matter if it is told what is *known*."""
         complex_, leg, obstacles = self.complex, self.leg, self.obstacles
         along = [k for k in obstacles if self._is_along(k)]
-        chooser = (
-            None if known is None else FamilyFilter(leg, self.targets, obstacles, along, known, self._facts)
-        )
+        chooser = None
+        if known is not None:
+            at_end = {} if self._facts else self._end_views[1].surely
+            chooser = FamilyFilter(leg, self.targets, obstacles, along, known, at_end, self._facts)
         choose = None if chooser is None else chooser.choose
         if leg.edge is None:
             near = complex_.table.lit(leg.spots, complex_.range.above)
@@ -177,7 +178,7 @@ class Shares:
             yield from self._made(extents if choose is None else choose(extents, complex_.pin))
         if chooser is not None:
             self.in_sight = chooser.in_sight
-            self._spared, self._shown_whole = chooser.spared, tuple(chooser.spared)
+            self._spared, self._shown_whole = chooser.spared, chooser.complete
             self._filter = chooser
 
     def _make_spared(self, obstacles: Collection[int], edges: Collection[int] | None = None) -> None:

@@ -127,6 +127,14 @@ class BoundaryView:
         high = inf if end == following else -inf if end == e else parts.bracket(end)[1]
         return low, high
 
+    def surely(self, e: int, part: Part) -> tuple[float, float]:
+        """What surely lies in a part of an edge, likewise; an empty interval where nothing does."""
+        start, end = part
+        following, parts = self.table.following[e], self.parts
+        low = -inf if start == e else inf if start == following else parts.bracket(start)[1]
+        high = inf if end == following else -inf if end == e else parts.bracket(end)[0]
+        return low, high
+
     @cached_property
     def seen_parts(self) -> dict[int, list[Part]]:
         """What is seen, by the numbers of its ends (see `ViewEnds`)."""
