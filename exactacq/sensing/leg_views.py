@@ -230,9 +230,8 @@ class Shares:
         """
         parts = [part for part in self.targets.of[k] if not part.is_in(covers.get(part.edge, EMPTY))]
         edges = [part.edge for part in parts]
-        own = {share.edge for share in self.of[k] if share.family.free_views is None}
-        is_told = all(part.whole for part in parts) and k not in self.ends
-        if self._filter is None or not is_told or self.leg.edge in edges or not own.isdisjoint(edges):
+        # Of a part of an edge no more than its end may be left, which is seen from behind too.
+        if self._filter is None or not all(part.whole for part in parts):
             return LastShown(edges)
         curve = curve_image(self.leg.rail.curve)
         return self._filter.last_shown(edges, curve, self.complex.images.curves)
