@@ -122,18 +122,17 @@ class BoundaryView:
     def bracket(self, e: int, part: Part) -> tuple[float, float]:
         """Bounds of the parameters of a part of an edge, no full circle; infinite at the edge's ends."""
         start, end = part
-        following, parts = self.table.following[e], self.parts
-        low = -inf if start == e else inf if start == following else parts.bracket(start)[0]
-        high = inf if end == following else -inf if end == e else parts.bracket(end)[1]
-        return low, high
+        return self._bounds(e, start)[0], self._bounds(e, end)[1]
 
     def surely(self, e: int, part: Part) -> tuple[float, float]:
         """What surely lies in a part of an edge, likewise; an empty interval where nothing does."""
         start, end = part
-        following, parts = self.table.following[e], self.parts
-        low = -inf if start == e else inf if start == following else parts.bracket(start)[1]
-        high = inf if end == following else -inf if end == e else parts.bracket(end)[0]
-        return low, high
+        return self._bounds(e, start)[1], self._bounds(e, end)[0]
+
+    def _bounds(self, e: int, end: int) -> tuple[float, float]:
+        if end == e:
+            return -inf, -inf
+        return (inf, inf) if end == self.table.following[e] else self.parts.bracket(end)
 
     @cached_property
     def seen_parts(self) -> dict[int, list[Part]]:
