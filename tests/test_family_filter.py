@@ -380,8 +380,8 @@ def test_forgetting_changes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(visibility_complex, "KEPT", 1)
     monkeypatch.setattr(visibility_complex, "SEEN_FROM_KEPT", 1)
     made: list[int] = []
-    of = FamilySweeper.of
-    monkeypatch.setattr(FamilySweeper, "of", lambda self, e: made.append(e) or of(self, e))
+    swept = FamilySweeper.tangents
+    monkeypatch.setattr(FamilySweeper, "tangents", lambda self, e: made.append(e) or swept(self, e))
     assert record(xa.sightseer(random_octagons(30, 1), 3)) == usual
     assert len(made) > len(set(made)) > 200
 

@@ -187,7 +187,7 @@ def test_chords_along_lines_are_the_same_by_exact_contacts(
 
 def told_pairs(sweeper: FamilySweeper) -> set[tuple[object, ...]]:
     """All that single lines show within range: from which place of which edge, and of which edge what."""
-    lone = [line for e in range(len(sweeper.table.curves)) for line in sweeper.of(e).single_lines]
+    lone = [line for e in range(len(sweeper.table.curves)) for line in sweeper.tangents(e).single_lines]
     made = map(single_of, lone)
     near = [
         line

@@ -44,7 +44,8 @@ def test_what_is_at_an_edge(seed: int) -> None:
     """All families and single lines of an edge, and no others; and single lines begin where it is said."""
     sweeper = sweeper_of(seed)
     edges = range(len(sweeper.table.curves))
-    for found in map(sweeper.of, edges):
+    ways = sweeper.tangents, sweeper.normals, sweeper.corner_normals
+    for found in (swept(e) for e in edges for swept in ways):
         for e in edges:
             assert found.at.get(e, []) == [one for one in found.images if e in one.edges]
             assert found.lines_at.get(e, []) == [
@@ -71,7 +72,7 @@ def test_an_arc_sees_from_all_of_it() -> None:
     half_disc = xa.Outline([(-3, 0), (3, 0, 1)])
     square = xa.Polygon([(-5, 1), (-4, 1), (-4, 2), (-5, 2)])
     table = EdgeTable(xa.Scene([half_disc, square], radius=2).obstacles)
-    found = FamilySweeper(table, Range(xa.Real(2).rational)).of(1)
+    found = FamilySweeper(table, Range(xa.Real(2).rational)).tangents(1)
     tangents = [one for one in found.images if one.frame[0] == ROLLING]
     assert any(table.owner[e] == 1 for one in tangents for e in one.edges if e >= 0)
 

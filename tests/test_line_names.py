@@ -45,7 +45,8 @@ def random_sweeper(seed: int) -> FamilySweeper:
 def named_lines(sweeper: FamilySweeper) -> Iterator[tuple[LineFamily, Line, Names, list[int]]]:
     """The first and the last line of all families, with their names and the numbers of their images."""
     for e in range(len(sweeper.table.curves)):
-        for image in sweeper.of(e).images:
+        found = sweeper.tangents(e), sweeper.normals(e), sweeper.corner_normals(e)
+        for image in (image for families in found for image in families.images):
             family = family_of(image)
             ends = zip((family.low, family.high), family.names, strict=True)
             for (t, names), keys in zip(ends, (image.first_keys, image.last_keys), strict=True):

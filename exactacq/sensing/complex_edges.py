@@ -89,20 +89,15 @@ class FamilySweeper:
             found.setdefault(feature.edges[-1], []).append(feature)
         return found
 
-    def of(self, e: int) -> EdgeFamilies:
-        """The normals of an edge, the tangents of the features at it, and the normals at its start.
+    def tangents(self, e: int) -> EdgeFamilies:
+        """The tangents of the features at an edge, with the single lines that join them.
 
-        With the single lines that join the tangents. A corner belongs to the edge that starts there.
+        A corner belongs to the edge that starts there.
         """
         images: list[FamilyImage] = []
         single_lines: list[SingleImage] = []
-        around = self._near(self.table.spots(e))
-        for sector in normals(self.table.curves[e]):
-            ends = (e, self.table.following[e]) if isinstance(sector, Sliding) else NO_ENDS
-            self._add(images, sector, around, (e,), Side(e, Role.CONTACT), None, ends, goes_back=False)
         for feature in self._features.get(e, ()):
-            # Edges out of reach of a corner would only divide its families further.
-            near = around if feature.round else self._near((self.table.curves[e].start.xy,))
+            near = self._near_to(feature)
             contact = Side(e, Role.CONTACT, fixed=not feature.round)
             first, last = self._corners_beside(feature)
             sweeps = [
@@ -127,10 +122,26 @@ class FamilySweeper:
                         single_lines += line.image.single_lines(keys, line)
                         followed.update(keys)
             single_lines += self._end_on(feature, sweeps[0], sweeps[-1], close)
+        return EdgeFamilies(images, single_lines)
+
+    def normals(self, e: int) -> EdgeFamilies:
+        """The normals of an edge."""
+        images: list[FamilyImage] = []
+        near = self._near(self.table.spots(e))
+        for sector in normals(self.table.curves[e]):
+            ends = (e, self.table.following[e]) if isinstance(sector, Sliding) else NO_ENDS
+            self._add(images, sector, near, (e,), Side(e, Role.CONTACT), None, ends, goes_back=False)
+        return EdgeFamilies(images, [])
+
+    def corner_normals(self, e: int) -> EdgeFamilies:
+        """The normals of the boundary at a convex corner where an edge starts."""
+        images: list[FamilyImage] = []
+        for feature in self._features.get(e, ()):
             if not feature.round:
+                near, contact = self._near_to(feature), Side(e, Role.CONTACT, fixed=True)
                 for sector in self._corner_normals(feature):
                     self._add(images, sector, near, feature.edges, contact, feature, goes_back=False)
-        return EdgeFamilies(images, single_lines)
+        return EdgeFamilies(images, [])
 
     def rays(self, e: int) -> EdgeFamilies:
         """The rays from the ends of an edge to where these are what is nearest of it (see `end_rays`)."""
@@ -151,6 +162,11 @@ class FamilySweeper:
     def _near(self, places: tuple[Spot, ...]) -> list[int]:
         """The edges that may be seen within reach of somewhere between some places."""
         return self.table.lit(places, self.range.above)
+
+    def _near_to(self, feature: Feature) -> list[int]:
+        """What may be seen from a feature; what only an edge at it sees would divide families further."""
+        e = feature.edges[-1]
+        return self._near(self.table.spots(e) if feature.round else (self.table.curves[e].start.xy,))
 
     def _corners_beside(self, feature: Feature) -> tuple[int, int]:
         """The other ends of the straight edges at a corner: its first and its last tangent pass them."""

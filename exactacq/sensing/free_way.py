@@ -39,17 +39,21 @@ Choose: TypeAlias = "Callable[[list[Extent], PinOf], Iterable[Extent]]"
 class WayViews:
     """The families at some edges from one straight way: a span of a rail in closed free space.
 
-    *view* tells what is seen from an end of the way.
+    *view* tells what is seen from an end of the way. Unless *every* normal is to count, those are left out
+    that tell no more than tangents do (see `VisibilityComplex.telling`).
     """
 
-    def __init__(self, way: StraightWay, wanted: frozenset[int], view: Callable[..., Seen]) -> None:
-        self.wanted, self.way = wanted, way
+    def __init__(
+        self, way: StraightWay, wanted: frozenset[int], view: Callable[..., Seen], every: bool = True
+    ) -> None:
+        self.wanted, self.way, self._every = wanted, way, every
         self.normals = WayNormals(self.way, wanted)
         self.own_line = OwnLine(self.way, wanted, view)
 
     @cached_property
     def _near(self) -> list[EdgeFamilies]:
-        return self.way.complex.near(self.way.spots)
+        complex_, spots = self.way.complex, self.way.spots
+        return complex_.near(spots) if self._every else complex_.telling(spots)
 
     @cached_property
     def crossing(self) -> WayCrossings:

@@ -71,7 +71,7 @@ class Sensor:
 
     def __init__(self, table: EdgeTable, range_: Range, targets: Targets | None = None) -> None:
         self.table, self.range = table, range_
-        self.complex = VisibilityComplex(table, range_)
+        self.complex = VisibilityComplex(table, range_, () if targets is None else targets.cut)
         self.rails = self.complex.clipper.rails
         self.targets = Targets.whole(table, self.rails) if targets is None else targets
         self.covers: dict[int, Cover] = {}
@@ -179,6 +179,7 @@ class Sensor:
         for notice in notices:
             if notice.kind is EventKind.ACQUIRE:
                 self.acquired.add(notice.obstacle)
+                self.complex.done |= self.targets.alone(notice.obstacle)
                 self.incomplete.discard(notice.obstacle)
                 self.in_sight.discard(notice.obstacle)
             elif notice.kind is EventKind.LOSE:

@@ -47,13 +47,17 @@ class Target(NamedTuple):
 class Targets:
     """The targets of every obstacle, in the order of its boundary.
 
-    ``lookouts`` are the ends of those that do not count with their whole boundary, by obstacle.
+    ``lookouts`` are the ends of those that do not count with their whole boundary, by obstacle; ``cut`` are
+    the scene's obstacles of which not all counts, by their own numbers.
     """
 
     def __init__(
-        self, of: Sequence[tuple[Target, ...]], lookouts: Mapping[int, Sequence[CutEnd]] | None = None
+        self,
+        of: Sequence[tuple[Target, ...]],
+        lookouts: Mapping[int, Sequence[CutEnd]] | None = None,
+        cut: Collection[int] = (),
     ) -> None:
-        self.of, self.lookouts = tuple(of), lookouts or {}
+        self.of, self.lookouts, self.cut = tuple(of), lookouts or {}, cut
         self.edges = [frozenset(target.edge for target in targets) for targets in self.of]
         self._on: dict[int, list[tuple[int, Target]]] = {}
         for k, targets in enumerate(self.of):
@@ -89,10 +93,12 @@ class Targets:
     @classmethod
     def of_components(cls, components: Iterable[Component], table: EdgeTable, range_: Range) -> Targets:
         """The shores of what a terrain leaves of obstacles, with lookouts where a border cuts them."""
-        of, lookouts = [], {}
+        of, lookouts, cut = [], {}, set[int]()
         for component in components:
             first = int(table.first[component.obstacle.index])
             targets = tuple(Target(first + p.edge, p.span, p.is_whole) for p in component.shore)
+            if sum(target.whole for target in targets) < len(component.obstacle.edges):
+                cut.add(component.obstacle.index)
             if not component.closed:
                 begin, end = targets[0], targets[-1]
                 lookouts[component.index] = (
@@ -100,11 +106,15 @@ class Targets:
                     CutEnd(table, range_, end.edge, end.span.high, end.span.end),
                 )
             of.append(targets)
-        return cls(of, lookouts)
+        return cls(of, lookouts, cut)
 
     def on(self, edge: int) -> Sequence[tuple[int, Target]]:
         """The obstacles that an edge counts for."""
         return self._on.get(edge, ())
+
+    def alone(self, k: int) -> set[int]:
+        """The edges that count for an obstacle and for no other."""
+        return {e for e in self.edges[k] if len(self._on[e]) == 1}
 
     def near(self, edges: Iterable[int]) -> set[int]:
         """The obstacles that some of the edges count for."""

@@ -4,23 +4,27 @@ Its edges are families of lines that touch one feature, its vertices are lines t
 bitangents (Pocchiola and Vegter, "The visibility complex", 1996). Where a viewer crosses such a line its
 view changes: a visual event (Hall-Holt, "Kinetic visibility", 2002). Three kinds of families are swept
 where the robot comes near: the tangent lines of every feature, the normals of every edge, and the normals
-of every convex corner. Each is swept once; cost: near linear in the scene at constant density and range.
+of every convex corner. Normals only tell from where an obstacle is in sight; they are swept where tangents
+may not (see `exactacq.kernel.telling_normals`). Each family is swept once; cost: near linear in the scene at
+constant density and range.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from functools import lru_cache
+from collections.abc import Callable, Collection, Iterator
+from functools import cached_property, lru_cache
+from math import inf
 
+from exactacq import kernel
 from exactacq.geometry.late import Pin
 from exactacq.kernel.extents import Extent, extents_from
-from exactacq.kernel.family_images import FamilyImage
+from exactacq.kernel.family_images import NONE, FamilyImage
 from exactacq.kernel.shadows import Spot
 from exactacq.kernel.single_lines import SingleImage, extents_of_lines
+from exactacq.kernel.telling_normals import Front, telling
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.complex_edges import EdgeFamilies, FamilySweeper
 from exactacq.sensing.line_family import family_of, single_of
-from exactacq.sensing.line_images import LineImages
 from exactacq.sensing.view_families import ViewFamily
 from exactacq.visibility.sensor_range import Range
 
@@ -35,33 +39,84 @@ SEEN_FROM_KEPT = 128
 class VisibilityComplex:
     """The families of views of one scene within one radius."""
 
-    def __init__(self, table: EdgeTable, range_: Range) -> None:
-        self.table, self.range = table, range_
+    def __init__(self, table: EdgeTable, range_: Range, cut: Collection[int] = ()) -> None:
+        """Of *cut* obstacles only a part counts.
+
+        To ``done`` may be added edges of obstacles of which nobody asks any more from where they are seen.
+        """
+        self.table, self.range, self._cut = table, range_, cut
+        self.done: set[int] = set()
         sweeper = FamilySweeper(table, range_)
         self.clipper, self.images = sweeper.clipper, sweeper.images
-        self._around = Neighbourhood(table, range_, self.images, sweeper.of)
-        self._rays = Neighbourhood(table, range_, self.images, sweeper.rays)
-        self._seen_from = lru_cache(SEEN_FROM_KEPT)(self._around.extents)
+        self._tangents = FamilyStore(sweeper.tangents)
+        self._normals = FamilyStore(sweeper.normals)
+        self._corner_normals = FamilyStore(sweeper.corner_normals)
+        self._rays = FamilyStore(sweeper.rays)
+        self._seen_from = lru_cache(SEEN_FROM_KEPT)(self._extents)
 
     def near(self, places: tuple[Spot, ...]) -> list[EdgeFamilies]:
-        """The families of the edges in sight between some places: all that may show anything there."""
-        return self._around.near(places)
+        """The tangents and normals of the edges in sight between some places: all that may show anything."""
+        edges = self._edges(places)
+        return self._tangents.of(edges) + self._normals.of(edges) + self._corner_normals.of(edges)
+
+    def telling(self, places: tuple[Spot, ...], edge: int = NONE) -> list[EdgeFamilies]:
+        """Those without which it would not be known what is shown, and from where an obstacle is in sight.
+
+        The places are on an edge, if it is given, or the ends of a straight way.
+        """
+        edges = self._edges(places)
+        asked = [e for e in edges if e == edge or e not in self.done]
+        along, corners = telling(self._fronts, asked, places, edge, self.images.reach)
+        return self._tangents.of(edges) + self._normals.of(along) + self._corner_normals.of(corners)
 
     def rays(self, places: tuple[Spot, ...]) -> list[EdgeFamilies]:
         """The rays from the ends of the edges in sight between some places (see `end_rays`)."""
-        return self._rays.near(places)
+        return self._rays.of(self._edges(places))
+
+    def _edges(self, places: tuple[Spot, ...]) -> list[int]:
+        """The edges that may be seen from somewhere between some places."""
+        return self.table.lit(places, self.range.above)
+
+    @cached_property
+    def _fronts(self) -> list[Front]:
+        """The edges as it takes them to tell whose normals matter."""
+        table = self.table
+        plane = -inf, -inf, inf, inf
+        boxes = [plane if k in self._cut else hull for k, hull in enumerate(map(tuple, table.hulls.tolist()))]
+        if kernel.EXACT_ONLY:
+            boxes = [plane] * len(boxes)
+        images, owners = table.curve_images, table.owners
+        return [
+            Front(image, images[table.preceding[e]], owners[e], boxes[owners[e]])
+            for e, image in enumerate(images)
+        ]
+
+    def extents(self, edge: int) -> list[Extent]:
+        """What tangents and normals at an edge show of others from it, in floats.
+
+        Not what starts at a corner of the edge: what a corner sees is a view.
+        """
+        return self._shown(edge, self.near(self.table.spots(edge)))
 
     def extents_of_rays(self, edge: int) -> list[Extent]:
         """Which edges the rays from their ends show from an edge, in floats."""
-        return self._rays.extents(edge)
+        return self._shown(edge, self.rays(self.table.spots(edge)))
 
-    def extents(self, edge: int) -> list[Extent]:
-        """What the families at an edge show of others from it, in floats.
+    def telling_extents(self, edge: int) -> list[Extent]:
+        """What `telling` families show of others from an edge, in floats; as `extents`.
 
-        Not what starts at a corner of the edge: what a corner sees is a view. The last are kept: a robot
-        comes back to an edge.
+        The last are kept: a robot comes back to an edge.
         """
         return self._seen_from(edge)
+
+    def _extents(self, edge: int) -> list[Extent]:
+        return self._shown(edge, self.telling(self.table.spots(edge), edge))
+
+    def _shown(self, edge: int, near: list[EdgeFamilies]) -> list[Extent]:
+        """What families show of others from an edge, and single lines that meet it."""
+        curves, reach = self.table.curve_images, self.images.reach
+        single_lines = extents_of_lines(edge, [one.lines_at for one in near], curves, reach[0])
+        return extents_from(edge, [one.at for one in near], curves, reach) + single_lines
 
     def views(self, one: Extent) -> Iterator[tuple[ViewFamily, int]]:
         """The families that `extents` tells of, and which of their sides lies on the edge."""
@@ -82,22 +137,18 @@ class VisibilityComplex:
         return single_of(source).pin(one.here, self.clipper)
 
 
-class Neighbourhood:
-    """Finds the families near a place, and sweeps them where that was not done yet."""
+class FamilyStore:
+    """Families of one kind by their edges, swept where that was not done yet."""
 
-    def __init__(
-        self, table: EdgeTable, range_: Range, images: LineImages, swept: Callable[[int], EdgeFamilies]
-    ) -> None:
+    def __init__(self, swept: Callable[[int], EdgeFamilies]) -> None:
         """*swept* are the families of an edge."""
-        self.table, self.range, self.images = table, range_, images
         self._swept, self._most = swept, KEPT
         # Those that were used since the last ones were dropped, and what was there before.
         self._used: dict[int, EdgeFamilies] = {}
         self._before: dict[int, EdgeFamilies] = {}
 
-    def near(self, places: tuple[Spot, ...]) -> list[EdgeFamilies]:
-        """The families of the edges that may be seen from somewhere between some places."""
-        edges = self.table.lit(places, self.range.above)
+    def of(self, edges: list[int]) -> list[EdgeFamilies]:
+        """The families of some edges."""
         used = self._used
         for e in [e for e in edges if e not in used]:
             families = self._before.pop(e, None)
@@ -106,9 +157,3 @@ class Neighbourhood:
         if len(used) >= self._most:
             self._used, self._before = {}, used
         return [used[e] for e in edges]
-
-    def extents(self, edge: int) -> list[Extent]:
-        """What families show of others from an edge, and single lines that meet it."""
-        near, curves, reach = self.near(self.table.spots(edge)), self.table.curve_images, self.images.reach
-        single_lines = extents_of_lines(edge, [one.lines_at for one in near], curves, reach[0])
-        return extents_from(edge, [one.at for one in near], curves, reach) + single_lines
