@@ -5,7 +5,7 @@ bitangents (Pocchiola and Vegter, "The visibility complex", 1996). Where a viewe
 view changes: a visual event (Hall-Holt, "Kinetic visibility", 2002). Three kinds of families are swept
 where the robot comes near: the tangent lines of every feature, the normals of every edge, and the normals
 of every convex corner. Normals only tell from where an obstacle is in sight; they are swept where tangents
-may not (see `exactacq.kernel.telling_normals`). Each family is swept once; cost: near linear in the scene at
+may not (see `exactacq.kernel.normals`). Each family is swept once; cost: near linear in the scene at
 constant density and range.
 """
 
@@ -19,9 +19,9 @@ from exactacq import kernel
 from exactacq.geometry.late import Pin
 from exactacq.kernel.extents import Extent, extents_from
 from exactacq.kernel.family_images import NONE, FamilyImage
+from exactacq.kernel.normals import Front, telling
 from exactacq.kernel.shadows import Spot
 from exactacq.kernel.single_lines import SingleImage, extents_of_lines
-from exactacq.kernel.telling_normals import Front, telling
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.complex_edges import EdgeFamilies, FamilySweeper
 from exactacq.sensing.line_family import family_of, single_of

@@ -13,7 +13,7 @@ from strategies import arc_terrain, degenerate_terrain, random_terrain
 import exactacq as xa
 from exactacq import kernel
 from exactacq.files.octagons import random_octagons
-from exactacq.kernel.telling_normals import telling
+from exactacq.kernel.normals import telling
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.leg_views import Shares
 from exactacq.sensing.legs import legs_of
