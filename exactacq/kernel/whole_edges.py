@@ -60,25 +60,27 @@ def last_shown(
     """Which of some edges that become known all over on a leg may be the last, and when at the earliest and
     at the latest.
 
-    If that is where the leg crosses the edge's line to its front, and it is seen along that line, the number
-    of the extent that tells so; else -1. All *extents* at the leg of families that show something new of the
-    edges are needed. The leg lies on the curve *leg*; no *curves* are given if floats are to tell nothing.
-    Where the robot walks back, a later moment has a lower parameter.
+    If at the earliest it is where the leg crosses an edge's line to its front, and all of that edge is
+    seen along that line, the number of the extent that tells so; else -1. All *extents* at the leg of
+    families that show something new of the edges are needed. The leg lies on the curve *leg*; no *curves*
+    are given if floats are to tell nothing. Where the robot walks back, a later moment has a lower
+    parameter.
     """
     ahead = span.ahead
-    moments: list[Span] = []
-    latest = -inf
+    moments: list[float] = []
+    latest, front = -inf, -1
     for e in edges:
         first = _comes_in_front(leg, curves[e], ahead) if curves else -inf
-        moments.append((first, _end_of_news(e, extents, span, known.get(e))))
-        latest = max(latest, first)
+        moments.append(_end_of_news(e, extents, span, known.get(e)))
+        if first > latest:
+            latest, front = first, e
     end = -inf
     found: list[int] = []
     for n in range(len(edges)):
-        if moments[n][1] >= latest:
+        if moments[n] >= latest:
             found.append(edges[n])
-            end = max(end, moments[n][1])
-    along = _along(found[0], extents, span) if len(found) == 1 and latest > -inf else -1
+            end = max(end, moments[n])
+    along = _along(front, extents, span) if front >= 0 else -1
     return found, (latest, end) if ahead else (-end, -latest), along
 
 

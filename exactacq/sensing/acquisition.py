@@ -1,8 +1,9 @@
 """When an obstacle becomes whole: the place of a leg where the last gap in what is known of it closes.
 
 What is known grows with closed sets, so the moment is one of finitely many candidates; between two of them a
-place with a rational parameter tells. The gaps at the start of the leg give a first guess; their ends may
-have moved meanwhile, so the gaps just before it are looked at again.
+place with a rational parameter tells. First the places are looked at where families of views begin and end.
+Between two of them an end of a gap stays where it is, or moves until the gap closes at another end: so next
+come the places where the ends of the gaps that are left are seen.
 """
 
 from __future__ import annotations
@@ -62,15 +63,19 @@ class Acquisition:
         leg = self._every.leg
         if self._is_whole(self.before):
             return leg.first, leg.start
-        if self._last.along is not None:
-            # Before, the robot is behind the edge; there it sees all of it.
-            return self._every.place_of(self._last.along)
         stretch = Meanwhile(leg, self.before)
-        for _ in range(2):
-            groups = self._moments(stretch)
-            cluster, stretch = self._closing(groups, stretch)
-            if len(groups) == 1 or self._is_untaught(stretch.known):
-                break
+        if self._last.along is not None:
+            # Before, the robot is behind that edge; there it sees all of it.
+            moment = self._every.place_of(self._last.along)
+            if len(self._last.edges) == 1:
+                return moment
+            if moment[1].rational is not None:
+                known = self._partly_known(leg.upto(*moment))
+                if known is None:
+                    return moment
+                stretch = Meanwhile(leg.between(moment, (leg.last, leg.end)), known)
+        _, stretch = self._closing(self._moments(stretch), stretch)
+        cluster, stretch = self._closing(self._moments(stretch, self._at_gaps(stretch)), stretch)
         # What balls cannot part is compared here, and only here; with an end of the leg too if it is close.
         here = [u for u, _ in cluster]
         for bound, side in ((leg.first, 1), (leg.last, -1)):
@@ -106,11 +111,6 @@ class Acquisition:
             return self._high < inf and u > as_fraction(self._high)
         return self._low > -inf and u < as_fraction(self._low)
 
-    def _is_untaught(self, known: ChainMap[int, Cover]) -> bool:
-        """Whether no more is known than at the start of the leg: then no gap has moved."""
-        edges = [target.edge for target in self._targets]
-        return all(known.get(e) is self.before.get(e) for e in edges)
-
     def _partly_known(self, part: Leg) -> ChainMap[int, Cover] | None:
         """What is known after the beginning of the leg; None if the obstacle is whole there.
 
@@ -127,33 +127,36 @@ class Acquisition:
     def _is_whole(self, covers: ChainMap[int, Cover]) -> bool:
         return all(target.is_in(covers.get(target.edge, EMPTY)) for target in self._targets)
 
-    def _moments(self, stretch: Meanwhile) -> list[list[Place]]:
-        """The places of a stretch, in its order, at one of which the last gap closes; in clusters.
+    def _at_gaps(self, stretch: Meanwhile) -> Iterator[Place]:
+        """Where families show the end of a gap, or it comes into range, or the leg itself reaches it."""
+        shares, k, leg = self.shares, self.k, stretch.leg
+        corners: set[int] = set()
+        for e, span, _ in self._targets:
+            for gap in stretch.known.get(e, EMPTY).gaps(span):
+                for u, point in ((gap.low, gap.start), (gap.high, gap.end)):
+                    yield from shares.reaching(k, e, u, point)
+                    corner = self._corner(e, point)
+                    if corner not in corners:
+                        yield from self._in_range(leg, point)
+                    if corner is not None:
+                        # It may end the gaps of two edges.
+                        corners.add(corner)
+                    if e == leg.edge:
+                        yield u, point
 
-        There a family begins or ends, or what it shows reaches the end of a gap, or the end of a gap comes
-        into range, or the leg itself reaches it; or the robot is at the end of the leg. Places that balls
-        cannot part form a cluster: most are one place, found in several ways.
+    def _moments(self, stretch: Meanwhile, at_gaps: Iterable[Place] = ()) -> list[list[Place]]:
+        """The places of a stretch, in its order, where a family begins or ends, and its end; in clusters.
+
+        With those *at gaps* the last gap closes at one of them. Places that balls cannot part form a cluster:
+        most are one place, found in several ways.
         """
         shares, k, leg = self.shares, self.k, stretch.leg
-        found: list[Place] = [(leg.first, leg.start), (leg.last, leg.end)]
+        found: list[Place] = [(leg.first, leg.start), (leg.last, leg.end), *at_gaps]
         for share in shares.of[k]:
             for end in (share.family.first, share.family.last):
                 found.append((end.places[share.side], end.points[share.side]))
         for _, part in shares.ends.get(k, ()):
             found += [(part.low, part.start), (part.high, part.end)]
-        corners: set[int] = set()
-        for e, span, _ in self._targets:
-            for gap in stretch.known.get(e, EMPTY).gaps(span):
-                for u, point in ((gap.low, gap.start), (gap.high, gap.end)):
-                    found += shares.reaching(k, e, u, point)
-                    corner = self._corner(e, point)
-                    if corner not in corners:
-                        found += self._in_range(leg, point)
-                    if corner is not None:
-                        # It may end the gaps of two edges.
-                        corners.add(corner)
-                    if e == leg.edge:
-                        found.append((u, point))
         groups = clusters(found)
         first, last = (
             next(n for n, cluster in enumerate(groups) if any(u is bound for u, _ in cluster))

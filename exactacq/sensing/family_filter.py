@@ -63,7 +63,7 @@ class KnownSpans(Mapping[int, Sequence[Span]]):
 class LastShown(NamedTuple):
     """Which of some edges may be the last to become known all over, and bounds of where on the leg that is.
 
-    It is where the edge is seen ``along`` its own line, if that is there.
+    It is not before one of them is seen ``along`` its own line, if that is given: then all of that one is.
     """
 
     edges: Collection[int]
