@@ -21,6 +21,7 @@ from exactacq.geometry.late import late_point
 from exactacq.numbers.rationals import ends
 from exactacq.sensing.acquisition import Acquisition, Place, between, clusters, distance_bounds
 from exactacq.sensing.leg_views import Shares
+from exactacq.sensing.legs import Leg
 
 NEAR = fmpq(1, 2**40)
 """So much before and after the place the obstacle is asked about."""
@@ -74,6 +75,27 @@ def test_among_octagons(told: list[tuple[bool, bool]]) -> None:
     """Most are whole at the end of a leg; no view is taken between its ends then."""
     xa.sightseer(random_octagons(20, seed=3), 10).sense()
     assert len(told) == 20 and not any(before for before, _ in told)
+
+
+def test_on_long_ways(told: list[tuple[bool, bool]], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Some are whole where an edge comes to the front, seen along its own line; others only later."""
+    # Whether the obstacle is whole at the front of an edge; None if nobody had to ask.
+    fronts: list[bool | None] = []
+    place_of, partly = Shares.place_of, Acquisition._partly_known
+    monkeypatch.setattr(Shares, "place_of", lambda self, one: fronts.append(None) or place_of(self, one))
+
+    def known(self: Acquisition, part: Leg) -> ChainMap[int, Cover] | None:
+        found = partly(self, part)
+        if self._last.along is not None and len(self._last.edges) > 1 and fronts[-1] is None:
+            fronts[-1] = found is None
+        return found
+
+    monkeypatch.setattr(Acquisition, "_partly_known", known)
+    octagons = random_octagons(50, seed=3)
+    xa.seed_spreader(xa.Scene(octagons.shapes, terrain=xa.Terrain(60, 60), radius=10))
+    assert {True, False, None} <= set(fronts)
+    assert not any(before for before, _ in told)
+    assert all(after in (True, None) for _, after in told)
 
 
 # -- candidates -----------------------------------------------------------------------------------------
