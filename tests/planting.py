@@ -8,13 +8,14 @@ import signal
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from functools import cached_property
 from textwrap import dedent
 from typing import Any, NamedTuple
 
 import pytest
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
+
+from exactacq.cached import cached_property
 
 PATIENCE = 5.0
 """Seconds of the processor for one case: the longest take a tenth of that."""

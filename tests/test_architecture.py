@@ -144,6 +144,7 @@ def test_rules_of_strategies_know_the_robot_and_nothing_else() -> None:
     assert len(rules) == 9
     allowed = (
         "errors",
+        "cached",
         "numbers/",
         "geometry/",
         "kernel/",

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterator
-from functools import cached_property
 from pathlib import Path
-from threading import Thread
+from threading import Barrier, Thread
 from typing import Any
 
 import pytest
@@ -14,6 +13,7 @@ from flint import arb, ctx
 from nightly import some
 
 import exactacq as xa
+from exactacq.cached import cached_property
 from exactacq.numbers.atoms import Node
 from exactacq.numbers.precision import LOCK, workprec
 from exactacq.numbers.real import Real
@@ -112,19 +112,20 @@ def test_a_late_number_is_made_once_for_all() -> None:
         assert number == expected
 
 
-def test_who_holds_the_lock_waits_for_no_other(monkeypatch: pytest.MonkeyPatch) -> None:
-    original = cached_property.__get__
+def test_no_lock_is_held_while_a_cached_property_is_computed() -> None:
+    """Two threads compute it for two objects at once."""
+    both = Barrier(2, timeout=60)
 
-    def checked(self: Any, instance: Any, owner: Any = None) -> Any:
-        if instance is not None and self.attrname not in instance.__dict__:
-            assert not LOCK._is_owned(), f"{self.attrname} is computed meanwhile"
-        return original(self, instance, owner)
+    class Thing:
+        @cached_property
+        def value(self) -> int:
+            """How many waited before."""
+            return both.wait()
 
-    monkeypatch.setattr(cached_property, "__get__", checked)
-    for name in ("m11", "figure1", "circles"):
-        tour(name)
-    for name in ("case3", "m14"):
-        swept(name)
+    things = Thing(), Thing()
+    assert sorted(together(*(lambda thing=thing: thing.value for thing in things))) == [0, 1]
+    assert sorted(thing.value for thing in things) == [0, 1]
+    assert Thing.value.__doc__ == "How many waited before."
 
 
 def test_a_precision_that_is_none_is_refused_and_changes_nothing() -> None:

@@ -9,7 +9,7 @@ has beside it is decided by rays too. Nothing of the strategy, of its M-line or 
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterator, Sequence
-from functools import cached_property, cmp_to_key
+from functools import cmp_to_key
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -27,6 +27,7 @@ from exactacq.auditing.comparisons import (
     same,
 )
 from exactacq.auditing.visibility import World, between
+from exactacq.cached import cached_property
 from exactacq.errors import AuditError
 from exactacq.geometry.box_index import bounds
 from exactacq.geometry.coordinates import minus, ratio, raw

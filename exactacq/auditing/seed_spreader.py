@@ -9,7 +9,6 @@ which `exactacq.auditing.knowledge` checks.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property
 from random import Random
 from typing import Any
 
@@ -31,6 +30,7 @@ from exactacq.auditing.knowledge import MOMENTS, is_whole
 from exactacq.auditing.look_ahead import Answer, seen_later
 from exactacq.auditing.rest_of_line import KnownPieces, Rest
 from exactacq.auditing.visibility import Viewpoints, visible
+from exactacq.cached import cached_property
 from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import contacts

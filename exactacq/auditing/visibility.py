@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import partial
 from itertools import accumulate, pairwise
 from math import hypot
 from typing import NamedTuple
@@ -43,6 +43,7 @@ from exactacq.auditing.rays import (
     unit_vector,
     with_cells,
 )
+from exactacq.cached import cached_property
 from exactacq.geometry.box_index import BoxIndex, bounds
 from exactacq.geometry.coordinates import Vector, raw
 from exactacq.geometry.curves import Arc, Curve, Segment

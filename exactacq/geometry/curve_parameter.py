@@ -7,10 +7,9 @@ boundary edges are points with rational coordinates.
 
 from __future__ import annotations
 
-from functools import cached_property
-
 from flint import arb, fmpq
 
+from exactacq.cached import cached_property
 from exactacq.geometry.coordinates import Vector, cross, dot, minus, raw, sign
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.late import BITS, Balls, ball_of, balls

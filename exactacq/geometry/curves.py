@@ -7,12 +7,12 @@ is inside the circle) and a clockwise arc is concave.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property
 from math import atan2
 from typing import TypeAlias
 
 from flint import fmpq
 
+from exactacq.cached import cached_property
 from exactacq.geometry.geo import Geo, line_string
 from exactacq.geometry.points import Orientation, Point, distance, orientation
 from exactacq.geometry.strokes import Stroke

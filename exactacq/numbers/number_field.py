@@ -9,12 +9,13 @@ it is, which itself comes in only where its ball tells which of two square roots
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from itertools import count, product
 from typing import TypeAlias
 
 from flint import Ordering, acb, arb, fmpq, fmpq_mat, fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly, fmpz, fmpz_poly
 
+from exactacq.cached import cached_property
 from exactacq.numbers.atoms import Atom, Node, Root
 from exactacq.numbers.precision import workprec
 

@@ -2,7 +2,7 @@
 
 Whoever sets the precision holds `LOCK` until it is reset; so does who makes or changes numbers that others
 may share. Whoever holds it waits for nothing else, or two threads could wait for each other: no callback is
-called meanwhile, and no cached property of an object is computed (before Python 3.12 these have locks).
+called meanwhile.
 """
 
 from __future__ import annotations

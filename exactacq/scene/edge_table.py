@@ -7,7 +7,6 @@ margins of the pruning code are multiples of it.
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Sequence
-from functools import cached_property
 from math import inf
 from typing import Any
 
@@ -15,6 +14,7 @@ import numpy as np
 from flint import fmpq, fmpz
 from numpy.typing import NDArray
 
+from exactacq.cached import cached_property
 from exactacq.geometry.box_index import bounds, circles, united
 from exactacq.geometry.coordinates import raw
 from exactacq.geometry.curve_images import curve_image

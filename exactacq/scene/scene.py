@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from functools import cached_property
 from typing import Any
 
 from flint import fmpq
 
+from exactacq.cached import cached_property
 from exactacq.errors import FormatError, InvalidScene, about, shown, without_controls
 from exactacq.geometry.boundary_index import BoundaryIndex
 from exactacq.geometry.box_index import DIRECTIONS

@@ -11,11 +11,11 @@ from __future__ import annotations
 from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
-from functools import cached_property
 from itertools import pairwise
 from string import ascii_lowercase
 from typing import NamedTuple
 
+from exactacq.cached import cached_property
 from exactacq.errors import InvalidScene
 from exactacq.geometry.boundary_index import BoundaryIndex
 from exactacq.geometry.box_index import box

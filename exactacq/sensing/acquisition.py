@@ -11,12 +11,12 @@ from __future__ import annotations
 from collections import ChainMap
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from math import hypot, inf
 from typing import TypeAlias
 
 from flint import fmpq
 
+from exactacq.cached import cached_property
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.intersections import contacts
 from exactacq.geometry.interval_union import EMPTY, Cover

@@ -8,11 +8,12 @@ sides and shows what no neighbouring line does.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from functools import cached_property, partial
+from functools import partial
 from typing import TypeAlias
 
 from flint import fmpq
 
+from exactacq.cached import cached_property
 from exactacq.geometry.coordinates import minus, raw
 from exactacq.geometry.curve_images import held_point
 from exactacq.geometry.curve_parameter import ZERO, Rail

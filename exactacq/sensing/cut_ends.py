@@ -7,9 +7,9 @@ point itself is computed: if it sees a place of the path, that place sees it.
 
 from __future__ import annotations
 
-from functools import cached_property
 from itertools import pairwise
 
+from exactacq.cached import cached_property
 from exactacq.geometry.coordinates import raw
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.intersections import contacts

@@ -8,9 +8,9 @@ the point of an edge at the distance of the range, in either direction along the
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from functools import cached_property
 from math import inf
 
+from exactacq.cached import cached_property
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.interval_union import Interval

@@ -6,12 +6,12 @@ Floats with proven bounds tell (see `exactacq.kernel.choice`); what they leave o
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from functools import cached_property
 from math import inf
 from typing import NamedTuple, TypeAlias
 
 from flint import fmpq
 
+from exactacq.cached import cached_property
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.interval_union import EMPTY, Cover, Interval
 from exactacq.geometry.late import unmade_point

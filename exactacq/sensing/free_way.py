@@ -7,9 +7,9 @@ with the piece. The normals of the piece itself and the views along its own line
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from functools import cached_property
 from typing import TypeAlias
 
+from exactacq.cached import cached_property
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.late import Pin, balls, from_to, late_point

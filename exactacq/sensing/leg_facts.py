@@ -6,9 +6,9 @@ known, however complicated its coordinates are.
 
 from __future__ import annotations
 
-from functools import cached_property
 from itertools import chain
 
+from exactacq.cached import cached_property
 from exactacq.geometry.late import balls
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real

@@ -12,12 +12,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
-from functools import cached_property
 from itertools import groupby, pairwise
 from math import inf
 
 from flint import arb
 
+from exactacq.cached import cached_property
 from exactacq.geometry.curve_images import curve_image
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.interval_union import Interval

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
 
+from exactacq.cached import cached_property
 from exactacq.errors import FormatError
 from exactacq.geometry.box_index import box
 from exactacq.geometry.curve_parameter import Rail

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from functools import cached_property
 from math import inf
 
 from exactacq import kernel
+from exactacq.cached import cached_property
 from exactacq.geometry.curve_images import held_point
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.points import Point

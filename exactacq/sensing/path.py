@@ -5,13 +5,13 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import accumulate
 from math import ceil, pi
 from typing import Any
 
 import numpy as np
 
+from exactacq.cached import cached_property
 from exactacq.geometry.curves import Curve
 from exactacq.geometry.geo import Geo, corners, line_string
 from exactacq.geometry.points import Point

@@ -7,10 +7,10 @@ that the robot can reach counts, and one edge may belong to several components.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from functools import cached_property
 from itertools import chain, repeat
 from typing import NamedTuple, TypeAlias
 
+from exactacq.cached import cached_property
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.interval_union import EMPTY, Cover, Interval
 from exactacq.scene.edge_table import EdgeTable

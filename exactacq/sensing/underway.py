@@ -8,8 +8,9 @@ what is known of another one is the same at all places that have passed the same
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
-from functools import cached_property, partial
+from functools import partial
 
+from exactacq.cached import cached_property
 from exactacq.geometry.interval_union import Cover
 from exactacq.geometry.points import Point
 from exactacq.numbers.float_bounds import float_ball

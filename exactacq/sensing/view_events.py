@@ -12,11 +12,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
-from functools import cached_property
 from typing import Any, TypeAlias
 
 from flint import fmpq
 
+from exactacq.cached import cached_property
 from exactacq.errors import shown
 from exactacq.gc_pause import uncollected
 from exactacq.geometry.curve_parameter import Rail

@@ -19,12 +19,12 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
 from math import prod
 from typing import Any
 
 from flint import arb, ctx, fmpq
 
+from exactacq.cached import cached_property
 from exactacq.geometry.coordinates import Vector, cross, dot, minus
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Point

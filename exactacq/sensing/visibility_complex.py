@@ -12,10 +12,11 @@ constant density and range.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from math import inf
 
 from exactacq import kernel
+from exactacq.cached import cached_property
 from exactacq.geometry.late import Pin
 from exactacq.kernel.extents import Extent, extents_from
 from exactacq.kernel.family_images import NONE, FamilyImage

@@ -6,11 +6,11 @@ It sees past the contact, to the contact, or, on the normal of an edge, to the f
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from functools import cached_property
 from itertools import pairwise
 
 from flint import arb, fmpq
 
+from exactacq.cached import cached_property
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.late import Balls, Pin

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import cached_property
 
+from exactacq.cached import cached_property
 from exactacq.geometry.coordinates import minus, raw
 from exactacq.geometry.late import Pin
 from exactacq.kernel.extents import Extent

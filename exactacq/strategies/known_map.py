@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence, Set
 from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
 
+from exactacq.cached import cached_property
 from exactacq.geometry.curves import Curve
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length

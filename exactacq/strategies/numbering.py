@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import cached_property
 
 import numpy as np
 from flint import fmpq
 
+from exactacq.cached import cached_property
 from exactacq.numbers.real import rational
 from exactacq.scene.edge_table import Floats
 

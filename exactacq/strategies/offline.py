@@ -7,7 +7,6 @@ tree that joins the obstacles. Each bound says what it leaves out.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Sequence
-from functools import cached_property
 from heapq import heapify, heappop, heappush
 from typing import NamedTuple
 
@@ -15,6 +14,7 @@ import numpy as np
 from flint import fmpq
 from networkx.utils import UnionFind
 
+from exactacq.cached import cached_property
 from exactacq.geometry.coordinates import raw
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.intersections import spans

@@ -5,13 +5,13 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, fields
-from functools import cached_property
 from html import escape
 from math import tan
 from typing import Any, Protocol, Self, TypeVar
 
 from flint import fmpq
 
+from exactacq.cached import cached_property
 from exactacq.files.whole_files import readable
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.geo import Geo

@@ -11,8 +11,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
+from exactacq.cached import cached_property
 from exactacq.errors import InvalidScene
 from exactacq.files.gallery import scene as gallery_scene
 from exactacq.geometry.coordinates import dot, minus, raw

@@ -10,10 +10,10 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
-from functools import cached_property
 
 import numpy as np
 
+from exactacq.cached import cached_property
 from exactacq.geometry.box_index import bounds, circles
 from exactacq.geometry.coordinates import Vector, raw
 from exactacq.geometry.curves import Arc, Segment

@@ -9,9 +9,9 @@ They bound no area. They belong to the isovist, but not to its outline, and are 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property
 from typing import Any
 
+from exactacq.cached import cached_property
 from exactacq.errors import InvalidScene, about
 from exactacq.geometry.coordinates import raw
 from exactacq.geometry.curves import Segment

@@ -10,10 +10,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from functools import cached_property
 from typing import ClassVar, Protocol, runtime_checkable
 from weakref import WeakKeyDictionary
 
+from exactacq.cached import cached_property
 from exactacq.errors import FormatError, shown
 from exactacq.geometry.curves import Curve
 from exactacq.scene.scene import Obstacle, Scene

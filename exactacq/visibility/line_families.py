@@ -18,13 +18,13 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
 from math import frexp, hypot, ldexp
 from typing import Any, TypeAlias
 
 import numpy as np
 from flint import arb, fmpq
 
+from exactacq.cached import cached_property
 from exactacq.geometry.coordinates import cross, dot, sign
 from exactacq.geometry.points import Point
 from exactacq.kernel import lines

@@ -18,12 +18,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass
-from functools import cached_property
 from math import hypot, inf
 from typing import NamedTuple
 
 import numpy as np
 
+from exactacq.cached import cached_property
 from exactacq.geometry.coordinates import Vector, cross, dot, raw, sign
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.points import Point

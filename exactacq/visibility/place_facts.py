@@ -9,9 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
+from functools import partial
 from typing import TypeAlias
 
+from exactacq.cached import cached_property
 from exactacq.geometry.coordinates import Vector, cross, dot, raw
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.late import BITS, Balls, balls, from_to

@@ -17,7 +17,6 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import groupby
 from math import isnan
 from operator import itemgetter
@@ -25,6 +24,7 @@ from typing import TypeAlias
 
 from flint import arb, fmpq
 
+from exactacq.cached import cached_property
 from exactacq.geometry.coordinates import raw
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.intersections import line_contacts

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import ClassVar
 from weakref import WeakKeyDictionary, ref
 
+from exactacq.cached import cached_property
 from exactacq.errors import InvalidScene, about
 from exactacq.geometry.points import Location, Point
 from exactacq.kernel.box_tree import BoxNode, box_tree

@@ -24,11 +24,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass
-from functools import cached_property
 from math import ceil, hypot, sqrt
 
 import numpy as np
 
+from exactacq.cached import cached_property
 from exactacq.geometry.coordinates import cross, raw, sign
 from exactacq.geometry.curve_images import held_point
 from exactacq.geometry.curves import Segment

@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from functools import cached_property
 from heapq import heappop, heappush
 from itertools import count
 from math import inf, pi
@@ -21,6 +20,7 @@ from math import inf, pi
 import numpy as np
 from flint import arb
 
+from exactacq.cached import cached_property
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.points import Point

@@ -9,10 +9,11 @@ through the point itself, and corners touched on the way.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, cmp_to_key
+from functools import cmp_to_key
 from math import inf
 from typing import Any, TypeAlias
 
+from exactacq.cached import cached_property
 from exactacq.geometry.coordinates import Vector, advance, dot, minus, raw, sign, square_root
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.points import Point

@@ -5,11 +5,11 @@ from __future__ import annotations
 import shlex
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 from flint import fmpq
 
+from exactacq.cached import cached_property
 from exactacq.errors import FormatError, InvalidScene, Undecided
 from exactacq.files.checking.flaws import Judged, frame, judged
 from exactacq.files.checking.starts import rounded_up

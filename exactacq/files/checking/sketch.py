@@ -6,12 +6,12 @@ Only proposals and descriptions are made of it; what is proposed is verified exa
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from functools import cached_property
 
 import numpy as np
 from flint import fmpq
 from numpy.typing import NDArray
 
+from exactacq.cached import cached_property
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.strokes import Floats, Stroke
 from exactacq.numbers.rationals import nearest_float

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from exactacq.cached import cached_property
 from exactacq.errors import FormatError
 from exactacq.geometry.box_index import BoxIndex, bounds, box, united
 from exactacq.geometry.curves import Segment

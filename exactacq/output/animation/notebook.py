@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import os
-from functools import cached_property
 from html import escape
 
+from exactacq.cached import cached_property
 from exactacq.files.whole_files import PAGES, check_output, write_whole
 from exactacq.output.animation.frames import frames_of
 from exactacq.output.animation.page import page

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from functools import cached_property
 from typing import Any
 
 import matplotlib as mpl
@@ -22,6 +21,7 @@ from matplotlib.patches import Patch, PathPatch, Rectangle
 from matplotlib.path import Path as Outline
 from matplotlib.transforms import Affine2D
 
+from exactacq.cached import cached_property
 from exactacq.numbers.length import Length
 from exactacq.output.figures.sweep import Detour, SweptTerrain, turning_places, window
 from exactacq.output.regions import Region, Steps, closed, part

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property
 from math import inf, isfinite
 
 from flint import arb, fmpq
 
+from exactacq.cached import cached_property
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.kernel import bounded
 from exactacq.kernel.extents import Span

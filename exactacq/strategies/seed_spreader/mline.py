@@ -9,11 +9,11 @@ are walked north for even j and south for odd j.
 
 from __future__ import annotations
 
-from functools import cached_property
 from itertools import pairwise
 
 from flint import fmpq
 
+from exactacq.cached import cached_property
 from exactacq.errors import InvalidScene
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.points import Point

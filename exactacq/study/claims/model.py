@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from enum import Enum
-from functools import cached_property
 from typing import Any, TypeVar
 
 import networkx as nx
 
 from exactacq.auditing.ground import Field
 from exactacq.auditing.visibility import World
+from exactacq.cached import cached_property
 from exactacq.geometry.points import Point
 from exactacq.scene.scene import Scene
 from exactacq.sensing.event import Ending

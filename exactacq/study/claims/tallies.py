@@ -4,11 +4,11 @@ has found them by its own means."""
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
 
 from exactacq.auditing.bounds import check_bounds, sightseer_values, spreader_values
 from exactacq.auditing.sightseer import check_links
+from exactacq.cached import cached_property
 from exactacq.errors import AuditError
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
