@@ -12,7 +12,6 @@ constant density and range.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator
-from functools import lru_cache
 from math import inf
 
 from exactacq import kernel
@@ -23,6 +22,7 @@ from exactacq.kernel.family_images import NONE, FamilyImage
 from exactacq.kernel.normals import Front, telling
 from exactacq.kernel.shadows import Spot
 from exactacq.kernel.single_lines import SingleImage, extents_of_lines
+from exactacq.recent import Recent
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.complex_edges import EdgeFamilies, FamilySweeper
 from exactacq.sensing.line_family import family_of, single_of
@@ -53,7 +53,7 @@ class VisibilityComplex:
         self._normals = FamilyStore(sweeper.normals)
         self._corner_normals = FamilyStore(sweeper.corner_normals)
         self._rays = FamilyStore(sweeper.rays)
-        self._seen_from = lru_cache(SEEN_FROM_KEPT)(self._extents)
+        self._seen_from = Recent[int, list[Extent]](SEEN_FROM_KEPT)
 
     def near(self, places: tuple[Spot, ...]) -> list[EdgeFamilies]:
         """The tangents and normals of the edges in sight between some places: all that may show anything."""
@@ -108,10 +108,11 @@ class VisibilityComplex:
 
         The last are kept: a robot comes back to an edge.
         """
-        return self._seen_from(edge)
-
-    def _extents(self, edge: int) -> list[Extent]:
-        return self._shown(edge, self.telling(self.table.spots(edge), edge))
+        found = self._seen_from.get(edge)
+        if found is None:
+            found = self._shown(edge, self.telling(self.table.spots(edge), edge))
+            self._seen_from.put(edge, found)
+        return found
 
     def _shown(self, edge: int, near: list[EdgeFamilies]) -> list[Extent]:
         """What families show of others from an edge, and single lines that meet it."""
