@@ -23,6 +23,7 @@ from itertools import chain, pairwise
 
 import numpy as np
 from flint import arb, fmpq
+from numpy.typing import NDArray
 
 from exactacq.errors import Undecided
 from exactacq.geometry.curve_parameter import Rail
@@ -221,19 +222,19 @@ class _Candidates:
         walk, n = self.walk, GRID
         # From the far end on.
         steps = range(n, 0, -1) if walk.sense > 0 else range(n)
-        ends = [(k, rail, u) for k, rail in enumerate(map(Rail, self.targets)) for u in _inner(rail)]
-        if not ends:
+        if not self.targets:
             return False
-        q = np.array([rail.point(u).xy for _, rail, u in ends])
-        leave = self.pieces.tangents(np.array([k for k, _, _ in ends]), q)
+        ends = [(rail, u) for rail in map(Rail, self.targets) for u in _inner(rail)]
+        q = np.concatenate([*map(_spots, self.targets)])
+        leave = self.pieces.tangents(np.repeat(np.arange(len(self.targets)), GRID + 1), q)
         tries = TRIES
         for y in (rational(self.low + (self.high - self.low) * (k / n)) for k in steps):
             p = np.array([float(walk.x), float(y)])
             size = np.hypot(*(q - p).T)
             free = np.flatnonzero((size < walk.reach * (1 - 1e-6)) & (cross(leave, p - q) < -ANGLE * size))
             free = free[~self.pieces.block(np.tile(p, (len(free), 1)), q[free], np.zeros(len(free)))]
-            for _, rail, u in (ends[k] for k in free[:: -walk.sense][:tries]):
-                if self._is_seen(Point(walk.x, y), rail.point(u)):
+            for rail, u in (ends[k] for k in free[:: -walk.sense][:tries]):
+                if self._is_seen(Point(walk.x, y), rail.point(rational(u))):
                     return True
             tries -= min(tries, len(free))
             if not tries:
@@ -294,12 +295,23 @@ class _Candidates:
             yield from ((Point(walk.x, y), q) for y in thresholds(walk.x, Segment(q, q), walk.radius))
 
 
-def _inner(rail: Rail) -> Iterator[fmpq]:
-    """Parameters of points inside a curve, near its ends too."""
-    top = float(rail.top)
-    for k in range(GRID + 1):
-        u = rational(top * min(max(k / GRID, 2.0**-10), 1 - 2.0**-10))
-        yield u
+INNER = np.clip(np.arange(GRID + 1) / GRID, 2.0**-10, 1 - 2.0**-10)
+"""Shares of a curve's parameters, near its ends too."""
+
+
+def _inner(rail: Rail) -> list[float]:
+    """Parameters of points inside a curve."""
+    found: list[float] = (float(rail.top) * INNER).tolist()
+    return found
+
+
+def _spots(curve: Curve) -> NDArray[np.float64]:
+    """These points in floats, about."""
+    if isinstance(curve, Segment):
+        (ax, ay), (bx, by) = curve.start.xy, curve.end.xy
+        return np.stack((ax + INNER * (bx - ax), ay + INNER * (by - ay)), axis=1)
+    rail = Rail(curve)
+    return np.array([rail.point(rational(u)).xy for u in _inner(rail)])
 
 
 def _tangent_points(p: Point, arc: Arc) -> Iterator[Point]:
