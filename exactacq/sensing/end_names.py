@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from math import inf
+from typing import Any
 
 from exactacq.cached import cached_property
 from exactacq.geometry.curve_parameter import Rail
@@ -84,6 +85,10 @@ class SureSpans(Mapping[int, "list[Span]"]):
             return []
         spans = (self._view.surely(e, part) for part in self._view.seen_parts[e])
         return [(low, high) for low, high in spans if low <= high]
+
+    def get(self, e: int, default: Any = None) -> Any:
+        """That of an edge; of most that are asked for nothing is seen, which is no error."""
+        return self[e] if e in self._view.seen_parts else default
 
     def __iter__(self) -> Iterator[int]:
         return iter(self._view.seen_parts)

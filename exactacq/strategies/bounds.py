@@ -36,8 +36,10 @@ def with_bounds(run: AnyRun, table: EdgeTable | None = None) -> AnyRun:
     """
     if isinstance(run, OwnRun):
         bounds = own_bounds(run, registered(run.name))
+    elif isinstance(run, SightseerRun):
+        bounds = sightseer_bounds(run, table)
     else:
-        bounds = sightseer_bounds(run, table) if isinstance(run, SightseerRun) else spreader_bounds(run)
+        bounds = spreader_bounds(run, table)
     return bounded(run, bounds)
 
 
@@ -119,11 +121,11 @@ class Census:
         return sum(count * (count - 1) for count in (*self.inside, sum(self.crossing)))
 
 
-def census(ground: Ground, radius: fmpq) -> Census:
-    """Count the components that can be reached by strips."""
-    mline = MLine(ground.terrain, radius)
+def census(ground: Ground, radius: fmpq, table: EdgeTable | None = None) -> Census:
+    """Count the components that can be reached by strips; *table* has the obstacles' edges, if there."""
+    mline, table = MLine(ground.terrain, radius), table or EdgeTable(ground.obstacles)
     first: dict[int, int] = {}
-    for crossing in mline.crossings(Blocking(ground, EdgeTable(ground.obstacles))):
+    for crossing in mline.crossings(Blocking(ground, table)):
         # Line j bounds strips j and j + 1, the joint after it only the latter; the first line bounds strip 1.
         strip = max(1, (crossing.piece + 1) // 2)
         if crossing.component.edges:
@@ -134,7 +136,7 @@ def census(ground: Ground, radius: fmpq) -> Census:
     return Census(tuple(inside[j] for j in strips), tuple(crossing_ones[j] for j in strips))
 
 
-def spreader_bounds(run: SeedSpreaderRun) -> tuple[Bound, ...]:
+def spreader_bounds(run: SeedSpreaderRun, table: EdgeTable | None = None) -> tuple[Bound, ...]:
     """Bounds (4)-(6) and (8)-(11) as printed, and the forms of Lemma 3 and Theorem 2 that hold.
 
     n counts the components that can be reached, p is what the robot can walk of a boundary. n_j are the
@@ -144,7 +146,7 @@ def spreader_bounds(run: SeedSpreaderRun) -> tuple[Bound, ...]:
     """
     ground, radius, length = run.ground, run.radius, run.length
     components, mline = ground.components, MLine(ground.terrain, radius)
-    counts = census(ground, radius)
+    counts = census(ground, radius, table)
     n, crossing, pairs = len(components), sum(counts.crossing), counts.pairs
     perimeters = [c.perimeter for c in components]
     total, largest = Length.sum(perimeters), max(perimeters, default=Length(0))

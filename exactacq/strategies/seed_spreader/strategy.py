@@ -87,7 +87,7 @@ def _explored(
     except Undecided as error:
         first = trace.give_up(error)
         raise Undecided(first.comparison, _finished(spreader, scene)) from error
-    return with_bounds(_finished(spreader, scene))
+    return with_bounds(_finished(spreader, scene), robot._table)
 
 
 def _finished(spreader: Spreader, scene: Scene) -> SeedSpreaderRun:
