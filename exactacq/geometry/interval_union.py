@@ -80,7 +80,10 @@ class Cover:
 
     def covers(self, low: Real, high: Real) -> bool:
         """Whether all of [low, high] is covered."""
-        return any(i.low.compare(low) <= 0 and i.high.compare(high) >= 0 for i in self.intervals)
+        for i in self.intervals:  # noqa: SIM110 - one interval, most often: a generator would cost more
+            if i.low.compare(low) <= 0 and i.high.compare(high) >= 0:
+                return True
+        return False
 
     def gaps(self, span: Interval) -> Iterator[Interval]:
         """The closures of what is left of an interval, from low to high; no part of the cover juts out."""

@@ -100,7 +100,7 @@ def rational_sign(q: fmpq) -> int:
 def nearest_float(q: fmpq) -> float:
     """The nearest float, ties to even; OverflowError with a clear message beyond the largest float."""
     try:
-        return int(q.p) / int(q.q)
+        return float(q)
     except OverflowError:
         raise OverflowError("an exact number beyond the range of floats: use decimal or enclosure") from None
 

@@ -374,9 +374,9 @@ class Real(Exact):
         >>> Real(2).sqrt().compare(Real("1.41421356"))
         1
         """
+        if self is other:
+            return 0
         if isinstance(other, Real):
-            if self is other:
-                return 0
             if self._bits and other._bits:
                 if self._ball < other._ball:
                     return -1

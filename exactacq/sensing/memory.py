@@ -9,7 +9,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from flint import fmpq
 
@@ -109,10 +109,15 @@ class Moment(Mapping[int, Cover]):
         return Moment(self._history, self._count, {**self._newer, **learned})
 
     def __getitem__(self, edge: int) -> Cover:
-        found = self._newer.get(edge) or self._history.cover(edge, self._count)
+        found: Cover | None = self.get(edge)
         if found is None:
             raise KeyError(edge)
         return found
+
+    def get(self, edge: int, default: Any = None) -> Any:
+        """The cover of an edge; that nothing is known of many is no error."""
+        found = self._newer.get(edge) or self._history.cover(edge, self._count)
+        return default if found is None else found
 
     def __iter__(self) -> Iterator[int]:
         return iter(dict.fromkeys((*self._history.edges(self._count), *self._newer)))
