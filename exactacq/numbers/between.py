@@ -14,7 +14,7 @@ def rational_between(low: Real, high: Real) -> fmpq:
     """A short rational strictly between two reals, near their middle; floats propose it where they can."""
     if low.is_late or high.is_late:
         left, right = low.ball(64), high.ball(64)
-        a, b = float(left.mid()) + float(left.rad()), float(right.mid()) - float(right.rad())
+        a, b = float(left) + float(left.rad()), float(right) - float(right.rad())
         if b - a > 1e-9:
             between = fmpq(*((a + b) / 2).as_integer_ratio())
             if left < arb(between) < right:

@@ -38,10 +38,10 @@ def float_ball(t: Real) -> tuple[float, float]:
     if t.is_late or t.rational is None:
         bits = 64
         ball = t.ball(bits)
-        while not t.is_late and ball.rad() > 2.0**-52 * max(abs(float(ball.mid())), 1.0):
+        while not t.is_late and ball.rad() > 2.0**-52 * max(abs(float(ball)), 1.0):
             bits *= 2
             ball = t.ball(bits)
-        middle = float(ball.mid())
+        middle = float(ball)
         return middle, margin(2.0 * float(ball.rad()) + UNIT * abs(middle) + TINY)
     middle = nearest_float(t.rational)
     return middle, margin(UNIT * abs(middle))

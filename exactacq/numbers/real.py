@@ -478,8 +478,8 @@ class Real(Exact):
     def rough(self) -> float:
         """A float near the value: to draw or to sort, never to decide."""
         if self._bits == LATE:
-            return float(self._ball.mid())
-        return nearest_float(self.rational) if self.rational is not None else float(self.ball(64).mid())
+            return float(self._ball)
+        return nearest_float(self.rational) if self.rational is not None else float(self.ball(64))
 
     def decimal(self, digits: int) -> str:
         """The value with *digits* significant digits, right to within one unit of the last.

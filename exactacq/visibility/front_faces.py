@@ -458,7 +458,7 @@ def _with_rest(value: fmpq | Real) -> tuple[float, float, float]:
         x = float(value)
         return x, float(value - fmpq(*x.as_integer_ratio())), 0.0
     ball = value.ball(BITS)
-    x = float(ball.mid())
+    x = float(ball)
     rest = ball - arb(x)
-    near = float(rest.mid())
+    near = float(rest)
     return x, near, (2 * float(rest.rad()) + 2 * UNIT * abs(near) + TINY) * WIDEN

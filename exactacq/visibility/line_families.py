@@ -385,7 +385,7 @@ def held(value: fmpq | Real) -> Held:
     """A float near a number and a bound of its error."""
     if isinstance(value, Real):
         ball = value.ball(BITS)
-        near = float(ball.mid())
+        near = float(ball)
         return near, margin((2 * float(ball.rad()) + 2 * UNIT * abs(near) + TINY) * WIDEN)
     near = float(value)
     return near, margin(UNIT * abs(near) + TINY)

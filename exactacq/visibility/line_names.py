@@ -57,7 +57,7 @@ class Namer:
         """
         own = feature.edges[1]
         _, _, *along_it = line(sector, t.ball(BITS))
-        x, y = (float(v.mid()) for v in along_it)
+        x, y = (float(v) for v in along_it)
         for number, side, sign in passed:
             curve = self.table.curves[number]
             place = raw(curve.center) if side and isinstance(curve, Arc) else self.table.vertices[number]
