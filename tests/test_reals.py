@@ -23,7 +23,7 @@ from exactacq.errors import FormatError, Undecided
 from exactacq.numbers import sign
 from exactacq.numbers.function_zeros import roots
 from exactacq.numbers.precision import workprec
-from exactacq.numbers.rationals import rational, round_to_float
+from exactacq.numbers.rationals import ball_sign, nearest_float, rational, rational_sign, round_to_float
 from exactacq.numbers.real import Real
 
 ORACLE_BITS = 4400
@@ -444,3 +444,30 @@ def test_closed_form_has_the_same_value(tree: Tree) -> None:
     value = build(tree)
     with mpmath.workprec(300):
         assert abs(mpmath.mpf(str(value.sympy().evalf(50))) - oracle(tree)) < mpmath.mpf(10) ** -40
+
+
+# -- what the library below rounds ------------------------------------------------------------------
+
+
+@given(st.fractions(), st.integers(-1300, 1300), st.integers(0, 60))
+def test_the_nearest_float_and_the_sign_of_a_rational(value: Fraction, power: int, bits: int) -> None:
+    """Also of what is beyond the range of floats, or below the least one, or next to the middle of two."""
+    value *= Fraction(2) ** power
+    for near in (value, value + abs(value) / 2 ** (50 + bits), value - abs(value) / 2 ** (50 + bits)):
+        q = fmpq(near.numerator, near.denominator)
+        assert rational_sign(q) == (near > 0) - (near < 0)
+        try:
+            expected = float(near)
+        except OverflowError:
+            with pytest.raises(OverflowError, match="beyond the range of floats"):
+                nearest_float(q)
+        else:
+            assert nearest_float(q) == expected
+
+
+@given(st.floats(allow_nan=False, allow_infinity=False), st.floats(0, 1e300))
+def test_the_middle_and_the_sign_of_a_ball(middle: float, radius: float) -> None:
+    ball = arb(middle, radius)
+    assert float(ball) == float(ball.mid()) == middle
+    at, reach = rational(middle), ball.rad().fmpq()  # no less than the radius that was asked for
+    assert ball_sign(ball) == (at > reach) - (-at > reach)
