@@ -65,6 +65,8 @@ class VisibilityComplex:
 
         The places are on an edge, if it is given, or the ends of a straight way.
         """
+        if kernel.EXACT_ONLY:
+            return self.near(places)
         edges = self._edges(places)
         asked = [e for e in edges if e == edge or e not in self.done]
         along, corners = telling(self._fronts, asked, places, edge, self.images.reach)
@@ -84,8 +86,6 @@ class VisibilityComplex:
         table = self.table
         plane = -inf, -inf, inf, inf
         boxes = [plane if k in self._cut else hull for k, hull in enumerate(map(tuple, table.hulls.tolist()))]
-        if kernel.EXACT_ONLY:
-            boxes = [plane] * len(boxes)
         images, owners = table.curve_images, table.owners
         return [
             Front(image, images[table.preceding[e]], owners[e], boxes[owners[e]])
