@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import pickle
+
 import pytest
 from nightly import some
 
 import exactacq as xa
 from exactacq.sensing.event import Ending
+from exactacq.strategies import bounds
 from exactacq.study.claims.model import Case, Subject
 from exactacq.study.claims.premises import PREMISES
 from exactacq.study.random_scenes import random_scene
@@ -43,3 +46,15 @@ def test_a_run_that_sees_nothing_says_so(capsys: pytest.CaptureFixture[str]) -> 
     assert "nothing is in sight of S within R = 20" in out
     assert out.count("does not apply") == 4
     assert "80.1 " in out
+
+
+@pytest.mark.parametrize("explore", [xa.sightseer, xa.seed_spreader])
+def test_bounds_are_found_when_they_are_read(explore: object, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Once, and as they would have been at once; a copy has them too."""
+    found: list[object] = []
+    told = bounds.with_bounds
+    monkeypatch.setattr(bounds, "with_bounds", lambda *a: found.append(a) or told(*a))
+    run = explore(xa.load("m15"))  # type: ignore[operator]
+    assert not found
+    assert run.bounds and run.bounds is run.bounds and len(found) == 1
+    assert pickle.loads(pickle.dumps(run)).bounds == run.bounds == told(run).bounds

@@ -19,6 +19,7 @@ from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.scene import Scene
 from exactacq.scene.terrain_components import Ground
 from exactacq.sensing.event import Ending, EventKind, Occasion
+from exactacq.strategies.late_entry import later
 from exactacq.strategies.registry import OwnStrategy, registered
 from exactacq.strategies.run import Bound, OwnRun, SeedSpreaderRun, SightseerRun, bounded
 from exactacq.strategies.seed_spreader.blocked import Blocking
@@ -41,6 +42,11 @@ def with_bounds(run: AnyRun, table: EdgeTable | None = None) -> AnyRun:
     else:
         bounds = spreader_bounds(run, table)
     return bounded(run, bounds)
+
+
+def with_late_bounds(run: AnyRun, table: EdgeTable) -> AnyRun:
+    """As `with_bounds`; they are found when somebody reads them."""
+    return bounded(run, later(lambda: with_bounds(run, table).bounds))
 
 
 def own_bounds(run: OwnRun, own: OwnStrategy | None) -> tuple[Bound, ...]:

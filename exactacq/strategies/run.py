@@ -62,7 +62,7 @@ class Bound:
         return f"{self.name}, {self.source}: {self.value._repr_latex_()} {verdict}"
 
 
-@late("events")
+@late("events", "bounds")
 @dataclass(frozen=True, repr=False, kw_only=True)
 class Run:
     """A finished exploration: a `SightseerRun`, a `SeedSpreaderRun` or an `OwnRun`.

@@ -12,7 +12,7 @@ from exactacq.scene.bounding import rectangular_room
 from exactacq.scene.scene import Scene, as_scene
 from exactacq.sensing.event import Ending, Event, EventKind
 from exactacq.sensing.path import Path
-from exactacq.strategies.bounds import with_bounds
+from exactacq.strategies.bounds import with_late_bounds
 from exactacq.strategies.options import TargetChoice
 from exactacq.strategies.robot import Robot
 from exactacq.strategies.run import Diversion, SeedSpreaderRun
@@ -87,7 +87,7 @@ def _explored(
     except Undecided as error:
         first = trace.give_up(error)
         raise Undecided(first.comparison, _finished(spreader, scene)) from error
-    return with_bounds(_finished(spreader, scene), robot._table)
+    return with_late_bounds(_finished(spreader, scene), robot._table)
 
 
 def _finished(spreader: Spreader, scene: Scene) -> SeedSpreaderRun:

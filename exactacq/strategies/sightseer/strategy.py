@@ -12,7 +12,7 @@ from exactacq.scene.scene import Scene
 from exactacq.sensing.event import Ending, Event, EventKind
 from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Path
-from exactacq.strategies.bounds import with_bounds
+from exactacq.strategies.bounds import with_late_bounds
 from exactacq.strategies.late_entry import later
 from exactacq.strategies.moves import Way
 from exactacq.strategies.robot import Robot
@@ -71,7 +71,7 @@ def explored_by(robot: Robot, scene: Scene, progress: Progress | None = None) ->
         raise _given_up(tour, scene, error) from error
     robot._trace.mark(EventKind.STOP, walker.at if isinstance(walker.at, int) else None, ending=ending)
     meter.close()
-    return with_bounds(_finished(tour, scene, is_sensed=False), robot._table)
+    return with_late_bounds(_finished(tour, scene, is_sensed=False), robot._table)
 
 
 def _given_up(tour: Tour, scene: Scene, error: Undecided) -> Undecided:
