@@ -13,10 +13,13 @@ from strategies import arc_terrain, degenerate_terrain, random_terrain
 import exactacq as xa
 from exactacq import kernel
 from exactacq.files.octagons import random_octagons
+from exactacq.geometry.curves import Segment
 from exactacq.kernel.normals import telling
 from exactacq.scene.edge_table import EdgeTable
+from exactacq.scene.terrain_components import Ground
 from exactacq.sensing.leg_views import Shares
 from exactacq.sensing.legs import legs_of
+from exactacq.sensing.memory import Memory
 from exactacq.sensing.sensor import Sensor
 from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.visibility.sensor_range import Range
@@ -146,3 +149,35 @@ def test_obstacles_are_in_sight_from_the_same_places(kind: str, seed: int) -> No
 def ends(shares: Shares, k: int) -> list[object]:
     """Where an obstacle comes into sight on a leg, and where it goes out of it."""
     return [(i.low, i.high) for i in shares.times(k).intervals]
+
+
+def memory_of(shape: object, terrain: xa.Terrain, radius: fmpq) -> Memory:
+    """That of a robot confined to a terrain."""
+    scene = xa.Scene([shape], terrain=terrain, radius=radius)
+    return Memory(scene, radius, ground=Ground(scene.obstacles, terrain))
+
+
+def test_from_one_part_of_an_obstacle_another_comes_into_sight() -> None:
+    """A border cuts them apart: the robot walks up the straight one and comes into range of the slant one.
+
+    For a while both ends of that edge are out of range, and so is what normals of the robot's own edge meet.
+    """
+    corners = [(2, 2), (4, 2), (4, 25), (6, 25), (6, 17), (20, 3), (22, 3), (22, 30), (2, 30)]
+    sensor = memory_of(xa.Polygon(corners), xa.Terrain(24, 20), fmpq(9))._sensor
+    walk = Segment(xa.Point(4, 2), xa.Point(4, 20))
+    (leg,) = legs_of(sensor.table, sensor.rails, 0, walk)
+    every = sensor.shares(leg)
+    some_ = Shares(sensor.complex, sensor.targets, leg, every.obstacles, sensor._view, {})
+    (other,) = (k for k in every.obstacles if not every._is_along(k))
+    assert ends(some_, other) == ends(every, other)
+    begin = leg.rail.point(every.times(other).intervals[0].low.enclosure(60)[1])
+    assert float(begin.y) == pytest.approx(19 - 9 * 2**0.5)
+
+
+def test_an_edge_of_two_parts_is_done_when_both_are_known() -> None:
+    """An arch of which the border cuts off the top: its arc belongs to both legs."""
+    arch = xa.Outline([(2, 3), (4, 3), (4, 6, -1), (12, 6), (12, 3), (14, 3), (14, 20), (2, 20)])
+    targets = memory_of(arch, xa.Terrain(20, 8), fmpq(5))._sensor.targets
+    one, other = targets.edges
+    assert len(one & other) == 1 and set(targets.cut) == {0}
+    assert targets.alone(0) == one - other and targets.alone(1) == other - one
