@@ -45,7 +45,7 @@ def with_bounds(run: AnyRun, table: EdgeTable | None = None) -> AnyRun:
 
 
 def with_late_bounds(run: AnyRun, table: EdgeTable) -> AnyRun:
-    """As `with_bounds`; they are found when somebody reads them."""
+    """A finished run whose bounds are found when somebody reads them (see `with_bounds`)."""
     return bounded(run, later(lambda: with_bounds(run, table).bounds))
 
 
