@@ -166,17 +166,17 @@ class Shares:
             at_end = {} if self._facts else self._end_views[1].surely
             chooser = FamilyFilter(leg, self.targets, obstacles, along, known, at_end, self._facts)
         choose = None if chooser is None else chooser.choose
+        # Facts are told of every place, and what is not chosen from is wanted all.
+        every = known is None or self._facts
         if leg.edge is None:
             near = complex_.table.lit(leg.spots, complex_.range.above)
             edges = chain.from_iterable(self.targets.edges[k] for k in obstacles)
             way = StraightWay(complex_, leg) if self._way is None else self._way
-            every = known is None or self._facts
             crossing = WayViews(way, frozenset(near).intersection(edges), self.view, every)
             self._pins = way.clipper.views.pins
             self._made = lambda extents: ((family, 0) for family in crossing.views(extents))
             yield from ((family, 0) for family in crossing.families(choose))
         else:
-            every = known is None or self._facts
             extents = complex_.extents(leg.edge) if every else complex_.telling_extents(leg.edge)
             yield from self._made(extents if choose is None else choose(extents, complex_.pin))
         if chooser is not None:
