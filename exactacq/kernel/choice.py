@@ -54,6 +54,8 @@ def mattering(
     """
     chosen = [False] * len(extents)
     sources: dict[int, list[Source]] = {}
+    # Of an obstacle that one family shows from all of the leg no other is needed.
+    throughout: set[int] = set()
     news: dict[int, list[int]] = {}
     told = _extreme_views(extents)
     of: dict[int, list[tuple[int, bool]]] = {}
@@ -83,12 +85,34 @@ def mattering(
             continue
         surely = span.inner(one.surely)
         for k, whole in concerned:
-            if k not in along:
-                if k not in sources:
-                    sources[k] = []
-                sources[k].append(
-                    Source(n, outer, surely if whole else NOTHING, one, whole and is_single and one.in_range)
-                )
+            if k in along or k in throughout:
+                continue
+            source = Source(n, outer, surely if whole else NOTHING, one, whole and is_single and one.in_range)
+            if whole and surely[0] == -inf and surely[1] == inf:
+                throughout.add(k)
+                sources[k] = [source]
+            elif k in sources:
+                sources[k].append(source)
+            else:
+                sources[k] = [source]
+    spared, complete = _spared(extents, news, chosen, span, owners, known, at_end)
+    groups = _groups(sources, chosen)
+    return [n for n in range(len(extents)) if chosen[n]], groups, spared, complete
+
+
+def _spared(
+    extents: list[Extent],
+    news: dict[int, list[int]],
+    chosen: list[bool],
+    span: LegSpan,
+    owners: dict[int, list[tuple[int, bool]]],
+    known: Known,
+    at_end: Known,
+) -> tuple[list[Spared], list[int]]:
+    """Of families that show something new of edges those that tell only when; what else matters is *chosen*.
+
+    And the edges that surely are known all over at the end of the leg.
+    """
     spared: list[Spared] = []
     complete: list[int] = []
     for e, numbers in news.items():
@@ -104,8 +128,7 @@ def mattering(
         left = [m for m in untold if not chosen[m]]
         if left:
             spared.append((e, left))
-    groups = _groups(sources, chosen)
-    return [n for n in range(len(extents)) if chosen[n]], groups, spared, complete
+    return spared, complete
 
 
 def _groups(sources: dict[int, list[Source]], chosen: list[bool]) -> list[Group]:
@@ -241,7 +264,8 @@ def _joined(sources: list[Source]) -> list[list[Source]]:
     Each group is in the order of its lower ends.
     """
     count = len(sources)
-    order = [n for _, n in sorted([(sources[n].surely, n) for n in range(count)])]
+    ends = [(sources[n].surely[0], sources[n].surely[1], n) for n in range(count)]
+    order = [n for _, _, n in sorted(ends)]
     leader = list(range(count))
     at: dict[int, int] = {}
     reached, last = -inf, -1

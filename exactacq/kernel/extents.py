@@ -82,20 +82,33 @@ def extents_from(
                     continue
                 places = family.places(here), family.places(there)
                 told = views_in_range(family, (here, there), places, curves[edge], curves, reach)
-                parts = family.parts(here)
-                for near in parts:
-                    first, last = family.first_keys, family.last_keys
-                    if curves[edge].sense:
-                        first = _keys_on_arc(first, near[0], curves[edge], shown, curves)
-                        last = _keys_on_arc(last, near[1], curves[edge], shown, curves)
-                    keys = first, last
-                    for far in family.parts(there):
-                        one = extent(shown, near, far, told, keys, family, here, there)
-                        if one is not None:
-                            if len(parts) > 1:
-                                # From each part something of it is shown.
-                                one.told = NOTHING
-                            found.append(one)
+                if family.divided:
+                    found += _in_parts(family, (here, there), edge, told, curves)
+                    continue
+                near, far = places
+                keys = _keys_from(family, near, curves[edge], shown, curves)
+                one = extent(shown, near, far, told, keys, family, here, there)
+                if one is not None:
+                    found.append(one)
+    return found
+
+
+def _in_parts(
+    family: FamilyImage, roles: tuple[int, int], edge: int, told: int, curves: list[CurveImage]
+) -> list[Extent]:
+    """What a family shows from one edge of another, divided by the start of a full circle."""
+    here, there = roles
+    shown, found = family.edge(there), list[Extent]()
+    parts = family.parts(here)
+    for near in parts:
+        keys = _keys_from(family, near, curves[edge], shown, curves)
+        for far in family.parts(there):
+            one = extent(shown, near, far, told, keys, family, here, there)
+            if one is not None:
+                if len(parts) > 1:
+                    # From each part something of it is shown.
+                    one.told = NOTHING
+                found.append(one)
     return found
 
 
@@ -110,6 +123,17 @@ def by_source(extents: list[Extent]) -> list[Extent]:
                 continue
         found.append(one)
     return found
+
+
+def _keys_from(
+    family: FamilyImage, source: EdgePlaces, leg: CurveImage, shown: int, curves: list[CurveImage]
+) -> tuple[list[int], list[int]]:
+    """Keys of the first and of the last view of an edge, by where they begin on a leg."""
+    first, last = family.first_keys, family.last_keys
+    if not leg.sense:
+        return first, last
+    one, other = source
+    return _keys_on_arc(first, one, leg, shown, curves), _keys_on_arc(last, other, leg, shown, curves)
 
 
 def _keys_on_arc(

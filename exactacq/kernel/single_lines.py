@@ -1,4 +1,7 @@
-"""Single lines in floats: what they show of edges from others, and from straight ways that they cross."""
+"""Single lines in floats: what they show of edges from others, and from straight ways that they cross.
+
+Those at one edge are kept with its line families.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,8 @@ from typing import final
 
 from exactacq.kernel.bounded import UNIT, WIDEN, length, product, quotient, total
 from exactacq.kernel.curve_images import CurveImage
-from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent, Span, view_keys
+from exactacq.kernel.extents import EVERYTHING, NOTHING, Extent, Span, extents_from, view_keys
+from exactacq.kernel.family_images import FamilyImage, by_edge
 from exactacq.kernel.lines import Line, line_along, meets_straight, side_of
 from exactacq.kernel.ways import WayImage
 
@@ -199,3 +203,25 @@ def extents_of_crossing_lines(
                 extent.source = EVERYTHING
             found.append(extent)
     return found
+
+
+@final
+class EdgeFamilies:
+    """The line families of one edge of the scene and the single lines, as float images.
+
+    By edges, ``at`` has the families that meet or touch them, and ``lines_at`` the single lines from edge to
+    edge that begin there or show them. ``whole_lines`` are those that straight ways look at.
+    """
+
+    def __init__(self, images: list[FamilyImage], single_lines: list[SingleImage]) -> None:
+        self.images, self.single_lines = images, single_lines
+        self.at, self.lines_at = by_edge(images), lines_by_edge(single_lines)
+        self.whole_lines = [one for one in single_lines if one.is_whole]
+
+
+def shown_from(
+    edge: int, near: list[EdgeFamilies], curves: list[CurveImage], reach: tuple[float, float]
+) -> list[Extent]:
+    """What families show of others from an edge, and single lines that meet it; see `extents_from`."""
+    found = extents_from(edge, [one.at for one in near], curves, reach)
+    return found + extents_of_lines(edge, [one.lines_at for one in near], curves, reach[0])

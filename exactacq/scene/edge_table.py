@@ -231,23 +231,25 @@ class EdgeTable:
         Of those that are in reach `around` them, what single edges and discs certainly hide is left out. The
         last answers are kept.
         """
+        key = places, reach
+        found = self._lit.get(key)
+        if found is None:
+            found = self._found_lit(places, reach)
+            self._lit.put(key, found)
+        return found
+
+    def _found_lit(self, places: tuple[Spot, ...], reach: float) -> list[int]:
+        """What `lit` gives."""
         low = high = places[0]
         if len(places) > 1:
             xs, ys = zip(*places, strict=True)
             low, high = (min(xs), min(ys)), (max(xs), max(ys))
-        if not self._is_dense(reach):
-            return self.around(low, high, reach)
-        key = places, reach
-        found = self._lit.get(key)
-        if found is None:
+        if self._is_dense(reach):
             close, slack = self.around(low, high, reach * CLOSE), 8 * self.roundoff_at(low, high)
             if len(close) >= MANY and slack < inf:
                 hiding = shadows(self.images, close, places, slack)
-                found = lit(self.tree, (*low, *high), reach + 8 * self._error(low, high), hiding, slack)
-            else:
-                found = self.around(low, high, reach)
-            self._lit.put(key, found)
-        return found
+                return lit(self.tree, (*low, *high), reach + 8 * self._error(low, high), hiding, slack)
+        return self.around(low, high, reach)
 
     def _is_dense(self, reach: float) -> bool:
         """Whether many edges are close to one of a few edges, spread over the scene."""

@@ -21,10 +21,10 @@ from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.late import Pin
 from exactacq.kernel.bound_lines import BoundLine
 from exactacq.kernel.extents import EVERYTHING
-from exactacq.kernel.family_images import ANYWHERE, NONE, EdgePlace, FamilyImage, by_edge
+from exactacq.kernel.family_images import ANYWHERE, NONE, EdgePlace, FamilyImage
 from exactacq.kernel.line_keys import key_of_normal
 from exactacq.kernel.shadows import Spot
-from exactacq.kernel.single_lines import SingleImage, lines_by_edge, place_beyond
+from exactacq.kernel.single_lines import EdgeFamilies, SingleImage, place_beyond
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.family_clipper import FamilyClipper
 from exactacq.sensing.followed_lines import FeatureLine, LineFollower
@@ -42,19 +42,6 @@ from exactacq.visibility.sensor_range import Range
 NO_ENDS = (NONE, NONE)
 Swept: TypeAlias = "tuple[Pencil, list[FamilyImage]]"
 """A pencil and the images of its families."""
-
-
-class EdgeFamilies:
-    """The line families of one edge and the single lines, as float images.
-
-    By edges, ``at`` has the families that meet or touch them, and ``lines_at`` the single lines from edge to
-    edge that begin there or show them. ``whole_lines`` are those that straight ways look at.
-    """
-
-    def __init__(self, images: list[FamilyImage], single_lines: list[SingleImage]) -> None:
-        self.images, self.single_lines = images, single_lines
-        self.at, self.lines_at = by_edge(images), lines_by_edge(single_lines)
-        self.whole_lines = [one for one in single_lines if one.is_whole]
 
 
 class EndOnLine(SingleLines):

@@ -16,10 +16,9 @@ from exactacq.geometry.late import Pin, balls, from_to, late_point
 from exactacq.geometry.points import Point
 from exactacq.kernel.extents import Extent
 from exactacq.kernel.family_images import FamilyImage
-from exactacq.kernel.single_lines import SingleImage, extents_of_crossing_lines
+from exactacq.kernel.single_lines import EdgeFamilies, SingleImage, extents_of_crossing_lines
 from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
-from exactacq.sensing.complex_edges import EdgeFamilies
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.line_family import SingleLine, family_of, single_of
 from exactacq.sensing.line_points import Role

@@ -17,14 +17,14 @@ from math import inf
 from exactacq import kernel
 from exactacq.cached import cached_property
 from exactacq.geometry.late import Pin
-from exactacq.kernel.extents import Extent, extents_from
+from exactacq.kernel.extents import Extent
 from exactacq.kernel.family_images import NONE, FamilyImage
 from exactacq.kernel.normals import Front, telling
 from exactacq.kernel.shadows import Spot
-from exactacq.kernel.single_lines import SingleImage, extents_of_lines
+from exactacq.kernel.single_lines import EdgeFamilies, SingleImage, shown_from
 from exactacq.recent import Recent
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.sensing.complex_edges import EdgeFamilies, FamilySweeper
+from exactacq.sensing.complex_edges import FamilySweeper
 from exactacq.sensing.line_family import family_of, single_of
 from exactacq.sensing.view_families import ViewFamily
 from exactacq.visibility.sensor_range import Range
@@ -116,9 +116,7 @@ class VisibilityComplex:
 
     def _shown(self, edge: int, near: list[EdgeFamilies]) -> list[Extent]:
         """What families show of others from an edge, and single lines that meet it."""
-        curves, reach = self.table.curve_images, self.images.reach
-        single_lines = extents_of_lines(edge, [one.lines_at for one in near], curves, reach[0])
-        return extents_from(edge, [one.at for one in near], curves, reach) + single_lines
+        return shown_from(edge, near, self.table.curve_images, self.images.reach)
 
     def views(self, one: Extent) -> Iterator[tuple[ViewFamily, int]]:
         """The families that `extents` tells of, and which of their sides lies on the edge."""
