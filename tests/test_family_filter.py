@@ -17,7 +17,9 @@ from exactacq import kernel
 from exactacq.files.octagons import random_octagons
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Curve, Segment
+from exactacq.kernel.choice import mattering
 from exactacq.kernel.extents import Extent, Span
+from exactacq.kernel.leg_spans import LegSpan
 from exactacq.kernel.single_lines import SingleImage
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
@@ -302,6 +304,26 @@ def test_views_with_equal_keys_are_equal(name: str | int) -> None:
                     assert place == here or {place, here} == ends_of(table.curves[e])
                     assert seen == there or {seen, there} == ends_of(table.curves[shown])
     assert shared > 500 or name not in GRIDS
+
+
+def seen_all_along(edge: int) -> Extent:
+    """What a family tells that shows something of an edge from everywhere on a leg from 0 to 1."""
+    return Extent(edge, (0.25, 0.5), (-1.0, 2.0), (-1.0, 2.0), [], [], edge, 0, 1, True)
+
+
+@pytest.mark.parametrize("is_whole", [True, False])
+def test_one_family_that_shows_an_obstacle_all_along_is_enough(is_whole: bool) -> None:
+    """Of an edge of which only a part counts it may show the rest, so there each family matters."""
+    leg, everything = LegSpan((0.0, 0.0), (1.0, 1.0)), (-inf, inf)
+    owners = {0: [(7, is_whole)], 1: [(7, is_whole)]}
+    known = {0: [everything], 1: [everything]}
+    chosen, groups, *_ = mattering(
+        [seen_all_along(0), seen_all_along(1)], leg, owners, {7}, set(), known, known
+    )
+    assert chosen == ([] if is_whole else [0, 1])
+    assert [(k, first.surely, last.surely) for k, first, last in groups] == [
+        (7, everything, everything)
+    ] * is_whole
 
 
 def test_most_families_are_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
