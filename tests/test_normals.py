@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from itertools import product
 from random import Random
 
@@ -14,7 +15,8 @@ import exactacq as xa
 from exactacq import kernel
 from exactacq.files.octagons import random_octagons
 from exactacq.geometry.curves import Segment
-from exactacq.kernel.normals import telling
+from exactacq.kernel.normals import shows_along_normals, telling
+from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.terrain_components import Ground
 from exactacq.sensing.leg_views import Shares
@@ -106,6 +108,59 @@ def test_none_that_matters_is_left_out(seed: int, far: fmpq) -> None:
                     assert e in at_corners
 
 
+@pytest.mark.parametrize("far", [fmpq(0), fmpq(10**6, 3), fmpq(10**9, 7), fmpq(10**15, 7)])
+@pytest.mark.parametrize("seed", some(range(60), 8))
+def test_no_normals_of_the_path_that_matter_are_left_out(seed: int, far: fmpq) -> None:
+    """They do where a place lies straight beside the piece, in range of it but not of either end."""
+    dice, radius = Random(seed), fmpq(6)
+    table = EdgeTable(polygons(dice, far).obstacles)
+    fronts, edges = VisibilityComplex(table, Range(radius))._fronts, range(len(table.curves))
+    reach, left_out = (Range(radius).below, Range(radius).above), 0
+    for _ in range(60):
+        begin = dice.randint(-8, 32) * SCALE + far, dice.randint(-8, 20) * SCALE - far
+        end = begin[0] + dice.randint(-9, 9) * SCALE / 2, begin[1] + dice.randint(1, 9) * SCALE / 2
+        along, spots = minus(end, begin), tuple((float(x), float(y)) for x, y in (begin, end))
+        for e in edges:
+            is_shown = shows_along_normals(fronts, [e], spots, reach)
+            left_out += not is_shown
+            start, stop = table.vertices[e], table.vertices[table.following[e]]
+            for k in range(25):
+                o, w = minus(start, begin), minus(stop, start)
+                v = o[0] + fmpq(k, 24) * w[0], o[1] + fmpq(k, 24) * w[1]
+                is_beside = 0 <= dot(v, along) <= dot(along, along)
+                is_in_range = dot(v, right(along)) ** 2 <= radius**2 * dot(along, along)
+                if is_beside and is_in_range and not is_shown:
+                    assert min(dot(u, u) for u in (v, minus(v, along))) <= radius**2
+    assert left_out > 60 * len(edges) / 2 or far > 10**8
+
+
+@pytest.mark.parametrize("size", ["2", "1/2"])
+def test_what_only_normals_of_the_path_show(size: str) -> None:
+    """The robot walks by a wall that is just in range, and out of range of both ends of its way."""
+    # From a short way all of a wall is in range of one end that is nearer.
+    for height, is_shown in (("4.8", False), ("4.99", size == "2"), ("5", True), ("5.01", False)):
+        wall = xa.Polygon([(0, height), (1, height), (1, 7), (0, 7)])
+        a, b = Fraction("1/2") - Fraction(size) / 2, Fraction("1/2") + Fraction(size) / 2
+        sensor = Sensor(EdgeTable(xa.Scene([wall]).obstacles), Range(fmpq(5)))
+        (leg,) = legs_of(sensor.table, sensor.rails, None, Segment(xa.Point(a, 0), xa.Point(b, 0)))
+        assert sensor.complex.shows_along_normals(leg.spots, [0]) is is_shown
+        every = sensor.shares(leg)
+        some_ = Shares(sensor.complex, sensor.targets, leg, {0}, sensor._view, {})
+        assert shown(some_) == shown(every)
+
+
+def test_what_only_normals_of_an_arc_show() -> None:
+    """The robot walks around the upper half of a disc, and a wall is in range near the top of it alone."""
+    scene = xa.Scene([xa.Circle((0, 0), 1), xa.Polygon([(-1, "5.9"), (1, "5.9"), (1, 7), (-1, 7)])])
+    sensor = Sensor(EdgeTable(scene.obstacles), Range(fmpq(5)))
+    half = scene.obstacles[0].edges[0].part(xa.Point(1, 0), xa.Point(-1, 0))
+    (leg,) = legs_of(sensor.table, sensor.rails, 0, half)
+    every = sensor.shares(leg)
+    some_ = Shares(sensor.complex, sensor.targets, leg, every.obstacles, sensor._view, {})
+    assert shown(some_) == shown(every)
+    assert {0, 1} == {e for e, *_ in shown(some_)[0]}
+
+
 def test_few_are_kept() -> None:
     """Of the normals that a leg among octagons may meet a twentieth tell what tangents do not."""
     table = EdgeTable(random_octagons(30, 1).obstacles)
@@ -143,7 +198,7 @@ def scene_of(kind: str, seed: int) -> xa.Scene:
 
 @pytest.mark.parametrize("kind", ["octagons", "arcs", "degenerate", "general"])
 @pytest.mark.parametrize("seed", some(range(20), 5))
-def test_obstacles_are_in_sight_from_the_same_places(kind: str, seed: int) -> None:
+def test_the_same_is_shown_from_the_same_places(kind: str, seed: int) -> None:
     """With the normals that are left out every obstacle is in sight from where it was without them."""
     try:
         scene = scene_of(kind, seed)
@@ -158,11 +213,29 @@ def test_obstacles_are_in_sight_from_the_same_places(kind: str, seed: int) -> No
             few = Shares(sensor.complex, sensor.targets, leg, near.obstacles, sensor._view, {})
             for k in near.obstacles:
                 assert ends(few, k) == ends(near, k)
+            assert shown(few) == shown(near)
 
 
 def ends(shares: Shares, k: int) -> list[object]:
     """Where an obstacle comes into sight on a leg, and where it goes out of it."""
     return [(i.low, i.high) for i in shares.times(k).intervals]
+
+
+def shown(shares: Shares) -> tuple[set[object], set[int]]:
+    """What a leg shows: intervals of edges, and vertices, which alone are told of either edge or of both."""
+    table, rails = shares.complex.table, shares.complex.clipper.rails
+    parts, vertices = set[object](), set[int]()
+    for e, cover in shares.taught({}).items():
+        for part in cover.intervals:
+            is_first, is_last = part.low.sign() == 0, part.high == rails[e].top
+            vertices.update([e] * is_first + [table.following[e]] * is_last)
+            if not (part.low == part.high and (is_first or is_last)):
+                parts.add((e, digits(part.low), digits(part.high)))
+    return parts, vertices
+
+
+def digits(number: Real) -> str:
+    return number.decimal(40)
 
 
 def memory_of(shape: object, terrain: xa.Terrain, radius: fmpq) -> Memory:

@@ -1,17 +1,22 @@
-"""Whose normals may tell from somewhere that an obstacle is in sight where no tangent tells it.
+"""Which normals may tell something that tangents and the views from the ends of a piece of the path do not.
 
-Let all of an obstacle be within the range of a place outside of the box around it. If something of the
-obstacle is in sight, the views of it are bounded to both sides, for it is not all around the place. A view
-that bounds them touches a corner or an arc, of the obstacle or of what hides the rest of it: it belongs to a
-tangent, which tells what the normals would. (To one side it may run along the straight edge on which the
-place is, but not to both.) So normals matter only from places where something of their obstacle is out of
-range, or that are in the box around it. Those of a straight edge go through the strip before it, those at a
-corner of two straight edges through the wedge between two strips.
+*Of obstacles*: from where one is in sight. Let all of an obstacle be within the range of a place outside of
+the box around it. If something of the obstacle is in sight, the views of it are bounded to both sides, for it
+is not all around the place. A view that bounds them touches a corner or an arc, of the obstacle or of what
+hides the rest of it: it belongs to a tangent, which tells what the normals would. (To one side it may run
+along the straight edge on which the place is, but not to both.) So normals matter only from places where
+something of their obstacle is out of range, or that are in the box around it. Those of a straight edge go
+through the strip before it, those at a corner of two straight edges through the wedge between two strips.
+
+*Of the path*: what is shown. A point is seen from intervals of a straight piece. Where one of them ends, the
+view touches something, or the piece ends, or the view is as long as the range. If each interval ends in the
+last way on both sides, only normals show the point: it lies straight beside the piece, no farther away than
+the range, and both ends of the piece are out of its range.
 """
 
 from __future__ import annotations
 
-from math import inf
+from math import inf, sqrt
 from typing import Final, final
 
 from mypy_extensions import mypyc_attr
@@ -77,16 +82,69 @@ class SegmentPart:
         return not is_near(front, x0, y0, x1, y1, reach[0], slack)
 
 
+@mypyc_attr(acyclic=True)
+@final
+class Beside:
+    """The places that only normals of a straight piece of the path show, to both sides of it.
+
+    Of a piece of length L they are at heights from the root of R^2 - L^2 / 4 to R: there both its ends are
+    out of range.
+    """
+
+    def __init__(self, begin: Spot, end: Spot, reach: Span) -> None:
+        self.ax, self.ay = begin
+        self.bx, self.by = end
+        self.dx, self.dy = self.bx - self.ax, self.by - self.ay
+        self.length = sqrt(self.dx * self.dx + self.dy * self.dy)
+        self.size = _largest(self.ax, self.ay, self.bx, self.by)
+        self.reach = reach
+
+    def may_meet(self, front: Front) -> bool:
+        """Whether there may be something of an edge."""
+        size, edge = max(self.size, front.size), front.edge
+        if self.length <= SLACK * size:
+            return True
+        # The direction is off by 3 m UNIT / L, so that feet and heights are by 16 m UNIT (1 + m / L) at most.
+        slack = SLACK * size * (1.0 + size / self.length)
+        half, least = 0.5 * (self.length + slack), self.reach[0] - slack
+        low, high = sqrt(max((least - half) * (least + half), 0.0)) - slack, self.reach[1] + slack
+        if edge.sense:
+            around, height = edge.radius + slack, abs(self._height(edge.x, edge.y))
+            is_beside = -around <= self._foot(edge.x, edge.y) <= self.length + around
+            return is_beside and low - around <= height <= high + around
+        part = SegmentPart(edge.x, edge.y, edge.x + edge.wx, edge.y + edge.wy)
+        part.cut(self.ax, self.ay, self.dx, self.dy, slack * self.length)
+        part.cut(self.bx, self.by, -self.dx, -self.dy, slack * self.length)
+        if part.low > part.high:
+            return False
+        one = self._height(edge.x + part.low * edge.wx, edge.y + part.low * edge.wy)
+        other = self._height(edge.x + part.high * edge.wx, edge.y + part.high * edge.wy)
+        return (max(one, other) >= low and min(one, other) <= high) or (
+            min(one, other) <= -low and max(one, other) >= -high
+        )
+
+    def _foot(self, x: float, y: float) -> float:
+        """How far along the piece a place lies."""
+        return ((x - self.ax) * self.dx + (y - self.ay) * self.dy) / self.length
+
+    def _height(self, x: float, y: float) -> float:
+        """How far to the right of the piece's line it lies."""
+        return ((x - self.ax) * self.dy - (y - self.ay) * self.dx) / self.length
+
+
 def telling(
     fronts: list[Front], edges: list[int], places: tuple[Spot, ...], edge: int, reach: Span
 ) -> tuple[list[int], list[int]]:
     """Those of some edges whose normals may tell of an obstacle, and those with such normals at the corner
     where they start.
 
-    The robot is somewhere between *places*: on *edge*, whose own normals count in any case, or on the segment
-    from one place to another if that is -1. *reach* has bounds of the range.
+    The robot is somewhere between *places*: on *edge*, or on the segment from one place to another if that is
+    -1. Of *edge* itself these are normals of the path. *reach* has bounds of the range.
     """
     own = fronts[edge].owner if edge >= 0 else -1
+    is_shown = edge >= 0 and (
+        len(places) > 2 or shows_along_normals(fronts, [e for e in edges if e != edge], places, reach)
+    )
     left, bottom, right, top = _around(places)
     ax, ay = places[0]
     bx, by = places[len(places) - 1]
@@ -98,16 +156,22 @@ def telling(
         slack = SLACK * max(size, front.size)
         # The obstacle on whose boundary the robot walks is in sight all along.
         is_told = front.is_whole and front.owner == own
+        if e == edge and is_shown:
+            along.append(e)
         if is_told or is_near(front, left, bottom, right, top, reach[0], slack):
-            if e == edge:
-                along.append(e)
             continue
         is_open = not (front.is_straight and len(places) == 2)
-        if e == edge or is_open or _faces_edge(front, SegmentPart(ax, ay, bx, by), reach, slack):
+        if e != edge and (is_open or _faces_edge(front, SegmentPart(ax, ay, bx, by), reach, slack)):
             along.append(e)
         if is_open or _faces_corner(front, SegmentPart(ax, ay, bx, by), reach, slack):
             corners.append(e)
     return along, corners
+
+
+def shows_along_normals(fronts: list[Front], edges: list[int], places: tuple[Spot, ...], reach: Span) -> bool:
+    """Whether of some edges there may be something that only normals of a straight piece of the path show."""
+    beside = Beside(places[0], places[1], reach)
+    return any(beside.may_meet(fronts[e]) for e in edges)
 
 
 def _faces_edge(front: Front, strip: SegmentPart, reach: Span, slack: float) -> bool:

@@ -39,7 +39,7 @@ class WayViews:
     """The families at some edges from one straight way: a span of a rail in closed free space.
 
     *view* tells what is seen from an end of the way. Unless *every* normal is to count, those are left out
-    that tell no more than tangents do (see `VisibilityComplex.telling`).
+    that tell no more than tangents and the views from both ends do (see `kernel.normals`).
     """
 
     def __init__(
@@ -62,12 +62,14 @@ class WayViews:
     def families(self, choose: Choose | None = None) -> Iterator[ViewFamily]:
         """All families at wanted edges whose first side lies on the way, or those that are chosen."""
         crossing = [] if choose is None else self.crossing.extents()
-        found = [*self.single_lines(), *self.normals.extents()]
+        found = self.single_lines()
+        if self._every or self.way.complex.shows_along_normals(self.way.spots, self.wanted):
+            found += self.normals.extents()
         if choose is None:
             for image, certain in self.crossing:
                 yield from self.crossing.views(family_of(image), certain, self.wanted)
         else:
-            found = list(choose([*crossing, *found], self._pin_of))
+            found = [*choose([*crossing, *found], self._pin_of)]
         yield from self.views(found)
         yield from self.own_line.families()
 

@@ -19,7 +19,7 @@ from exactacq.cached import cached_property
 from exactacq.geometry.late import Pin
 from exactacq.kernel.extents import Extent
 from exactacq.kernel.family_images import NONE, FamilyImage
-from exactacq.kernel.normals import Front, telling
+from exactacq.kernel.normals import Front, shows_along_normals, telling
 from exactacq.kernel.shadows import Spot
 from exactacq.kernel.single_lines import EdgeFamilies, SingleImage, shown_from
 from exactacq.recent import Recent
@@ -71,6 +71,10 @@ class VisibilityComplex:
         asked = [e for e in edges if e == edge or e not in self.done]
         along, corners = telling(self._fronts, asked, places, edge, self.images.reach)
         return self._tangents.of(edges) + self._normals.of(along) + self._corner_normals.of(corners)
+
+    def shows_along_normals(self, places: tuple[Spot, ...], edges: Collection[int]) -> bool:
+        """Whether of some edges there may be something that only normals of a way between two places show."""
+        return kernel.EXACT_ONLY or shows_along_normals(self._fronts, [*edges], places, self.images.reach)
 
     def rays(self, places: tuple[Spot, ...]) -> list[EdgeFamilies]:
         """The rays from the ends of the edges in sight between some places (see `end_rays`)."""
