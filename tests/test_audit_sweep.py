@@ -563,6 +563,40 @@ def test_a_sight_between_corners_a_billionth_apart() -> None:
     audit(run, samples=2)
 
 
+def test_a_line_of_sight_ends_on_the_arc_that_it_leads_to() -> None:
+    """Two slots of a drawing with rounded coordinates; the robot leaves its line at an irrational place.
+
+    The line to its aim meets the arc there at 1, in a form of which nobody can prove that it is 1: the audit
+    ended in `Undecided`.
+    """
+    half = xa.Around(
+        ("-10210069040179248047/4499999962616000000", "41722308545394573613/2249999981308000000")
+    )
+    other = xa.Around(
+        ("-20542522194195534709/4500000774410000000", "21677877448767335327/900000154882000000")
+    )
+    slots = [
+        xa.Outline(
+            [
+                ("-10.933674", "13.330595"),
+                ("-1.694879", "17.157429", half),
+                ("-2.842929", "19.929068"),
+                ("-12.081725", "16.102234", 1),
+            ]
+        ),
+        xa.Outline(
+            [
+                ("-13.229775", "18.873872"),
+                ("-3.99098", "22.700707", other),
+                ("-5.13903", "25.472345"),
+                ("-14.377825", "21.645511", 1),
+            ]
+        ),
+    ]
+    scene = Scene(slots, terrain=Terrain(70, 51, (-17, -5)), radius=12)
+    audit(xa.seed_spreader(scene, lookahead=False, target="visible"), samples=2)
+
+
 def test_an_aim_that_became_known_on_the_way_is_passed_around() -> None:
     """Around the hook all of the triangle comes in sight; its aim is then reached past its near side."""
     hook = Polygon(

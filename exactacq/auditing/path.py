@@ -66,9 +66,7 @@ def check_pieces(
 def _check_straight(world: World, k: int, curve: Curve) -> None:
     if isinstance(curve, Arc) or same(curve.start, curve.end):
         raise AuditError(f"piece {k} is straight, but not a segment longer than a point")
-    near = world.near(curve)
-    ends = (world.passing(place, near) for place in (curve.start, curve.end))
-    found = world.blocker(curve.start, curve.direction, 1, near, *ends)
+    found = world.blocker_between(curve)
     if found is not None:
         inside, point = found
         raise AuditError(f"piece {k} passes through the interior of obstacle {inside} at {place_text(point)}")

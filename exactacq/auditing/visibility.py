@@ -159,6 +159,15 @@ class World:
                         return k, middle
         return None
 
+    def blocker_between(self, way: Segment) -> tuple[int, Point] | None:
+        """Likewise on a segment that may begin and end on boundaries.
+
+        To find the edges there first leaves no numbers to compare that are 0 or 1 in another form.
+        """
+        near = self.near(way)
+        ends = (self.passing(place, near) for place in (way.start, way.end))
+        return self.blocker(way.start, way.direction, 1, near, *ends)
+
     def near(self, way: Curve) -> list[int]:
         """The edges whose boxes meet that of a way."""
         (window,) = bounds([way])
@@ -240,7 +249,7 @@ def visible(world: World, radius: fmpq, a: Point, b: Point) -> bool:
     offset = b - a
     if offset.norm_sq().compare(radius * radius) > 0:
         return False
-    return a == b or world.blocker(a, offset, 1) is None
+    return a == b or world.blocker_between(Segment(a, b)) is None
 
 
 def _clear_crossings(segment: Segment, circle: Arc) -> list[Direction] | None:
