@@ -343,14 +343,15 @@ class Replay:
         known = self._known(chart, told.obstacle)
         points = [p for curve in known for p in _near_points(curve, self.here)]
         sizes = [(p - self.here).norm_sq() for p in points]
-        aims = [p for p, size in zip(points, sizes, strict=True) if size == min(sizes)]
+        least = min(sizes)
+        aims = [p for p, size in zip(points, sizes, strict=True) if size == least]
         hit = told.hit
         if self.run.target == "visible" and not any(self._sees(p) for p in aims):
             if self._sees(hit) and chart.knows(told.obstacle, hit):
                 return hit
             if self._is_visible(told.obstacle):
                 raise AuditError(f"{self.name(event)} does not aim at a visible point")
-        if (hit - self.here).norm_sq() == min(sizes) and chart.knows(told.obstacle, hit):
+        if (hit - self.here).norm_sq() == least and chart.knows(told.obstacle, hit):
             return hit
         for aim in aims:
             if Segment(self.here, aim).passes(hit):
@@ -409,8 +410,13 @@ class Replay:
     def _beyond_reach(self, chart: Any, obstacle: int, start: Point) -> int:
         """1 if all that is known of an obstacle is out of reach of the rest of the line, 0 if just not."""
         rest = start if same(start, self._line_end) else Segment(start, self._line_end)
-        square = self.run.radius**2
-        return min(_distance_sq(curve, rest).compare(square) for curve in self._known(chart, obstacle))
+        square, order = self.run.radius**2, 1
+        for curve in self._known(chart, obstacle):
+            for size in _distances_sq(curve, rest):
+                order = min(order, size.compare(square))
+                if order < 0:
+                    return order
+        return order
 
     def _check_reason(self, event: Event, chart: Any, leap: CrossingPoint | None) -> None:
         """An obstacle is about to be lost here, or when the robot has gone around another one to *leap*."""
@@ -568,12 +574,15 @@ def _near_points(curve: Curve | Point, place: Point) -> list[Point]:
     return [curve.start, curve.end, *([foot] if curve.contains(foot) else [])]
 
 
-def _distance_sq(curve: Curve | Point, rest: Curve | Point) -> Real:
-    """The squared distance between two curves or points."""
+def _distances_sq(curve: Curve | Point, rest: Curve | Point) -> list[Real]:
+    """Squared distances between two curves or points, the least one among them.
+
+    They are not compared with each other: those of mirror images are equal in two forms.
+    """
     if isinstance(curve, Point):
-        return min((p - curve).norm_sq() for p in _near_points(rest, curve))
+        return [(p - curve).norm_sq() for p in _near_points(rest, curve)]
     if isinstance(rest, Point):
-        return _distance_sq(rest, curve)
+        return _distances_sq(rest, curve)
     if contacts(curve, rest):
-        return Real(0)
-    return min(pair.distance_sq for pair in nearest_points(curve, rest))
+        return [Real(0)]
+    return [pair.distance_sq for pair in nearest_points(curve, rest)]
