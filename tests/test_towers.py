@@ -12,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from exactacq.geometry.points import Point
+from exactacq.numbers import number_field
 from exactacq.numbers.function_zeros import roots
 from exactacq.numbers.number_field import NumberField
 from exactacq.numbers.real import Real
@@ -168,7 +169,35 @@ def test_two_roots_of_which_one_is_in_the_field_of_the_other() -> None:
 def test_roots_of_many_polynomials_are_left_open() -> None:
     x, y, z = (first_root((-n, 0, 0, 1)) for n in (2, 3, 5))
     assert vanishes((x + y + z) ** 2 - x * (x + 2 * y + 2 * z) - (y + z) ** 2 - HAIR) is None
-    assert vanishes(first_root(HIGH) - first_root((-2, *[0] * 6, 1))) is None
+    assert vanishes(first_root(HIGH) * first_root((-2, *[0] * 6, 1)) - 1) is None
+
+
+@given(st.lists(SMALL, min_size=2, max_size=10), st.sampled_from([0, 1]))
+def test_equal_elements_of_two_fields_of_a_high_degree(numbers: list[int], index: int) -> None:
+    """A polynomial in a root x of degree 10 is one in 1 / s too, with s = 1 / x.
+
+    The other real root of the same polynomial gives another number with the same minimal polynomial.
+    """
+    x = roots(HIGH)[index]
+    first, second = (1 / s for s in sorted(roots(HIGH[::-1]), key=lambda s: 1 / s))
+    own, other = (first, second) if index == 0 else (second, first)
+
+    def value(root: Real) -> Real:
+        total = Real(0)
+        for number in numbers:
+            total = total * root + number
+        return total
+
+    if any(numbers[:-1]):
+        assert is_tie(value(x), value(own))
+        assert vanishes(value(x) - value(other)) is False
+
+
+def test_long_elements_of_two_fields_are_left_open(monkeypatch: pytest.MonkeyPatch) -> None:
+    x, y = first_root(HIGH), 1 / roots(HIGH[::-1])[-1]
+    assert vanishes(x * x - y * y) is not None
+    monkeypatch.setattr(number_field, "MOST_SIZE", 1)
+    assert vanishes(x * x - y * y) is None
 
 
 def test_independent_radicals_without_end_are_left_open() -> None:

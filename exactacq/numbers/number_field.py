@@ -17,7 +17,9 @@ from flint import Ordering, acb, arb, fmpq, fmpq_mat, fmpq_mpoly, fmpq_mpoly_ctx
 
 from exactacq.cached import cached_property
 from exactacq.numbers.atoms import Atom, Node, Root
+from exactacq.numbers.linear_forms import Terms, polynomial
 from exactacq.numbers.precision import workprec
+from exactacq.numbers.root_isolation import isolated_roots
 
 MOST_DEGREE = 8
 """Square roots are not looked for in fields of a higher degree: signs of all conjugates are tried."""
@@ -25,6 +27,9 @@ BITS = 128
 """Working bits beyond those of an element's coefficients that are tried first for its roots."""
 ROOT_BITS = 256
 """Precision that tells most roots of different polynomials apart."""
+MOST_SIZE = 1 << 19
+"""Bits of an element (see `NumberField.size`) of which the minimal polynomial is looked for: it takes a few
+seconds at most."""
 WIDE = 0.25
 """Balls with a smaller radius hold at most one integer."""
 
@@ -146,6 +151,24 @@ class NumberField:
                     dual = dual * place + self.polynomial[k]
                 shares.append(share[::-1])
         return shares
+
+    def minimal_polynomial(self, c: fmpq_poly) -> tuple[int, ...]:
+        """Ascending coefficients of the irreducible integer polynomial of which an element is a root."""
+        rows, power = [], c
+        for _ in range(self.degree):
+            rows.append([power[k] for k in range(self.degree)])
+            power = power * fmpq_poly([0, 1]) % self.modulus
+        return tuple(int(k) for k in fmpq_mat(rows).minpoly().numer().coeffs())
+
+    def root_number(self, c: fmpq_poly, polynomial: tuple[int, ...]) -> int:
+        """Which real root of its minimal polynomial an element is, from the left."""
+        roots, bits = list(enumerate(isolated_roots(polynomial))), ROOT_BITS
+        while len(roots) > 1:
+            with workprec(bits):
+                here = self.ball(c, bits)
+                roots = [(k, root) for k, root in roots if root.overlaps(here)]
+            bits *= 2
+        return roots[0][0]
 
     def _root_ball(self, bits: int) -> arb:
         return Root.make(tuple(map(int, self.polynomial.coeffs())), self._index, 1).ball(bits)
@@ -354,3 +377,27 @@ def _at_places(polynomial: fmpq_mpoly, places: Sequence[arb]) -> arb:
             term *= place ** int(exponent)
         total += term
     return total
+
+
+def vanishes_in_parts(terms: Terms) -> bool | None:
+    """Whether an element of the field of one root and one of another's add up to 0.
+
+    Then one is minus the other: they have one minimal polynomial, and are the same root of it. No field is
+    made that holds both, whose degree would be the product of theirs. None for other forms, and long ones.
+    """
+    parts: dict[RootKey, dict[Atom, fmpq]] = {}
+    for atom, c in terms.items():
+        if isinstance(atom, Root):
+            parts.setdefault(atom.args[:2], {})[atom] = c
+        elif atom != 1:
+            return None
+    if len(parts) != 2:
+        return None
+    (one, first), (other, second) = ((NumberField(*key), polynomial(part)) for key, part in parts.items())
+    first, second = first + terms.get(1, 0), -second
+    if max(one.size(first), other.size(second)) > MOST_SIZE:
+        return None
+    least = one.minimal_polynomial(first)
+    if least != other.minimal_polynomial(second):
+        return False
+    return one.root_number(first, least) == other.root_number(second, least)

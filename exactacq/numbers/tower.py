@@ -22,7 +22,13 @@ from typing import Any, TypeAlias
 from flint import arb, fmpq
 
 from exactacq.numbers.atoms import Atom, Form, Inverse, Node, Product, Sqrt, atom_ball
-from exactacq.numbers.number_field import NumberField, RationalFunctions, RootKey, joined_roots
+from exactacq.numbers.number_field import (
+    NumberField,
+    RationalFunctions,
+    RootKey,
+    joined_roots,
+    vanishes_in_parts,
+)
 from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import ball_sign
 
@@ -48,6 +54,8 @@ class _TooLong(Exception):
 
 def vanishes(value: Form) -> bool | None:
     """Whether a real is 0; None if it holds more than two roots of polynomials, or would take too long."""
+    if (told := vanishes_in_parts(value.terms)) is not None:
+        return told
     try:
         tower = Tower(value)
         return tower.is_zero(tower.element(value))
