@@ -333,7 +333,6 @@ class _Decisions:
             value = self._rational(event)
             yield _known(value_of(self.table, self.sector, event) if value is None else value, event.passed)
             return
-        low, high = (self._valued(bound, {}) for bound in (self.sweep.low, self.sweep.high))
         found: dict[Hashable, _Value] = {}
         values = [(self._valued(event, found), event) for event in group]
         if any(isinstance(value.number, Real) for value, _ in values):
@@ -341,13 +340,14 @@ class _Decisions:
         else:
             values.sort(key=_rational_value)
             groups = [list(equal) for _, equal in groupby(values, key=_rational_value)]
+        waits = has_low
         for equal in groups:
-            at = equal[0][0]
-            if has_low and at.compare(low) < 0:
-                continue
-            if has_high and at.compare(high) > 0:
-                break
-            yield _known(at.number, [one for _, event in equal for one in event.passed])
+            events = [event for _, event in equal]
+            waits = waits and self.sweep.low not in events
+            if not waits:
+                yield _known(equal[0][0].number, [one for event in events for one in event.passed])
+            if has_high and self.sweep.high in events:
+                return
 
     def _valued(self, event: BoundLine, found: dict[Hashable, _Value]) -> _Value:
         """The parameter of a line; one object for equal roots, as circles in a row share many tangents."""
