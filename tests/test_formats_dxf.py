@@ -539,6 +539,25 @@ def test_bad_drawings_get_one_clear_line(tmp_path: Path, name: str) -> None:
     assert len(str(caught.value)) < 500
 
 
+MARKED = "0 LWPOLYLINE 100 AcDbEntity 8 0 100 AcDbPolyline 90 3 70 1 10 0 20 0 10 2 20 0 10 2 20 2"
+PLAIN = " ".join(
+    f"0 LINE 8 0 10 {a} 20 {b} 11 {c} 21 {d}" for a, b, c, d in ((0, 0, 2, 0), (2, 0, 2, 2), (2, 2, 0, 0))
+)
+
+
+@pytest.mark.parametrize("body", [MARKED, PLAIN], ids=["marked", "plain"])
+@pytest.mark.parametrize("newline", ["\n", "\r\n"])
+@pytest.mark.parametrize("mark", ["", "\ufeff"])
+def test_a_file_without_a_header(tmp_path: Path, body: str, newline: str, mark: str) -> None:
+    """As small scripts write it: a polyline is closed if it says so, and no unit is made up."""
+    path = tmp_path / "bare.dxf"
+    text = newline.join(f"0 SECTION 2 ENTITIES {body} 0 ENDSEC 0 EOF".split()) + newline
+    path.write_bytes((mark + text).encode())
+    scene = load(path, start=(1, "0.5"))
+    assert sorted(edge.start.xy for edge in scene.obstacles[0].edges) == [(0, 0), (2, 0), (2, 2)]
+    assert "the file names no unit" in note(scene, "layers")
+
+
 def test_a_huge_file_is_refused_unread(tmp_path: Path) -> None:
     path = tmp_path / "huge.dxf"
     with path.open("wb") as file:

@@ -11,6 +11,7 @@ import logging
 import re
 from collections.abc import Iterable, Iterator
 from hashlib import sha256
+from io import StringIO
 from itertools import chain
 from pathlib import Path
 from typing import Any
@@ -39,6 +40,7 @@ MAX_DEPTH = 16
 """Deepest nesting of blocks that is followed; drawings have two or three levels, a loop has no end."""
 BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
 _OPENING = re.compile(rb"(?:\xef\xbb\xbf)?\s*(?:999[ \t]*\r?\n[^\n]*\n\s*)*0[ \t]*\r?\n[ \t]*SECTION\s")
+_HEADER = re.compile(rb"\n[ \t]*2[ \t]*\r?\n[ \t]*HEADER\s")
 _ENTITY = re.compile(rb"\n[ \t]*0[ \t]*\r?\n[ \t]*[A-Z]")
 
 # Without a handler Python prints what ezdxf mends to standard error; the scene's notes count it.
@@ -114,7 +116,18 @@ def _open(path: Path, drawing: Drawing) -> Any:
 
 
 def _parsed(path: Path) -> tuple[Any, list[str]]:
-    """The document in a file, which is not to be changed, and a note if it is damaged."""
+    """The document in a file, which is not to be changed, and a note if it is damaged.
+
+    A text without a header gets one. ezdxf would take it for an old format that has no closed LWPOLYLINE, and
+    for a drawing in metres.
+    """
+    data = read_bytes(path)
+    if not data.startswith(BINARY) and not _HEADER.search(data):
+        text = data.decode("utf-8-sig", errors="surrogateescape")
+        version = "AC1015" if "AcDbEntity" in text else "AC1009"
+        header = f"0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\n{version}\n0\nENDSEC\n"
+        return ezdxf.read(StringIO(header + text, newline=None)), []
+    del data
     try:
         return ezdxf.readfile(path), []
     except ezdxf.DXFStructureError:
