@@ -117,6 +117,11 @@ class Seen:
         self._rails = rails
         self._held: dict[int, dict[Hold, Pin]] = {}
 
+    @property
+    def own(self) -> tuple[int, ...]:
+        """The edges through the place, at a vertex the incoming one first."""
+        return self._view.own
+
     @cached_property
     def spans(self) -> SeenSpans:
         """What is seen of each edge."""

@@ -40,7 +40,7 @@ class OwnLine:
         if not self._near:
             return
         span, rails = self.way.span, self.way.clipper.rails
-        shown = [(e, p) for p in (span.start, span.end) for e in self.table.edges_at(p)]
+        shown = [(e, p) for p in (span.start, span.end) for e in self._view(p).own]
         along = self.line.end - self.line.start
         shown += [*self._beyond(span.end, along), *self._beyond(span.start, -along)]
         for e, point in self._touched():
@@ -75,13 +75,11 @@ class OwnLine:
 
     def _beyond(self, end: Point, onward: Point) -> Iterator[tuple[int, Point]]:
         """What the way's line meets beyond an end, as far as it is seen from there."""
-        own = self.table.edges_at(end)
+        view = self._view(end)
+        own = view.own
         edges = met_ahead(self.table.images, self._near, held_point(end), held_point(onward))
         # The line meets a straight edge through the end only there, unless it runs along it.
         edges = [e for e in edges if e not in own or self._leads_on(e, end, onward)]
-        if not edges:
-            return
-        view = self._view(end)
         for e in edges:
             curve = self.table.curves[e]
             if e not in view.edges:

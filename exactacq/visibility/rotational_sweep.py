@@ -351,11 +351,11 @@ class _Decisions:
 
     def _valued(self, event: BoundLine, found: dict[Hashable, _Value]) -> _Value:
         """The parameter of a line; one object for equal roots, as circles in a row share many tangents."""
+        if isinstance(self.sector, Sliding) and not self.sector.is_rational:
+            return self._measured(self.sector, event)
         value = self._rational(event)
         if value is not None:
             return _Value(value)
-        if isinstance(self.sector, Sliding) and not self.sector.is_rational:
-            return self._measured(self.sector, event)
         root = None
         if event.number != NOTHING and not event.others:
             circle = target(self.table, event.number, event.side)
