@@ -28,11 +28,17 @@ from exactacq.kernel.single_lines import (
 )
 from exactacq.kernel.ways import WayImage, _crossed
 from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.sensing.legs import legs_of
 from exactacq.sensing.line_family import LineFamily
+from exactacq.sensing.sensor import Sensor
+from exactacq.sensing.straight_way import StraightWay
 from exactacq.sensing.way_crossings import WayCrossings
+from exactacq.sensing.way_normals import WayNormals
 from exactacq.study.claims.model import Subject
 from exactacq.study.random_scenes import arc_scene
 from exactacq.visibility.line_families import Sliding
+from exactacq.visibility.sensor_range import Range
 
 GAPS = [Q(0), Q(0), Q(0), Q(1, 10**20), Q(1, 10**15), Q(1, 10**8)]
 Pair = tuple[Q, Q]
@@ -260,3 +266,25 @@ def test_normals_of_an_irrational_way_have_the_order_of_their_heights(base: tupl
         assert sector.height(*one).compare(sector.height(*other)) == order
         assert sector.height_at(a).compare(sector.height(*one)) == 0
     assert equal or base == (2, 5)
+
+
+@pytest.mark.parametrize("hole", [False, True])
+@pytest.mark.parametrize("away", [False, True])
+def test_a_normal_at_the_end_of_a_way_touches_the_circle_that_it_leads_to(hole: bool, away: bool) -> None:
+    """The parameter of that normal, found from the circle, is the end's: it is taken, and not compared."""
+    circle = xa.Circle((10, 0), 3)
+    room = xa.Outline([(13, 0, xa.Around((10, 0))), (7, 0, xa.Around((10, 0)))])
+    scene = xa.Scene([], enclosure=room) if hole else xa.Scene([circle])
+    center, start = xa.Point(10, 0), xa.Point(Real(2).sqrt() + (8 if hole else 0), Real(5).sqrt() / 2)
+    ray = start - center
+    places = [start, center + ray * (3 / ray.norm_sq().sqrt())]
+    sensor = Sensor(EdgeTable(scene.obstacles), Range(fmpq(9)))
+    way = Segment(*(places[::-1] if away else places))
+    (leg,) = legs_of(sensor.table, sensor.rails, None, way)
+    normals = WayNormals(StraightWay(sensor.complex, leg), frozenset({0}), sensor._view)
+    ((circle_number, sign), u), *others = normals._touching.items()
+    assert not others and circle_number == 0
+    assert u is (leg.span.low if away else leg.span.high)
+    sector = Sliding(*((p.x, p.y) for p in (way.start, way.direction)), Real(0), Real(1), leftward=True)
+    assert sector.exact((fmpq(10), fmpq(0)), fmpq(9), 1, sign) == u
+    assert sector.exact((fmpq(10), fmpq(0)), fmpq(9), 1, -sign) != u

@@ -46,7 +46,7 @@ class WayViews:
         self, way: StraightWay, wanted: frozenset[int], view: Callable[..., Seen], every: bool = True
     ) -> None:
         self.wanted, self.way, self._every = wanted, way, every
-        self.normals = WayNormals(self.way, wanted)
+        self.normals = WayNormals(self.way, wanted, view)
         self.own_line = OwnLine(self.way, wanted, view)
 
     @cached_property

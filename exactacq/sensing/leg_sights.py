@@ -170,7 +170,7 @@ class LegSights:
         yield from self._told(
             self._crossings.extents(), [image for image, _ in self._crossing], curve_image(leg.rail.curve)
         )
-        self._normals = WayNormals(way, wanted)
+        self._normals = WayNormals(way, wanted, self._view)
         for k, (lines, normals) in enumerate(groupby(self._normals.images, lambda image: image.origin), 1):
             assert isinstance(lines, Pencil), "normals come from pencils"
             yield from self._along_normals(lines, [*normals], k * WAY_KEYS)

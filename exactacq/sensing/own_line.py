@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from functools import partial
 
 from exactacq.cached import cached_property
 from exactacq.geometry.curve_images import held_point
@@ -105,7 +104,7 @@ class OwnLine:
 
     def _view(self, end: Point) -> Seen:
         """What is seen from an end of the way."""
-        return self.view(end, None, partial(self.way.leg.facts, self.table, end))
+        return self.way.seen_from(self.view, end)
 
     def _within(self, point: Point) -> list[Pin]:
         """The ends of the part of the way within range of a point of its line."""

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
+from typing import TypeAlias
+
 from flint import fmpq
 
 from exactacq.cached import cached_property
@@ -13,12 +17,15 @@ from exactacq.kernel.bounded import TINY, UNIT
 from exactacq.kernel.ways import Crossing, WayImage, lines_at_ends
 from exactacq.numbers.float_bounds import margin, rough
 from exactacq.numbers.real import Real
+from exactacq.sensing.end_names import Seen
 from exactacq.sensing.legs import Leg
 from exactacq.sensing.line_family import rational_line
 from exactacq.sensing.line_images import bounds
 from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.visibility.line_names import Names
 
+View: TypeAlias = "Callable[..., Seen]"
+"""Gives what is seen from a point, given the edges through it, if these are known, and what else is known."""
 OWN = -8
 """The name of a way's own line among those of its clipper: no number of a line (see `line_keys`)."""
 
@@ -38,12 +45,26 @@ class StraightWay:
         self.clipper = complex_.clipper.with_way(leg.rail, leg.touches, leg.named)
         self.number = len(self.clipper.rails) - 1
         self._feet: dict[int, Pin] = {}
+        self._through_centres: dict[int, bool] = {}
 
     @property
     def ends(self) -> tuple[Pin, Pin]:
         """Its ends: points and parameters."""
         span = self.span
         return (span.start, span.low), (span.end, span.high)
+
+    def seen_from(self, view: View, end: Point) -> Seen:
+        """What is seen from an end of it; *view* makes views, or knows them."""
+        return view(end, None, partial(self.leg.facts, self.table, end))
+
+    def passes_centre(self, circle: int) -> bool:
+        """Whether its line passes the centre of the circle of an arc, given as the first arc on it."""
+        if circle not in self._through_centres:
+            arc = self.table.curves[circle]
+            assert isinstance(arc, Arc), "only arcs have circles"
+            height = self.piece.direction.cross(arc.center - self.piece.start)
+            self._through_centres[circle] = height.sign() == 0
+        return self._through_centres[circle]
 
     def own_names(self, direction: Point) -> Names:
         """The name of the way's own line, for lines in a direction along it or against it."""

@@ -11,10 +11,9 @@ from itertools import pairwise
 from flint import arb, fmpq
 
 from exactacq.cached import cached_property
-from exactacq.geometry.curves import Arc
+from exactacq.geometry.curves import Segment
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.late import Balls, Pin
-from exactacq.geometry.points import Point
 from exactacq.kernel.bounded import TINY, UNIT
 from exactacq.kernel.extents import Extent
 from exactacq.kernel.family_images import FamilyImage
@@ -60,18 +59,13 @@ class WayCrossings:
         if kind not in (SLIDING, SPOKES) or (kind == SPOKES and sense < 0):
             return False
         e = self.way.table.line_numbers.circles[family.edge(Role.CONTACT)]
+        if kind == SPOKES:
+            return self.way.passes_centre(e)
         if e not in self._is_along:
             edge, along = self.way.clipper.curve(e), self.way.piece.direction
-            if isinstance(edge, Arc):
-                self._is_along[e] = self._is_on_line(edge.center)
-            else:
-                self._is_along[e] = edge.direction.dot(along).sign() == 0
+            assert isinstance(edge, Segment), "normals of arcs are spokes"
+            self._is_along[e] = edge.direction.dot(along).sign() == 0
         return self._is_along[e]
-
-    def _is_on_line(self, place: Point) -> bool:
-        """Whether a place lies on the way's line."""
-        piece = self.way.piece
-        return piece.direction.cross(place - piece.start).sign() == 0
 
     def __iter__(self) -> Iterator[tuple[FamilyImage, bool]]:
         """The line families, and whether all their lines cross the way."""

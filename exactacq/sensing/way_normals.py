@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from exactacq.cached import cached_property
 from exactacq.geometry.coordinates import minus, raw
+from exactacq.geometry.curves import Arc
 from exactacq.geometry.late import Pin
 from exactacq.kernel.extents import Extent
 from exactacq.kernel.family_images import NONE, FamilyImage
@@ -16,17 +17,20 @@ from exactacq.kernel.ways import extents_along_normals
 from exactacq.numbers.real import Real
 from exactacq.sensing.line_family import start_of
 from exactacq.sensing.line_points import Role, Side
-from exactacq.sensing.straight_way import StraightWay
+from exactacq.sensing.straight_way import StraightWay, View
 from exactacq.sensing.view_families import FreeViews, ViewFamily
 from exactacq.visibility.line_families import Sliding
 from exactacq.visibility.rotational_sweep import Pencil, pencil
 
+BITS = 64
+"""Precision of the balls that tell on which side of a centre an end of the way lies."""
+
 
 class WayNormals:
-    """The normals of one way that meet *wanted* edges."""
+    """The normals of one way that meet *wanted* edges; *view* tells what is seen from its ends."""
 
-    def __init__(self, way: StraightWay, wanted: frozenset[int]) -> None:
-        self.way, self.wanted = way, wanted
+    def __init__(self, way: StraightWay, wanted: frozenset[int], view: View) -> None:
+        self.way, self.wanted, self._view = way, wanted, view
 
     @cached_property
     def images(self) -> list[FamilyImage]:
@@ -34,8 +38,9 @@ class WayNormals:
         way, found = self.way, list[FamilyImage]()
         start, end = raw(way.line.start), raw(way.line.end)
         line, complex_ = way.image.line, way.complex
+        along, span = minus(end, start), way.span
         for sense in (1, -1):
-            sector = Sliding(start, minus(end, start), way.span.low, way.span.high, leftward=sense > 0)
+            sector = Sliding(start, along, span.low, span.high, sense > 0, self._touching)
             sweep = pencil(way.table, sector, (), complex_.range.above)
             frame = SLIDING, line.x, line.y, line.wx, line.wy, 0.0, sense
             no_names = (NONE, NONE), False, NONE, LineNumbers([])
@@ -44,6 +49,24 @@ class WayNormals:
             complex_.images.unroll(images, sweep)
             found += images
         return [image for image in found if image.edge(Role.AHEAD) in self.wanted]
+
+    @cached_property
+    def _touching(self) -> dict[tuple[int, int], Real]:
+        """The ends of the way at which it is normal to an arc: there its own normal touches the arc's circle.
+
+        By circles and the sign of that normal among the two that touch. That these are equal is long to prove
+        where the way is irrational: robots leave arcs, and come to them, along normals.
+        """
+        found: dict[tuple[int, int], Real] = {}
+        if self.way.piece.direction.rational is None:
+            for point, u in self.way.ends:
+                for e in self.way.seen_from(self._view, point).own:
+                    arc, circle = self.way.table.curves[e], self.way.table.circles.get(e)
+                    if isinstance(arc, Arc) and circle is not None and self.way.passes_centre(circle):
+                        side = (point - arc.center).dot(self.way.piece.direction).clear_sign(BITS)
+                        if side:
+                            found[circle, side] = u
+        return found
 
     def extents(self) -> list[Extent]:
         """What they show, in floats; the origins are their images."""

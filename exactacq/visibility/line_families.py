@@ -16,8 +16,8 @@ exactly.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from math import frexp, hypot, ldexp
 from typing import Any, TypeAlias
 
@@ -256,9 +256,14 @@ class Rolling(Sector):
 
 @dataclass(frozen=True, eq=False)
 class Sliding(Sector):
-    """The normals of the segment from C to C + e, going to its left or right."""
+    """The normals of the segment from C to C + e, going to its left or right.
+
+    Of some that are ``touching`` a circle the parameter is known, by the first arc on the circle and the sign
+    that tells which of the two tangents it is.
+    """
 
     leftward: bool
+    touching: Mapping[tuple[int, int], Real] = field(default_factory=dict)
 
     @property
     def turns(self) -> bool:

@@ -372,8 +372,9 @@ class _Decisions:
 
     def _measured(self, sector: Sliding, event: BoundLine) -> _Value:
         """The parameter of a normal of an irrational segment, with its height."""
-        value = value_of(self.table, sector, event)
-        if event.number == NOTHING:
+        known = sector.touching.get((self.table.circles[event.number], event.sign)) if event.side else None
+        value = value_of(self.table, sector, event) if known is None else known
+        if event.number == NOTHING or known is not None:
             return _Value(value, height=sector.height_at(value))
         circle = target(self.table, event.number, event.side)
         return _Value(value, height=sector.height(*circle, event.side, event.sign))
