@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import groupby
 from math import inf
 from random import Random
@@ -59,8 +59,8 @@ def told(complex_: VisibilityComplex, leg: Leg, run: xa.SightseerRun) -> Iterato
             yield parts, [pair(family, side, rails[leg.edge]) for family, side in complex_.views(parts[0])]
         return
 
-    def view(place: xa.Point, own: tuple[int, ...] | None, facts: PlaceFacts) -> Seen:
-        return Seen(complex_.table, rails, place, complex_.range, own, facts)
+    def view(place: xa.Point, own: tuple[int, ...] | None, facts: Callable[[], PlaceFacts]) -> Seen:
+        return Seen(complex_.table, rails, place, complex_.range, own, facts())
 
     way = WayViews(StraightWay(complex_, leg), wanted, view)
     extents, clipper = way.crossing.extents(), way.way.clipper
