@@ -27,9 +27,9 @@ BITS = 128
 """Working bits beyond those of an element's coefficients that are tried first for its roots."""
 ROOT_BITS = 256
 """Precision that tells most roots of different polynomials apart."""
-MOST_SIZE = 1 << 19
-"""Bits of an element (see `NumberField.size`) of which the minimal polynomial is looked for: it takes a few
-seconds at most."""
+MOST_WORK = 1 << 26
+"""Bits of an element (see `NumberField.size`) times the square of its field's degree up to which a minimal
+polynomial is looked for. The element is taken as it is once it was multiplied by all powers of the root."""
 WIDE = 0.25
 """Balls with a smaller radius hold at most one integer."""
 
@@ -152,12 +152,17 @@ class NumberField:
                 shares.append(share[::-1])
         return shares
 
-    def minimal_polynomial(self, c: fmpq_poly) -> tuple[int, ...]:
-        """Ascending coefficients of the irreducible integer polynomial of which an element is a root."""
+    def minimal_polynomial(self, c: fmpq_poly) -> tuple[int, ...] | None:
+        """Ascending coefficients of the irreducible integer polynomial of which an element is a root.
+
+        None where that would take more than a few seconds.
+        """
         rows, power = [], c
         for _ in range(self.degree):
             rows.append([power[k] for k in range(self.degree)])
             power = power * fmpq_poly([0, 1]) % self.modulus
+        if self.size(power) * self.degree**2 > MOST_WORK:
+            return None
         return tuple(int(k) for k in fmpq_mat(rows).minpoly().numer().coeffs())
 
     def root_number(self, c: fmpq_poly, polynomial: tuple[int, ...]) -> int:
@@ -395,9 +400,9 @@ def vanishes_in_parts(terms: Terms) -> bool | None:
         return None
     (one, first), (other, second) = ((NumberField(*key), polynomial(part)) for key, part in parts.items())
     first, second = first + terms.get(1, 0), -second
-    if max(one.size(first), other.size(second)) > MOST_SIZE:
+    least, its_own = one.minimal_polynomial(first), other.minimal_polynomial(second)
+    if least is None or its_own is None:
         return None
-    least = one.minimal_polynomial(first)
-    if least != other.minimal_polynomial(second):
+    if least != its_own:
         return False
     return one.root_number(first, least) == other.root_number(second, least)

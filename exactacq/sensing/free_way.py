@@ -19,11 +19,10 @@ from exactacq.kernel.family_images import FamilyImage
 from exactacq.kernel.single_lines import EdgeFamilies, SingleImage, extents_of_crossing_lines
 from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
-from exactacq.sensing.end_names import Seen
 from exactacq.sensing.line_family import SingleLine, family_of, single_of
 from exactacq.sensing.line_points import Role
 from exactacq.sensing.own_line import OwnLine
-from exactacq.sensing.straight_way import StraightWay
+from exactacq.sensing.straight_way import StraightWay, View
 from exactacq.sensing.view_families import ViewFamily
 from exactacq.sensing.way_crossings import WayCrossings
 from exactacq.sensing.way_normals import WayNormals
@@ -42,9 +41,7 @@ class WayViews:
     that tell no more than tangents and the views from both ends do (see `kernel.normals`).
     """
 
-    def __init__(
-        self, way: StraightWay, wanted: frozenset[int], view: Callable[..., Seen], every: bool = True
-    ) -> None:
+    def __init__(self, way: StraightWay, wanted: frozenset[int], view: View, every: bool = True) -> None:
         self.wanted, self.way, self._every = wanted, way, every
         self.normals = WayNormals(self.way, wanted, view)
         self.own_line = OwnLine(self.way, wanted, view)

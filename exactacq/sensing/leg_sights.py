@@ -10,7 +10,7 @@ the ends of edges (`exactacq.visibility.end_rays`). Single lines count where the
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import groupby, pairwise
 from math import inf
@@ -43,14 +43,13 @@ from exactacq.kernel.leg_spans import LegSpan
 from exactacq.numbers.between import rational_between
 from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real
-from exactacq.sensing.end_names import Seen
 from exactacq.sensing.leg_views import Share
 from exactacq.sensing.legs import Leg
 from exactacq.sensing.line_family import family_of
 from exactacq.sensing.line_images import bounds
 from exactacq.sensing.line_points import Role
 from exactacq.sensing.own_line import OwnLine
-from exactacq.sensing.straight_way import StraightWay
+from exactacq.sensing.straight_way import StraightWay, View
 from exactacq.sensing.view_families import End, ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.sensing.way_crossings import WayCrossings
@@ -74,7 +73,7 @@ class LegSights:
         self,
         complex_: VisibilityComplex,
         leg: Leg,
-        view: Callable[..., Seen],
+        view: View,
         way: StraightWay | None = None,
     ) -> None:
         self.complex, self.leg, self._given = complex_, leg, way

@@ -27,7 +27,7 @@ from exactacq.sensing.family_filter import FamilyFilter, LastShown
 from exactacq.sensing.free_way import WayViews
 from exactacq.sensing.legs import Leg
 from exactacq.sensing.named_pins import NamedPins
-from exactacq.sensing.straight_way import StraightWay
+from exactacq.sensing.straight_way import StraightWay, View
 from exactacq.sensing.targets import Targets
 from exactacq.sensing.view_families import End, ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
@@ -80,7 +80,7 @@ class Shares:
         targets: Targets,
         leg: Leg,
         obstacles: Collection[int],
-        view: Callable[..., Seen],
+        view: View,
         known: Mapping[int, Sequence[Span]] | None = None,
         of: dict[int, list[Share]] | None = None,
         ends: dict[int, list[tuple[CutEnd, Interval]]] | None = None,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 from exactacq.cached import cached_property
 from exactacq.geometry.curve_images import held_point
@@ -14,7 +14,7 @@ from exactacq.geometry.points import Point
 from exactacq.kernel.clearance import met, met_ahead
 from exactacq.numbers.real import Real
 from exactacq.sensing.end_names import Seen
-from exactacq.sensing.straight_way import StraightWay
+from exactacq.sensing.straight_way import StraightWay, View
 from exactacq.sensing.view_families import End, ViewFamily
 
 BITS = 256
@@ -24,7 +24,7 @@ BITS = 256
 class OwnLine:
     """The views along a way's own line; *view* tells what is seen from an end of it."""
 
-    def __init__(self, way: StraightWay, wanted: frozenset[int], view: Callable[..., Seen]) -> None:
+    def __init__(self, way: StraightWay, wanted: frozenset[int], view: View) -> None:
         self.way, self.wanted, self.view = way, wanted, view
         self.table, self.line = way.table, way.line
 

@@ -61,8 +61,8 @@ class WayNormals:
         if self.way.piece.direction.rational is None:
             for point, u in self.way.ends:
                 for e in self.way.seen_from(self._view, point).own:
-                    arc, circle = self.way.table.curves[e], self.way.table.circles.get(e)
-                    if isinstance(arc, Arc) and circle is not None and self.way.passes_centre(circle):
+                    arc = self.way.table.curves[e]
+                    if isinstance(arc, Arc) and self.way.passes_centre(circle := self.way.table.circles[e]):
                         side = (point - arc.center).dot(self.way.piece.direction).clear_sign(BITS)
                         if side:
                             found[circle, side] = u

@@ -105,9 +105,10 @@ def _open(path: Path, drawing: Drawing) -> Any:
         if number > most:
             raise FormatError(f"{number} {what} are more than the {most} that are read; export one part")
     key = "dxf", path, sha256(data).digest()
+    has_header = data.startswith(BINARY) or _HEADER.search(data) is not None
     del data
     try:
-        document, notes = once(key, lambda: _parsed(path))
+        document, notes = once(key, lambda: _parsed(path, has_header))
     except Exception as error:  # ezdxf raises what its parsers meet: ValueError, IndexError, struct.error
         reason = one_line(error)
         raise FormatError(f"not a readable DXF file ({reason}); export the drawing again") from None
@@ -115,25 +116,25 @@ def _open(path: Path, drawing: Drawing) -> Any:
     return document
 
 
-def _parsed(path: Path) -> tuple[Any, list[str]]:
-    """The document in a file, which is not to be changed, and a note if it is damaged.
-
-    A text without a header gets one. ezdxf would take it for an old format that has no closed LWPOLYLINE, and
-    for a drawing in metres.
-    """
-    data = read_bytes(path)
-    if not data.startswith(BINARY) and not _HEADER.search(data):
-        text = data.decode("utf-8-sig", errors="surrogateescape")
-        version = "AC1015" if "AcDbEntity" in text else "AC1009"
-        header = f"0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\n{version}\n0\nENDSEC\n"
-        return ezdxf.read(StringIO(header + text, newline=None)), []
-    del data
+def _parsed(path: Path, has_header: bool) -> tuple[Any, list[str]]:
+    """The document in a file, which is not to be changed, and a note if it is damaged."""
     try:
-        return ezdxf.readfile(path), []
+        return ezdxf.readfile(path) if has_header else _bare(path), []
     except ezdxf.DXFStructureError:
         document, auditor = recover.readfile(path)
         mended, left = len(auditor.fixes), len(auditor.errors)
         return document, [f"the file is damaged: {mended} flaws were mended on reading, {left} were not"]
+
+
+def _bare(path: Path) -> Any:
+    """The document in a text without a header, which gets one.
+
+    Else ezdxf takes it for an old format that has no closed LWPOLYLINE, and for a drawing in metres.
+    """
+    text = read_bytes(path).decode("utf-8-sig", errors="surrogateescape")
+    version = "AC1015" if "AcDbEntity" in text else "AC1009"
+    header = f"0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\n{version}\n0\nENDSEC\n"
+    return ezdxf.read(StringIO(header + text, newline=None))
 
 
 def _entities(layout: Iterable[Any], drawing: Drawing) -> Iterator[tuple[Any, str]]:
