@@ -416,7 +416,7 @@ def test_a_drawing_is_parsed_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """Trials read it with further options: the same contents, of one document."""
     parsed: list[Path] = []
     parse = entities._parsed
-    monkeypatch.setattr(entities, "_parsed", lambda path: parsed.append(path) or parse(path))
+    monkeypatch.setattr(entities, "_parsed", lambda path, *told: parsed.append(path) or parse(path, *told))
     found = xa.inspect(DATA / "mousebites.dxf")
     assert len(parsed) == 1
     monkeypatch.setattr(entities, "once", lambda key, make: make())
