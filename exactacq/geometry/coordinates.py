@@ -10,8 +10,9 @@ from typing import Any, TypeAlias
 from flint import fmpq
 
 from exactacq.geometry.points import Point
+from exactacq.numbers.atoms import square_free
 from exactacq.numbers.rationals import rational_sign
-from exactacq.numbers.real import Real
+from exactacq.numbers.real import Real, with_root
 
 Vector: TypeAlias = "tuple[Any, Any]"
 """Coordinates, each an fmpq if the Real is rational and the Real itself otherwise."""
@@ -49,6 +50,25 @@ def advance(origin: Vector, direction: Vector, parameter: Any) -> Point:
     if type(x) is type(y) is type(dx) is type(dy) is fmpq and isinstance(parameter, Real):
         return Point(parameter.affine(dx, x), parameter.affine(dy, y))
     return Point(origin[0] + direction[0] * parameter, origin[1] + direction[1] * parameter)
+
+
+def at_distance(origin: Vector, direction: Vector, distance: fmpq) -> Point:
+    """The point at a rational distance from another one in a direction, not 0.
+
+    >>> print(at_distance((fmpq(0), fmpq(1)), (fmpq(-1, 3), fmpq(-2, 3)), fmpq(5)))
+    (-sqrt(5), 1 - 2*sqrt(5))
+    """
+    u, v = direction
+    if not (type(origin[0]) is type(origin[1]) is type(u) is type(v) is fmpq and u and v):
+        return advance(origin, direction, square_root(distance * distance / dot(direction, direction)))
+    # Without common factors of the direction the number under the root is smaller, and an integer.
+    slope = u / v
+    a, b = int(slope.p), int(slope.q)
+    if v < 0:
+        a, b = -a, -b
+    side, radicand = square_free(a * a + b * b)
+    below = distance / (side * radicand)
+    return Point(with_root(origin[0], below * a, radicand), with_root(origin[1], below * b, radicand))
 
 
 def ratio(vector: Vector, direction: Vector) -> Any:

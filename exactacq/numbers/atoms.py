@@ -10,7 +10,7 @@ import atexit
 from abc import ABC, abstractmethod
 from collections.abc import Hashable, Mapping
 from functools import lru_cache
-from math import gcd, log2, prod
+from math import gcd, log2
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeAlias
 from weakref import WeakValueDictionary
 
@@ -264,10 +264,12 @@ SMALL_PRIMES = int(fmpz.primorial_ui(4096))
 @lru_cache(maxsize=1 << 16)
 def square_free(n: int) -> tuple[int, int]:
     """(s, d) with n = s^2 d > 0, s as large as trial division and one perfect-square test find it."""
-    if n.bit_length() <= WHOLLY_FACTORED:
-        side = prod(int(p) ** (exponent // 2) for p, exponent in fmpz(n).factor() if exponent > 1)
-        return side, n // (side * side)
     side = 1
+    if n.bit_length() <= WHOLLY_FACTORED:
+        for prime, exponent in fmpz(n).factor():
+            if exponent > 1:
+                side *= int(prime) ** (exponent // 2)
+        return (side, n // (side * side)) if side > 1 else (1, n)
     if n.bit_length() > SEARCHED:
         small, rest = gcd(n % SMALL_PRIMES, SMALL_PRIMES), n
         for prime, _ in fmpz(small).factor() if small > 1 else ():

@@ -547,6 +547,13 @@ def real(q: fmpq) -> Real:
     return self
 
 
+def with_root(offset: fmpq, factor: fmpq, radicand: int) -> Real:
+    """offset + factor * sqrt(radicand), for a factor that is not 0 and an integer without square factors."""
+    if radicand == 1:
+        return real(offset + factor)
+    return _irrational({radicand: factor, 1: offset} if offset else {radicand: factor})
+
+
 def _irrational(terms: Mapping[Atom, fmpq]) -> Real:
     """A form of which an atom is no rational."""
     self = object.__new__(Real)

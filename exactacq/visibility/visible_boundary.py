@@ -14,7 +14,7 @@ from math import inf
 from typing import Any, TypeAlias
 
 from exactacq.cached import cached_property
-from exactacq.geometry.coordinates import Vector, advance, dot, minus, raw, sign, square_root
+from exactacq.geometry.coordinates import Vector, at_distance, dot, minus, raw, sign
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.points import Point
 from exactacq.kernel.radial_sweep import Part
@@ -367,9 +367,9 @@ class BoundaryView:
         """The point of the range circle in the direction of a rank, always the same object."""
         point = self._at_range.get(rank)
         if point is None:
-            direction = self.sweep.direction(rank)
-            share = square_root(self.range.square / dot(direction, direction))
-            point = self._at_range[rank] = advance(self.origin, direction, share)
+            point = self._at_range[rank] = at_distance(
+                self.origin, self.sweep.direction(rank), self.range.radius
+            )
         return point
 
     # -- points beside the sights ------------------------------------------------------------------
