@@ -13,14 +13,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from flint import fmpq, fmpq_poly
+from flint import arb, fmpq, fmpq_poly
 
 from exactacq.geometry.coordinates import cross, dot
 from exactacq.geometry.curves import Curve, Segment
+from exactacq.geometry.late import BITS
 from exactacq.geometry.points import Point
 from exactacq.numbers.function_zeros import roots
 from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import Real
+from exactacq.visibility.line_balls import CurveBalls, line
 from exactacq.visibility.line_families import Sector, Vector
 
 X = fmpq_poly([0, 1])
@@ -83,10 +85,20 @@ def chord_at(sector: Sector, t: Real, behind: Curve | None, ahead: Curve) -> Cho
     return Chord(start, end, (end - start).norm_sq().sqrt())
 
 
+def length_ball(sector: Sector, t: Real, behind: Curve | None, ahead: Curve) -> arb | None:
+    """A ball around the length of that chord, or None: the line may run along an edge."""
+    at = line(sector, t.ball(BITS))
+    low = None if behind is None else CurveBalls(behind).met(at, -1)
+    high = CurveBalls(ahead).met(at, 1)
+    if high is None or (low is None and behind is not None):
+        return None
+    share = high[0] if low is None else high[0] - low[0]
+    return share * (at[2] * at[2] + at[3] * at[3]).sqrt()
+
+
 def critical(sector: Sector, behind: Curve | None, ahead: Curve) -> list[Real] | None:
     """A finite superset of the t where the chord's length is stationary; None if it is constant."""
-    slope, terms = _derivative(sector, behind, ahead)
-    polynomial = _eliminate(slope, terms)
+    polynomial = _eliminate(*_derivative(sector, behind, ahead))
     return None if polynomial.is_zero() else roots(polynomial.coeffs())
 
 
@@ -157,19 +169,19 @@ def _scaled_length(
 def _derivative(
     sector: Sector, behind: Curve | None, ahead: Curve
 ) -> tuple[_Fraction, list[tuple[_Fraction, fmpq_poly]]]:
-    """The derivative of the length as slope + sum of R_k sqrt(D_k), times a positive function."""
+    """The derivative of the length as slope + sum of R_k / sqrt(D_k), times a positive function."""
     plain, radicals = _scaled_length(sector, behind, ahead)
-    slope = _grow(sector, plain, plain.derivative())
+    slope = _grown(sector, plain, plain.derivative())
     terms = []
     for factor, square in radicals:
-        change = factor.derivative() + factor * _Fraction(square.derivative(), 2 * square)
-        term = _grow(sector, factor, change)
-        if term:
-            terms.append((term, square))
-    return slope, terms
+        # (f sqrt(D))' = (f' D + f D' / 2) / sqrt(D)
+        change = factor.derivative() * _Fraction(square) + factor * _Fraction(square.derivative(), 2 * UNIT)
+        if term := _grown(sector, factor * _Fraction(square), change):
+            terms.append((term.reduced(), square))
+    return slope.reduced(), terms
 
 
-def _grow(sector: Sector, value: _Fraction, derivative: _Fraction) -> _Fraction:
+def _grown(sector: Sector, value: _Fraction, derivative: _Fraction) -> _Fraction:
     """(s g)' / s' s at a corner (s = sqrt(1 + t^2)), g' at a circle."""
     if sector.round:
         return derivative
@@ -224,16 +236,16 @@ def _collect(radicals: list[tuple[_Fraction, fmpq_poly]], factor: _Fraction, squ
 
 
 def _eliminate(slope: _Fraction, terms: list[tuple[_Fraction, fmpq_poly]]) -> fmpq_poly:
-    """A polynomial that vanishes wherever slope + sum of R_k sqrt(D_k) does."""
+    """A polynomial that vanishes wherever slope + sum of R_k / sqrt(D_k) does."""
     if not terms:
         return slope.top
-    squares = [r * r * _Fraction(d) for r, d in terms]
+    squares = [(r * r * _Fraction(UNIT, d)).reduced() for r, d in terms]
     rest = slope * slope
     for square in squares:
-        rest = rest + -square
+        rest = (rest + -square).reduced()
     if len(terms) == 1:
         return rest.top
-    return (rest * rest + -(_Fraction(4 * UNIT) * squares[0] * squares[1])).top
+    return (rest * rest + -(_Fraction(4 * UNIT) * squares[0] * squares[1])).reduced().top
 
 
 def _shifted(point: Point, center: Vector) -> Vector:

@@ -17,15 +17,16 @@ from typing import NamedTuple
 
 from flint import fmpq
 
-from exactacq.geometry.coordinates import Vector, cross, dot, raw
+from exactacq.geometry.coordinates import Vector, cross, dot
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.points import Point
-from exactacq.numbers.rationals import rational
+from exactacq.numbers.precision import workprec
+from exactacq.numbers.rationals import ball_sign, rational
 from exactacq.numbers.real import Real
-from exactacq.visibility.chords import Chord
+from exactacq.visibility.chords import Chord, chord_at
+from exactacq.visibility.line_balls import LONG, line, long_frame
 from exactacq.visibility.line_families import Sector
 
-BITS = 256
 NO_AXIS: Vector = (fmpq(0), fmpq(0))
 CLOSE = 1e-9
 """Lengths whose floats differ by more are not equal; those of others may be."""
@@ -84,28 +85,26 @@ class CongruentChords:
     met: defaultdict[tuple[object, ...], list[_Stationary]] = field(default_factory=lambda: defaultdict(list))
 
     def chord(
-        self, sector: Sector, t: Real, candidates: list[Real], chord: Chord, ends: tuple[Curve, Curve]
+        self, sector: Sector, t: Real, candidates: list[Real], ends: tuple[Curve, Curve], length: float
     ) -> Chord:
-        """The chord, as the image of one that was met before if it is one.
+        """The chord at a parameter, as the image of one that was met before if it is one.
 
-        *candidates* are all roots of the sector's polynomial, *t* one of them, *ends* the chord's edges.
+        *candidates* are all roots of the sector's polynomial, *t* one of them, *ends* the chord's edges; the
+        *length* is about the chord's.
         """
         figure = _figure(sector, *ends)
         if figure is None:
-            return chord
-        length = float(chord.length)
+            return chord_at(sector, t, *ends)
         for key, mirrors in ((figure.key, False), (figure.mirrored, True)):
             for other in self.met.get(key, ()):
                 if not isclose(float(other.chord.length), length, rel_tol=CLOSE):
                     continue
                 isometry = _isometry(figure, other.figure, mirrors)
-                if isometry is None:
-                    continue
-                image = _image(sector, t, isometry, other.sector)
-                if image is not None and _is_only(image, other.root, other.roots):
+                if isometry is not None and _is_image(sector, t, isometry, other):
                     start, end = isometry.back(other.chord.start), isometry.back(other.chord.end)
                     # A mirror turns lines round: their obstacle, on the left, comes to the right.
                     return Chord(*((end, start) if mirrors else (start, end)), other.chord.length)
+        chord = chord_at(sector, t, *ends)
         self.met[figure.key].append(_Stationary(figure, sector, t, candidates, chord))
         return chord
 
@@ -152,25 +151,22 @@ def _isometry(figure: _Figure, other: _Figure, mirrors: bool) -> _Isometry | Non
     return found if found.linear(a) == z and not cross(found.linear(figure.axis), other.axis) else None
 
 
-def _image(sector: Sector, t: Real, isometry: _Isometry, other: Sector) -> Real | None:
-    """The parameter, in the other sector, of a tangent line's image; None if it has none there."""
-    contact, direction = sector.touch(t)
-    image = isometry.linear(raw(contact - Point(*sector.center) if sector.round else direction))
-    below = dot(other.base, image)
-    if sector.round:
-        below = dot(other.base, other.base) + below
-    below = Real(below)
-    return cross(other.base, image) / below if _is_apart(below) else None
-
-
-def _is_only(image: Real, root: Real, roots: list[Real]) -> bool:
-    """Whether balls exclude that a root's image is any of the roots but one."""
-    near = [r for r in roots if not _is_apart(image - r)]
-    return len(near) == 1 and near[0] is root
-
-
-def _is_apart(value: Real) -> bool:
-    return bool(abs(value.ball(BITS)) > 0)
+def _is_image(sector: Sector, t: Real, isometry: _Isometry, other: _Stationary) -> bool:
+    """Whether a tangent line is mapped to that of another chord: long balls exclude all other roots."""
+    base, (cx, cy) = other.sector.base, sector.center
+    with workprec(LONG):
+        x, y, dx, dy = line(sector, t.working_ball(LONG), long_frame(sector))
+        if sector.round:
+            image = isometry.linear((x - cx, y - cy))
+            across, along = cross(base, image), dot(base, base) + dot(base, image)
+        else:
+            image = isometry.linear((dx, dy))
+            across, along = cross(base, image), dot(base, image)
+        if not ball_sign(along):
+            return False
+        found = across / along
+        near = [root for root in other.roots if found.overlaps(root.working_ball(LONG))]
+    return len(near) == 1 and near[0] is other.root
 
 
 def _from(center: Vector, point: Point) -> Vector:

@@ -19,10 +19,12 @@ from itertools import count
 from typing import TypeAlias
 
 import numpy as np
+from flint import arb
 from numpy.typing import NDArray
 
 from exactacq.cached import cached_property
 from exactacq.geometry.curves import Arc, Curve
+from exactacq.geometry.late import BITS
 from exactacq.geometry.nearest_points import Nearest, NearestFamily, NearestFamilyKind, nearest_points
 from exactacq.geometry.points import Point
 from exactacq.kernel.bound_lines import NOTHING
@@ -30,7 +32,7 @@ from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import STRAIGHT, EdgeTable, Floats, Ints, quotient
 from exactacq.scene.scene import Scene, as_scene, radius_of
-from exactacq.visibility.chords import Chord, chord_at, critical
+from exactacq.visibility.chords import Chord, chord_at, critical, length_ball
 from exactacq.visibility.congruent_chords import CongruentChords
 from exactacq.visibility.fans import fan
 from exactacq.visibility.features import Feature, leaving
@@ -268,7 +270,7 @@ class Links:
                         offer_one(chord, ends)
 
         def offer(sweep: Pencil, cell: Cell, ends: tuple[int, int]) -> None:
-            for chord in self._cell_chords(sweep, cell):
+            for chord in self._cell_chords(sweep, cell, best):
                 offer_one(chord, ends)
 
         def offer_one(chord: Chord, ends: tuple[int, int]) -> None:
@@ -334,21 +336,26 @@ class Links:
         gap = self.table.distance_bounds(float(x), float(y), edges).min()
         return _at_least(float(max(gap**2 - size**2 * (1 + 1e-12), 0.0) ** 0.5))
 
-    def _cell_chords(self, sweep: Pencil, cell: Cell) -> Iterator[Chord]:
-        """The chords of a closed cell among which its shortest are."""
+    def _cell_chords(self, sweep: Pencil, cell: Cell, best: _Best) -> Iterator[Chord]:
+        """The chords of a closed cell among which its shortest are, if these may be as short as the best."""
+        sector = sweep.sector
         behind = None if cell.behind is None else self.table.curves[cell.behind]
         assert cell.ahead is not None
         ahead = self.table.curves[cell.ahead]
         for t in (cell.low, cell.high):
-            yield chord_at(sweep.sector, t, behind, ahead)
+            if not best.is_shorter_than(length_ball(sector, t, behind, ahead)):
+                yield chord_at(sector, t, behind, ahead)
         # A constant length (arcs about the contact's centre) is never the least: it shrinks off the feature.
-        stationary = critical(sweep.sector, behind, ahead) or []
+        stationary = critical(sector, behind, ahead) or []
         for t in stationary:
             if t.compare(cell.low) > 0 and t.compare(cell.high) < 0:
-                chord = chord_at(sweep.sector, t, behind, ahead)
-                if behind is not None:
-                    chord = self._congruent.chord(sweep.sector, t, stationary, chord, (behind, ahead))
-                yield chord
+                length = length_ball(sector, t, behind, ahead)
+                if best.is_shorter_than(length):
+                    continue
+                if behind is None or length is None:
+                    yield chord_at(sector, t, behind, ahead)
+                else:
+                    yield self._congruent.chord(sector, t, stationary, (behind, ahead), float(length.mid()))
 
     # -- from the start ----------------------------------------------------------------------------
 
@@ -383,7 +390,7 @@ class Links:
             part = (ahead if ahead.ccw else ahead.reversed()).part(low.end, high.end)
             best.offer(low.length, NearestFamily(NearestFamilyKind.CONCENTRIC, low.start, part))
             return
-        for chord in self._cell_chords(sweep, replace(cell, behind=None)):
+        for chord in self._cell_chords(sweep, replace(cell, behind=None), best):
             best.offer(chord.length, chord)
 
     def _offer_pinched_rays(self, sweep: Pencil, t: Real, best: dict[int, _Best]) -> None:
@@ -402,6 +409,10 @@ class _Best:
         self.length, self.found = limit, False
         self.guess = float(limit) * (1 + 1e-12)
         self.shortest: list[Shortest] = []
+
+    def is_shorter_than(self, length: arb | None) -> bool:
+        """Whether the least length is clearly less than one in a ball, which need not be made then."""
+        return length is not None and bool(self.length.ball(BITS) < length)
 
     def offer(self, length: Real, item: Shortest) -> None:
         order = length.compare(self.length)
