@@ -23,6 +23,9 @@ TRIAL_BITS = 1 << 16
 TOWER_BITS = 1 << 12
 """Zero tests that would take more bits compute in the number's field first (see `exactacq.numbers.tower`)."""
 
+SMALL = arb(2) ** -64
+"""A number within a ball of this radius that contains 0 is mostly 0."""
+
 
 def decided_sign(value: Any) -> int:
     """-1, 0 or 1 for a `Real`; `Undecided` where excluding 0 would take more than `ZERO_TEST_BITS`."""
@@ -38,7 +41,11 @@ def decided_sign(value: Any) -> int:
         return 0 if vanishes_about(value, _numbers_in(value)) else sign_at(value, tau)
     elif field_of(terms) is None:
         limit = _separation_bits(value)
-        zero = vanishes(value) if limit > TOWER_BITS else None
+        zero = None
+        if limit > TOWER_BITS:
+            if sign := _shown_sign(value):
+                return sign
+            zero = vanishes(value)
         if zero:
             return 0
         bits = 2 * FILTER_BITS[-1]
@@ -60,6 +67,19 @@ def decided_sign(value: Any) -> int:
     while not (sign := ball_sign(value.ball(bits))):
         bits *= 2
     return sign
+
+
+def _shown_sign(value: Any) -> int:
+    """The sign by longer balls, or 0 once one is so small that what lies in it hardly differs from 0.
+
+    Elements of a field may have coefficients of hundreds of digits that nearly cancel.
+    """
+    bits = FILTER_BITS[-1]
+    while value.ball(bits).rad() > SMALL and bits < TOWER_BITS:
+        bits *= 2
+        if sign := ball_sign(value.ball(bits)):
+            return sign
+    return 0
 
 
 def _numbers_in(value: Any) -> list[Any]:
