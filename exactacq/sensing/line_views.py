@@ -77,7 +77,8 @@ class LineViews:
     def pin(self, sector: Sector, t: Real, side: Side, names: Names, passed: Passed) -> Pin:
         """Where a line meets an edge: the same point as on the same line under another name.
 
-        A line that touches the edge's circle meets it at the contact, in either sense, and the way once.
+        A line that touches the edge's circle meets it at the contact, in either sense, and the way once. A
+        normal begins where it would enter the obstacle going back: a circle has it as its normal twice.
         """
         role = side.role
         if role is Role.CONTACT and side.fixed:
@@ -85,7 +86,8 @@ class LineViews:
             return corner, self.rails[side.edge].parameter(corner)
         edge, touches = side.edge, self.numbers.touches
         once = edge == self.way or edge in [e for e, touching, _ in passed if touching]
-        keys = [(name, edge, 0 if once or touches(name, edge) else role * sense) for name, sense in names]
+        way = role if role is not Role.CONTACT or sector.round else Role.BEHIND
+        keys = [(name, edge, 0 if once or touches(name, edge) else way * sense) for name, sense in names]
         for key in keys:
             known = self.pins.get(key)
             if known is not None:

@@ -101,8 +101,14 @@ class BoundaryView:
             whole = ends.point(start), ends.point(end)
             at = zip(whole, (start, end), strict=True)
             self.disc.on_rim += [point for point, k in at if self._is_at_rim(e, ends.rank(k))]
-            spans = self._clipped(e, whole)
-            sight.parts = [self._known(e, span, whole, (start, end), ends) for span in spans]
+            found: list[Part] = []
+            last: Point | None = None
+            for span in self._clipped(e, whole):
+                first, stop = self._known(e, span, whole, (start, end), ends)
+                # Both halves of a circle that is seen from a point of it have one point in common.
+                found.append((found[-1][1] if span[0] is last else first, stop))
+                last = span[1]
+            sight.parts = found
         return ends
 
     def _known(self, e: int, span: Span, whole: Span, numbers: Part, ends: ViewEnds) -> Part:

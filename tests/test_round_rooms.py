@@ -1,0 +1,77 @@
+"""Round rooms: ways through the centre, which all normals of the wall pass, and views from the wall."""
+
+from __future__ import annotations
+
+from fractions import Fraction as Q
+from random import Random
+
+import pytest
+from map_oracle import Answer, known, spots
+from nightly import some
+
+import exactacq as xa
+from exactacq.numbers.real import Real
+from exactacq.scene.shapes import Shape
+
+WAYS = [((1, 1), (-1, -1)), ((-1, 2), (Q(1, 2), -1)), ((3, -4), (-3, 4)), ((0, 5), (0, -1))]
+ARC = xa.Outline([(4, -3, 2), (-4, -3)])
+"""More than half of a circle of radius 5 about the origin, and its chord."""
+
+
+@pytest.mark.parametrize("more", [0, 1, 6])
+@pytest.mark.parametrize(("start", "stop"), WAYS)
+def test_a_way_through_the_centre(start: tuple[int, int], stop: tuple[object, object], more: int) -> None:
+    """The wall opposite is seen as far as the range exceeds the room's radius.
+
+    Of the two places where the way's line meets the wall, normals of the wall took the one for the other.
+    """
+    room = xa.Scene([], start=start, enclosure=xa.Circle((0, 0), 6), radius=6 + more)
+    run = xa.explore(room, lambda robot: robot.go_to(stop))
+    away = Real(start[0] ** 2 + start[1] ** 2).sqrt()
+    (acquired,) = (event for event in run.events if event.kind == "acquire")
+    assert acquired.at == max(away - more, Real(0))
+    xa.audit(run)
+
+
+@pytest.mark.parametrize("room", [xa.Circle((0, 0), 5), ARC])
+@pytest.mark.parametrize("seed", some(range(12), 4))
+def test_what_is_known_past_the_centre(room: Shape, seed: int) -> None:
+    """Of obstacles in a room, and of its wall, against an oracle: parts of the wall were known too early."""
+    rng = Random(seed)
+    a, b = rng.choice([(1, 1), (1, 2), (2, -1), (-3, 1)])
+    start, stop = (Q(a, 2), Q(b, 2)), (-a, -b)
+    radius, shapes = rng.choice([5, 6, 10, 20]), list[Shape]()
+    for _ in range(40):
+        x, y, size = (Q(rng.randint(-8, 8), 2) for _ in range(3))
+        shape: Shape = xa.Circle((x, y), Q(1, 2))
+        if size > 0:
+            shape = xa.Polygon([(x, y), (x + 1, y), (x + 1, y + 1)])
+        try:
+            xa.Scene([*shapes, shape], start=start, enclosure=room)
+        except xa.InvalidScene:
+            continue
+        shapes.append(shape)
+        if len(shapes) == 3:
+            break
+    scene = xa.Scene(shapes, start=start, enclosure=room, radius=radius)
+    run = xa.explore(scene, lambda robot: robot.go_to(stop))
+    samples = spots(scene, [Q(1, 7), Q(1, 2), Q(5, 6)])
+    for share in (0.5, 0.7, 0.999):
+        moment = run.near(float(run.length) * share)
+        way = [xa.Segment(scene.start, moment.point)]
+        found = run.map_at(moment)
+        for sample, answer in zip(samples, known(scene, radius, way, samples), strict=True):
+            if answer != Answer.CLOSE:
+                assert found.knows(sample.obstacle, sample.point) == (answer == Answer.YES), (share, sample)
+
+
+@pytest.mark.parametrize("radius", [12, 13, 30])
+@pytest.mark.parametrize("point", [(6, 0), (0, -6), ("18/5", "-24/5")])
+def test_a_view_from_the_wall(point: tuple[object, object], radius: int) -> None:
+    """All of the wall is seen, as one piece: its two halves meet opposite the point.
+
+    Both had a number of their own for that place, and an arc of the range stood between them.
+    """
+    view = xa.isovist(xa.Scene([], enclosure=xa.Circle((0, 0), 6)), point, radius)
+    assert [piece.kind.value for piece in view.pieces] == ["edge"]
+    assert view.area == xa.Length.turns(36, Q(1, 2)) and view.perimeter == xa.Length.turns(12, Q(1, 2))
