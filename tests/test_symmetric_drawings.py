@@ -10,6 +10,7 @@ import exactacq as xa
 from exactacq import Scene, Terrain
 from exactacq.auditing.audit import audit
 from exactacq.numbers import sign
+from exactacq.sensing.view_length import ViewLength
 
 
 def test_a_line_of_sight_ends_on_the_arc_that_it_leads_to() -> None:
@@ -91,3 +92,55 @@ def test_mirror_images_come_into_range_together(monkeypatch: pytest.MonkeyPatch)
     run = xa.sightseer(Scene([*petals, bean], start=(7, 7), radius=14))
     first, second = (event.point for event in run.events if event.kind == "sight" and event.obstacle != 2)
     assert first == second and first.x == first.y
+
+
+def test_a_view_along_the_tangent_of_two_mirrored_arcs_is_as_long_as_the_range() -> None:
+    """The robot leaves its line where it loses what lies along that tangent.
+
+    Near it the length changes as a root does, with an infinite slope, of which nothing could be told: a sweep
+    without a look ahead ended in `Undecided`.
+    """
+    shapes = [
+        xa.Outline([(4, 6), (4, 7, 1), (2, 7), (2, 6, Q(-1, 2))]),
+        xa.Outline([(4, 12), (4, 11, -1), (2, 11), (2, 12, Q(1, 2))]),
+        xa.Outline([(8, 6), (8, 5, -1), (6, 5), (6, 6, Q(1, 2))]),
+    ]
+    scene = Scene(shapes, start=(-3, -3), terrain=Terrain(12, 18, (-3, -3)), radius=5)
+    audit(xa.seed_spreader(scene, lookahead=False), samples=2)
+
+
+def test_nearly_straight_arcs(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Bulges of 10^-6, as programs write them for straight lines: circles of a million times the size.
+
+    Where a view past one of them to another is as long as the range, 350,000 lengths were computed.
+    """
+    values = []
+    evaluate = ViewLength._value
+
+    def counted(self: ViewLength, t: object, root: object) -> object:
+        values.append(1)
+        return evaluate(self, t, root)
+
+    monkeypatch.setattr(ViewLength, "_value", counted)
+    thousand = Q(1, 1000)
+    shapes = [
+        xa.Outline([(x * thousand, y * thousand, Q(bulge, 10**6)) for x, y, bulge in corners])
+        for corners in (
+            [
+                (60104, 55861, 414214),
+                (64347, 55861, 1),
+                (71418, 62933, 414214),
+                (71418, 67175, 1),
+                (67175, 71418, 414214),
+                (62933, 71418, 1),
+                (55861, 64347, 414214),
+                (55861, 60104, 10),
+            ],
+            [(37477, 79903, 1001000), (47376, 89803, 999990)],
+            [(19092, 96874, 1), (30406, 108187, -300), (23335, 115258, 1000), (12021, 103945, 1)],
+        )
+    ]
+    corner = Q("-61.619"), Q("-18.656755001")
+    terrain = Terrain(Q("143.915547894"), Q("143.914755001"), corner)
+    xa.seed_spreader(Scene(shapes, start=corner, terrain=terrain, radius=60), lookahead=False).sense()
+    assert 0 < len(values) < 10_000

@@ -72,6 +72,9 @@ class BesidePole:
             return Real(self.before) / (self.pole - t) - 1
         return arb(self.before) / (arb(self.pole) - t) - 1
 
+    def sense(self, cell: arb) -> int:
+        return 0
+
 
 def test_a_family_narrower_than_a_cell_of_the_search() -> None:
     """Where an edge leaves a rounded corner at an angle of a, lines that roll on it see all of it within a^2.
@@ -230,6 +233,22 @@ class TestRoots:
         assert [float(t) for t in found] == pytest.approx([-float(found[1]), float(found[1])])
         assert abs(excess(TURNING, found[1], self.way, arc, fmpq(20)).ball(400)) < 1e-80
 
+    @pytest.mark.parametrize("far", [True, False])
+    @pytest.mark.parametrize("square", [81, 64, 80, 82])
+    def test_a_view_along_a_line_that_touches_an_arc_is_as_long(self, square: int, far: bool) -> None:
+        """The tangent from the origin, 4 long, goes on for 5 behind it: there the slope is infinite."""
+        arc, way = circle(5, 0, 9, ccw=not far), Segment(Point(-4, -3), Point(-4 - ROOT2, 7))
+        way = Segment(way.start - 2 * way.direction, way.end)
+        last = fmpq(3, 4)
+        found = of_length_on(TURNING, way, arc, fmpq(square), Real(0), Real(last))
+        samples = [*(last * k / 400 for k in range(400)), last - fmpq(1, 10**12)]
+        signs = [excess(TURNING, Real(t), way, arc, fmpq(square)).sign() for t in samples]
+        changes = [t for t, a, b in zip(samples[1:], signs, signs[1:], strict=False) if a != b]
+        assert len(found) == len(changes)
+        for t, after in zip(found, changes, strict=True):
+            assert float(after - last / 400) <= float(t) <= float(after)
+            assert abs(excess(TURNING, t, way, arc, fmpq(square)).ball(400)) < 1e-80
+
 
 class TestNumbers:
     def root(self, low: object = 0, high: object = 1) -> Real:
@@ -287,6 +306,9 @@ class Sine:
 
     def __call__(self, t: object) -> object:
         return t.sin()  # type: ignore[attr-defined]
+
+    def sense(self, cell: arb) -> int:
+        return 0
 
 
 def test_zeros_of_any_function() -> None:

@@ -70,6 +70,12 @@ class Function(Protocol):
         Exact at a Real. On a ball an enclosure, not finite (or ValueError, for a series) where it has none.
         """
 
+    def sense(self, cell: arb) -> int:
+        """1 or -1 if it surely grows or falls in all of a cell where it is real; else 0, or ValueError.
+
+        The slope may be infinite there. Asked at the ends of a range, at the working precision.
+        """
+
 
 class Zero(Node):
     """The one zero of a function between two rationals: there its slope has a sign, and about one size."""
@@ -116,10 +122,9 @@ def zeros_between(
 ) -> list[Real]:
     """The zeros strictly between two numbers, ascending; the function is real and finite from low to high.
 
-    *sign_at* knows an easier way to the function's exact sign at the two ends.
-    `Undecided` at a double zero, and where the slope is infinite at an end at which the function is 0 (or
-    both nearly so). Which side of an end a zero lies on is asked of the function at that end: it is exact,
-    and no comparison of numbers of large degree.
+    *sign_at* knows an easier way to the function's exact sign at the two ends. At these the slope may be
+    infinite. `Undecided` at a double zero (or nearly so). Which side of an end a zero lies on is asked of the
+    function at that end: it is exact, and no comparison of numbers of large degree.
     """
     begin, end = low.enclosure(BITS)[0], high.enclosure(BITS)[1]
     # A family of lines may be 10^-31 wide, where one of them nearly touches the circle that they roll on.
@@ -139,6 +144,16 @@ def zeros_between(
             if _excludes_zero(function, cell, slope):
                 continue
             steady = slope.abs_upper() < 2 * slope.abs_lower()
+            is_at_end = not slope.is_finite() and (left <= begin or right >= end)
+            is_at_end = is_at_end and _is_monotone(function, cell)
+        if is_at_end:
+            first, last = low if left <= begin else Real(left), high if right >= end else Real(right)
+            before, after = (
+                _sign(function, t, None if t is not low and t is not high else sign_at) for t in (first, last)
+            )
+            if before == after or after == 0 or (before == 0 and first is low):
+                # Its only zero is an end, or there is none.
+                continue
         if steady:
             found += _zero_in(function, left, right, low, high, sign_at)
         elif depth > deepest:
@@ -198,6 +213,14 @@ def _slope(function: Function, cell: arb) -> arb:
     except ValueError:
         # A denominator contains 0.
         return arb.nan()
+
+
+def _is_monotone(function: Function, cell: arb) -> bool:
+    """Whether a function surely grows or falls in all of a cell."""
+    try:
+        return function.sense(cell) != 0
+    except ValueError:
+        return False
 
 
 def _cell(low: fmpq, high: fmpq) -> arb:

@@ -17,21 +17,25 @@ the product of those of their generators, and height at most 80 times the sum of
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Hashable, Iterator
+from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from math import prod
-from typing import Any
+from typing import Any, TypeAlias
 
-from flint import arb, ctx, fmpq
+from flint import arb, arb_series, ctx, fmpq
 
 from exactacq.cached import cached_property
 from exactacq.geometry.coordinates import Vector, cross, dot, minus
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.function_zeros import BITS, zeros_between
+from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.visibility.line_families import Sector
 
+_Line: TypeAlias = "Callable[[Any], tuple[Vector, Vector]]"
+"""Contact and direction of the line at a parameter, in the parameter's arithmetic."""
 DEGREE = 80
 SPREAD = 240
 
@@ -48,15 +52,18 @@ class _LengthSide(ABC):
         return type(self), tuple(number.key for number in self.numbers)
 
     @abstractmethod
-    def place(self, numbers: tuple[Any, ...], t: Any, contact: Vector, direction: Vector) -> Any:
-        """The s of the module's docstring, in the arithmetic of t, which *numbers* have been brought to."""
+    def place(self, numbers: tuple[Any, ...], t: Any, line: _Line, root: Any) -> Any:
+        """The s of the module's docstring, in the arithmetic of t, which *numbers* have been brought to.
+
+        On a circle the *root* of D may be given; else it is computed.
+        """
 
 
 class _Straight(_LengthSide):
     """The line through a point, given with its direction."""
 
-    def place(self, numbers: tuple[Any, ...], t: Any, contact: Vector, direction: Vector) -> Any:
-        start, along = numbers[:2], numbers[2:]
+    def place(self, numbers: tuple[Any, ...], t: Any, line: _Line, root: Any) -> Any:
+        (contact, direction), start, along = line(t), numbers[:2], numbers[2:]
         return cross(minus(start, contact), along) / cross(direction, along)
 
 
@@ -66,7 +73,7 @@ class _Tangent(_LengthSide):
     Two tangents meet at the tangent of half the angle between their contacts; `_Straight` has 0 / 0 there.
     """
 
-    def place(self, numbers: tuple[Any, ...], t: Any, contact: Vector, direction: Vector) -> Any:
+    def place(self, numbers: tuple[Any, ...], t: Any, line: _Line, root: Any) -> Any:
         p, q = numbers
         return (p - t * q) / (q + t * p)
 
@@ -81,17 +88,22 @@ class _Round(_LengthSide):
     def key(self) -> Hashable:
         return super().key, self.far
 
-    def place(self, numbers: tuple[Any, ...], t: Any, contact: Vector, direction: Vector) -> Any:
-        x, y, radius_sq = numbers
-        to_center, size = minus((x, y), contact), dot(direction, direction)
-        across = cross(to_center, direction)
-        return (dot(to_center, direction) + self.far * _root(size * radius_sq - across * across)) / size
+    def place(self, numbers: tuple[Any, ...], t: Any, line: _Line, root: Any) -> Any:
+        contact, direction = line(t)
+        to_center, size = minus(numbers[:2], contact), dot(direction, direction)
+        along, known = dot(to_center, direction), root is not None
+        root = self.far * (root if known else _root(_square(numbers, t, line)))
+        if _are_opposite(along, root):
+            # On a circle that is large beside its arc the two nearly cancel.
+            return (dot(to_center, to_center) - numbers[2]) / (along - root)
+        return (along + root) / size
 
 
 class _Through(_LengthSide):
     """A circle through the corner that the lines turn about, given by its centre: the other crossing."""
 
-    def place(self, numbers: tuple[Any, ...], t: Any, contact: Vector, direction: Vector) -> Any:
+    def place(self, numbers: tuple[Any, ...], t: Any, line: _Line, root: Any) -> Any:
+        contact, direction = line(t)
         return 2 * dot(minus(numbers, contact), direction) / dot(direction, direction)
 
 
@@ -126,17 +138,30 @@ class ViewLength:
 
     def __call__(self, t: Any) -> Any:
         """The value at a Real, an arb or an arb_series (the latter at the working precision)."""
-        cx, cy, ex, ey, square = _alike(self.numbers, t)
-        contact: Vector = (cx, cy)
-        direction: Vector = (ex - t * ey, ey + t * ex)
-        if self.round:
-            growth = 1 + t * t
-            cosine, sine = 2 / growth - 1, 2 * t / growth
-            vx, vy = cosine * ex - sine * ey, cosine * ey + sine * ex
-            contact, direction = (cx + vx, cy + vy), (-vy, vx)
-        behind, ahead = (side.place(_alike(side.numbers, t), t, contact, direction) for side in self.sides)
-        length = ahead - behind
+        return self._value(t, None)
+
+    def _value(self, t: Any, root: Any) -> Any:
+        *frame, square = _alike(self.numbers, t)
+        line = partial(_line, self.round, frame)
+        behind, ahead = (side.place(_alike(side.numbers, t), t, line, root) for side in self.sides)
+        direction, length = line(t)[1], ahead - behind
         return dot(direction, direction) * length * length - square
+
+    def sense(self, cell: arb) -> int:
+        """1 or -1 if the function grows or falls all over a cell, where its slope may be infinite; else 0.
+
+        With q = sqrt(D) the slope is df/dt + D' df/dq / 2 q: its product with q is finite, and has its sign.
+        """
+        circle = next((side for side in self.sides if isinstance(side, _Round)), None)
+        if circle is None:
+            return 0
+        along, still = arb_series([cell, 1], prec=2), arb_series([cell, 0], prec=2)
+        line = partial(_line, self.round, _alike(self.numbers, cell)[:4])
+        square = _square(_alike(circle.numbers, cell), along, line)
+        root = _root(square[0])
+        by_t = self._value(along, arb_series([root, 0], prec=2))[1]
+        by_root = self._value(still, arb_series([root, 1], prec=2))[1]
+        return ball_sign(root * by_t + square[1] * by_root / 2)
 
     def __str__(self) -> str:
         kind = "touching a circle about" if self.round else "through"
@@ -159,8 +184,8 @@ def of_length_on(
     Of Turning or Rolling lines which from low to high meet the carriers of both curves, behind and ahead of
     the contact; at least one is a segment. *touching* is a segment known to touch the circle that lines roll
     on; of others it is found out where it matters. *longer_at* compares the views at the two ends with the
-    value. `Undecided` where the length is stationary at that value, or has it at an end whose line touches
-    an arc's circle. A millisecond, for numbers of small degree.
+    value. `Undecided` where the length is stationary at that value. A millisecond, for numbers of small
+    degree.
     """
     numbers = tuple(Real(n) for n in (*sector.center, *sector.base, square))
     ends = (low, high)
@@ -208,6 +233,50 @@ def _alike(numbers: tuple[Real, ...], t: Any) -> tuple[Any, ...]:
     if isinstance(t, Real):
         return numbers
     return tuple(number.working_ball(ctx.prec) for number in numbers)
+
+
+def _line(is_round: bool, frame: Sequence[Any], t: Any) -> tuple[Vector, Vector]:
+    """Contact and direction at a parameter, of lines whose sector has these centre and base."""
+    cx, cy, ex, ey = frame
+    if not is_round:
+        return (cx, cy), (ex - t * ey, ey + t * ex)
+    growth = 1 + t * t
+    cosine, sine = 2 / growth - 1, 2 * t / growth
+    vx, vy = cosine * ex - sine * ey, cosine * ey + sine * ex
+    return (cx + vx, cy + vy), (-vy, vx)
+
+
+def _square(numbers: tuple[Any, ...], t: Any, line: _Line) -> Any:
+    """What is under the root on a circle: |d|^2 r^2 - ((m - c) x d)^2.
+
+    A ball, or a series about one, that contains 0 is enclosed once more, by the mean value theorem: where
+    lines nearly touch a large circle the value hardly changes, though all that it is made of does.
+    """
+
+    def value(t: Any) -> Any:
+        contact, direction = line(t)
+        across = cross(minus(numbers[:2], contact), direction)
+        return dot(direction, direction) * numbers[2] - across * across
+
+    found = value(t)
+    if isinstance(found, Real) or ball_sign(head := _head(found)):
+        return found
+    cell = _head(t)
+    middle = cell.mid()
+    head = head.intersection(value(middle) + value(arb_series([cell, 1], prec=2))[1] * (cell - middle))
+    return head if isinstance(found, arb) else arb_series([head, *list(found)[1:]], prec=found.prec)
+
+
+def _head(value: Any) -> arb:
+    """The value of a ball, or the first coefficient of a series."""
+    return value if isinstance(value, arb) else value[0]
+
+
+def _are_opposite(a: Any, b: Any) -> bool:
+    """Whether balls, or series of balls, surely have opposite signs; numbers are told by any formula."""
+    if isinstance(a, Real) or isinstance(b, Real):
+        return False
+    return ball_sign(_head(a)) * ball_sign(_head(b)) < 0
 
 
 def _root(square: Any) -> Any:
