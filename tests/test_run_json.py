@@ -25,6 +25,7 @@ from exactacq import (
     Real,
     Run,
     Scene,
+    Terrain,
     load_run,
     seed_spreader,
     sightseer,
@@ -174,6 +175,9 @@ def test_decimals_stand_beside() -> None:
 ONE_PLUS_ROOT = [["1", ["radical", "1"]], ["1", ["radical", "2"]]]
 """Its square's square's square doubles in length at every step."""
 
+HIGH = [["1", ["root", ["-1", "-1", *["0"] * 37, "1"], 0, 1]], ["1", ["radical", "1"]]]
+"""1 + x with x^39 = x + 1: its inverse plus 1, and the inverse of that plus 1, take long."""
+
 
 def nested(k: int) -> list:
     """Entry k + 1 of the table: 1 + sqrt(number k)."""
@@ -207,6 +211,7 @@ def damaged(change):
             marks=by_night,
         ),
         lambda d: d.update(numbers=[ONE_PLUS_ROOT, *(nested(k) for k in range(99))]),
+        lambda d: d.update(numbers=[HIGH, *([["1", ["inverse", k]], HIGH[1]] for k in range(9999))]),
         lambda d: d.update(numbers={}),
         lambda d: d.update(start=["0"]),
         lambda d: d.update(start=["nan", "0"]),
@@ -328,3 +333,26 @@ def test_the_text_of_a_run_is_no_file_name() -> None:
         load_run(text)
     assert len(str(caught.value)) < 200
     assert load_run(json.loads(text)).length == run.length
+
+
+def test_a_run_whose_numbers_have_great_heights_is_read() -> None:
+    """A diversion from an irrational place: nested numbers, of few digits each, whose heights were added up.
+
+    One of twelve sweeps of drawings with arcs was written and could not be read back.
+    """
+    part = Fraction(207107, 500000)
+    spiral = [("3.9", "0.475", part), ("3.425", 0, part), ("4.15", "-0.725", part), ("5.125", "0.25", part)]
+    spiral += [("3.9", "1.475"), ("3.9", "1.325", -part), ("4.975", "0.25", -part), ("4.15", "-0.575", -part)]
+    spiral += [("3.575", 0, -part), ("3.9", "0.325")]
+    tear = [("3.571", "4.838", "1.527525"), ("4.738", "3.671"), ("5.24", "4.951", "0.654654")]
+    kidney = [("9.19", "8.158", "0.884725"), ("6.61", "8.158", 1), ("7.007", "8.11", "-0.884725")]
+    shapes = [spiral, [*tear, ("4.851", "5.34")], [*kidney, ("8.793", "8.11")]]
+    corner = Fraction("-2.7004554"), Fraction(-45149326689741, 16568560000000)
+    terrain = Terrain(Fraction("13.8919011"), Fraction(232362377997081, 16568560000000), corner)
+    scene = Scene([Outline(shape) for shape in shapes], terrain=terrain, radius=4)
+    run = seed_spreader(scene, target="visible")
+    document = run.to_json()
+    assert max(number.height_bound() for number in Decoder(document["numbers"])._values) > 1e9
+    again = load_run(document)
+    assert again.length == run.length
+    assert [str(e.at.decimal(30)) for e in again.events] == [str(e.at.decimal(30)) for e in run.events]

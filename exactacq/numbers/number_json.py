@@ -22,6 +22,7 @@ from flint import fmpz
 from exactacq.errors import FormatError
 from exactacq.numbers.atoms import Inverse, Node, Product, Root, Sqrt
 from exactacq.numbers.function_zeros import roots
+from exactacq.numbers.linear_forms import field_of
 from exactacq.numbers.real import Real, fmpq
 
 Number: TypeAlias = "str | int"
@@ -29,13 +30,18 @@ MAX_DEGREE = 200
 """Largest degree of a polynomial that is read: chords reach 24, and isolating roots must stay cheap."""
 MAX_DEPTH = 64
 """Most levels of expressions within expressions that are read; runs have two or three."""
-MAX_HEIGHT = 1 << 28
-"""Largest height, in bits, of a number that is read: squares of squares double it at every step.
+MAX_SIZE = 1 << 26
+"""Most bits of the coefficients of a number that is read: squares of squares double them at every step.
 
-Runs with coordinates of sixty digits have numbers of 2^25 bits.
+Runs have numbers of some 2^18 bits. Heights are no measure: those of nested numbers reach 2^30 and more.
 """
 MAX_TOTAL = 1 << 30
-"""Largest sum of all heights of a document, which bounds the memory that its numbers take."""
+"""Most bits of all numbers of a document, which bounds the memory that they take."""
+MAX_INVERTED = 10**6
+"""Largest sum of the cubes of the degrees of fields in which inverses are computed: about a second.
+
+Files that are written have none: an element of the field of one root is written as a form.
+"""
 MAX_LENGTH = 1_400_000
 """Longest text of a rational."""
 FRACTION = re.compile(r"(-?\d+)(?:/(\d+))?", re.ASCII)
@@ -85,12 +91,12 @@ class Decoder:
     def __init__(self, table: list[Any]) -> None:
         self._values: list[Real] = []
         self._depths: list[int] = []
-        total = 0.0
+        self._inverted = total = 0
         for entry in table:
             value = Real.sum(self._atom(atom) * _fraction(c) for c, atom in entry)
-            height = value.height_bound()
-            total += height
-            if height > MAX_HEIGHT or total > MAX_TOTAL:
+            size = sum(int(c.p.bit_length() + c.q.bit_length()) for c in value.terms.values())
+            total += size
+            if size > MAX_SIZE or total > MAX_TOTAL:
                 raise FormatError(f"number {len(self._values)} is too large")
             depth = 1 + max((self._depth(atom) for _, atom in entry), default=0)
             if depth > MAX_DEPTH:
@@ -125,6 +131,10 @@ class Decoder:
         if kind == "product" and len(values) == 2:
             return values[0] * values[1]
         if kind == "inverse" and len(values) == 1:
+            field = field_of(values[0].terms)
+            self._inverted += 0 if field is None else (len(field[0]) - 1) ** 3
+            if self._inverted > MAX_INVERTED:
+                raise FormatError("too many inverses in fields of high degree")
             return 1 / values[0]
         raise FormatError(f"unknown kind of number {str(kind)[:20]!r}")
 
