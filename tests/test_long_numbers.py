@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from itertools import product
 from math import isqrt
 
 import pytest
 from flint import fmpq
 
+from exactacq import Length, Outline, Scene, sightseer
 from exactacq.geometry.points import Point
 from exactacq.numbers.atoms import square_free
+from exactacq.numbers.exact import LONGEST
 from exactacq.numbers.rationals import plain
 from exactacq.scene.validation import place_text
 
@@ -43,3 +46,21 @@ def test_numbers_beyond_what_python_writes_are_written() -> None:
     assert plain(fmpq(-1, 2**5000)).startswith("-0.000")
     near = Point(fmpq(1, 3**9999) + 2, fmpq(-(10**5000) - 1, 10**5000))
     assert place_text(near) == "(2.000000000, -1.000000000)"
+
+
+def test_what_would_take_minutes_to_write_is_told_by_digits() -> None:
+    """Lengths up to events between two C shapes: a closed form has some 10^6 characters."""
+    bulge, inner = Fraction(37321, 10000), Fraction(-37321, 10000)
+    shapes = [
+        Outline(
+            [("3.291", "1.9", bulge), ("3.291", "-1.9", 1), ("2.944", "-1.7", inner), ("2.944", "1.7", 1)]
+        ),
+        Outline(
+            [("-4.33", "-2.5", bulge), ("-4.33", "2.5", 1), ("-3.984", "2.3", inner), ("-3.984", "-2.3", 1)]
+        ),
+    ]
+    texts = [str(event.at) for event in sightseer(Scene(shapes, start=(7, 0), radius=3)).events]
+    long = [text for text in texts if text.endswith("...")]
+    assert long and all(len(text) < 40 for text in long)
+    assert any("sqrt" in text for text in texts) and max(map(len, texts)) <= LONGEST
+    assert str(Length.arc(1, "3/5", "4/5") + 1) == "2*atan(1/2) + 1"

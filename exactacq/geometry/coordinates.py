@@ -12,7 +12,7 @@ from flint import fmpq
 from exactacq.geometry.points import Point
 from exactacq.numbers.atoms import square_free
 from exactacq.numbers.rationals import rational_sign
-from exactacq.numbers.real import Real, with_root
+from exactacq.numbers.real import Real
 
 Vector: TypeAlias = "tuple[Any, Any]"
 """Coordinates, each an fmpq if the Real is rational and the Real itself otherwise."""
@@ -67,8 +67,8 @@ def at_distance(origin: Vector, direction: Vector, distance: fmpq) -> Point:
     if v < 0:
         a, b = -a, -b
     side, radicand = square_free(a * a + b * b)
-    below = distance / (side * radicand)
-    return Point(with_root(origin[0], below * a, radicand), with_root(origin[1], below * b, radicand))
+    root, share = Real.of_atom(radicand), distance / (side * radicand)
+    return Point(root.affine(share * a, origin[0]), root.affine(share * b, origin[1]))
 
 
 def ratio(vector: Vector, direction: Vector) -> Any:

@@ -23,6 +23,8 @@ BITS_PER_CHARACTER = 4
 """More than the 3.33 bits of a decimal digit."""
 SHORT, SHOWN = 80, 15
 """Closed forms of about this many characters at most are shown in notebooks; digits of others."""
+LONGEST, LONGEST_SHOWN = 10_000, 30
+"""Closed forms that may take more characters are no text: nobody reads them, and they take minutes."""
 
 
 def is_short(number: Form, limit: int) -> bool:
@@ -150,6 +152,21 @@ class Exact:
         if self.rational is None:
             raise ValueError(f"an irrational number is no ratio of integers: {self}")
         return int(self.rational.p), int(self.rational.q)
+
+    def __str__(self) -> str:
+        """The closed form; 30 digits and an ellipsis where it may have more than 10,000 characters.
+
+        `sympy` makes any form, however long that takes, and `decimal` any number of digits.
+
+        >>> from exactacq.numbers.real import Real
+        >>> str(Real(2).sqrt()), str(Real(2).sqrt() + fmpq(1, 10**20_000))
+        ('sqrt(2)', '1.41421356237309504880168872421...')
+        """
+        if self.rational is not None:
+            return str(self.rational)
+        if all(is_short(number, LONGEST) for number in self.numbers):
+            return str(self.sympy())
+        return f"{self.decimal(LONGEST_SHOWN)}..."
 
     def __format__(self, spec: str) -> str:
         """The number formatted as a `decimal.Decimal` would be; without a specification its closed form.

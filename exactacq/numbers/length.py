@@ -357,9 +357,6 @@ class Length(Exact):
         angles = (c.sympy() * angle for c, angle in terms)
         return Add(self._algebraic.sympy(), turn.sympy() * pi, *angles)
 
-    def __str__(self) -> str:
-        return str(self._algebraic if self._is_algebraic else self.sympy())
-
     def __repr__(self) -> str:
         if self._is_algebraic and self._algebraic.rational is not None:
             return f"Length({str(self)!r})"

@@ -506,9 +506,6 @@ class Real(Exact):
         """The number itself: the only one in its closed form."""
         return (self,)
 
-    def __str__(self) -> str:
-        return str(self.rational) if self.rational is not None else str(self.sympy())
-
     def __repr__(self) -> str:
         return f"Real({str(self)!r})" if self.rational is not None else f"<Real {self.decimal(15)}>"
 
@@ -545,13 +542,6 @@ def real(q: fmpq) -> Real:
     self = object.__new__(Real)
     self.rational, self._linear, self._bits, self._sign = q, None, 0, None
     return self
-
-
-def with_root(offset: fmpq, factor: fmpq, radicand: int) -> Real:
-    """offset + factor * sqrt(radicand), for a factor that is not 0 and an integer without square factors."""
-    if radicand == 1:
-        return real(offset + factor)
-    return _irrational({radicand: factor, 1: offset} if offset else {radicand: factor})
 
 
 def _irrational(terms: Mapping[Atom, fmpq]) -> Real:
