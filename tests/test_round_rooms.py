@@ -65,6 +65,19 @@ def test_what_is_known_past_the_centre(room: Shape, seed: int) -> None:
                 assert found.knows(sample.obstacle, sample.point) == (answer == Answer.YES), (share, sample)
 
 
+def test_a_view_from_the_centre_is_as_long_as_the_range() -> None:
+    """Discs in mirrored places; the robot, on its way from one to another, passes the centre of the wall.
+
+    That the view from there past a disc is as long as the range is known; as a zero of the length it was a
+    number of degree 160, equal to an end of what was known of the wall.
+    """
+    discs = [xa.Circle(center, Q(1, 2)) for center in ((4, -3), (-4, 3), (1, 2), (-1, -2))]
+    room = xa.Scene(discs, start=(1, -1), enclosure=xa.Circle((0, 0), 8), radius=8)
+    run = xa.explore(room, "nearest-frontier")
+    assert not run.map.incomplete
+    xa.audit(run)
+
+
 @pytest.mark.parametrize("radius", [12, 13, 30])
 @pytest.mark.parametrize("point", [(6, 0), (0, -6), ("18/5", "-24/5")])
 def test_a_view_from_the_wall(point: tuple[object, object], radius: int) -> None:

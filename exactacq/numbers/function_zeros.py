@@ -9,7 +9,7 @@ for, so that one zero is one number.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, Protocol
 
 from flint import arb, arb_series, fmpq, fmpz, fmpz_poly
@@ -118,13 +118,18 @@ class Zero(Node):
 
 
 def zeros_between(
-    function: Function, low: Real, high: Real, sign_at: Callable[[Real], int] | None = None
+    function: Function,
+    low: Real,
+    high: Real,
+    sign_at: Callable[[Real], int] | None = None,
+    known: Sequence[Real] = (),
 ) -> list[Real]:
     """The zeros strictly between two numbers, ascending; the function is real and finite from low to high.
 
-    *sign_at* knows an easier way to the function's exact sign at the two ends. At these the slope may be
-    infinite. `Undecided` at a double zero (or nearly so). Which side of an end a zero lies on is asked of the
-    function at that end: it is exact, and no comparison of numbers of large degree.
+    *sign_at* knows an easier way to the function's exact sign at the two ends, where the slope may be
+    infinite. Zeros that are *known* are given back as they are. `Undecided` at a double zero (or nearly so).
+    Which side of an end a zero lies on is asked of the function at that end: it is exact, and no comparison
+    of numbers of large degree.
     """
     begin, end = low.enclosure(BITS)[0], high.enclosure(BITS)[1]
     # A family of lines may be 10^-31 wide, where one of them nearly touches the circle that they roll on.
@@ -155,7 +160,7 @@ def zeros_between(
                 # Its only zero is an end, or there is none.
                 continue
         if steady:
-            found += _zero_in(function, left, right, low, high, sign_at)
+            found += _zero_in(function, left, right, low, high, sign_at, known)
         elif depth > deepest:
             raise Undecided(
                 f"{function} is stationary, or begins or ends, about at 0 near {float(left):.15g}"
@@ -173,6 +178,7 @@ def _zero_in(
     low: Real,
     high: Real,
     sign_at: Callable[[Real], int] | None,
+    known: Sequence[Real],
 ) -> Iterator[Real]:
     """The zero of a monotone function in [left, right), if there is one strictly between low and high."""
     before, after = _sign(function, Real(left)), _sign(function, Real(right))
@@ -188,7 +194,8 @@ def _zero_in(
             high.compare(left) > 0 and _sign(function, high, sign_at) == after
         )
         if begins and ends:
-            yield Real.of_atom(Zero.make(function, left, right))
+            here = [zero for zero in known if zero.compare(left) > 0 and zero.compare(right) < 0]
+            yield here[0] if here else Real.of_atom(Zero.make(function, left, right))
 
 
 def _sign(function: Function, t: Real, exact: Callable[[Real], int] | None = None) -> int:

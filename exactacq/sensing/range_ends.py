@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 from flint import arb, fmpq
 
-from exactacq.geometry.curves import Arc, Curve
+from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import contacts, line_contacts
 from exactacq.geometry.late import Pin, balls, late_point
 from exactacq.geometry.points import Point
@@ -172,13 +172,20 @@ class RangeEnds:
             behind, ahead = curves[Role.BEHIND], curves[Role.AHEAD]
             if _is_rational(behind) and _is_rational(ahead):
                 found = of_length(sector, behind, ahead, self.range.square)
-            else:
-                is_touched = sector.round and free_views.anchor in self._touched
-                way = self.views.rails[-1].curve if is_touched else None
-                span = free_views.low, free_views.high
-                longer_at = partial(self._longer_at, low, high)
-                found = of_length_on(sector, behind, ahead, self.range.square, *span, way, longer_at)
-            yield from ((t, None) for t in found)
+                yield from ((t, None) for t in found)
+                return
+            is_touched = sector.round and free_views.anchor in self._touched
+            way = self.views.rails[-1].curve if is_touched else None
+            span = free_views.low, free_views.high
+            longer_at = partial(self._longer_at, low, high)
+            center = self._common_center(behind, ahead) or self._common_center(ahead, behind)
+            known = [] if center is None else sector.through(center)
+            for t in of_length_on(sector, behind, ahead, self.range.square, *span, way, longer_at, known):
+                k = 0 if isinstance(self.views.curve(one.edge), Segment) else 1
+                if center is None or all(t is not own for own in known):
+                    yield t, None
+                else:
+                    yield t, (k, (center, self.views.rails[(one, other)[k].edge].parameter(center)))
             return
         k = 1 if one.role is Role.CONTACT else 0
         far = free_views.sides[k]
@@ -190,6 +197,15 @@ class RangeEnds:
         for pin in self._rim(Point(*sector.center), self._square_from_center(sector), far.edge):
             for t in sector.through(pin[0]):
                 yield t, (k, pin) if self._is_towards(sector, t, far.role, pin[0]) else None
+
+    def _common_center(self, way: Curve, arc: Curve) -> Point | None:
+        """The centre of an arc whose radius is the range, if a straight curve's line passes it.
+
+        From there all views to the arc are as long as the range.
+        """
+        if not (isinstance(way, Segment) and isinstance(arc, Arc) and arc.radius_sq == self.range.square):
+            return None
+        return arc.center if way.direction.cross(arc.center - way.start).sign() == 0 else None
 
     def _rim(self, center: Point, square: Real, edge: int) -> list[Pin]:
         """The points of an edge at a squared distance from a point, the same ones for all families."""

@@ -178,14 +178,15 @@ def of_length_on(
     high: Real,
     touching: Curve | None = None,
     longer_at: Callable[[Real], int] | None = None,
+    known: Sequence[Real] = (),
 ) -> list[Real]:
     """All t strictly between *low* and *high* where a view's squared length is *square*, ascending.
 
     Of Turning or Rolling lines which from low to high meet the carriers of both curves, behind and ahead of
     the contact; at least one is a segment. *touching* is a segment known to touch the circle that lines roll
     on; of others it is found out where it matters. *longer_at* compares the views at the two ends with the
-    value. `Undecided` where the length is stationary at that value. A millisecond, for numbers of small
-    degree.
+    value, and *known* are some of the t, which are given back as they are. `Undecided` where the length is
+    stationary at that value. A millisecond, for numbers of small degree.
     """
     numbers = tuple(Real(n) for n in (*sector.center, *sector.base, square))
     ends = (low, high)
@@ -193,7 +194,7 @@ def of_length_on(
         _side(sector, curve, side, curve is touching or _touches(sector, curve, ends))
         for curve, side in ((behind, -1), (ahead, 1))
     )
-    return zeros_between(ViewLength(sector.round, numbers, (one, other)), low, high, longer_at)
+    return zeros_between(ViewLength(sector.round, numbers, (one, other)), low, high, longer_at, known)
 
 
 def _touches(sector: Sector, curve: Curve, ends: tuple[Real, Real]) -> bool:
