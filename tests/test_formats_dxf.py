@@ -558,6 +558,18 @@ def test_a_file_without_a_header(tmp_path: Path, body: str, newline: str, mark: 
     assert "the file names no unit" in note(scene, "layers")
 
 
+@pytest.mark.parametrize("version", ["AC1009", "AC1015", "AC1027", "AC1032"])
+def test_entities_without_subclasses(tmp_path: Path, version: str) -> None:
+    """Small scripts write a new version, and leave the markers out that it asks for."""
+    body = f"0 SECTION 2 HEADER 9 $ACADVER 1 {version} 9 $INSUNITS 70 4 0 ENDSEC 0 SECTION 2 ENTITIES "
+    body += re.sub("100 AcDb[A-Za-z]+", "", MARKED)
+    body += " 0 LWPOLYLINE 8 0 70 1 10 5 20 0 42 1 10 7 20 0 42 1 0 ENDSEC 0 EOF"
+    (path := tmp_path / "plain.dxf").write_text("\n".join(body.split()))
+    scene = load(path, start=(1, 5))
+    corners = [{edge.start.xy for edge in one.edges} for one in scene.obstacles]
+    assert corners == [{(0, 0), (2, 0), (2, 2)}, {(5, 0), (7, 0)}] and "millimeters" in note(scene, "unit")
+
+
 def test_a_huge_file_is_refused_unread(tmp_path: Path) -> None:
     path = tmp_path / "huge.dxf"
     with path.open("wb") as file:

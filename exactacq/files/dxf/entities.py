@@ -41,6 +41,9 @@ MAX_DEPTH = 16
 BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
 _OPENING = re.compile(rb"(?:\xef\xbb\xbf)?\s*(?:999[ \t]*\r?\n[^\n]*\n\s*)*0[ \t]*\r?\n[ \t]*SECTION\s")
 _HEADER = re.compile(rb"\n[ \t]*2[ \t]*\r?\n[ \t]*HEADER\s")
+_VERSION = re.compile(rb"(\$ACADVER\s+1\s+)(AC\d+)")
+_LIGHT = ("38", "43", "90", "100")
+"""Codes that an LWPOLYLINE alone has: elevation, width, number of vertices, subclass."""
 _ENTITY = re.compile(rb"\n[ \t]*0[ \t]*\r?\n[ \t]*[A-Z]")
 
 # Without a handler Python prints what ezdxf mends to standard error; the scene's notes count it.
@@ -105,10 +108,13 @@ def _open(path: Path, drawing: Drawing) -> Any:
         if number > most:
             raise FormatError(f"{number} {what} are more than the {most} that are read; export one part")
     key = "dxf", path, sha256(data).digest()
-    has_header = data.startswith(BINARY) or _HEADER.search(data) is not None
+    version = _VERSION.search(data)
+    is_new = b"LWPOLYLINE" in data or (version is not None and version[2] > b"AC1009")
+    is_plain = is_new and b"AcDbEntity" not in data
+    is_bare = not data.startswith(BINARY) and (is_plain or _HEADER.search(data) is None)
     del data
     try:
-        document, notes = once(key, lambda: _parsed(path, has_header))
+        document, notes = once(key, lambda: _parsed(path, is_bare))
     except Exception as error:  # ezdxf raises what its parsers meet: ValueError, IndexError, struct.error
         reason = one_line(error)
         raise FormatError(f"not a readable DXF file ({reason}); export the drawing again") from None
@@ -116,10 +122,10 @@ def _open(path: Path, drawing: Drawing) -> Any:
     return document
 
 
-def _parsed(path: Path, has_header: bool) -> tuple[Any, list[str]]:
+def _parsed(path: Path, is_bare: bool) -> tuple[Any, list[str]]:
     """The document in a file, which is not to be changed, and a note if it is damaged."""
     try:
-        return ezdxf.readfile(path) if has_header else _bare(path), []
+        return _bare(path) if is_bare else ezdxf.readfile(path), []
     except ezdxf.DXFStructureError:
         document, auditor = recover.readfile(path)
         mended, left = len(auditor.fixes), len(auditor.errors)
@@ -127,14 +133,36 @@ def _parsed(path: Path, has_header: bool) -> tuple[Any, list[str]]:
 
 
 def _bare(path: Path) -> Any:
-    """The document in a text without a header, which gets one.
+    """The document in a text as scripts write it: without a header, or entities without subclasses.
 
-    Else ezdxf takes it for an old format that has no closed LWPOLYLINE, and for a drawing in metres.
+    It gets a header, else ezdxf takes it for a drawing in metres. What has no subclasses is read as the old
+    format that had none, in which light polylines are heavy ones.
     """
-    text = read_bytes(path).decode("utf-8-sig", errors="surrogateescape")
-    version = "AC1015" if "AcDbEntity" in text else "AC1009"
-    header = f"0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\n{version}\n0\nENDSEC\n"
-    return ezdxf.read(StringIO(header + text, newline=None))
+    data = read_bytes(path)
+    is_old = b"AcDbEntity" not in data
+    version = "AC1009" if is_old else "AC1015"
+    data, count = _VERSION.subn(rb"\g<1>" + version.encode(), data, count=1)
+    header = "" if count else f"0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\n{version}\n0\nENDSEC\n"
+    lines = data.decode("utf-8-sig", errors="surrogateescape").splitlines()
+    return ezdxf.read(StringIO(header + "\n".join(_heavy(lines) if is_old else lines) + "\n"))
+
+
+def _heavy(lines: list[str]) -> Iterator[str]:
+    """The lines of a text, each LWPOLYLINE as a POLYLINE with its vertices."""
+    is_light, layer = False, "0"
+    for code, value in zip(map(str.strip, lines[::2]), lines[1::2], strict=False):
+        if code == "0":
+            if is_light:
+                yield from ("0", "SEQEND")
+            is_light, layer = value.strip() == "LWPOLYLINE", "0"
+            yield from (code, "POLYLINE" if is_light else value)
+            continue
+        if is_light and code == "8":
+            layer = value
+        if is_light and code == "10":
+            yield from ("0", "VERTEX", "8", layer)
+        if not is_light or code not in _LIGHT:
+            yield from (code, value)
 
 
 def _entities(layout: Iterable[Any], drawing: Drawing) -> Iterator[tuple[Any, str]]:
