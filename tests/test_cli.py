@@ -453,6 +453,9 @@ def test_drawing_needs_a_start_and_scene_a_radius(capsys: pytest.CaptureFixture[
     assert "--start" in refused(capsys, "explore", str(drawing), "--radius", "3")
     assert "--radius" in refused(capsys, "explore", str(drawing), "--start", "0,0")
     assert "2*pi" in answered(capsys, "explore", str(drawing), "--start", "0,0", "--radius", "9")
+    # A sweep starts in the corner: the start only says what is the wall, and lies in the terrain.
+    sweep = ("--strategy", "seed-spreader", "--terrain", "bbox:1", "--radius", "9")
+    assert "S = (-1, -2)" in answered(capsys, "explore", str(drawing), "--start", "0,0", *sweep)
 
 
 def test_input_is_not_overwritten(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

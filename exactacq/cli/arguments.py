@@ -29,7 +29,11 @@ SceneName = Annotated[
     typer.Argument(metavar="SCENE", help="A file, or the name of a gallery scene.", autocompletion=scenes),
 ]
 Start = Annotated[
-    str | None, typer.Option(metavar="X,Y", help="Start point; a drawing has none, and a run needs one.")
+    str | None,
+    typer.Option(
+        metavar="X,Y",
+        help="Start point; a drawing has none, and a run needs one. A sweep of it starts in the SW corner.",
+    ),
 ]
 TerrainSize = Annotated[
     str | None,

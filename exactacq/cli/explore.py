@@ -21,6 +21,7 @@ from exactacq.cli.arguments import (
     check_radius,
     check_start,
     naming,
+    needs_start,
     number_of,
     range_of,
     scene_of,
@@ -106,7 +107,8 @@ def explore(
     check_radius(scene, world, range_)
     check_start(world, rules.sweeps)
     trouble: ExactacqError | None = None
-    at_start = at_corner(world) if rules.sweeps and start is None else world
+    # Of a drawing the start tells what is its wall.
+    at_start = at_corner(world) if rules.sweeps and (start is None or needs_start(scene)) else world
     try:
         run = explored(at_start, range_, rules, lookahead, target, max_moves)
     except Undecided as error:
