@@ -88,3 +88,37 @@ def test_a_view_from_the_wall(point: tuple[object, object], radius: int) -> None
     view = xa.isovist(xa.Scene([], enclosure=xa.Circle((0, 0), 6)), point, radius)
     assert [piece.kind.value for piece in view.pieces] == ["edge"]
     assert view.area == xa.Length.turns(36, Q(1, 2)) and view.perimeter == xa.Length.turns(12, Q(1, 2))
+
+
+@pytest.mark.parametrize(
+    ("start", "stops"),
+    [
+        ((Q(144, 13), Q(-153, 26)), [(Q(-264, 13), Q(53, 26)), (0, 0)]),
+        ((5, -2), [(3, -5), (0, 0)]),
+        ((6, -5), [(0, Q(-7, 2)), (0, 0)]),
+    ],
+)
+@pytest.mark.parametrize("has_disc", [True, False])
+def test_ways_to_half_a_ring(start: tuple[object, object], stops: list[object], has_disc: bool) -> None:
+    """The ring's arcs have one centre, with the disc in it.
+
+    Of the length of views along its tangents one formula told less of a part of a cell than another of the
+    whole: the zero there was refined no more, and the runs did not end.
+    """
+    about = xa.Around((0, 0))
+    inward = xa.Around((0, 0), ccw=False)
+    ring = xa.Outline(
+        [
+            (Q(-72, 13), Q(-30, 13), about),
+            (Q(18, 5), Q(-24, 5), 1),
+            (3, -4, inward),
+            (Q(-60, 13), Q(-25, 13), 1),
+        ]
+    )
+    scene = xa.Scene([ring, xa.Circle((0, 0), 4)] if has_disc else [ring], start=start, radius=1)
+
+    def go(robot: xa.Robot) -> None:
+        for stop in stops:
+            robot.go_to(stop)
+
+    xa.audit(xa.explore(scene, go))

@@ -92,14 +92,18 @@ class Zero(Node):
     def _evaluate(self, bits: int) -> arb:
         """Newton steps from the cell, or from the last ball; each gains a bit until rounding errors are met.
 
-        With m <= |f'| <= M in a ball of radius r around c, f(c) / f' has radius at most r (M/m - 1) / 2.
+        With m <= |f'| <= M in a ball of radius r around c, f(c) / f' has radius at most r (M/m - 1) / 2. That
+        M/m < 2 is known of the cell; of a part of it another formula may tell less.
         """
         function, low, high = self.args
         with workprec(max(bits, BITS)):
-            ball = self._ball if self._bits else _cell(low, high)
+            cell = _cell(low, high)
+            ball, slope = self._ball if self._bits else cell, _slope(function, cell)
             while True:
+                if (here := _slope(function, ball)).is_finite():
+                    slope = slope.intersection(here)
                 middle = ball.mid()
-                finer = middle - function(middle) / _slope(function, ball)
+                finer = middle - function(middle) / slope
                 if not finer.rad() < ball.rad() / 2:
                     return ball
                 ball = finer.intersection(ball)
