@@ -115,6 +115,8 @@ def test_both_strategies_side_by_side(capsys: pytest.CaptureFixture[str], tmp_pa
     assert "Seed Spreader Strategy" in alone
     room = scene(tmp_path, circle(3, -3, 1), enclosure=[[-9, -9], [9, -9], [0, 9]])
     assert "no seed-spreader: a sweep takes a rectangle" in answered(capsys, "compare", room)
+    beside = answered(capsys, "compare", room, "--terrain", "bbox:1")
+    assert "Sightseer" in beside and re.search("no seed-spreader: start .* outside the enclosure", beside)
 
 
 def test_a_sweep_that_cannot_start_says_where_it_would(capsys: pytest.CaptureFixture[str]) -> None:

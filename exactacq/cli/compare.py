@@ -72,12 +72,11 @@ def compare(
     wanted = [chosen(text) for text in strategy or Strategy]
     world = scene_of(scene, start, options, terrain)
     check_radius(scene, world, range_)
-    corner = at_corner(world)
     runs: list[Run] = []
     refusals: list[str] = []
     for rules in wanted:
-        placed = corner if world.start is None or rules.sweeps else world
         try:
+            placed = at_corner(world) if world.start is None or rules.sweeps else world
             check_start(placed, rules.sweeps)
             runs.append(explored(placed, range_, rules, max_moves=max_moves))
         except InvalidScene as error:

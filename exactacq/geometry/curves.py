@@ -10,16 +10,21 @@ from collections.abc import Sequence
 from math import atan2
 from typing import TypeAlias
 
-from flint import fmpq
+from flint import arb, fmpq
 
 from exactacq.cached import cached_property
 from exactacq.geometry.geo import Geo, line_string
+from exactacq.geometry.late import Balls, from_to
 from exactacq.geometry.points import Orientation, Point, distance, orientation
 from exactacq.geometry.strokes import Stroke
 from exactacq.numbers.length import Length
+from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import Real
 from exactacq.numbers.transcendental import transcendental, turned
+
+DRAWN = 192
+"""Working bits of strokes: many are drawn once, and lengths by exact angles would take most of the time."""
 
 
 class Segment:
@@ -137,7 +142,10 @@ class Segment:
         >>> Segment(Point(0, 0), Point(3, 4)).stroke().at(0.5)
         (1.5, 2.0)
         """
-        return Stroke(self.start.xy, self.end.xy, float(self.length))
+        with workprec(DRAWN):
+            x, y = from_to(_drawn(self.start), _drawn(self.end))
+            length = float((x * x + y * y).sqrt().mid())
+        return Stroke(self.start.xy, self.end.xy, length)
 
     @property
     def __geo_interface__(self) -> Geo:
@@ -343,8 +351,19 @@ class Arc:
         >>> Arc.from_bulge(Point(1, 0), Point(-1, 0), fmpq(1)).stroke().radius
         1.0
         """
-        radial, radius, length = self.start - self.center, float(self.radius), float(self.length)
-        angle = atan2(float(radial.y), float(radial.x))
+        radius = float(self.radius)
+        with workprec(DRAWN):
+            (ax, ay), (bx, by) = (from_to(_drawn(self.center), _drawn(p)) for p in (self.start, self.end))
+            across, along = (ax * by - ay * bx) * (1 if self.ccw else -1), ax * bx + ay * by
+            if self.full:
+                turn = 2 * arb.pi()
+            elif along.mid() < 0:
+                # Of half a circle the sign of the product is open.
+                turn = arb.pi() + arb.atan2(-across, -along)
+            else:
+                turn = arb.atan2(across, along) + (2 * arb.pi() if across.mid() < 0 else 0)
+            length = float((turn * self.radius.ball(DRAWN)).mid())
+        angle = atan2(float(ay.mid()), float(ax.mid()))
         sweep = length / radius if self.ccw else -length / radius
         return Stroke(self.start.xy, self.end.xy, length, self.center.xy, radius, angle, sweep)
 
@@ -359,6 +378,11 @@ class Arc:
 
 
 Curve: TypeAlias = "Segment | Arc"
+
+
+def _drawn(point: Point) -> Balls:
+    """Balls around the coordinates of a point, to draw it; the caller must have set the precision."""
+    return point.x.working_ball(DRAWN), point.y.working_ball(DRAWN)
 
 
 def _fraction(u: object) -> fmpq:

@@ -164,7 +164,9 @@ class Exact:
         """
         if self.rational is not None:
             return str(self.rational)
-        if all(is_short(number, LONGEST) for number in self.numbers):
+        # Of a sum of angles every number may be short, and all of them together long.
+        size = sum(number.height_bound() for number in self.numbers)
+        if size <= BITS_PER_CHARACTER * LONGEST and all(is_short(n, LONGEST) for n in self.numbers):
             return str(self.sympy())
         return f"{self.decimal(LONGEST_SHOWN)}..."
 
