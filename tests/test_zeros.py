@@ -317,3 +317,22 @@ def test_zeros_of_any_function() -> None:
         assert first.ball(1000).overlaps(arb.pi())
         assert (second / 2).ball(1000).overlaps(arb.pi())
         assert (third / 3).ball(1000).overlaps(arb.pi())
+
+
+class Vague(Sine):
+    """sin(t), with values that are no better known however many bits there are once its zeros are found."""
+
+    key, is_vague = "vague sine", False
+
+    def __call__(self, t: object) -> object:
+        found = t.sin()  # type: ignore[attr-defined]
+        return found + arb(0, 0.25) if self.is_vague and isinstance(found, arb) else found
+
+
+def test_a_zero_that_cannot_be_refined_is_undecided() -> None:
+    """Not a loop that doubles the precision for ever."""
+    function = Vague()
+    (zero,) = zeros_between(function, Real(3), Real(fmpq(7, 2)))
+    function.is_vague = True
+    with pytest.raises(Undecided, match="is 0 near 3"):
+        zero.enclosure(40)

@@ -29,6 +29,8 @@ BITS = 256
 FINENESS = 100
 """A cell of 2^-100 that shows neither a sign nor a slope holds a double zero, or is taken to. In a range of
 width w < 1 cells are searched down to 2^-100 w^3."""
+STALLED_BITS = 1 << 16
+"""A zero that is not told better than by its cell with so many bits never is."""
 SHOWN_DIGITS = 30
 """Decimals that stand for a zero where a closed form is asked for."""
 
@@ -105,8 +107,11 @@ class Zero(Node):
                 middle = ball.mid()
                 finer = middle - function(middle) / slope
                 if not finer.rad() < ball.rad() / 2:
-                    return ball
+                    break
                 ball = finer.intersection(ball)
+        if bits > STALLED_BITS and ball.rad() > cell.rad() / 4:
+            raise Undecided(f"where {function} is 0 near {float(low):.15g}, in more than {bits} bits")
+        return ball
 
     def _bound(self) -> float:
         return self.args[0].height
