@@ -3,7 +3,8 @@
 What is known grows with closed sets, so the moment is one of finitely many candidates; between two of them a
 place with a rational parameter tells. First the places are looked at where families of views begin and end.
 Between two of them an end of a gap stays where it is, or moves until the gap closes at another end: so next
-come the places where the ends of the gaps that are left are seen.
+come the places where the ends of the gaps that are left are seen. Both ends of a gap move where the range
+leaves the far part of a concave arc: they meet where the circle of the range touches the arc from inside.
 """
 
 from __future__ import annotations
@@ -128,10 +129,15 @@ class Acquisition:
         return all(target.is_in(covers.get(target.edge, EMPTY)) for target in self._targets)
 
     def _at_gaps(self, stretch: Meanwhile) -> Iterator[Place]:
-        """Where families show the end of a gap, or it comes into range, or the leg itself reaches it."""
+        """Where families show the end of a gap, it or its arc comes into range, or the leg reaches it."""
         shares, k, leg = self.shares, self.k, stretch.leg
         corners: set[int] = set()
         for e, span, _ in self._targets:
+            curve = shares.complex.table.curves[e]
+            if isinstance(curve, Arc) and not curve.ccw:
+                rest = shares.complex.range.radius - curve.radius
+                if rest.sign() > 0:
+                    yield from _at_distance(leg, curve.center, rest * rest)
             for gap in stretch.known.get(e, EMPTY).gaps(span):
                 for u, point in ((gap.low, gap.start), (gap.high, gap.end)):
                     yield from shares.reaching(k, e, u, point)
@@ -193,9 +199,14 @@ class Acquisition:
         least, most = distance_bounds(leg.box, point)
         if most < range_.below or least > range_.above:
             return
-        east = Point(point.x + range_.radius, point.y)
-        for contact in contacts(leg.curve, Arc(east, east, point, range_.square, ccw=True, full=True)):
-            yield leg.rail.parameter(contact.start), contact.start
+        yield from _at_distance(leg, point, Real(range_.square))
+
+
+def _at_distance(leg: Leg, point: Point, square: Real) -> Iterator[Place]:
+    """The places of a leg at a squared distance from a point; of an arc about the point its ends."""
+    east = Point(point.x + square.sqrt(), point.y)
+    for contact in contacts(leg.curve, Arc(east, east, point, square, ccw=True, full=True)):
+        yield leg.rail.parameter(contact.start), contact.start
 
 
 def distance_bounds(box: tuple[float, float, float, float], point: Point) -> tuple[float, float]:
