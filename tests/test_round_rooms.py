@@ -83,8 +83,8 @@ def test_the_far_end_of_a_slot_comes_into_range() -> None:
     """A slot with round ends, from whose straight side the middle of one end is the last to be seen.
 
     What is not known there shrinks from both sides, to the point where the circle of the range touches the
-    end from inside. Only normals tell the place, and they are not asked for what is shown: the slot was acquired
-    too early.
+    end from inside. Only normals tell the place, and they are not asked for what is shown: the slot was
+    acquired too early.
     """
     slot = xa.Outline([(-3, 2), (Q(-9, 13), Q(-46, 13), 1), (3, -2), (Q(9, 13), Q(46, 13), 1)])
     run = xa.sightseer(xa.Scene([], start=(Q(15, 26), Q(-18, 13)), enclosure=slot, radius=6))
