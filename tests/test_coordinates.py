@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from exactacq.geometry.coordinates import at_distance, cross, dot, minus, raw
+from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
 
@@ -42,3 +43,20 @@ def test_irrational_directions() -> None:
     root = Real(2).sqrt()
     point = at_distance((fmpq(0), fmpq(0)), (root, root), fmpq(2))
     assert point == Point(root, root)
+
+
+def test_strokes_of_numbers_that_nearly_cancel() -> None:
+    """Where a ball of the bits that strokes take tells nothing of a length, it is told exactly."""
+    large = Real(10**90)
+    near = (large + 1).sqrt() - large.sqrt() + Real(2).sqrt() * 10**60 - Real(2 * 10**120 + 10**59).sqrt()
+    for curve in (
+        Segment(Point(near, 0), Point(near, fmpq(1, 10**70))),
+        Segment(Point(near, 1), Point(near, 1)),
+    ):
+        assert curve.stroke().length == float(curve.length)
+    radius = fmpq(5)
+    for end in (Point(-5, 0), Point(0, 5), Point(0, -5), Point(3, 4), Point(fmpq(7, 5), fmpq(-24, 5))):
+        for ccw in (True, False):
+            arc = Arc(Point(5, 0), end, Point(0, 0), radius * radius, ccw)
+            assert arc.stroke().length == float(arc.length)
+            assert arc.stroke().at(0.999999) == pytest.approx(end.xy, abs=1e-4)

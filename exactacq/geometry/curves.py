@@ -144,8 +144,8 @@ class Segment:
         """
         with workprec(DRAWN):
             x, y = from_to(_drawn(self.start), _drawn(self.end))
-            length = float((x * x + y * y).sqrt().mid())
-        return Stroke(self.start.xy, self.end.xy, length)
+            length = _drawn_length((x * x + y * y).sqrt())
+        return Stroke(self.start.xy, self.end.xy, float(self.length) if length is None else length)
 
     @property
     def __geo_interface__(self) -> Geo:
@@ -362,8 +362,12 @@ class Arc:
                 turn = arb.pi() + arb.atan2(-across, -along)
             else:
                 turn = arb.atan2(across, along) + (2 * arb.pi() if across.mid() < 0 else 0)
-            length = float((turn * self.radius.ball(DRAWN)).mid())
-        angle = atan2(float(ay.mid()), float(ax.mid()))
+            length = _drawn_length(turn * self.radius.ball(DRAWN))
+        if length is None:
+            radial, length = self.start - self.center, float(self.length)
+            angle = atan2(float(radial.y), float(radial.x))
+        else:
+            angle = atan2(float(ay.mid()), float(ax.mid()))
         sweep = length / radius if self.ccw else -length / radius
         return Stroke(self.start.xy, self.end.xy, length, self.center.xy, radius, angle, sweep)
 
@@ -383,6 +387,11 @@ Curve: TypeAlias = "Segment | Arc"
 def _drawn(point: Point) -> Balls:
     """Balls around the coordinates of a point, to draw it; the caller must have set the precision."""
     return point.x.working_ball(DRAWN), point.y.working_ball(DRAWN)
+
+
+def _drawn_length(ball: arb) -> float | None:
+    """The float nearest to a length; None if its ball is too wide to tell, as where long numbers cancel."""
+    return float(ball.mid()) if ball.rel_accuracy_bits() > DRAWN // 2 else None
 
 
 def _fraction(u: object) -> fmpq:

@@ -203,7 +203,7 @@ class Acquisition:
 
 
 def _at_distance(leg: Leg, point: Point, square: Real) -> Iterator[Place]:
-    """The places of a leg at a squared distance from a point; of an arc about the point its ends."""
+    """The places of a leg at a squared distance from a point; of an arc about the point where it begins."""
     east = Point(point.x + square.sqrt(), point.y)
     for contact in contacts(leg.curve, Arc(east, east, point, square, ccw=True, full=True)):
         yield leg.rail.parameter(contact.start), contact.start
