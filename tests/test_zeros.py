@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import pickle
 import random
 import sys
+from collections.abc import Callable
 from math import hypot
+from typing import Any, TypeAlias
 
 import mpmath
 import pytest
@@ -15,15 +18,16 @@ from exactacq.errors import FormatError, Undecided
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.function_zeros import Zero, roots, zeros_between
-from exactacq.numbers.number_json import Encoder
+from exactacq.numbers.number_json import Decoder, Encoder
 from exactacq.numbers.real import Real
-from exactacq.sensing.view_length import of_length_on
+from exactacq.sensing.view_length import ViewLength, of_length_on
 from exactacq.visibility.chords import chord_at, of_length
 from exactacq.visibility.line_families import Rolling, Sector, Turning
 
 TURNING = Turning((fmpq(0), fmpq(0)), (fmpq(1), fmpq(0)), fmpq(-1), fmpq(1))
 ROLLING = Rolling((fmpq(0), fmpq(0)), (fmpq(0), fmpq(-1)), fmpq(0), fmpq(1))
 """Lines that start eastward below the unit circle, and turn counterclockwise."""
+Change: TypeAlias = "Callable[[list[Any]], object]"
 ROOT2 = Real(2).sqrt()
 CUBIC = roots([-3, 1, 0, 1])[0]
 """1.2134..., of x^3 + x = 3"""
@@ -294,15 +298,45 @@ class TestNumbers:
         assert degree >= 4
         assert t.height_bound() >= known.height_bound()
 
-    def test_there_is_no_exact_text_for_it(self) -> None:
-        with pytest.raises(FormatError, match="no exact form in JSON for the zero"):
-            Encoder().number(self.root())
+    def test_comes_back_from_json(self) -> None:
+        t, (document, number) = self.root(), written(self.root())
+        again = Decoder(document, ViewLength.of_parts).number(number)
+        assert again.key == t.key
+        assert (again * again).compare(t * t) == 0
+
+    @pytest.mark.parametrize(
+        ("change", "message"),
+        [
+            (lambda zero: zero[1].pop(), "no parts"),
+            (lambda zero: zero[1].extend(8 * [["line"]]), "few parts"),
+            (lambda zero: zero[1][1].pop(), "no parts"),
+            (lambda zero: zero[1][0].__setitem__(0, "line"), "no parts"),
+            (lambda zero: zero[1][1].__setitem__(0, "circle"), "no parts"),
+            (lambda zero: zero.__setitem__(slice(2, 4), zero[3:1:-1]), "not one zero"),
+            (lambda zero: zero.__setitem__(slice(2, 4), ["1/2", "3/4"]), "not one zero"),
+            (lambda zero: zero.__setitem__(3, f"1/{1 << 5000}"), "moderate ends"),
+        ],
+    )
+    def test_is_proved_again_when_it_is_read(
+        self, change: Callable[[list[Any]], object], message: str
+    ) -> None:
+        document, _ = written(self.root())
+        change(document[-1][0][1])
+        with pytest.raises((FormatError, ValueError), match=message):
+            Decoder(document, ViewLength.of_parts)
+
+
+def written(value: Real) -> tuple[list[Any], Any]:
+    """The table and the number of a JSON document."""
+    out = Encoder()
+    number = out.number(value)
+    return json.loads(json.dumps(out.table)), number
 
 
 class Sine:
     """sin(t): any analytic function with bounds will do."""
 
-    key, degree, height = "sine", sys.maxsize, float(1 << 40)
+    key, parts, degree, height = "sine", (), sys.maxsize, float(1 << 40)
 
     def __call__(self, t: object) -> object:
         return t.sin()  # type: ignore[attr-defined]

@@ -10,7 +10,7 @@ for, so that one zero is one number.
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 from flint import arb, arb_series, fmpq, fmpz, fmpz_poly
 
@@ -51,8 +51,16 @@ def roots(coefficients: Iterable[object]) -> list[Real]:
     return sorted(Real.sum(c * Real.of_atom(atom) for atom, c in form.items()) for form in forms)
 
 
+Parts: TypeAlias = "tuple[tuple[str, tuple[Real, ...]], ...]"
+"""What a function is made of: numbers under names."""
+
+
 class Function(Protocol):
     """A real function of one variable, analytic wherever its slope is finite."""
+
+    @property
+    def parts(self) -> Parts:
+        """What it is made of: equal parts are the same function."""
 
     @property
     def key(self) -> Hashable:
@@ -157,7 +165,7 @@ def zeros_between(
             slope = _slope(function, cell)
             if _excludes_zero(function, cell, slope):
                 continue
-            steady = slope.abs_upper() < 2 * slope.abs_lower()
+            is_steady = _is_steady(slope)
             is_at_end = not slope.is_finite() and (left <= begin or right >= end)
             is_at_end = is_at_end and _is_monotone(function, cell)
         if is_at_end:
@@ -168,7 +176,7 @@ def zeros_between(
             if before == after or after == 0 or (before == 0 and first is low):
                 # Its only zero is an end, or there is none.
                 continue
-        if steady:
+        if is_steady:
             found += _zero_in(function, left, right, low, high, sign_at, known)
         elif depth > deepest:
             raise Undecided(
@@ -178,6 +186,19 @@ def zeros_between(
             middle = (left + right) / 2
             cells += [(middle, right), (left, middle)]
     return found
+
+
+def zero_between(function: Function, low: fmpq, high: fmpq) -> Real:
+    """The one zero in a cell that `zeros_between` found, proved again by balls; ValueError if they do not.
+
+    Less than a second for numbers of ordinary size.
+    """
+    for bits in (BITS, STALLED_BITS) if low < high else ():
+        with workprec(bits):
+            before, after = (ball_sign(function(arb(t))) for t in (low, high))
+            if before * after < 0 and _is_steady(_slope(function, _cell(low, high))):
+                return Real.of_atom(Zero.make(function, low, high))
+    raise ValueError(f"not one zero between {float(low):.15g} and {float(high):.15g}")
 
 
 def _zero_in(
@@ -229,6 +250,11 @@ def _slope(function: Function, cell: arb) -> arb:
     except ValueError:
         # A denominator contains 0.
         return arb.nan()
+
+
+def _is_steady(slope: arb) -> bool:
+    """Whether a slope has a sign and, up to a factor of 2, one size."""
+    return bool(slope.abs_upper() < 2 * slope.abs_lower())
 
 
 def _is_monotone(function: Function, cell: arb) -> bool:

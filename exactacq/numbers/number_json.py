@@ -7,6 +7,8 @@ All irrational numbers of a document share one table. An entry is a linear form,
 - ``["sqrt", n]``, ``["product", n, n]``, ``["inverse", n]`` of numbers n,
 - ``["root", ["c0", "c1", ...], index, power]``: a power of a real root, counted from the left, of an
   irreducible integer polynomial,
+- ``["zero", parts, low, high]``: the one zero between two rationals of a function whose parts are lists
+  ``[name, n, ...]`` of numbers n under a name (see `exactacq.sensing.view_length`),
 
 and a number is ``"p/q"`` or the place of an earlier entry. Shared subexpressions are stored once.
 """
@@ -14,14 +16,14 @@ and a number is ``"p/q"`` or the place of an earlier entry. Shared subexpression
 from __future__ import annotations
 
 import re
-from collections.abc import Hashable
+from collections.abc import Callable, Hashable
 from typing import Any, TypeAlias
 
 from flint import fmpz
 
 from exactacq.errors import FormatError
 from exactacq.numbers.atoms import Inverse, Node, Product, Root, Sqrt
-from exactacq.numbers.function_zeros import roots
+from exactacq.numbers.function_zeros import Function, Parts, Zero, roots, zero_between
 from exactacq.numbers.linear_forms import field_of
 from exactacq.numbers.real import Real, fmpq
 
@@ -42,6 +44,10 @@ MAX_INVERTED = 10**6
 
 Files that are written have none: an element of the field of one root is written as a form.
 """
+MAX_PARTS = 8
+"""Most parts of a function of which a zero is read: a length of views has three."""
+MAX_FINENESS = 1 << 12
+"""Most bits of the denominators of the cell of a zero that is read: a cell is seldom narrower than 2^-100."""
 MAX_LENGTH = 1_400_000
 """Longest text of a rational."""
 FRACTION = re.compile(r"(-?\d+)(?:/(\d+))?", re.ASCII)
@@ -51,8 +57,7 @@ KINDS = {Sqrt: "sqrt", Product: "product", Inverse: "inverse"}
 class Encoder:
     """Collects the table of a document while its numbers are written.
 
-    `FormatError` for a number without an expression, such as a zero of a function
-    (`exactacq.numbers.function_zeros`).
+    `FormatError` for a transcendental number: no place of a path is made of one.
     """
 
     def __init__(self) -> None:
@@ -75,20 +80,26 @@ class Encoder:
         if isinstance(atom, Root):
             coefficients, index, power = atom.args
             return ["root", [_digits(c) for c in coefficients], index, power]
+        if isinstance(atom, Zero):
+            function, low, high = atom.args
+            parts = [[name, *(self.number(n) for n in numbers)] for name, numbers in function.parts]
+            return ["zero", parts, str(low), str(high)]
         kind = next((name for cls, name in KINDS.items() if isinstance(atom, cls)), None)
         if kind is None:
-            raise FormatError(f"no exact form in JSON for the {type(atom).__name__.lower()} {atom.sympy()}")
+            raise FormatError(f"no exact form in JSON for {atom.sympy()}, which is transcendental")
         return [kind, *(self.number(argument) for argument in atom.args)]
 
 
 class Decoder:
     """Reads numbers back; every entry of the table is built once, in order.
 
+    *function* makes the functions of zeros of their parts, or raises ValueError or KeyError.
     Raises `FormatError` for a table that is not of that form or beyond the limits above, ValueError or
     ZeroDivisionError where an expression has no value.
     """
 
-    def __init__(self, table: list[Any]) -> None:
+    def __init__(self, table: list[Any], function: Callable[[Parts], Function]) -> None:
+        self._function = function
         self._values: list[Real] = []
         self._depths: list[int] = []
         self._inverted = total = 0
@@ -116,7 +127,11 @@ class Decoder:
     def _depth(self, atom: Any) -> int:
         """Levels of expressions below an atom that was read."""
         kind, *arguments = atom
-        places = [int(n) for n in arguments if is_place(n)] if kind in KINDS.values() else []
+        if kind == "zero":
+            arguments = [n for _, *numbers in arguments[0] for n in numbers]
+        elif kind not in KINDS.values():
+            arguments = []
+        places = [int(n) for n in arguments if is_place(n)]
         return max((self._depths[place] for place in places), default=0)
 
     def _atom(self, atom: Any) -> Real:
@@ -125,6 +140,8 @@ class Decoder:
             return Real(_integer(arguments[0])).sqrt()
         if kind == "root":
             return _root(*arguments)
+        if kind == "zero":
+            return self._zero(*arguments)
         values = [self.number(argument) for argument in arguments]
         if kind == "sqrt" and len(values) == 1:
             return values[0].sqrt()
@@ -137,6 +154,13 @@ class Decoder:
                 raise FormatError("too many inverses in fields of high degree")
             return 1 / values[0]
         raise FormatError(f"unknown kind of number {str(kind)[:20]!r}")
+
+    def _zero(self, parts: list[Any], low: Any, high: Any) -> Real:
+        cell = _fraction(low), _fraction(high)
+        if len(parts) > MAX_PARTS or max(c.q.bit_length() for c in cell) > MAX_FINENESS:
+            raise FormatError("a zero of a function needs few parts and two moderate ends")
+        made = tuple((name, tuple(self.number(n) for n in numbers)) for name, *numbers in parts)
+        return zero_between(self._function(made), *cell)
 
 
 def is_place(value: Any) -> bool:

@@ -1,7 +1,8 @@
-"""Run files of versions 2 to 4.
+"""Run files of versions 2 to 5.
 
 Until version 2 events said in words what they say in fields now. Until version 3 straight pieces told what
 their lines touch (``touches``), which sensing finds by itself. Until version 4 no event told a decision.
+Until version 5 zeros of functions were not written: events there had no point, and lengths decimals alone.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from typing import Any
 from exactacq.errors import FormatError
 from exactacq.sensing.event import Ending, EventKind, Occasion, Reason
 
-OLD_VERSIONS = (2, 3, 4)
+OLD_VERSIONS = (2, 3, 4, 5)
 """The versions that are still read."""
 _TRAPPED = "the start or the end of the M-line is trapped in obstacle #"
 _WORDS: dict[tuple[str, str], dict[str, str]] = {
@@ -47,12 +48,12 @@ def upgraded(document: dict[str, Any]) -> dict[str, Any]:
     path = [{key: value for key, value in piece.items() if key != "touches"} for piece in document["path"]]
     document = document | {"path": path}
     if int(document["version"]) > 2:
-        return document | {"version": 5}
+        return document | {"version": 6}
     fields = {key: value for key, value in document.items() if key != "sweeping"}
     if "sweeping" in document:
         del fields["links"], fields["stack_depth"]
         fields |= document["sweeping"]
-    return fields | {"version": 5, "events": [_event(event) for event in document["events"]]}
+    return fields | {"version": 6, "events": [_event(event) for event in document["events"]]}
 
 
 def _event(event: dict[str, Any]) -> dict[str, Any]:

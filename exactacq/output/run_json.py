@@ -1,7 +1,7 @@
 """Run files: runs as JSON, written and read without a rounding.
 
 A run file is one JSON object with ``"format": "exactacq run"`` and ``"version"``, the number of the
-format's version (`VERSION`). Files of versions 2 to 4 are read too (`old_run_files`), others are refused. It
+format's version (`VERSION`). Files of versions 2 to 5 are read too (`old_run_files`), others are refused. It
 has the scene, the path, visits, links, events and bounds, and one table of all algebraic numbers. Of a
 strategy of the user's own it has the name and ``"own": true``, and ``"confined": true`` if its robot was
 confined to the terrain. The map is not written: the sensing is repeated on first use.
@@ -32,12 +32,13 @@ from exactacq.sensing.decision import Candidate, Decision, Rule
 from exactacq.sensing.event import SENSED, Ending, Event, EventKind, Occasion, Reason
 from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Path, Piece
+from exactacq.sensing.view_length import ViewLength
 from exactacq.strategies.bounds import with_bounds
 from exactacq.strategies.registry import is_name
 from exactacq.strategies.run import Bound, Diversion, OwnRun, Run, SeedSpreaderRun, SightseerRun, TreeLink
 from exactacq.visibility.links import START
 
-FORMAT, VERSION = "exactacq run", 5
+FORMAT, VERSION = "exactacq run", 6
 DIGITS = 20
 """Decimals beside exact values are for readers: they are not read back."""
 FACTS = ("occasion", "other", "reason", "ending")
@@ -128,7 +129,7 @@ def _run(document: dict[str, Any]) -> Run:
 
 
 def _without_bounds(document: dict[str, Any]) -> SightseerRun | SeedSpreaderRun | OwnRun:
-    numbers = _Points(Decoder(document["numbers"]))
+    numbers = _Points(Decoder(document["numbers"], ViewLength.of_parts))
     scene = scene_of(document["scene"])
     radius, start = rational(document["radius"]), numbers.point(document["start"])
     if radius <= 0:
@@ -252,24 +253,13 @@ def _piece(out: Encoder, piece: Piece) -> dict[str, Any]:
     return document
 
 
-def _place(out: Encoder, point: Point) -> list[Number] | None:
-    """A point, or None for one that has no exact form:
-
-    sensing finds it again (see `exactacq.numbers.function_zeros`).
-    """
-    try:
-        return _point(out, point)
-    except FormatError:
-        return None
-
-
 def _event(out: Encoder, event: Event, positions: list[str]) -> dict[str, Any]:
     facts = {name: getattr(event, name) for name in FACTS}
     return {
         "kind": event.kind,
         "obstacle": event.obstacle,
         **{name: fact for name, fact in facts.items() if fact is not None},
-        "point": _place(out, event.point),
+        "point": _point(out, event.point),
         "point_decimal": _decimal(event.point),
         "after": event.after,
         "inside": event.inside,
@@ -292,14 +282,10 @@ def _decision(out: Encoder, decision: Decision) -> dict[str, Any]:
 
 
 def _size(out: Encoder, length: Length | None) -> dict[str, Any]:
-    """A length that was compared; of one that has no exact form the decimal alone."""
+    """A length that was compared."""
     if length is None:
         return {}
-    decimal = {"length_decimal": length.decimal(DIGITS)}
-    try:
-        return {"length": _exact_length(out, length), **decimal}
-    except FormatError:
-        return decimal
+    return {"length": _exact_length(out, length), "length_decimal": length.decimal(DIGITS)}
 
 
 def _exact_length(out: Encoder, length: Length) -> Number | dict[str, Any]:
@@ -387,7 +373,7 @@ def _read_diversion(numbers: _Points, document: dict[str, Any], path: Path, coun
 def _read_events(
     numbers: _Points, documents: list[dict[str, Any]], path: Path, memory: Memory | None, count: int
 ) -> Iterator[Event]:
-    """The events; those without a point happened where the repeated sensing says."""
+    """The events; those of an old file that have no point happened where the repeated sensing says."""
     reports = iter(memory.reports) if memory else None
     for document in documents:
         kind = EventKind(document["kind"])

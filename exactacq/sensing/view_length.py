@@ -29,7 +29,7 @@ from exactacq.cached import cached_property
 from exactacq.geometry.coordinates import Vector, cross, dot, minus
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Point
-from exactacq.numbers.function_zeros import BITS, zeros_between
+from exactacq.numbers.function_zeros import BITS, Parts, zeros_between
 from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.visibility.line_families import Sector
@@ -38,6 +38,9 @@ _Line: TypeAlias = "Callable[[Any], tuple[Vector, Vector]]"
 """Contact and direction of the line at a parameter, in the parameter's arithmetic."""
 DEGREE = 80
 SPREAD = 240
+LINES = ("lines through a corner", 5), ("lines that roll on a circle", 5)
+"""The two kinds of lines, and how many numbers define them."""
+NEAR, FAR = "near crossing", "far crossing"
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,9 +50,9 @@ class _LengthSide(ABC):
     numbers: tuple[Real, ...]
 
     @property
-    def key(self) -> Hashable:
-        """Structural identity."""
-        return type(self), tuple(number.key for number in self.numbers)
+    @abstractmethod
+    def name(self) -> str:
+        """What the numbers define."""
 
     @abstractmethod
     def place(self, numbers: tuple[Any, ...], t: Any, line: _Line, root: Any) -> Any:
@@ -62,6 +65,8 @@ class _LengthSide(ABC):
 class _Straight(_LengthSide):
     """The line through a point, given with its direction."""
 
+    name = "line"
+
     def place(self, numbers: tuple[Any, ...], t: Any, line: _Line, root: Any) -> Any:
         (contact, direction), start, along = line(t), numbers[:2], numbers[2:]
         return cross(minus(start, contact), along) / cross(direction, along)
@@ -72,6 +77,8 @@ class _Tangent(_LengthSide):
 
     Two tangents meet at the tangent of half the angle between their contacts; `_Straight` has 0 / 0 there.
     """
+
+    name = "tangent"
 
     def place(self, numbers: tuple[Any, ...], t: Any, line: _Line, root: Any) -> Any:
         p, q = numbers
@@ -85,8 +92,8 @@ class _Round(_LengthSide):
     far: int
 
     @property
-    def key(self) -> Hashable:
-        return super().key, self.far
+    def name(self) -> str:
+        return FAR if self.far > 0 else NEAR
 
     def place(self, numbers: tuple[Any, ...], t: Any, line: _Line, root: Any) -> Any:
         contact, direction = line(t)
@@ -102,6 +109,8 @@ class _Round(_LengthSide):
 class _Through(_LengthSide):
     """A circle through the corner that the lines turn about, given by its centre: the other crossing."""
 
+    name = "other crossing"
+
     def place(self, numbers: tuple[Any, ...], t: Any, line: _Line, root: Any) -> Any:
         contact, direction = line(t)
         return 2 * dot(minus(numbers, contact), direction) / dot(direction, direction)
@@ -115,10 +124,26 @@ class ViewLength:
     numbers: tuple[Real, ...]
     sides: tuple[_LengthSide, _LengthSide]
 
+    @property
+    def parts(self) -> Parts:
+        """The kind of the lines and of both sides, each with the numbers that define it."""
+        name, _ = LINES[self.round]
+        return (name, self.numbers), *((side.name, side.numbers) for side in self.sides)
+
+    @classmethod
+    def of_parts(cls, parts: Parts) -> ViewLength:
+        """The function that has these parts; ValueError if none has."""
+        kinds = [(name, len(numbers)) for name, numbers in parts]
+        if len(kinds) != 3 or kinds[0] not in LINES or not {*kinds[1:]} <= {*SIDES}:
+            raise ValueError("these are no parts of the length of views")
+        (_, numbers), *ends = parts
+        one, other = (SIDES[kind](end[1]) for kind, end in zip(kinds[1:], ends, strict=True))
+        return cls(kinds[0] == LINES[1], numbers, (one, other))
+
     @cached_property
     def key(self) -> Hashable:
         """Structural identity."""
-        return self.round, tuple(n.key for n in self.numbers), tuple(side.key for side in self.sides)
+        return tuple((name, *(number.key for number in numbers)) for name, numbers in self.parts)
 
     @cached_property
     def degree(self) -> int:
@@ -132,9 +157,7 @@ class ViewLength:
 
     @property
     def _all(self) -> Iterator[Real]:
-        yield from self.numbers
-        for side in self.sides:
-            yield from side.numbers
+        return (number for _, numbers in self.parts for number in numbers)
 
     def __call__(self, t: Any) -> Any:
         """The value at a Real, an arb or an arb_series (the latter at the working precision)."""
@@ -167,6 +190,16 @@ class ViewLength:
         kind = "touching a circle about" if self.round else "through"
         x, y, _, _, square = (float(n) for n in self.numbers)
         return f"the length of views along lines {kind} ({x:.9g}, {y:.9g}), less the range {square**0.5:.9g},"
+
+
+SIDES: dict[tuple[str, int], Callable[[tuple[Real, ...]], _LengthSide]] = {
+    (_Straight.name, 4): _Straight,
+    (_Tangent.name, 2): _Tangent,
+    (NEAR, 3): partial(_Round, far=-1),
+    (FAR, 3): partial(_Round, far=1),
+    (_Through.name, 2): _Through,
+}
+"""The kinds of sides, by their names and how many numbers define them."""
 
 
 def of_length_on(
