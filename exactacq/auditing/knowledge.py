@@ -36,7 +36,7 @@ from exactacq.sensing.event import SENSED, Event, EventKind
 from exactacq.strategies.run import Run
 
 MOMENTS = 6
-"""Events at which the map is checked, besides the end."""
+"""Moments at which the map is checked, besides the end: half of them events, half between events."""
 ASIDE = fmpq(1, 10**11)
 """How far beside the ends of known parts targets are taken: an end that is farther off is found."""
 
@@ -78,12 +78,24 @@ class Knowledge:
         self.events = {
             (e.kind, e.obstacle): e for e in run.events if e.kind in (EventKind.SIGHT, EventKind.ACQUIRE)
         }
-        chosen = sorted(rng.sample(range(len(run.events)), min(MOMENTS, len(run.events))))
-        self.moments = []
-        for event in (run.events[k] for k in chosen):
-            name, chart = f"the map at {event_name(run, event)}", run.map_at(event)
-            self.moments.append(_Instant(name, event.after, _inside(event), chart))
+        self.moments = [*self._at_events(), *self._between_events()]
         self.moments.append(_Instant("the final map", len(run.path), None, run.map))
+
+    def _at_events(self) -> Iterator[_Instant]:
+        events = self.run.events
+        chosen = sorted(self.rng.sample(range(len(events)), min(MOMENTS // 2, len(events))))
+        for event in (events[k] for k in chosen):
+            name = f"the map at {event_name(self.run, event)}"
+            yield _Instant(name, event.after, _inside(event), self.run.map_at(event))
+
+    def _between_events(self) -> Iterator[_Instant]:
+        """Maps from inside pieces, where rational places are at hand."""
+        for _ in range(MOMENTS // 2):
+            k, place = self._anywhere() or (None, None)
+            if k is not None and place is not None:
+                name = f"the map at {place_text(place)} on piece {k}"
+                moment = Event(EventKind.MOMENT, place, None, k, self.run.path, inside=True)
+                yield _Instant(name, k, place, self.run.map_at(moment))
 
     # -- maps in themselves ------------------------------------------------------------------------
 
