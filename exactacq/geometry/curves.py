@@ -207,6 +207,16 @@ class Arc:
         radius_sq = rational((start - center).norm_sq())
         return cls(start, end, center, radius_sq, bulge > 0)
 
+    @classmethod
+    def circle(cls, center: Point, radius_sq: Real | fmpq) -> Arc:
+        """The full circle about a point, counterclockwise from its east.
+
+        >>> Arc.circle(Point(1, 0), fmpq(4)).start
+        Point(3, 0)
+        """
+        east = Point(center.x + Real(radius_sq).sqrt(), center.y)
+        return cls(east, east, center, radius_sq, ccw=True, full=True)
+
     @cached_property
     def radius(self) -> Real:
         """Radius of the supporting circle."""

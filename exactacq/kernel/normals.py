@@ -12,6 +12,9 @@ through the strip before it, those at a corner of two straight edges through the
 view touches something, or the piece ends, or the view is as long as the range. If each interval ends in the
 last way on both sides, only normals show the point: it lies straight beside the piece, no farther away than
 the range, and both ends of the piece are out of its range.
+
+When the last gap of an edge closes is not asked here: `sensing/acquisition` looks where the ends of gaps, and
+arcs as wholes, come into range.
 """
 
 from __future__ import annotations

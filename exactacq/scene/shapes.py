@@ -211,9 +211,7 @@ def shape_edges(shape: Shape) -> tuple[Curve, ...]:
     Nothing is checked: a degenerate shape gives degenerate curves.
     """
     if isinstance(shape, Circle):
-        center = Point(*shape.center)
-        east = Point(shape.center[0] + shape.radius, shape.center[1])
-        return (Arc(east, east, center, shape.radius * shape.radius, ccw=True, full=True),)
+        return (Arc.circle(Point(*shape.center), shape.radius * shape.radius),)
     points = [Point(x, y) for x, y, _ in shape.vertices]
     ends = [*points[1:], *points[:1]]
     return tuple(map(edge, points, ends, (bend for _, _, bend in shape.vertices)))

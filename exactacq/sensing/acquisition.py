@@ -199,13 +199,12 @@ class Acquisition:
         least, most = distance_bounds(leg.box, point)
         if most < range_.below or least > range_.above:
             return
-        yield from _at_distance(leg, point, Real(range_.square))
+        yield from _at_distance(leg, point, range_.square)
 
 
-def _at_distance(leg: Leg, point: Point, square: Real) -> Iterator[Place]:
+def _at_distance(leg: Leg, point: Point, square: Real | fmpq) -> Iterator[Place]:
     """The places of a leg at a squared distance from a point; of an arc about the point where it begins."""
-    east = Point(point.x + square.sqrt(), point.y)
-    for contact in contacts(leg.curve, Arc(east, east, point, square, ccw=True, full=True)):
+    for contact in contacts(leg.curve, Arc.circle(point, square)):
         yield leg.rail.parameter(contact.start), contact.start
 
 

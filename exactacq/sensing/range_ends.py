@@ -181,11 +181,11 @@ class RangeEnds:
             center = self._common_center(behind, ahead) or self._common_center(ahead, behind)
             known = [] if center is None else sector.through(center)
             for t in of_length_on(sector, behind, ahead, self.range.square, *span, way, longer_at, known):
-                k = 0 if isinstance(self.views.curve(one.edge), Segment) else 1
-                if center is None or all(t is not own for own in known):
-                    yield t, None
+                if center is not None and any(t is own for own in known):
+                    k = 0 if isinstance(self.views.curve(one.edge), Segment) else 1
+                    yield t, (k, (center, self.views.rails[free_views.sides[k].edge].parameter(center)))
                 else:
-                    yield t, (k, (center, self.views.rails[(one, other)[k].edge].parameter(center)))
+                    yield t, None
             return
         k = 1 if one.role is Role.CONTACT else 0
         far = free_views.sides[k]
@@ -255,8 +255,6 @@ def _at_distance(center: Point, square: Real, curve: Curve) -> Iterator[Point]:
     """The points of a curve at a squared distance from a point; none where that is all or nothing of it."""
     if square.sign() == 0:
         return
-    east = Point(center.x + square.sqrt(), center.y)
-    circle = Arc(east, east, center, square, ccw=True, full=True)
-    for contact in contacts(curve, circle):
+    for contact in contacts(curve, Arc.circle(center, square)):
         if contact.start is contact.end:
             yield contact.start

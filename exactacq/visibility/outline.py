@@ -184,5 +184,4 @@ def _curve(view: BoundaryView, row: OutlinePiece) -> Curve:
 
 def range_circle(view: BoundaryView) -> Arc:
     """The circle of the range about the point."""
-    east = Point(view.point.x + view.range.radius, view.point.y)
-    return Arc(east, east, view.point, view.range.square, ccw=True, full=True)
+    return Arc.circle(view.point, view.range.square)

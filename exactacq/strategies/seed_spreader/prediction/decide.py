@@ -287,9 +287,7 @@ class _Candidates:
             for stand in stands:
                 assert isinstance(stand.shape, Point)
                 p = stand.shape
-                rim = p + Point(walk.radius, 0)
-                ring = Arc(rim, rim, p, walk.radius**2, True, full=True)
-                found = contacts(curve, ring)
+                found = contacts(curve, Arc.circle(p, walk.radius**2))
                 yield from ((p, q) for contact in found for q in (contact.start, contact.end))
         for q in self.dots:
             yield from ((Point(walk.x, y), q) for y in thresholds(walk.x, Segment(q, q), walk.radius))
