@@ -55,13 +55,18 @@ class Sketch:
         """Which loops lie around which places: a row for each place."""
         found = np.zeros((len(places), self.count), dtype=bool)
         for k in range(self.count):
-            start, end = self._chords(k)
-            if not len(start):
-                continue
+            found[:, k] = self._in_loop(k, places)
+        return found
+
+    def _in_loop(self, k: int, places: Floats) -> Bools:
+        """Which places lie in a loop."""
+        found = np.zeros(len(places), dtype=bool)
+        start, end = self._chords(k)
+        if len(start):
             low, high = start.min(axis=0), start.max(axis=0)
             near = np.flatnonzero(((places >= low) & (places <= high)).all(axis=1))
             for some in _steps(near, len(start)):
-                found[some, k] = _is_inside(places[some], start, end)
+                found[some] = _is_inside(places[some], start, end)
         return found
 
     def clearance(self, places: Floats) -> Floats:
@@ -79,9 +84,11 @@ class Sketch:
             )
             inside = self.around(first)
             inside[np.arange(len(known)), known] = False
-            for row, k in np.argwhere(inside):
-                if _least(first[row : row + 1], *self._chords(k))[0] <= NEAR * np.ptp(self.ends[:, 0]):
-                    inside[row, k] = self.around(later[row : row + 1])[0, k]
+            near = NEAR * np.ptp(self.ends[:, 0])
+            for k in np.flatnonzero(inside.any(axis=0)).tolist():
+                rows = np.flatnonzero(inside[:, k])
+                rows = rows[_least(first[rows], *self._chords(k)) <= near]
+                inside[rows, k] = self._in_loop(k, later[rows])
             found[known] = inside
         return found
 

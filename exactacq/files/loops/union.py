@@ -15,7 +15,8 @@ from networkx.utils import UnionFind
 from exactacq.errors import FormatError
 from exactacq.files.loops.chains import ZERO, scientific_above
 from exactacq.files.loops.nesting import Loops
-from exactacq.files.repairs.overlay import overlay
+from exactacq.files.repairs.overlay import Ring, overlay
+from exactacq.files.rereading import once
 from exactacq.geometry.loops import winding
 from exactacq.geometry.points import Point
 from exactacq.scene.scene import Scene
@@ -81,9 +82,7 @@ def _merge(members: list[Shape], walled: bool, start: Point | None, merged: Merg
     """One group of meeting loops; the first is the wall if *walled*."""
     named = list(dict.fromkeys(repr(member.name) for member in members))
     names = ", ".join(named[:NAMED]) + (f" and {len(named) - NAMED} more" if len(named) > NAMED else "")
-    for member in members:
-        Scene([member])
-    rings = overlay(members, _is_free if walled else any)
+    rings = _overlaid(members, walled)
     name = f"union of {names}"
     shapes = [ring.shape(name) for ring in rings]
     rooms = [shape for ring, shape in zip(rings, shapes, strict=True) if ring.outer == walled]
@@ -102,6 +101,17 @@ def _merge(members: list[Shape], walled: bool, start: Point | None, merged: Merg
     closed = len(rooms) - (room is not None)
     if closed:
         merged.closed.append(f"left out {closed} free places closed in by {name} (the robot cannot see them)")
+
+
+def _overlaid(members: list[Shape], walled: bool) -> list[Ring]:
+    """The boundary of the union of loops, none of which crosses itself: the same one around any start."""
+
+    def made() -> list[Ring]:
+        for member in members:
+            Scene([member])
+        return overlay(members, _is_free if walled else any)
+
+    return once(("overlay", walled, *members), made)
 
 
 def _is_free(held: Sequence[bool]) -> bool:
