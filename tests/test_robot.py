@@ -228,6 +228,18 @@ class TestWhatIsTold:
         everywhere = xa.isovist(scene, robot.position, robot.radius)
         assert {robot._numbers[part.obstacle] for part in view} == {k for k, _ in everywhere.seen()}
 
+    def test_what_is_incomplete_is_told_without_a_look_at_boundaries(
+        self, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        """A strategy may ask after every move: that must not cost all boundaries each time."""
+        robot = wanderer(3)
+        left = robot.map.incomplete
+        monkeypatch.delattr(Map, "_is_acquired")
+        assert left == robot.map.incomplete == tuple(i for i in robot.seen if robot.map.is_incomplete(i))
+        assert {i for i, _ in robot.map.frontier} <= {*left}
+        with pytest.raises(ValueError, match="no obstacle"):
+            robot.map.is_incomplete(99)
+
     def test_the_map_stays_as_it_was(self) -> None:
         robot = xa.Robot(SQUARES)
         before = robot.map

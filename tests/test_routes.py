@@ -389,8 +389,10 @@ class TestQuestions:
                 assert chart.lies_west(i, x) >= (min(ends) < x)
                 if all(isinstance(p.curve, Segment | None) for p in chart.known(i)):
                     assert chart.lies_west(i, x) == (min(ends) < x)
+        now = robot._walker.memory.now
         assert robot.incomplete == set(chart.incomplete)
-        assert all(chart.is_incomplete(i) is (i in robot.incomplete) for i in chart.seen)
+        assert {robot._numbers[i] for i in chart.incomplete} == set(now.incomplete)
+        assert all(chart.is_incomplete(i) is now.is_incomplete(robot._numbers[i]) for i in chart.seen)
 
     @pytest.mark.parametrize("seed", some(range(30), 8))
     def test_in_sight_and_nearest(self, seed: int) -> None:

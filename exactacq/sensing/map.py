@@ -207,12 +207,8 @@ class Map:
 
     @cached_property
     def frontier(self) -> tuple[tuple[int, Point], ...]:
-        """Where known boundary ends: (obstacle, point), in the order of the boundary.
-
-        A vertex between two edges that are both known there is no end, nor is a border point where a boundary
-        ends as a whole; a single known point is one end.
-        """
-        return tuple((i, point) for i in self.incomplete for point in self._frontier(i))
+        """Where known boundary ends: (obstacle, point), in the order of the boundary, as `ends` tells it."""
+        return tuple((i, point) for i in self.incomplete for point in self.ends(i))
 
     def is_incomplete(self, i: int) -> bool:
         """Whether some but not all of the boundary of obstacle i is known.
@@ -251,8 +247,17 @@ class Map:
                 return end if is_vertex else self._rails[target.edge].point(_short_between(low, high))
         return end
 
-    def _frontier(self, i: int) -> Iterator[Point]:
-        targets = self._targets.of[i]
+    def ends(self, i: int) -> Iterator[Point]:
+        """Where known boundary of obstacle i ends, in its order.
+
+        A vertex between two edges that are both known there is no end, nor is a border point where a boundary
+        ends as a whole; a single known point is one end.
+
+        >>> import exactacq as xa
+        >>> print(*xa.sightseer(xa.load("circles")).map_at(2).ends(0))
+        (21/5, 2*sqrt(21)/5) (21/5, -2*sqrt(21)/5)
+        """
+        targets = self._targets.of[self._checked(i)]
         for k, target in enumerate(targets):
             before, after = targets[k - 1], targets[(k + 1) % len(targets)]
             for part in self._parts(target):

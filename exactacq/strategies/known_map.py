@@ -74,9 +74,12 @@ class KnownMap:
     (21/5, 2*sqrt(21)/5) (21/5, -2*sqrt(21)/5)
     """
 
-    def __init__(self, _numbers: Numbering, _chart: Callable[[Set[int]], Map]) -> None:
-        # The latter gives a map that is right for some obstacles, by the scene's numbers.
+    def __init__(
+        self, _numbers: Numbering, _chart: Callable[[Set[int]], Map], _incomplete: Set[int] | None = None
+    ) -> None:
+        # A map that is right for some obstacles, by the scene's numbers; what is incomplete, if it is known.
         self._numbers, self._chart, self._count = _numbers, _chart, len(_numbers.order)
+        self._incomplete = _incomplete
         self._charts: dict[int, Map] = {}
         self._parts: dict[int, tuple[KnownPart, ...]] = {}
 
@@ -91,6 +94,8 @@ class KnownMap:
     @cached_property
     def incomplete(self) -> tuple[int, ...]:
         """Obstacles of whose boundary some but not all is known."""
+        if self._incomplete is not None:
+            return tuple(sorted(self._incomplete))
         return tuple(i for i in self.seen if self.is_incomplete(i))
 
     @cached_property
@@ -102,10 +107,9 @@ class KnownMap:
     @cached_property
     def frontier(self) -> tuple[tuple[int, Point], ...]:
         """Where known boundary ends and nothing beyond is known: (obstacle, point), obstacle by obstacle."""
-        numbers = self._numbers.order[: self._count]
-        own = {k: i for i, k in enumerate(numbers)}
-        ends = self._chart(set(numbers)).frontier
-        return tuple(sorted(((own[k], p) for k, p in ends), key=lambda end: end[0]))
+        numbers = {i: self._number(i) for i in self.incomplete}
+        chart = self._chart(set(numbers.values()))
+        return tuple((i, point) for i, k in numbers.items() for point in chart.ends(k))
 
     def is_incomplete(self, i: int) -> bool:
         """Whether not all of an obstacle is known. ValueError for one that was not seen.
@@ -114,8 +118,11 @@ class KnownMap:
         >>> xa.Robot(xa.load("circles")).map.is_incomplete(0)
         True
         """
-        chart, k = self._of(i)
-        return chart.is_incomplete(k)
+        if self._incomplete is None:
+            chart, k = self._of(i)
+            return chart.is_incomplete(k)
+        self._number(i)
+        return i in self._incomplete
 
     def known(self, i: int) -> tuple[KnownPart, ...]:
         """The known parts of an obstacle; none is beyond a vertex. ValueError for one that was not seen.

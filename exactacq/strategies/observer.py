@@ -198,7 +198,7 @@ class Observer:
     def map(self) -> KnownMap:
         """What is known now; what is learned later does not change it."""
         now = self._walker.memory.now
-        return KnownMap(self._seen.numbers, lambda _: now)
+        return KnownMap(self._seen.numbers, lambda _: now, self.incomplete)
 
     @property
     def frontier(self) -> tuple[tuple[int, Point], ...]:
