@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from fractions import Fraction
 from itertools import pairwise
 from random import Random
@@ -17,7 +18,9 @@ from strategies import FREE_CUSPS, ROUNDED_U, S_BAND, SPIKES, STADIUM, box
 
 import exactacq as xa
 from exactacq import kernel
+from exactacq.files.octagons import random_octagons
 from exactacq.geometry.points import Location
+from exactacq.strategies import known_paths
 from exactacq.study.random_scenes import Subject, random_scene
 from exactacq.visibility.known_ground import KnownGround
 
@@ -406,6 +409,64 @@ def test_what_robots_know_is_like_many_chords(seed: int) -> None:
 def in_chords(chain: object) -> list[tuple]:
     places = [place for piece in chain.pieces for place in chords(piece.curve, 0.0, 1.0)]
     return [place for k, place in enumerate(places) if not k or place != places[k - 1]]
+
+
+# -- of a robot, among what may be in the way ---------------------------------------------------------
+
+
+def asked(path: Callable[[], xa.ShortestPath | None]) -> object:
+    try:
+        way = path()
+    except (xa.MoveError, xa.InvalidScene) as error:
+        return str(error).removeprefix("no path: ")
+    return None if way is None else (way.length, way.count, way.points)
+
+
+@pytest.mark.parametrize("first", [1.0, 1.25])
+@pytest.mark.parametrize("seed", some(range(6), 2))
+def test_what_is_far_away_changes_no_path(seed: int, first: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The robot looks at what is near enough; of all that it knows the path is the same.
+
+    If it takes paths to be no longer than the straight line, it has to look farther for each that bends.
+    """
+    monkeypatch.setattr(known_paths, "FIRST", first)
+    rng, robot = Random(seed), xa.Robot(random_octagons(30, seed))
+    looks = spied(monkeypatch)
+    for _ in range(4):
+        robot.take(robot.nearest_unvisited())
+        robot.circle()
+        for size in (2, 5, 15):
+            x, y = (round(c) + rng.randint(-size, size) for c in robot.position.xy)
+            near = asked(lambda x=x, y=y: robot.path_to((x, y)))
+            assert near == asked(lambda x=x, y=y: xa.shortest_path(robot.map, robot.position, (x, y)))
+    assert len(looks) > 12 * (first == 1.0)
+    assert any(not is_all for is_all in looks)
+
+
+def spied(monkeypatch: pytest.MonkeyPatch) -> list[bool]:
+    """Tells of each look for a ground whether it is all that is known."""
+    looks, ground = list[bool](), known_paths.KnownPaths._ground
+
+    def look(self: known_paths.KnownPaths, reach: float) -> tuple[KnownGround, bool]:
+        found = ground(self, reach)
+        looks.append(found[1])
+        return found
+
+    monkeypatch.setattr(known_paths.KnownPaths, "_ground", look)
+    return looks
+
+
+def test_a_way_that_is_much_longer_than_the_straight_line() -> None:
+    """Around the one end of a long wall: what stands at its other end, far away, is in the way too."""
+    wall, bar = box(-60, 60, -1, 1), box(61, 62, -80, 80)
+    robot = xa.Robot(xa.Scene([wall, bar], start=(59, 9), radius=300))
+    robot.take(robot.nearest_unvisited())
+    robot.circle()
+    robot.take(robot.nearest_unvisited())
+    robot.circle()
+    robot.go_to((58, 9))
+    assert robot.path_to((58, -9)).length == xa.shortest_path(robot.map, (58, 9), (58, -9)).length
+    assert robot.path_to((63, 9)).length == xa.shortest_path(robot.map, (58, 9), (63, 9)).length > 140
 
 
 # -- within a terrain ------------------------------------------------------------------------------

@@ -29,6 +29,7 @@ from exactacq.sensing.path import Path, Piece
 from exactacq.strategies.first_hit import first_hit, obstacle_at
 from exactacq.strategies.known_links import KnownLinks, NearestLink
 from exactacq.strategies.known_map import KnownMap, KnownPart, Sighting
+from exactacq.strategies.known_paths import KnownPaths
 from exactacq.strategies.lap import Lap
 from exactacq.strategies.moves import KnownLink
 from exactacq.strategies.numbering import Numbering
@@ -38,9 +39,8 @@ from exactacq.strategies.seed_spreader.range_thresholds import nearest_of, neare
 from exactacq.strategies.sightings import Sightings
 from exactacq.strategies.trace import Trace
 from exactacq.strategies.walker import Walker
-from exactacq.visibility.known_ground import KnownGround
 from exactacq.visibility.links import START, Link, Links, Node
-from exactacq.visibility.shortest_path import ShortestPath, shortest_path
+from exactacq.visibility.shortest_path import ShortestPath
 
 
 class Here(Enum):
@@ -83,8 +83,7 @@ class Observer:
         # The last point of a boundary that the robot told, on which piece of it this lies, and whose it is.
         self._told: tuple[Point, Curve | None, int] | None = None
         self._lap: Lap | None = None
-        # What paths have to respect after so many pieces of the way.
-        self._charted: tuple[int, KnownGround] | None = None
+        self._paths = KnownPaths(self._walker, self._seen)
         self._moves, self._most = 0, inf
         self._is_underway = False
         # Whether its moves write into the trace where it hits and leaves obstacles.
@@ -386,8 +385,8 @@ class Observer:
 
         What is not known counts as free. Obstacles that are wholly known are solid; known parts of other
         boundaries are walls that the path does not cross, but may touch, follow and turn around: see
-        `shortest_path` on a map, of which this is the robot's own, made anew only where more is known. A
-        robot that is confined stays in its terrain. `MoveError` for a point inside an obstacle that is wholly
+        `shortest_path` on a map. Its ``scene`` and ``walls`` are those near enough to be in the way. A robot
+        that is confined stays in its terrain. `MoveError` for a point inside an obstacle that is wholly
         known, for one beyond the border of the terrain, and if border and walls leave no path; what
         `shortest_path` raises and costs besides.
 
@@ -402,7 +401,7 @@ class Observer:
         goal = Point.of(point)
         self._check_border(goal)
         try:
-            found = shortest_path(self._ground_of_paths(), self.position, goal)
+            found = self._paths.to(goal)
         except InvalidScene as error:
             raise MoveError(f"no path: {error.violations[0]}") from None
         if found is None:
@@ -420,16 +419,6 @@ class Observer:
     def _own(self) -> dict[int, int]:
         """The robot's numbers of obstacles by the scene's."""
         return self._seen.numbers.own
-
-    def _ground_of_paths(self) -> KnownGround:
-        """What paths have to respect."""
-        walker = self._walker
-        if self._charted is None or self._charted[0] != walker.count:
-            known = None if self._charted is None else self._charted[1]
-            chart, number = walker.memory.now, self._own.__getitem__
-            ground = KnownGround.on_map(chart, number=number, known=known)
-            self._charted = walker.count, ground
-        return self._charted[1]
 
     def _scene_number(self, number: int) -> int:
         """The scene's number of an obstacle that was seen."""
