@@ -137,3 +137,21 @@ def test_what_a_way_touches_is_found() -> None:
     place = Point(0, root * 2 - 2)
     assert touched(place, place + Point(3, -3)) == [{len(table.curves) + one}]
     assert touched(place, place + Point(3, tiny - 3)) == [set()]
+
+
+def test_a_way_is_told_whatever_cancels_in_its_numbers() -> None:
+    """Powers of sqrt(2) - 1, some 2^k long, have coefficients that cancel to the last of 64 bits.
+
+    An edge along the way, 5 long, was left out of the map, and a corner on it was not found.
+    """
+    table = EdgeTable(Scene([Polygon([(0, 0), (3, 4), (1, 6)])]).obstacles)
+    for k in (10, 30, 60, 120):
+        little = (Real(2).sqrt() - 1) ** k
+        little = little * 2 ** round(1.27 * k)
+        assert 0.4 < float(little) < 1.6
+        start, end = Point(-3 * little, -4 * little), Point(3 + 3 * little, 4 + 4 * little)
+        assert [leg.edge for leg in legs_of(table, [], None, Segment(start, Point(0, 0)))] == [None]
+        rails = [Rail(curve) for curve in table.curves]
+        assert [leg.edge for leg in legs_of(table, rails, None, Segment(start, end))] == [None, 0, None]
+        start, end = Point(3 - 7 * little, 4 + little), Point(3 + 7 * little, 4 - little)
+        assert next(leg.end for leg in legs_of(table, [], None, Segment(start, end))) == Point(3, 4)

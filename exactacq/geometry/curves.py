@@ -325,7 +325,8 @@ class Arc:
             return self.center + Point(*vector)
         direction = length.direction(self.radius)
         if direction is None:
-            raise ValueError(f"no coordinates are known for the place after {length} of an arc")
+            told = length.decimal(15)
+            raise ValueError(f"no coordinates are known for the place after {told} of an arc")
         cosine, sine = direction
         return self.center + radial * cosine + radial.left() * (sine * sense)
 

@@ -386,7 +386,7 @@ def _counts(origin: object) -> bool:
 
 def _is_part(share: Share, one: Extent) -> bool:
     """Whether a share belongs to a part of a family on a full circle: other parts lie far away."""
-    middle = 0.5 * (share.source.low.rough() + share.source.high.rough())
+    middle = 0.5 * (float_ball(share.source.low)[0] + float_ball(share.source.high)[0])
     return one.source[0] - 0.25 < middle < one.source[1] + 0.25
 
 

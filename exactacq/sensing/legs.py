@@ -19,6 +19,7 @@ from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.late import Pin, balls
 from exactacq.geometry.points import Point
 from exactacq.kernel.shadows import Spot
+from exactacq.numbers.float_bounds import rough
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable, Floats, Ints, corners
 from exactacq.sensing.named_pins import PinName
@@ -204,7 +205,7 @@ def _circles_beside(table: EdgeTable, way: Segment) -> list[int]:
     near = _near(table, way)
     near = near[table.kind[near] != 0]
     heights, slack = _heights(table, way, table.center[near])
-    size = math.hypot(*(d.rough() for d in way.direction))
+    size = math.hypot(*_rough_direction(way))
     close = np.abs(np.abs(heights) - table.radius[near] * size) <= slack
     found: list[int] = []
     for number in dict.fromkeys(table.circles[e] for e in near[close].tolist()):
@@ -224,10 +225,16 @@ def _near(table: EdgeTable, way: Segment) -> Ints:
 def _heights(table: EdgeTable, way: Segment, places: Floats) -> tuple[Floats, float]:
     """How far some places of the table are from a way's line, times the way's length, and the margin."""
     left, bottom, right, top = box(way)
-    (x, y), (dx, dy) = way.start.xy, (d.rough() for d in way.direction)
+    (x, y), (dx, dy) = way.start.xy, _rough_direction(way)
     offsets = places - (x, y)
     slack = 64 * table.roundoff_at((left, bottom), (right, top)) * math.hypot(dx, dy)
     return offsets[:, 0] * dy - offsets[:, 1] * dx, slack
+
+
+def _rough_direction(way: Segment) -> tuple[float, float]:
+    """A way's direction in floats that are off by round-off alone, however much cancels in its numbers."""
+    dx, dy = way.direction
+    return rough(dx), rough(dy)
 
 
 def _is_zero(value: Real) -> bool:
@@ -237,7 +244,7 @@ def _is_zero(value: Real) -> bool:
 def _along_edges(table: EdgeTable, way: Segment) -> list[tuple[int | None, Segment]]:
     """A straight way in parts: along edges, with their numbers, and other ones with None between."""
     left, bottom, right, top = box(way)
-    dx, dy = (d.rough() for d in way.direction)
+    dx, dy = _rough_direction(way)
     near = [e for e in table.around((left, bottom), (right, top), 0.0) if not table.kind[e]]
     edges, length = table.end[near] - table.start[near], math.hypot(dx, dy)
     sizes, slack = np.hypot(*edges.T), 16 * table.roundoff_at((left, bottom), (right, top))

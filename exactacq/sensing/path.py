@@ -169,7 +169,8 @@ class Path(tuple[Piece, ...]):
             rest = rest - self[count].length
             count += 1
         if rest.sign() < 0 or (count == len(self) and rest.sign() > 0):
-            raise ValueError(f"the path has no place after length {length}: it is {self._ends[-1]:.6g} long")
+            whole, told = self._ends[-1], length.decimal(6)
+            raise ValueError(f"the path has no place after length {told}: it is {whole:.6g} long")
         return count, rest
 
 
