@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from math import cos, pi, sin
+from typing import Any
 
 import mpmath
 import pytest
@@ -16,6 +17,7 @@ from nightly import some
 import exactacq as xa
 from exactacq import kernel
 from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.late import Balls, clearly_between
 from exactacq.kernel.bound_lines import NOTHING
 from exactacq.numbers.real import Real
@@ -25,7 +27,7 @@ from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.study.random_scenes import Subject, random_scene
 from exactacq.visibility import rotational_sweep
 from exactacq.visibility.features import features
-from exactacq.visibility.line_balls import first_meetings
+from exactacq.visibility.line_balls import entered, first_meetings
 from exactacq.visibility.line_families import Rolling, Sector, Turning
 from exactacq.visibility.sensor_range import Range
 
@@ -106,8 +108,14 @@ def crossings(curve: Curve, is_own: bool, x: mpf, y: mpf, dx: mpf, dy: mpf) -> l
     return found
 
 
+def told(sector: Sector, t: fmpq, edges: list[int], own: tuple[int, ...]) -> tuple[int, int] | None:
+    """The edges at which a line enters an obstacle; None if that is open."""
+    first, left = first_meetings(TABLE, sector, t, edges, own)
+    return None if left else entered(first)
+
+
 def told_by_digits(sector: Sector, t: fmpq, edges: list[int], own: tuple[int, ...]) -> tuple[int, int] | None:
-    """As `first_meetings`; None too where the line is close to what changes the answer."""
+    """As `told`; None too where the line is close to what changes the answer."""
     contact, direction = sector.touch(Real(t))
     at = [number(c) for c in (*contact, *direction)]
     met: list[tuple[mpf, int, int]] = []
@@ -154,7 +162,7 @@ def test_what_balls_tell_digits_tell(line: tuple[Sector, fmpq, tuple[int, ...]])
     with mpmath.workdps(80):
         expected = told_by_digits(sector, t, edges, own)
     assume(expected is not None)
-    assert first_meetings(TABLE, sector, t, edges, own) == expected
+    assert told(sector, t, edges, own) == expected
 
 
 def turning(x: int, y: int) -> Turning:
@@ -166,24 +174,24 @@ def turning(x: int, y: int) -> Turning:
 def test_open_where_the_line_is_a_tangent(height: int, is_open: bool) -> None:
     """Level lines at the circle about (5, 2) with the radius 1."""
     disc = next(e for e, curve in enumerate(TABLE.curves) if isinstance(curve, Arc) and curve.full)
-    told = first_meetings(TABLE, turning(0, height), fmpq(0), [disc], ())
-    assert told == (None if is_open else (NOTHING, disc))
+    found = told(turning(0, height), fmpq(0), [disc], ())
+    assert found == (None if is_open else (NOTHING, disc))
 
 
 def test_open_where_the_line_passes_an_end() -> None:
     """With slope 1/3 a line passes the end (3, 1) of a wall, with 2/5 it comes from the blocked side."""
     wall = next(e for e, curve in enumerate(TABLE.curves) if curve.start.rational == (3, 1))
-    assert first_meetings(TABLE, turning(0, 0), fmpq(1, 3), [wall], ()) is None
-    assert first_meetings(TABLE, turning(0, 0), fmpq(2, 5), [wall], ()) == (NOTHING, NOTHING)
+    assert told(turning(0, 0), fmpq(1, 3), [wall], ()) is None
+    assert told(turning(0, 0), fmpq(2, 5), [wall], ()) == (NOTHING, NOTHING)
 
 
 def test_open_where_places_may_be_one() -> None:
     """An edge at the contact that is not known to be there, and two that are met in one place."""
     wall = next(e for e, curve in enumerate(TABLE.curves) if curve.start.rational == (3, 1))
-    assert first_meetings(TABLE, turning(3, 1), fmpq(1, 2), [wall], (wall,)) == (NOTHING, NOTHING)
+    assert told(turning(3, 1), fmpq(1, 2), [wall], (wall,)) == (NOTHING, NOTHING)
     middle = Turning((fmpq(3), fmpq(3, 2)), (fmpq(1), fmpq(0)), fmpq(-1), fmpq(1))
-    assert first_meetings(TABLE, middle, fmpq(0), [wall], ()) is None
-    assert first_meetings(TABLE, turning(0, 0), fmpq(2, 5), [wall, wall], ()) is None
+    assert told(middle, fmpq(0), [wall], ()) is None
+    assert told(turning(0, 0), fmpq(2, 5), [wall, wall], ()) is None
 
 
 def around(x: float, y: float, error: float = 1e-20) -> Balls:
@@ -226,3 +234,44 @@ def test_as_exact_contacts_tell(seed: int, monkeypatch: pytest.MonkeyPatch) -> N
     for e in range(len(table.curves)):
         families.extents(e)
     assert told
+
+
+def spirals(turns: int) -> xa.Scene:
+    """Two walls of half circles, whose centres are corners of the walls: all normals of an arc pass one."""
+
+    def wall(x: int) -> xa.Outline:
+        inner, outer, middles, middle, radius, sense = [fmpq(1, 2)], [fmpq(1)], [], fmpq(0), fmpq(1, 2), 1
+        for _ in range(turns):
+            middles.append(middle)
+            end = middle - sense * radius
+            inner.append(end)
+            outer.append(end - sense * fmpq(1, 2))
+            sense, radius = -sense, radius + fmpq(1, 2)
+            middle = end - sense * radius
+        way_in = [(x, inner[k], xa.Around((x, middles[k]))) for k in range(turns)]
+        way_out = [(x, outer[k], xa.Around((x, middles[k - 1]), ccw=False)) for k in range(turns, 0, -1)]
+        return xa.Outline([*way_in, (x, inner[turns], -1), *way_out, (x, outer[0], -1)])
+
+    return xa.Scene([wall(0), wall(turns + 5)], start=(-turns - 5, 1), radius=100)
+
+
+def test_normals_through_a_corner_are_decided_among_few_edges(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each of their lines was met with all edges exactly: a walk past 96 edges took a minute."""
+    scene = spirals(7)
+    met = 0
+
+    def counted(*line: Any) -> list[Real]:
+        nonlocal met
+        met += 1
+        return line_contacts(*line)
+
+    monkeypatch.setattr(rotational_sweep, "line_contacts", counted)
+    edge = scene.obstacles[0].edges[0]
+    events = xa.sweep(scene, edge, obstacle=0).events
+    few, met = met, 0
+    monkeypatch.setattr(rotational_sweep, "first_meetings", lambda *line: ({}, list(line[3])))
+    again = xa.sweep(scene, edge, obstacle=0).events
+    assert [(one.change, one.obstacle, one.edge, one.u) for one in events] == [
+        (one.change, one.obstacle, one.edge, one.u) for one in again
+    ]
+    assert 0 < 4 * few < met

@@ -166,15 +166,26 @@ def long_frame(sector: Sector) -> Line:
     return _held(Point(*sector.center)) + _held(Point(*sector.base))
 
 
+def entered(first: dict[int, tuple[int, int]]) -> tuple[int, int]:
+    """At which of the edges that it meets first, behind its contact and ahead, a line enters an obstacle.
+
+    `NOTHING` if there is none, or if it is met from its blocked side.
+    """
+    (behind, back), (ahead, forth) = (first.get(side, (NOTHING, side)) for side in (-1, 1))
+    return behind if back < 0 else NOTHING, ahead if forth > 0 else NOTHING
+
+
 def first_meetings(
     table: EdgeTable, sector: Sector, t: fmpq, edges: Iterable[int], own: Collection[int]
-) -> tuple[int, int] | None:
-    """The edges at which a line first enters an obstacle, behind its contact and ahead; None if that is open.
+) -> tuple[dict[int, tuple[int, int]], list[int]]:
+    """The edge that a line meets first on each side, 1 ahead of its contact and -1 behind, if there is one.
 
-    `NOTHING` if there is none, or if the first one is met from its blocked side. The contact lies on the
-    edges *own*, along which the line does not run; there it does not meet them.
+    With the sense, 1 or -1, in which the line enters an obstacle there; and a list of the edges of which
+    balls leave open whether they are met nearer. The contact lies on the edges *own*, along which the line
+    does not run; there it does not meet them.
     """
     nearest: dict[int, tuple[arb, int, int]] = {}
+    left: list[int] = []
     curves, following = table.curves, table.following
     # Two edges meet at a vertex, which is looked at once.
     sighted: dict[int, Sighted] = {}
@@ -191,19 +202,17 @@ def first_meetings(
                         sighted[v] = _sighted(at, _held(curves[v].start))
                 met = _between(sighted[e], sighted[following[e]])
             if met is None:
-                return None
+                left.append(e)
+                continue
             for tau, sense in met:
                 side = ball_sign(tau)
-                if side == 0:
-                    return None
                 best = nearest.get(side)
                 nearer = 1 if best is None else ball_sign(best[0] - tau) * side
-                if nearer == 0:
-                    return None
-                if nearer > 0:
+                if side == 0 or nearer == 0:
+                    left.append(e)
+                elif nearer > 0:
                     nearest[side] = tau, e, sense
-    behind, ahead = (nearest.get(side, (0, NOTHING, 0)) for side in (-1, 1))
-    return behind[1] if behind[2] < 0 else NOTHING, ahead[1] if ahead[2] > 0 else NOTHING
+    return {side: (e, sense) for side, (_, e, sense) in nearest.items()}, left
 
 
 def _met_round(at: Line, curve: Arc, is_own: bool) -> list[Meeting] | None:

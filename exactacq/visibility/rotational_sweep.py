@@ -44,7 +44,7 @@ from exactacq.numbers.precision import workprec
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable, corners
 from exactacq.visibility.features import directions_at, enters
-from exactacq.visibility.line_balls import LONG, Line, event_ball, first_meetings, long_frame
+from exactacq.visibility.line_balls import LONG, Line, entered, event_ball, first_meetings, long_frame
 from exactacq.visibility.line_families import Rolling, Sector, Sliding, Vector, held
 from exactacq.visibility.quadratic_roots import QuadraticRoot
 
@@ -413,10 +413,12 @@ class _Decisions:
 
     def _met(self, middle: fmpq, edges: list[int]) -> tuple[int, int]:
         """The first edges that a line meets behind and ahead."""
-        told = None
-        if not self.through:
-            told = first_meetings(self.table, self.sector, middle, edges, self.own)
-        return self._exact_meet(middle, edges) if told is None else told
+        first, left = first_meetings(self.table, self.sector, middle, edges, self.own)
+        if not left and not self.through:
+            return entered(first)
+        # All these lines pass the centre, where edges *through* it are: balls tell these from it in no case.
+        left += [e for e in edges if e in self.through]
+        return self._exact_meet(middle, [*left, *(e for e, _ in first.values())])
 
     def _exact_meet(self, middle: fmpq, edges: Iterable[int]) -> tuple[int, int]:
         contact, direction = self.sector.touch(Real(middle))
