@@ -585,3 +585,11 @@ def test_cosines_of_many_turns() -> None:
     """Once the root of a polynomial was picked with balls too wide to tell roots apart."""
     share = fmpq(7, 30) + 1
     assert _cosine_of_pi(share + 2 * 10**80).compare(_cosine_of_pi(share)) == 0
+
+
+def test_a_share_of_pi_is_found_whatever_cancels() -> None:
+    """With k = 40 the first ball of the angle was too wide to propose a tenth of a turn."""
+    little = (Real(2).sqrt() - 1) ** 40 * 2**51
+    cosine = ((Real(5).sqrt() + 1) / 4 + little) ** 2
+    cosine = cosine.sqrt() - little
+    assert Length.arc(1, cosine, (1 - cosine**2).sqrt()) == Length.turns(1, "1/10")

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import atexit
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
+from math import pi
 from typing import ClassVar, NamedTuple, TypeAlias
 from weakref import WeakValueDictionary
 
@@ -117,8 +118,11 @@ def _share_of_pi(angle: Angle) -> fmpq | None:
     """
     if angle.half_tangent is not None:
         return None  # Niven: no rational multiple of pi in (0, pi/4] has rational cosine and sine.
-    with workprec(64):
-        share = float((angle.ball(64) / arb.pi()).mid())
+    bits, ball = 64, angle.ball(64)
+    while ball.rad() > 2.0**-50:
+        bits *= 2
+        ball = angle.ball(bits)
+    share = float(ball) / pi
     for q in range(5, MAX_DENOMINATOR + 1):
         p = round(share * q)
         if p and abs(share * q - p) < 1e-12:
