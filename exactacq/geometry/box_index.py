@@ -10,10 +10,12 @@ from collections.abc import Iterator, Sequence
 from math import inf, nextafter
 
 import numpy as np
+from flint import arb
 from numpy.typing import NDArray
 
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import spans
+from exactacq.geometry.late import balls, clearly_between, from_to
 from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.real import Real
 
@@ -41,18 +43,31 @@ LIMIT = 1e300
 def box(curve: Curve) -> tuple[float, float, float, float]:
     """(x0, y0, x1, y1) that contains the curve, at most a few units in the last place too large.
 
-    Which of its circle's extreme points an arc contains is decided exactly.
+    Which of its circle's extreme points an arc contains is decided exactly where balls leave it open.
     """
     (ax, ay), (bx, by) = (_nearest(p.x, p.y) for p in (curve.start, curve.end))
     sides = [_down(min(ax, bx)), _down(min(ay, by)), _up(max(ax, bx)), _up(max(ay, by))]
     if isinstance(curve, Arc):
         center = _nearest(curve.center.x, curve.center.y)
         radius = _up(_nearest(curve.radius)[0])
-        for k, direction in enumerate(DIRECTIONS):
-            if spans(curve, direction):
-                middle = center[k % 2]
-                sides[k] = _down(_down(middle) - radius) if k < 2 else _up(_up(middle) + radius)
+        for k in _extremes(curve):
+            middle = center[k % 2]
+            sides[k] = _down(_down(middle) - radius) if k < 2 else _up(_up(middle) + radius)
     return sides[0], sides[1], sides[2], sides[3]
+
+
+def _extremes(arc: Arc) -> Iterator[int]:
+    """The numbers of the directions in which an arc has the extreme point of its circle."""
+    start, end = (arc.start, arc.end) if arc.ccw else (arc.end, arc.start)
+    if arc.full or (start.rational is not None and end.rational is not None):
+        yield from (k for k, direction in enumerate(DIRECTIONS) if spans(arc, direction))
+        return
+    center = balls(arc.center)
+    first, last = from_to(center, balls(start)), from_to(center, balls(end))
+    for k, (u, v) in enumerate(DIRECTIONS):
+        clear = clearly_between(first, last, (arb(u), arb(v)))
+        if spans(arc, (u, v)) if clear is None else clear:
+            yield k
 
 
 def bounds(curves: Sequence[Curve]) -> Boxes:
