@@ -28,7 +28,7 @@ from exactacq.visibility.free_segment import is_free
 from exactacq.visibility.outline import ViewKind, ViewPiece, outline
 from exactacq.visibility.place_facts import NOTHING_KNOWN, PlaceFacts
 from exactacq.visibility.range_clip import Span
-from exactacq.visibility.scene_tables import SceneTables
+from exactacq.visibility.scene_tables import SceneTables, point_flaws
 from exactacq.visibility.sensor_range import Range
 from exactacq.visibility.visible_boundary import BoundaryView
 
@@ -167,6 +167,6 @@ def isovist(scene: Scene, point: object, radius: object = None) -> Isovist:
         place = Point.of(point)  # type: ignore[arg-type]
     reach = radius_of(scene, radius, place)
     around = SceneTables.of(scene).around(place)
-    if flaws := [f"the point {place} lies inside {o!r}" for where, o in around if where is Location.INSIDE]:
+    if flaws := point_flaws(place, around):
         raise InvalidScene(flaws)
     return Isovist(scene, place, reach, None if around else ())

@@ -11,6 +11,7 @@ from exactacq.geometry.points import Location, Point
 from exactacq.kernel.box_tree import BoxNode, box_tree
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.scene import Obstacle, Scene, as_scene
+from exactacq.scene.validation import place_text
 from exactacq.visibility.pegs import Pegs, is_within
 from exactacq.visibility.tangents import Tangents
 
@@ -59,16 +60,20 @@ class SceneTables:
         return [(where, o) for o in asked if (where := o.locate(point)) is not Location.OUTSIDE]
 
 
+def point_flaws(place: Point, around: list[tuple[Location, Obstacle]]) -> list[str]:
+    """Why a point with such obstacles around it is not in free space."""
+    blocked = [obstacle for where, obstacle in around if where is Location.INSIDE]
+    sides = ["outside the wall" if o.is_enclosure else f"inside obstacle {o.label}" for o in blocked]
+    return [f"the point {place_text(place)} lies {side}" for side in sides]
+
+
 def place_in(scene: Scene, name: str, point: object) -> Point:
     """A point of free space; `FormatError` or `InvalidScene` otherwise, with the point's name."""
     with about(name):
         place = Point.of(point)  # type: ignore[arg-type]
-    around = SceneTables.of(scene).around(place)
-    flaws = [
-        f"{name}: the point {place} lies inside {o!r}" for where, o in around if where is Location.INSIDE
-    ]
+    flaws = [f"{name}: {flaw}" for flaw in point_flaws(place, SceneTables.of(scene).around(place))]
     if not is_within(place, scene.terrain):
-        flaws.append(f"{name}: the point {place} lies outside the terrain")
+        flaws.append(f"{name}: the point {place_text(place)} lies outside the terrain")
     if flaws:
         raise InvalidScene(flaws)
     return place

@@ -21,6 +21,7 @@ from exactacq.geometry.loops import winding
 from exactacq.geometry.points import Point
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Shape, shape_edges
+from exactacq.scene.validation import place_text
 
 NAMED = 6
 """How many loops of a group a message names."""
@@ -89,7 +90,8 @@ def _merge(members: list[Shape], walled: bool, start: Point | None, merged: Merg
     solids = [shape for ring, shape in zip(rings, shapes, strict=True) if ring.outer != walled]
     room = next((r for r in rooms if start is not None and _inside(r, start)), None)
     if walled and room is None:
-        raise FormatError(f"no union of {names}: the start is not in what it leaves free; choose another")
+        place = "" if start is None else f" {place_text(start)}"
+        raise FormatError(f"the start{place} is not in what the union of {names} leaves free: choose another")
     merged.groups.append(names)
     merged.moved = max(merged.moved, *(ring.chain.moved() for ring in rings))
     if room is None:
