@@ -247,7 +247,7 @@ def test_arcs_end_at_the_border() -> None:
 def test_refusals() -> None:
     scene = xa.Scene([xa.Circle((0, 0), 1)], terrain=xa.Terrain(9, 9))
     for a, b, words in (
-        ((0, "1/2"), (5, 5), r"start: the point \(0, 1/2\) lies inside obstacle O1"),
+        ((0, "1/2"), (5, 5), r"start: the point \(0, 0\.5\) lies inside obstacle O1"),
         ((5, 5), (10, 0), "end: the point .* outside the terrain"),
     ):
         with pytest.raises(xa.InvalidScene, match=words):
