@@ -171,7 +171,7 @@ class TestQuestions:
         scene = xa.Scene([], start=(1, 1), radius=50, enclosure=xa.Polygon([(0, 0), (9, 0), (9, 9), (0, 9)]))
         robot = xa.Robot(scene)
         assert robot.map.acquired == (0,)
-        with pytest.raises(xa.MoveError, match="inside"):
+        with pytest.raises(xa.MoveError, match="outside the wall"):
             robot.path_to((20, 1))
 
     @pytest.mark.parametrize("seed", some(SEEDS, 4))
