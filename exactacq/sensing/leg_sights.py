@@ -155,15 +155,14 @@ class LegSights:
 
     def _on_edge(self, edge: int) -> Iterator[Sight]:
         complex_ = self.complex
-        extents = [one for one in complex_.extents(edge) if _counts(one.origin)]
-        extents += complex_.extents_of_rays(edge)
+        extents = complex_.sighting_extents(edge) + complex_.extents_of_rays(edge)
         yield from self._told(extents, [], complex_.table.curve_images[edge])
 
     def _on_way(self) -> Iterator[Sight]:
         complex_, leg, way, wanted = self.complex, self.leg, self._way, self._near
         self._clipper = way.clipper
-        images = [image for near in complex_.near(way.spots) for image in near.images if _counts(image)]
-        images += [image for near in complex_.rays(way.spots) for image in near.images]
+        near = complex_.sighting(way.spots) + complex_.rays(way.spots)
+        images = [image for families in near for image in families.images]
         self._crossings = WayCrossings(way, [images], wanted)
         self._crossing = list(self._crossings)
         yield from self._told(
@@ -377,11 +376,6 @@ def _is_left_of(place: Point, curve: Curve) -> bool:
 
 def _may_contain(part: Interval, u: Real) -> bool:
     return (u - part.low).clear_sign(BITS) >= 0 and (part.high - u).clear_sign(BITS) >= 0
-
-
-def _counts(origin: object) -> bool:
-    """Whether a family tells that an edge is in sight: no single line, nor the normals at a corner."""
-    return isinstance(origin, FamilyImage) and (origin.goes_back or not origin.fixed)
 
 
 def _is_part(share: Share, one: Extent) -> bool:

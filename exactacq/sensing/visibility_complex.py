@@ -57,8 +57,12 @@ class VisibilityComplex:
 
     def near(self, places: tuple[Spot, ...]) -> list[EdgeFamilies]:
         """The tangents and normals of the edges in sight between some places: all that may show anything."""
+        return self.sighting(places) + self._corner_normals.of(self._edges(places))
+
+    def sighting(self, places: tuple[Spot, ...]) -> list[EdgeFamilies]:
+        """Those of which families tell that an edge is in sight: normals at a corner show one place of it."""
         edges = self._edges(places)
-        return self._tangents.of(edges) + self._normals.of(edges) + self._corner_normals.of(edges)
+        return self._tangents.of(edges) + self._normals.of(edges)
 
     def telling(self, places: tuple[Spot, ...], edge: int = NONE) -> list[EdgeFamilies]:
         """Those without which it would not be known what is shown, and from where an obstacle is in sight.
@@ -102,6 +106,11 @@ class VisibilityComplex:
         Not what starts at a corner of the edge: what a corner sees is a view.
         """
         return self._shown(edge, self.near(self.table.spots(edge)))
+
+    def sighting_extents(self, edge: int) -> list[Extent]:
+        """What families show from an edge that tell what is in sight, in floats; single lines do not."""
+        found = self._shown(edge, self.sighting(self.table.spots(edge)))
+        return [one for one in found if isinstance(one.origin, FamilyImage)]
 
     def extents_of_rays(self, edge: int) -> list[Extent]:
         """Which edges the rays from their ends show from an edge, in floats."""
