@@ -7,6 +7,7 @@ the move alone.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import nullcontext
 from dataclasses import fields, replace
 from fractions import Fraction as Q
 from functools import cache
@@ -14,6 +15,7 @@ from random import Random
 from typing import Any
 
 import pytest
+from flint import fmpq
 from nightly import some
 from planted_sweeps import (
     around,
@@ -37,7 +39,7 @@ from sweeps import rectangle, swept_scene
 import exactacq as xa
 from exactacq import Circle, Polygon, Scene, Terrain
 from exactacq.auditing.audit import audit
-from exactacq.errors import AuditError
+from exactacq.errors import AuditError, Undecided
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
@@ -88,6 +90,17 @@ class TestGoodRuns:
         audit(xa.seed_spreader(Scene([bay, Circle((3, 2), 1)], terrain=Terrain(8, 8)), Q(5, 2)), samples=16)
         wedge = Polygon([(-1, 1), (1, 1), (0, 2), (1, 3), (-1, 3)])
         audit(xa.seed_spreader(Scene([wedge, Circle((3, 2), 1)], terrain=Terrain(8, 8)), 3), samples=16)
+
+    def test_what_floats_cannot_tell_apart_is_not_passed(self) -> None:
+        """Lines of sight are looked for in floats: where all of a scene is one float, none would be found."""
+        scene = xa.load("case3")
+        for unit, outcome in ((fmpq(1, 10**6), nullcontext()), (fmpq(1, 10**30), pytest.raises(Undecided))):
+            shapes = [[(1 + unit * x, 1 + unit * y) for x, y, _ in shape.vertices] for shape in scene.shapes]
+            (x, y), width, height = scene.terrain.origin, scene.terrain.width, scene.terrain.height
+            terrain = Terrain(unit * width, unit * height, (1 + unit * x, 1 + unit * y))
+            run = xa.seed_spreader(Scene(shapes, terrain=terrain), unit * scene.radius)
+            with outcome:
+                audit(run, samples=8)
 
     def test_empty_terrain(self) -> None:
         audit(xa.seed_spreader(Scene([], terrain=Terrain(10, 4)), 3))

@@ -20,11 +20,15 @@ from exactacq.auditing.known_walls import (
     coincide,
     sign,
 )
+from exactacq.errors import Undecided
 from exactacq.geometry.box_index import bounds
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.points import Point
 from exactacq.numbers.rationals import nearest_float
 from exactacq.numbers.real import Real
+
+FINEST = 2.0**-20
+"""Lines of sight are looked for in floats, whose errors must not be larger than this share of the radius."""
 
 
 class Rest(NamedTuple):
@@ -95,6 +99,8 @@ class RestOfLine:
         extents += [_extent(curve) for curve in curves if isinstance(curve, Arc)]
         self.walls = Walls(curves, len(chosen), float(max(extents)))
         self.grain = self.walls.grain
+        if self.grain > FINEST * self.reach:
+            raise Undecided("what is seen from a line: floats cannot tell places within the radius apart")
         self.targets = self.walls.list[: len(chosen)]
         self.dots = [ball_point(known.points[k]) for k in np.flatnonzero(in_reach[count:]).tolist()]
 
