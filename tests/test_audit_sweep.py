@@ -93,7 +93,7 @@ class TestGoodRuns:
 
     def test_what_floats_cannot_tell_apart_is_not_passed(self) -> None:
         """Lines of sight are looked for in floats: where all of a scene is one float, none would be found."""
-        scene = xa.load("case3")
+        scene = xa.load("m25")
         for unit, outcome in ((fmpq(1, 10**6), nullcontext()), (fmpq(1, 10**30), pytest.raises(Undecided))):
             shapes = [[(1 + unit * x, 1 + unit * y) for x, y, _ in shape.vertices] for shape in scene.shapes]
             (x, y), width, height = scene.terrain.origin, scene.terrain.width, scene.terrain.height
