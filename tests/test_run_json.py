@@ -324,6 +324,18 @@ def test_files_of_version_3_are_read(path: Path) -> None:
     assert all("touches" not in piece for piece in run.to_json()["path"])
 
 
+@pytest.mark.parametrize("path", sorted(OLD.glob("version5-*.json")), ids=lambda path: path.stem)
+def test_files_of_version_5_are_read(path: Path) -> None:
+    """Events without a point, as in one of them, are found again."""
+    run = load_run(path)
+    again = sightseer(run.scene, run.radius)
+    assert_same(run, again)
+    assert [(e.kind, e.obstacle, e.point) for e in run.events] == [
+        (e.kind, e.obstacle, e.point) for e in again.events
+    ]
+    assert run.to_json()["version"] == VERSION
+
+
 @pytest.mark.parametrize("note", ["from", "trapped", "from 0 S", "from 99", "overdue"])
 def test_words_that_version_2_never_wrote_are_refused(note: str) -> None:
     document = json.loads((OLD / "version2-squares.json").read_text("utf-8"))
