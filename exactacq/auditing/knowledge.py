@@ -91,8 +91,8 @@ class Knowledge:
     def _between_events(self) -> Iterator[_Instant]:
         """Maps from inside pieces, where rational places are at hand."""
         for _ in range(MOMENTS // 2):
-            k, place = self._anywhere() or (None, None)
-            if k is not None and place is not None:
+            k, place = self._anywhere() or (0, None)
+            if place is not None and place not in (self.run.path[k].start, self.run.path[k].end):
                 name = f"the map at {place_text(place)} on piece {k}"
                 moment = Event(EventKind.MOMENT, place, None, k, self.run.path, inside=True)
                 yield _Instant(name, k, place, self.run.map_at(moment))

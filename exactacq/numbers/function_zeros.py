@@ -31,6 +31,8 @@ FINENESS = 100
 width w < 1 cells are searched down to 2^-100 w^3."""
 STALLED_BITS = 1 << 16
 """A zero that is not told better than by its cell with so many bits never is."""
+PROVING_BITS = 1 << 13
+"""Precision with which a zero that is read is proved, if less does not do: who wrote it may mean harm."""
 SHOWN_DIGITS = 30
 """Decimals that stand for a zero where a closed form is asked for."""
 
@@ -189,11 +191,8 @@ def zeros_between(
 
 
 def zero_between(function: Function, low: fmpq, high: fmpq) -> Real:
-    """The one zero in a cell that `zeros_between` found, proved again by balls; ValueError if they do not.
-
-    Less than a second for numbers of ordinary size.
-    """
-    for bits in (BITS, STALLED_BITS) if low < high else ():
+    """The one zero in a cell that `zeros_between` found, proved again by balls; ValueError if they do not."""
+    for bits in (BITS, PROVING_BITS) if low < high else ():
         with workprec(bits):
             before, after = (ball_sign(function(arb(t))) for t in (low, high))
             if before * after < 0 and _is_steady(_slope(function, _cell(low, high))):

@@ -17,7 +17,7 @@ from flint import fmpq
 
 from exactacq.errors import InvalidScene, MoveError, shown
 from exactacq.geometry.curves import Curve, Segment
-from exactacq.geometry.points import Location, Point, distance_sq
+from exactacq.geometry.points import Point, distance_sq
 from exactacq.numbers.length import Length
 from exactacq.scene.edge_table import EdgeTable, Floats
 from exactacq.scene.scene import Scene, radius_of, start_of
@@ -40,6 +40,7 @@ from exactacq.strategies.sightings import Sightings
 from exactacq.strategies.trace import Trace
 from exactacq.strategies.walker import Walker
 from exactacq.visibility.links import START, Link, Links, Node
+from exactacq.visibility.scene_tables import point_flaws
 from exactacq.visibility.shortest_path import ShortestPath
 
 
@@ -532,8 +533,7 @@ def _start_flaws(
 ) -> Iterator[str]:
     """What is wrong with the place where a robot is to start."""
     if not confined:
-        inside = (o for o in scene.obstacles if o.locate(place) is Location.INSIDE)
-        yield from (f"the start {place_text(place)} lies inside obstacle {o.label}" for o in inside)
+        yield from point_flaws("start", place, ((o.locate(place), o) for o in scene.obstacles))
     elif not (start is None and scene.start is None) and (given := start_of(scene, start)) != place:
         yield f"the start {place_text(given)} is not the terrain's SW corner {place_text(place)}"
 

@@ -167,6 +167,6 @@ def isovist(scene: Scene, point: object, radius: object = None) -> Isovist:
         place = Point.of(point)  # type: ignore[arg-type]
     reach = radius_of(scene, radius, place)
     around = SceneTables.of(scene).around(place)
-    if flaws := point_flaws(place, around):
+    if flaws := point_flaws("point", place, around):
         raise InvalidScene(flaws)
     return Isovist(scene, place, reach, None if around else ())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import ClassVar
 from weakref import WeakKeyDictionary, ref
 
@@ -60,18 +61,18 @@ class SceneTables:
         return [(where, o) for o in asked if (where := o.locate(point)) is not Location.OUTSIDE]
 
 
-def point_flaws(place: Point, around: list[tuple[Location, Obstacle]]) -> list[str]:
-    """Why a point with such obstacles around it is not in free space."""
+def point_flaws(name: str, place: Point, around: Iterable[tuple[Location, Obstacle]]) -> list[str]:
+    """Why a point, or what its name is, with such obstacles around it is not in free space."""
     blocked = [obstacle for where, obstacle in around if where is Location.INSIDE]
     sides = ["outside the wall" if o.is_enclosure else f"inside obstacle {o.label}" for o in blocked]
-    return [f"the point {place_text(place)} lies {side}" for side in sides]
+    return [f"the {name} {place_text(place)} lies {side}" for side in sides]
 
 
 def place_in(scene: Scene, name: str, point: object) -> Point:
     """A point of free space; `FormatError` or `InvalidScene` otherwise, with the point's name."""
     with about(name):
         place = Point.of(point)  # type: ignore[arg-type]
-    flaws = [f"{name}: {flaw}" for flaw in point_flaws(place, SceneTables.of(scene).around(place))]
+    flaws = [f"{name}: {flaw}" for flaw in point_flaws("point", place, SceneTables.of(scene).around(place))]
     if not is_within(place, scene.terrain):
         flaws.append(f"{name}: the point {place_text(place)} lies outside the terrain")
     if flaws:
