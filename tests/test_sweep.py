@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from random import Random
 
 import pytest
+from flint import fmpq
 from nightly import NIGHTLY, some
 from strategies import arc_terrain, degenerate_terrain, random_terrain
 from swept_edges import check_edges
@@ -242,3 +243,44 @@ def test_an_arc_next_to_an_edge_that_is_all_but_smooth() -> None:
     rounded = [e for e in sweep(scene, wall, 60, obstacle=14).events if (e.obstacle, e.edge) == (14, 6)]
     assert [event.change for event in rounded] == [Change.ENTRY]
     assert check_cells(scene, 60, Piece("boundary", 14, wall)) > 10
+
+
+DISC = Circle((0, -1), 1)
+ROOT2 = xa.Real(2).sqrt()
+
+
+def sector(*angle: object) -> xa.Outline:
+    """A wall about the origin between the radii 5 and 6, from one of two unit vectors to the other."""
+    corners = [[fmpq(size) * fmpq(x) for x in ends] for size in (6, 5) for ends in (angle[:2], angle[2:])]
+    out, back = xa.Around((0, 0)), xa.Around((0, 0), ccw=False)
+    first, second, last, third = corners
+    return xa.Outline([(*first, out), second, (*third, back), last])
+
+
+@pytest.mark.parametrize(
+    "wall",
+    [
+        sector(fmpq(12, 13), fmpq(-5, 13), fmpq(12, 13), fmpq(5, 13)),
+        sector(fmpq(-12, 13), fmpq(5, 13), fmpq(-12, 13), fmpq(-5, 13)),
+        sector(fmpq(4, 5), fmpq(-3, 5), fmpq(-4, 5), fmpq(-3, 5)),
+        Polygon([(5, -3), (7, -3), (7, 3), (5, 3)]),
+        Circle((6, 0), 1),
+    ],
+    ids=["round on the right", "round on the left", "round about", "straight", "disc"],
+)
+@pytest.mark.parametrize("there", [Point(ROOT2, 1), Point(-ROOT2, 1), Point(ROOT2, 0)])
+def test_from_where_a_tangent_is_normal_to_a_wall_at_the_range(wall: xa.Outline, there: Point) -> None:
+    """There the length of views along tangents of the disc is stationary, and as long as the range.
+
+    On a way beside it, which is rational, polynomials find the events.
+    """
+    here, scene = Point(0, 0), Scene([DISC, wall])
+    near = Point(*(fmpq(round(float(x) * 10**9), 10**9) for x in there))
+    for ends, beside in (((here, there), (here, near)), ((there, here), (near, here))):
+        check_cells(scene, 5, Piece("straight", None, Segment(*ends)))
+        told, expected = (sweep(scene, Segment(*way), 5).events for way in (ends, beside))
+        assert [(e.change, e.obstacle, e.edge) for e in told] == [
+            (e.change, e.obstacle, e.edge) for e in expected
+        ]
+        for mine, its in zip(told, expected, strict=True):
+            assert [*map(float, mine.place)] == pytest.approx([*map(float, its.place)], abs=1e-6)

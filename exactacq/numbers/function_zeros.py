@@ -142,11 +142,13 @@ def zeros_between(
     high: Real,
     sign_at: Callable[[Real], int] | None = None,
     known: Sequence[Real] = (),
+    is_flat: Callable[[Real], bool] = lambda t: False,
 ) -> list[Real]:
     """The zeros strictly between two numbers, ascending; the function is real and finite from low to high.
 
     *sign_at* knows an easier way to the function's exact sign at the two ends, where the slope may be
-    infinite. Zeros that are *known* are given back as they are. `Undecided` at a double zero (or nearly so).
+    infinite. Zeros that are *known* are given back as they are. `Undecided` at a double zero (or nearly so),
+    but for one at an end of which *is_flat* knows that function and slope are 0 there.
     Which side of an end a zero lies on is asked of the function at that end: it is exact, and no comparison
     of numbers of large degree.
     """
@@ -168,8 +170,14 @@ def zeros_between(
             if _excludes_zero(function, cell, slope):
                 continue
             is_steady = _is_steady(slope)
-            is_at_end = not slope.is_finite() and (left <= begin or right >= end)
-            is_at_end = is_at_end and _is_monotone(function, cell)
+            ends = [t for t, is_near in ((low, left <= begin), (high, right >= end)) if is_near]
+            is_at_end = bool(ends) and not slope.is_finite() and _is_monotone(function, cell)
+            is_bent = bool(ends) and ball_sign(slope) == 0 and ball_sign(_bend(function, cell)) != 0
+        if is_bent and any(
+            t.compare(left) >= 0 >= t.compare(right) and not _clear_sign(function, t) and is_flat(t)
+            for t in ends
+        ):
+            continue
         if is_at_end:
             first, last = low if left <= begin else Real(left), high if right >= end else Real(right)
             before, after = (
@@ -229,9 +237,13 @@ def _zero_in(
 
 def _sign(function: Function, t: Real, exact: Callable[[Real], int] | None = None) -> int:
     """The sign of a value: by a ball, and exactly if the ball contains 0."""
+    return _clear_sign(function, t) or (int(function(t).sign()) if exact is None else exact(t))
+
+
+def _clear_sign(function: Function, t: Real) -> int:
+    """The sign of a value by a ball; 0 if that contains 0."""
     with workprec(BITS):
-        sign = ball_sign(function(t.working_ball(BITS)))
-    return sign or (int(function(t).sign()) if exact is None else exact(t))
+        return ball_sign(function(t.working_ball(BITS)))
 
 
 def _excludes_zero(function: Function, cell: arb, slope: arb) -> bool:
@@ -248,6 +260,14 @@ def _slope(function: Function, cell: arb) -> arb:
         return function(arb_series([cell, 1], prec=2))[1]
     except ValueError:
         # A denominator contains 0.
+        return arb.nan()
+
+
+def _bend(function: Function, cell: arb) -> arb:
+    """Enclosure of the second derivative, halved; not finite where that has none."""
+    try:
+        return function(arb_series([cell, 1], prec=3))[2]
+    except ValueError:
         return arb.nan()
 
 

@@ -178,9 +178,11 @@ class RangeEnds:
             way = self.views.rails[-1].curve if is_touched else None
             span = free_views.low, free_views.high
             longer_at = partial(self._longer_at, low, high)
+            is_flat = partial(self._is_flat, free_views, low, high)
             center = self._common_center(behind, ahead) or self._common_center(ahead, behind)
             known = [] if center is None else sector.through(center)
-            for t in of_length_on(sector, behind, ahead, self.range.square, *span, way, longer_at, known):
+            square = self.range.square
+            for t in of_length_on(sector, behind, ahead, square, *span, way, longer_at, known, is_flat):
                 if center is not None and any(t is own for own in known):
                     k = 0 if isinstance(self.views.curve(one.edge), Segment) else 1
                     yield t, (k, (center, self.views.rails[free_views.sides[k].edge].parameter(center)))
@@ -197,6 +199,26 @@ class RangeEnds:
         for pin in self._rim(Point(*sector.center), self._square_from_center(sector), far.edge):
             for t in sector.through(pin[0]):
                 yield t, (k, pin) if self._is_towards(sector, t, far.role, pin[0]) else None
+
+    def _is_flat(self, free_views: FreeViews, low: End, high: End, t: Real) -> bool:
+        """Whether the view at one of two ends is as long as the range, and its length stationary there.
+
+        So it is if the line touches its circle where it crosses the way, and meets the other side along that
+        side's normal: as the line rolls on, one end stays and the other moves across the view.
+        """
+        end, sector = low if t is low.t else high, free_views.sector
+        curves = [self.views.curve(side.edge) for side in free_views.sides]
+        k = 0 if _is_rational(curves[1]) else 1
+        way, wall, near, far = curves[k], curves[1 - k], end.points[k], end.points[1 - k]
+        along = wall.direction if isinstance(wall, Segment) else (far - wall.center).left()
+        return (
+            sector.round
+            and isinstance(way, Segment)
+            and along.dot(far - near).sign() == 0
+            and sector.touch(t)[0] == near
+            and way.direction.cross(far - near).sign() != 0
+            and self.range.order(near, far) == 0
+        )
 
     def _common_center(self, way: Curve, arc: Curve) -> Point | None:
         """The centre of an arc whose radius is the range, if a straight curve's line passes it.

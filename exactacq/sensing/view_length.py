@@ -212,6 +212,7 @@ def of_length_on(
     touching: Curve | None = None,
     longer_at: Callable[[Real], int] | None = None,
     known: Sequence[Real] = (),
+    is_flat: Callable[[Real], bool] = lambda t: False,
 ) -> list[Real]:
     """All t strictly between *low* and *high* where a view's squared length is *square*, ascending.
 
@@ -219,7 +220,8 @@ def of_length_on(
     the contact; at least one is a segment. *touching* is a segment known to touch the circle that lines roll
     on; of others it is found out where it matters. *longer_at* compares the views at the two ends with the
     value, and *known* are some of the t, which are given back as they are. `Undecided` where the length is
-    stationary at that value. A millisecond, for numbers of small degree.
+    stationary at that value, but for an end of which *is_flat* knows it. A millisecond, for numbers of small
+    degree.
     """
     numbers = tuple(Real(n) for n in (*sector.center, *sector.base, square))
     ends = (low, high)
@@ -227,7 +229,8 @@ def of_length_on(
         _side(sector, curve, side, curve is touching or _touches(sector, curve, ends))
         for curve, side in ((behind, -1), (ahead, 1))
     )
-    return zeros_between(ViewLength(sector.round, numbers, (one, other)), low, high, longer_at, known)
+    length = ViewLength(sector.round, numbers, (one, other))
+    return zeros_between(length, low, high, longer_at, known, is_flat)
 
 
 def _touches(sector: Sector, curve: Curve, ends: tuple[Real, Real]) -> bool:
