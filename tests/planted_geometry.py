@@ -116,7 +116,7 @@ CONTACT_FAULTS = [
         "where an arc ends on a segment it crosses it",
         CONTACTS,
         (AXIS, bow((0, 0), (1, 0), (0, -1))),
-        Fault(intersections, "_segment_arc", "end is not None or hit.tangent", "hit.tangent"),
+        Fault(intersections, "_segment_arc", "is_end or hit.tangent", "hit.tangent"),
     ),
     Planted(
         "a segment's end on an arc is computed again",

@@ -489,3 +489,37 @@ def test_a_wall_around_others_is_asked_for_the_near_ones_first() -> None:
     for k in range(1, links.count):
         link = links.between(0, k)
         assert link is not None and 0.9 * float(link.length) < bounds[k] <= float(link.length)
+
+
+def halves(x: object, y: object, r: object, turn: int) -> xa.Outline:
+    """A circle of two arcs, from its east or from its north."""
+    at = [(x + r, y), (x, y + r), (x - r, y), (x, y - r)]
+    return xa.Outline([(*at[turn], xa.Around((x, y))), (*at[turn + 2], xa.Around((x, y)))])
+
+
+HALF = fmpq(1, 2)
+UPPER = {
+    "circle": xa.Circle((0, fmpq(5, 2)), HALF),
+    "halves from the east": halves(fmpq(0), fmpq(5, 2), HALF, 0),
+    "halves from the north": halves(fmpq(0), fmpq(5, 2), HALF, 1),
+    "stadium": xa.Outline(
+        [(HALF, fmpq(5, 2)), (HALF, 4), (-HALF, 4), (-HALF, fmpq(5, 2), xa.Around((0, fmpq(5, 2))))]
+    ),
+}
+LOWER = {
+    "circle": xa.Circle((0, 0), HALF),
+    "halves": halves(fmpq(0), fmpq(0), HALF, 0),
+    "diamond": xa.Polygon([(HALF, 0), (0, HALF), (-HALF, 0), (0, -HALF)]),
+    "box": xa.Polygon([(HALF, 0), (HALF, -1), (-HALF, -1), (-HALF, 0)]),
+}
+
+
+@pytest.mark.parametrize("upper", UPPER)
+@pytest.mark.parametrize("lower", LOWER)
+def test_a_link_along_the_boundary_under_the_start(upper: str, lower: str) -> None:
+    """One thing that the ray touches is enough: on one side of it lies the obstacle under the start."""
+    start = (HALF, fmpq(5, 2))
+    scene = xa.Scene([UPPER[upper], LOWER[lower]], start=start, radius=4)
+    assert any(k == 1 for k, _ in xa.isovist(scene, start).seen())
+    least = fmpq(5, 2)
+    assert xa.visibility_graph(scene)["S"][1]["weight"] == least

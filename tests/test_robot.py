@@ -421,3 +421,43 @@ def test_arcs_end_where_they_are_cut() -> None:
     (_, piece) = robot.path
     assert isinstance(piece.curve, Arc) and not piece.curve.ccw and piece.obstacle == 0
     assert robot.length == xa.Length.turns(1) / 2 + 3 or robot.length == 3 + xa.Length.turns("1/4") * 2
+
+
+SQUARE = xa.Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])
+HALF_FROM_NORTH = xa.Outline([(0, 1, xa.Around((0, 0))), (0, -1, xa.Around((0, 0)))])
+HALF_FROM_EAST = xa.Outline([(1, 0, xa.Around((0, 0))), (-1, 0, xa.Around((0, 0)))])
+
+
+@pytest.mark.parametrize(
+    ("obstacles", "start", "goal", "hand", "place"),
+    [
+        ([SQUARE, xa.Polygon([(4, 0), (5, 0), (5, 1), (4, 1)])], (3, 1), (2, 1), "left", (2, 2)),
+        ([HALF_FROM_NORTH, xa.Circle((4, 0), 1)], (2, 0), (1, 0), "left", (0, 1)),
+        ([HALF_FROM_EAST, xa.Circle((4, 0), 1)], (2, 0), (1, 0), "left", (0, 1)),
+        ([xa.Circle((0, 0), 1), xa.Circle((0, 4), 1)], (0, 2), (0, 1), "right", (1, 0)),
+        ([HALF_FROM_NORTH, xa.Circle((0, 4), 1)], (0, 2), (0, 1), "right", (1, 0)),
+    ],
+    ids=["corner", "joint of arcs", "inside an arc", "start of a circle", "arc"],
+)
+def test_a_walk_halts_where_an_edge_begins_as_it_does_inside_one(
+    obstacles: list[object], start: object, goal: object, hand: str, place: object
+) -> None:
+    """What is in sight up to the end of an edge is lost as the next one begins, however edges are drawn."""
+    robot = xa.Robot(xa.Scene(obstacles, start=start, radius=20))
+    robot.go_to(goal)
+    halt = robot.walk(hand, until="lose")
+    assert halt.kind == "event"
+    assert halt.place == xa.Point(*place)
+    assert robot.position == halt.place
+    # It goes on from there: the same place does not count again.
+    assert robot.walk(hand, until="lose").kind != "event" or robot.position != halt.place
+    assert robot.walk(hand).kind == "round"
+
+
+def test_a_straight_way_halts_at_a_corner_that_it_touches() -> None:
+    wall = xa.Polygon([(2, -1), (4, -1), (4, 0), (2, 0)])
+    low = xa.Polygon([(1, -4), (5, -4), (5, -3), (1, -3)])
+    robot = xa.Robot(xa.Scene([wall, low], start=(0, 0), radius=20))
+    halt = robot.go_to((8, 0), until="lose")
+    assert (halt.kind.value, halt.place) == ("event", xa.Point(2, 0))
+    assert robot.go_to((8, 0), until="regain").kind == "event"

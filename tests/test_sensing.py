@@ -472,3 +472,21 @@ def test_a_line_past_two_corners_ends_at_a_wall_that_is_just_out_of_reach_of_one
     chart = walked(Scene(shapes), Q(5), (5, 6), (4, 5)).after(1)
     assert not chart.knows(1, Point(0, 7))
     assert chart.knows(1, Point(1, Q(13, 2)))
+
+
+@pytest.mark.parametrize("bend", [0, xa.Around((Q(1, 2), 0), ccw=False)], ids=["edges", "cusp"])
+def test_a_single_view_past_a_tip(bend: object) -> None:
+    """From (5, sqrt 2) alone a line touches two discs on one side and passes a tip on its other side.
+
+    A tip that is a cusp, whose edges leave it side by side, was taken for a place where the line enters.
+    """
+    tip = [(1, 0, xa.Around((0, 0))), (0, 1), (0, Q(1, 2))]
+    horn = Outline([*tip, (Q(1, 2), Q(1, 2), bend)] if bend else [(1, 0), *tip[1:], (Q(1, 2), Q(2, 5))])
+    scene = Scene([Circle((Q(-1, 2), 0), Q(1, 2)), Circle((4, 0), 1), horn], start=(5, 3), radius=Q(13, 2))
+    run = xa.explore(scene, lambda robot: robot.go_to((5, 1)))
+    seen = Point(Q(-1, 3), -Real(2).sqrt() / 3)
+    assert isovist(scene, Point(5, Real(2).sqrt()), Q(13, 2)).contains(seen)
+    assert run.map.knows(0, seen)
+    here = [event for event in run.events if event.obstacle == 0]
+    assert [event.kind for event in here] == [EventKind.SIGHT, EventKind.LOSE]
+    assert all(event.point == Point(5, Real(2).sqrt()) for event in here)

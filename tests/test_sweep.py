@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from fractions import Fraction
 from random import Random
 
 import pytest
@@ -284,3 +285,13 @@ def test_from_where_a_tangent_is_normal_to_a_wall_at_the_range(wall: xa.Outline,
         ]
         for mine, its in zip(told, expected, strict=True):
             assert [*map(float, mine.place)] == pytest.approx([*map(float, its.place)], abs=1e-6)
+
+
+@pytest.mark.parametrize("u", [fmpq(1, 2), "1/2", 0.5, Fraction(1, 2)])
+def test_places_of_a_cell_take_any_rational_number(u: object) -> None:
+    disc = Scene([Circle((0, 0), 1), Circle((5, 0), 1)])
+    boundary = sweep(disc, disc.obstacles[0].edges[0], 9, obstacle=0)
+    for swept in (boundary, sweep(disc, Segment(Point(3, 3), Point(4, 4)), 9)):
+        cell = swept.cells[0]
+        assert cell.point(u) == cell.point(fmpq(1, 2))
+        assert cell.windows(u) == cell.windows(fmpq(1, 2))

@@ -144,3 +144,17 @@ def test_nearly_straight_arcs(monkeypatch: pytest.MonkeyPatch) -> None:
     terrain = Terrain(Q("143.915547894"), Q("143.914755001"), corner)
     xa.seed_spreader(Scene(shapes, start=corner, terrain=terrain, radius=60), lookahead=False).sense()
     assert 0 < len(values) < 10_000
+
+
+@pytest.mark.parametrize("off", [0, 1e-17, -3e-17, 1e-16, 1e-12])
+def test_links_past_pins_that_are_nearly_in_a_row_and_their_mirror_images(off: float) -> None:
+    """Their centres are rounded off one line, as of a hexagonal grid that a program draws.
+
+    Of a link that nearly touches both of its ends, floats tell half of the digits of its length. By these it
+    was not taken for the image of another one, and the lengths were roots of two polynomials of degree 20.
+    """
+    low = 0.21666666666666667
+    rows = [(side * x, y) for side in (1, -1) for x, y in ((-0.25, -low), (-0.125, off))]
+    pins = [xa.Circle(center, 0.01125) for center in [*rows, (0, low)]]
+    graph = xa.visibility_graph(Scene(pins), 0.75)
+    assert graph[0][4]["weight"] == graph[2][4]["weight"]

@@ -95,8 +95,8 @@ def test_only_an_obstacle_of_which_more_is_known_is_asked_whether_it_is_whole(
     near: list[int] = []
     ahead = Sensor.ahead
 
-    def looked(self: Sensor, leg: object, retraced: bool = False) -> object:
-        found = ahead(self, leg, retraced)  # type: ignore[arg-type]
+    def looked(self: Sensor, leg: object, *told: object) -> object:
+        found = ahead(self, leg, *told)  # type: ignore[arg-type]
         near.append(0 if found.shares is None else len(found.shares.obstacles))
         return found
 

@@ -111,7 +111,9 @@ def passes(curve: Curve, point: Point) -> bool:
     """Whether a curve contains a point: exactly if it is rational, else to `DIGITS` digits at least."""
     if point is curve.start or point is curve.end:
         return True
-    return curve.passes(point) if point.rational else curve.may_pass(point, BITS)
+    rational = point.rational
+    # Another point: what this one is said to have been made on does not count.
+    return curve.may_pass(point, BITS) if rational is None else curve.passes(Point(*rational))
 
 
 def place_text(point: Point) -> str:
@@ -145,7 +147,7 @@ def is_part(curve: Curve, edge: Curve) -> bool:
     if same(curve.start, edge.start) and same(curve.end, edge.end):
         return curve.full == edge.full
     if curve.full or not all(edge.may_pass(p, 64) and passes(edge, p) for p in (curve.start, curve.end)):
-        return edge.full and edge.on_circle(curve.start)
+        return edge.full and passes(edge, curve.start)
     if edge.full or same(curve.start, edge.start) or same(curve.end, edge.end):
         return True
     reverse = same(curve.start, edge.end) or same(curve.end, edge.start)

@@ -10,6 +10,7 @@ from __future__ import annotations
 from flint import arb, fmpq
 
 from exactacq.cached import cached_property
+from exactacq.geometry.constructions import put_on
 from exactacq.geometry.coordinates import Vector, cross, dot, minus, raw, sign
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.late import BITS, Balls, ball_of, balls
@@ -52,6 +53,8 @@ class Rail:
         last, u = self._last
         if point is not last:
             u = self._fractions.of(point) if isinstance(self.curve, Segment) else self._turns.of(point)
+            if isinstance(self.curve, Arc) and u.is_late:
+                put_on(point, self.curve.carrier)
             if not point.is_late:
                 # A late one may know the rail.
                 self._last = point, u

@@ -13,6 +13,7 @@ from typing import TypeAlias
 from flint import arb, fmpq
 
 from exactacq.cached import cached_property
+from exactacq.geometry.constructions import Carrier, is_put_on
 from exactacq.geometry.geo import Geo, line_string
 from exactacq.geometry.late import Balls, from_to
 from exactacq.geometry.points import Orientation, Point, distance, orientation
@@ -218,6 +219,12 @@ class Arc:
         return cls(east, east, center, radius_sq, ccw=True, full=True)
 
     @cached_property
+    def carrier(self) -> Carrier | None:
+        """The supporting circle if its centre and squared radius are rational, as those of boundaries."""
+        center, square = self.center.rational, Real(self.radius_sq).rational
+        return None if center is None or square is None else (*center, square)
+
+    @cached_property
     def radius(self) -> Real:
         """Radius of the supporting circle."""
         return Real(self.radius_sq).sqrt()
@@ -257,6 +264,8 @@ class Arc:
         >>> Arc.from_bulge(Point(1, 0), Point(-1, 0), fmpq(1)).on_circle(Point(0, -1))
         True
         """
+        if is_put_on(point, self.carrier):
+            return True
         return (point - self.center).norm_sq().compare(self.radius_sq) == 0
 
     def passes(self, point: Point) -> bool:

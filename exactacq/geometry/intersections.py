@@ -17,6 +17,7 @@ from typing import Any, TypeAlias
 
 from flint import fmpq
 
+from exactacq.geometry.constructions import is_put_on, is_put_on_tangent, put_on
 from exactacq.geometry.coordinates import (
     Vector,
     advance,
@@ -86,7 +87,7 @@ def spans(arc: Arc, direction: Vector, strict: bool = False) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class _LineHit:
-    """Where a line meets a curve: the parameter on the line, the curve's end if it is one, tangency."""
+    """Where a line meets a curve: the parameter on the line, the point if it is known, tangency."""
 
     parameter: Any
     end: Point | None = None
@@ -110,6 +111,8 @@ def line_points(origin: Point, direction: Point, curve: Curve, on: Touched = ())
     """
     start, way = raw(origin), raw(direction)
     hits = _line_hits(start, way, curve, on)
+    if isinstance(curve, Arc):
+        return [_made(start, way, hit.parameter, curve) if hit.end is None else hit.end for hit in hits]
     return [advance(start, way, hit.parameter) if hit.end is None else hit.end for hit in hits]
 
 
@@ -154,13 +157,20 @@ def _line_arc(origin: Vector, direction: Vector, arc: Arc, on: Touched) -> list[
 
     The discriminant is A r^2 - (d x w)^2. If an end of the arc lies on the line it is one root and -2B/A
     less that root is the other. Otherwise the line misses both ends, and a root is on the arc if it is on the
-    arc's side of the chord, where the sign is never 0.
+    arc's side of the chord, where the sign is never 0. A point of the line that was made on the circle is a
+    root, too.
     """
     w = minus(origin, raw(arc.center))
     height = cross(direction, w)
     square = dot(direction, direction)
     discriminant = square * arc.radius_sq - height * height
-    count = 1 if _touches(on, arc) else sign(discriminant) + 1
+    made = [p for p in on if isinstance(p, Point) and is_put_on(p, arc.carrier)]
+    if _touches(on, arc):
+        count = 1
+    elif made:
+        count = 2 if sign(dot(minus(raw(made[0]), raw(arc.center)), direction)) else 1
+    else:
+        count = sign(discriminant) + 1
     if count == 0:
         return []
     middle = -dot(w, direction) / square
@@ -173,6 +183,10 @@ def _line_arc(origin: Vector, direction: Vector, arc: Arc, on: Touched) -> list[
         first = _LineHit(ratio(v, direction), p, tangent=count == 1)
         other = 2 * middle - first.parameter
         return [first, _LineHit(other)] if count == 2 and _spans_at(arc, w, direction, other) else [first]
+    if made:
+        first = _LineHit(ratio(minus(raw(made[0]), origin), direction), made[0], tangent=count == 1)
+        roots = [first, _LineHit(2 * middle - first.parameter)][:count]
+        return [hit for hit in roots if _spans_at(arc, w, direction, hit.parameter)]
     if count == 1:
         return [_LineHit(middle, tangent=True)] if _spans_at(arc, w, direction, middle) else []
     half = Real(discriminant).sqrt() / square
@@ -251,6 +265,8 @@ def _collinear(a: Segment, b: Segment) -> list[Contact]:
 def _segment_arc(segment: Segment, arc: Arc, on: Touched) -> list[Contact]:
     origin = raw(segment.start)
     direction = minus(raw(segment.end), origin)
+    if is_made_touching(segment, arc):
+        on = (arc, *on)
     found = []
     for hit in _line_arc(origin, direction, arc, on):
         after = 0 if hit.end is segment.start else sign(hit.parameter)
@@ -258,9 +274,24 @@ def _segment_arc(segment: Segment, arc: Arc, on: Touched) -> list[Contact]:
         if after < 0 or before < 0:
             continue
         end = segment.start if after == 0 else segment.end if before == 0 else hit.end
-        kind = ContactKind.TOUCHING if end is not None or hit.tangent else ContactKind.CROSSING
-        found.append(_at(kind, advance(origin, direction, hit.parameter) if end is None else end))
+        is_end = end is segment.start or end is segment.end or end is arc.start or end is arc.end
+        kind = ContactKind.TOUCHING if is_end or hit.tangent else ContactKind.CROSSING
+        found.append(_at(kind, _made(origin, direction, hit.parameter, arc) if end is None else end))
     return found
+
+
+def is_made_touching(segment: Segment, arc: Arc) -> bool:
+    """Whether one end of a segment was made on the line from the other that touches an arc's circle."""
+    start, end, carrier = segment.start, segment.end, arc.carrier
+    return is_put_on_tangent(end, start, carrier) or is_put_on_tangent(start, end, carrier)
+
+
+def _made(origin: Vector, direction: Vector, parameter: Any, arc: Arc) -> Point:
+    """The point of a line at a parameter, where it meets an arc."""
+    point = advance(origin, direction, parameter)
+    if not isinstance(parameter, fmpq):
+        put_on(point, arc.carrier)
+    return point
 
 
 def _arcs(a: Arc, b: Arc) -> list[Contact]:
@@ -283,6 +314,9 @@ def _arcs(a: Arc, b: Arc) -> list[Contact]:
     ends = [p for arc in (a, b) if not arc.full for p in (arc.start, arc.end)]
     for h in (height, -height)[:count]:
         point = advance(foot, (-d[1], d[0]), h)
+        if h.rational is None:
+            put_on(point, a.carrier)
+            put_on(point, b.carrier)
         end = next((p for p in ends if p == point), None)
         if all(_on_arc(arc, point, end) for arc in (a, b)):
             kind = ContactKind.CROSSING if end is None and count == 2 else ContactKind.TOUCHING

@@ -12,6 +12,7 @@ from enum import Enum
 from flint import fmpq
 
 from exactacq.cached import cached_property
+from exactacq.geometry.constructions import put_on
 from exactacq.geometry.coordinates import Vector, advance, cross, dot, minus, raw, sign, square_root
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import common_angles, spans
@@ -132,7 +133,9 @@ def _projected(arc: Arc, point: Point) -> Point:
     """The point of the supporting circle on the ray from the centre through a point."""
     center = raw(arc.center)
     ray = minus(raw(point), center)
-    return advance(center, ray, square_root(arc.radius_sq / dot(ray, ray)))
+    foot = advance(center, ray, square_root(arc.radius_sq / dot(ray, ray)))
+    put_on(foot, arc.carrier)
+    return foot
 
 
 def _parallel(a: Segment, b: Segment) -> NearestFamily | None:

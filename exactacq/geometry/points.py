@@ -42,8 +42,9 @@ class Point:
     Point(1, 1)
     """
 
-    __slots__ = ("_xy", "x", "y")
+    __slots__ = ("_facts", "_xy", "x", "y")
     _xy: tuple[float, float]
+    _facts: tuple[tuple[object, ...], ...]  # see `exactacq.geometry.constructions`
 
     def __init__(self, x: object, y: object) -> None:
         self.x = x if isinstance(x, Real) else real(x) if type(x) is fmpq else Real(x)

@@ -26,8 +26,10 @@ from exactacq.numbers.between import rational_between
 from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.rationals import ends
 from exactacq.numbers.real import Real
-from exactacq.sensing.leg_views import Shares
+from exactacq.sensing.leg_facts import rays_along
+from exactacq.sensing.leg_views import Share, Shares
 from exactacq.sensing.legs import Leg
+from exactacq.visibility.place_facts import Alignment
 
 BITS = 64
 """Precision of the balls that part places: that of late numbers, so none is made."""
@@ -53,6 +55,7 @@ class Acquisition:
         self._last = shares.last_shown(k, before)
         edges, (self._low, self._high), _ = self._last
         self._targets = [target for target in shares.targets.of[k] if target.edge in edges]
+        self._reaching: list[Share] = []
 
     @cached_property
     def shares(self) -> Shares:
@@ -86,6 +89,12 @@ class Acquisition:
         distinct = [m for n, m in enumerate(cluster) if n == 0 or leg.order(m[0], cluster[n - 1][0]) > 0]
         (moment,), _ = self._closing([[m] for m in distinct], stretch)
         return moment
+
+    def rays(self, place: Point) -> list[Alignment]:
+        """The rays from the place that was found along which the ends of gaps that close there are seen."""
+        table = self._every.complex.table
+        views = (view for view in self._reaching if view.source.start is place)
+        return [ray for view in views for ray in rays_along(table, view)]
 
     def _closing(self, clusters: list[list[Place]], stretch: Meanwhile) -> tuple[list[Place], Meanwhile]:
         """The first cluster of places of a stretch after which the obstacle is whole; the stretch around it.
@@ -140,7 +149,9 @@ class Acquisition:
                     yield from _at_distance(leg, curve.center, rest * rest)
             for gap in stretch.known.get(e, EMPTY).gaps(span):
                 for u, point in ((gap.low, gap.start), (gap.high, gap.end)):
-                    yield from shares.reaching(k, e, u, point)
+                    for view in shares.reaching(k, e, u, point):
+                        self._reaching.append(view)
+                        yield view.source.low, view.source.start
                     corner = self._corner(e, point)
                     if corner not in corners:
                         yield from self._in_range(leg, point)

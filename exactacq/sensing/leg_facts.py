@@ -6,16 +6,22 @@ known, however complicated its coordinates are.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import replace
 from itertools import chain
 
 from exactacq.cached import cached_property
-from exactacq.geometry.late import balls
+from exactacq.geometry.coordinates import dot
+from exactacq.geometry.late import BITS, balls, from_to
 from exactacq.geometry.points import Point
+from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.end_names import holds
 from exactacq.sensing.leg_views import Share, Shares
 from exactacq.sensing.line_points import Role
 from exactacq.sensing.view_families import End
+from exactacq.visibility.line_balls import line
 from exactacq.visibility.place_facts import (
     NOTHING_KNOWN,
     Alignment,
@@ -69,6 +75,18 @@ class LegFacts:
         """The extreme views."""
         shares = chain.from_iterable(self._shares.of.values())
         return [(end, share) for share in shares for end in (share.family.first, share.family.last)]
+
+
+def rays_along(table: EdgeTable, view: Share) -> Iterator[Alignment]:
+    """The rays along a share's only view, from the leg: the one to what it shows meets just that there."""
+    (end, views), side = (view.family.first, view.family.free_views), view.side
+    if views is None or views.anchor is None:
+        return
+    place, seen = balls(end.points[side]), balls(end.points[1 - side])
+    *_, u, v = line(views.sector, end.t.ball(BITS))
+    ahead = ball_sign(dot(from_to(place, seen), (u, v)))
+    for ray in tangents_from(table, place, views.sector, end.t, [views.anchor]):
+        yield replace(ray, met={view.edge: end.points[1 - side]}) if ray.sense == ahead else ray
 
 
 def _is_at(v: Real, u: Real, tight: bool) -> bool:

@@ -415,14 +415,14 @@ class Shares:
         if interval.low.compare(interval.high) < 0:
             yield self._clipper.rails[e].point(rational_between(interval.low, interval.high))
 
-    def reaching(self, k: int, e: int, u: Real, point: Point) -> Iterator[tuple[Real, Point]]:
-        """Where families show a point of edge *e* of an obstacle, whose parameter is *u*."""
+    def reaching(self, k: int, e: int, u: Real, point: Point) -> Iterator[Share]:
+        """The views that show a point of edge *e* of an obstacle, whose parameter is *u*."""
         single = Interval(u, point, u, point)
         for share in self.of[k]:
             if share.edge == e:
                 family = self._clipper.clipped(share.family, 1 - share.side, single)
                 if family is not None:
-                    yield family.first.places[share.side], family.first.points[share.side]
+                    yield Share.of(family, share.side)
 
 
 def _made_on_edge(complex_: VisibilityComplex, extents: Iterable[Extent]) -> Families:

@@ -12,9 +12,10 @@ import numpy as np
 from exactacq.cached import cached_property
 from exactacq.errors import FormatError
 from exactacq.geometry.box_index import box
+from exactacq.geometry.constructions import is_put_on, put_on_tangent
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve, Segment
-from exactacq.geometry.intersections import ContactKind, contacts
+from exactacq.geometry.intersections import ContactKind, contacts, is_made_touching
 from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.late import Pin, balls
 from exactacq.geometry.points import Point
@@ -86,6 +87,14 @@ class Leg:
             return NOTHING_KNOWN
         assert isinstance(self.rail.curve, Segment), "only lines touch features"
         return PlaceFacts([*along_way(table, balls(place), self.rail.curve, self.touches)])
+
+    def tell_touched(self, table: EdgeTable, place: Point) -> None:
+        """Tell a place which circles the line from the start of a straight way to it touches."""
+        for feature in self.touches:
+            if table.line_numbers.is_circle(feature):
+                arc = table.curves[table.line_numbers.first_arc(feature)]
+                assert isinstance(arc, Arc), "only arcs have circles"
+                put_on_tangent(place, self.start, arc.carrier)
 
     @cached_property
     def box(self) -> tuple[float, float, float, float]:
@@ -211,10 +220,20 @@ def _circles_beside(table: EdgeTable, way: Segment) -> list[int]:
     for number in dict.fromkeys(table.circles[e] for e in near[close].tolist()):
         arc = table.curves[number]
         assert isinstance(arc, Arc)
-        height = way.direction.cross(arc.center - way.start)
-        if _is_zero(height * height - way.direction.norm_sq() * arc.radius_sq):
+        if _touches(way, arc):
             found.append(number)
     return found
+
+
+def _touches(way: Segment, arc: Arc) -> bool:
+    """Whether the line of a way touches an arc's circle: in an end of the way if that was made on it."""
+    if is_made_touching(way, arc):
+        return True
+    for end in (way.start, way.end):
+        if is_put_on(end, arc.carrier):
+            return _is_zero(way.direction.dot(end - arc.center))
+    height = way.direction.cross(arc.center - way.start)
+    return _is_zero(height * height - way.direction.norm_sq() * arc.radius_sq)
 
 
 def _near(table: EdgeTable, way: Segment) -> Ints:

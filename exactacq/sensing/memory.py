@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
 from flint import fmpq
@@ -55,6 +55,19 @@ class Report:
     def event(self, path: Path) -> Event:
         """The event on the whole path."""
         return Event(self.kind, self.place, self.obstacle, self.after, path, self.inside, reason=self.reason)
+
+
+def _facts_told(ahead: Ahead | None, place: Point) -> PlaceFacts:
+    """What a leg that was looked along tells of the view from where the robot halts on it.
+
+    It halts as something happens there: so families of views end there, or what they show.
+    """
+    here = [] if ahead is None else [notice for notice in ahead.notices if notice.place is place]
+    if ahead is None or ahead.shares is None or not here:
+        return NOTHING_KNOWN
+    facts = LegFacts(ahead.shares).at(here[0].u, place)
+    rays = [ray for notice in here for ray in notice.rays]
+    return replace(facts, rays=[*facts.rays, *rays]) if rays else facts
 
 
 def _report(notice: Notice, leg: int, after: int, inside: bool) -> Report:
@@ -154,6 +167,7 @@ class Memory:
         self._retraced: set[int] = set()
         self._history = History()
         self._news: set[int] = set()
+        self._facts: tuple[Leg | None, LegFacts | None] = None, None
         self._legs: list[list[Leg]] = []
         # The number of legs before every piece, and of all.
         self._before = [0]
@@ -186,7 +200,10 @@ class Memory:
         legs = [ahead.leg] if ahead is not None and known is piece else self._legs_of(piece)
         count, reports, retraced = len(self._legs), [], self._is_retraced(piece, legs)
         for k, leg in enumerate(legs):
-            took = ahead if ahead is not None and leg is ahead.leg else self._sensor.ahead(leg, retraced)
+            if ahead is not None and leg is ahead.leg:
+                took = ahead
+            else:
+                took = self._sensor.ahead(leg, retraced, _facts_told(ahead, leg.end))
             notices, learned = self._sensor.follow(took)
             self._learn(learned)
             for n in notices:
@@ -250,8 +267,12 @@ class Memory:
     def ahead(self, piece: Piece) -> Ahead:
         """What a piece that is one leg will tell when it is walked next."""
         (leg,) = self._legs_of(piece)
-        self._looked = piece, self._sensor.ahead(leg)
-        return self._looked[1]
+        ahead = self._sensor.ahead(leg)
+        for notice in ahead.notices:
+            # What the way touches, its part to there does.
+            leg.tell_touched(self._table, notice.place)
+        self._looked = piece, ahead
+        return ahead
 
     def map_ahead(self, ahead: Ahead, u: Real, place: Point, obstacles: Set[int]) -> Map:
         """The map of some obstacles as it will be at a place of a piece that was looked along.
@@ -327,7 +348,7 @@ class Memory:
         """The edges through a place inside piece number *count*, and what else is known of the view from it.
 
         Its numbers may not tell, as on a way that touches something between its ends. There it costs what all
-        views of a leg cost.
+        views of a leg cost; those of the last leg are kept.
         """
         found = self._leg_at(count, place)
         if found is None:
@@ -335,7 +356,11 @@ class Memory:
         leg, u = self._legs[count][found[0]], found[1]
         if not leg.touches:
             return leg.own(u), NOTHING_KNOWN
-        return leg.own(u), LegFacts(self._sensor.shares(leg)).at(u, place)
+        kept, facts = self._facts
+        if facts is None or kept is not leg:
+            facts = LegFacts(self._sensor.shares(leg))
+            self._facts = leg, facts
+        return leg.own(u), facts.at(u, place)
 
     def view_after(self, count: int, place: Point) -> tuple[Own, PlaceFacts]:
         """The edges through the place after the first *count* pieces, and what is known of the view there."""

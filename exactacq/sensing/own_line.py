@@ -86,16 +86,26 @@ class OwnLine:
             if e in own and isinstance(curve, Segment):
                 yield e, max((curve.start, curve.end), key=lambda p: (p - end).dot(onward))
                 continue
-            for share in _again(end, onward, curve) if e in own else line_contacts(end, onward, curve):
-                if share.sign() > 0:
-                    point = end + onward * share
-                    rail = self.way.clipper.rails[e]
-                    u = rail.parameter(point)
-                    # A full circle's start is at 0 and at the top.
-                    full = isinstance(curve, Arc) and curve.full
-                    places = [u, rail.top] if full and u.sign() == 0 else [u]
-                    if any(Cover(tuple(view.spans[e])).contains(place) for place in places):
-                        yield e, point
+            for point in self._met(e, end, onward, is_own=e in own):
+                rail = self.way.clipper.rails[e]
+                u = rail.parameter(point)
+                # A full circle's start is at 0 and at the top.
+                full = isinstance(curve, Arc) and curve.full
+                places = [u, rail.top] if full and u.sign() == 0 else [u]
+                if any(Cover(tuple(view.spans[e])).contains(place) for place in places):
+                    yield e, point
+
+    def _met(self, e: int, end: Point, onward: Point, is_own: bool) -> Iterator[Point]:
+        """Where the way's line meets an edge beyond an end; *is_own* if the edge passes the end."""
+        curve, circle = self.table.curves[e], self.table.line_numbers.feature(e, True)
+        if isinstance(curve, Arc) and circle in self.way.touches:
+            foot = self.way.foot_on(circle)[0]
+            if foot is not end and (foot - end).dot(onward).sign() > 0 and curve.contains(foot):
+                yield foot
+            return
+        for share in _again(end, onward, curve) if is_own else line_contacts(end, onward, curve):
+            if share.sign() > 0:
+                yield end + onward * share
 
     def _leads_on(self, e: int, end: Point, onward: Point) -> bool:
         """Whether an edge through an end is an arc, or straight and along the line."""

@@ -9,6 +9,7 @@ from typing import TypeAlias
 
 from flint import arb, fmpq
 
+from exactacq.geometry.constructions import is_put_on
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import contacts, line_contacts
 from exactacq.geometry.late import Pin, balls, late_point
@@ -35,8 +36,9 @@ from exactacq.visibility.line_balls import line
 from exactacq.visibility.line_families import Rolling, Sector, Sliding, Spokes
 from exactacq.visibility.sensor_range import Range
 
-Candidate: TypeAlias = "tuple[Real, SidePin | None]"
-"""The parameter of a line, and the point of a side there if it is known."""
+Candidate: TypeAlias = "tuple[Real, SidePin | None, bool]"
+"""The parameter of a line, the point of a side there if that is known, and whether the view surely is as long
+as the range."""
 
 
 class RangeEnds:
@@ -71,7 +73,7 @@ class RangeEnds:
                 assert begin is not None
                 yield ViewFamily(edges, begin, end.tightened() if k < len(inside) else end, free_views)
                 begin = None
-            elif not before and not after and self.range.order(*end.points) <= 0:
+            elif not before and not after and self._order(free_views, end) <= 0:
                 yield ViewFamily(edges, end, end, free_views)
 
     def _is_inside(self, free_views: FreeViews, t: fmpq) -> bool:
@@ -152,12 +154,22 @@ class RangeEnds:
                 distinct.append(at)
             elif distinct[-1][1] is None:
                 distinct[-1] = at
-        ends = (self.views.end(free_views, t, known) for t, known in distinct)
-        return [end for end in ends if self._may_be_at_range(end)]
+        ends = ((self.views.end(free_views, t, known), is_tight) for t, known, is_tight in distinct)
+        return [end.tightened() if is_tight else end for end, is_tight in ends if self._may_be_at_range(end)]
 
-    def _longer_at(self, low: End, high: End, t: Real) -> int:
-        """-1, 0 or 1 as the view at one of two ends is shorter than the range, as long or longer."""
-        end = low if t is low.t else high
+    def _order(self, free_views: FreeViews, end: End) -> int:
+        """-1, 0 or 1 as a view is shorter than the range, as long or longer.
+
+        It is as long if its far point was made where the range is reached along the lines.
+        """
+        roles = [side.role for side in free_views.sides]
+        if end.tight:
+            return 0
+        if Role.CONTACT in roles and _meets_rim_once(free_views.sector):
+            square = self._square_from_center(free_views.sector).rational
+            far = end.points[1 - roles.index(Role.CONTACT)]
+            if square is not None and is_put_on(far, (*free_views.sector.center, square)):
+                return 0
         return self.range.order(*end.points)
 
     def _may_be_at_range(self, end: End) -> bool:
@@ -172,12 +184,15 @@ class RangeEnds:
             behind, ahead = curves[Role.BEHIND], curves[Role.AHEAD]
             if _is_rational(behind) and _is_rational(ahead):
                 found = of_length(sector, behind, ahead, self.range.square)
-                yield from ((t, None) for t in found)
+                yield from ((t, None, False) for t in found)
                 return
             is_touched = sector.round and free_views.anchor in self._touched
             way = self.views.rails[-1].curve if is_touched else None
             span = free_views.low, free_views.high
-            longer_at = partial(self._longer_at, low, high)
+
+            def longer_at(t: Real) -> int:
+                return self._order(free_views, low if t is low.t else high)
+
             is_flat = partial(self._is_flat, free_views, low, high)
             center = self._common_center(behind, ahead) or self._common_center(ahead, behind)
             known = [] if center is None else sector.through(center)
@@ -185,20 +200,22 @@ class RangeEnds:
             for t in of_length_on(sector, behind, ahead, square, *span, way, longer_at, known, is_flat):
                 if center is not None and any(t is own for own in known):
                     k = 0 if isinstance(self.views.curve(one.edge), Segment) else 1
-                    yield t, (k, (center, self.views.rails[free_views.sides[k].edge].parameter(center)))
+                    own_end = k, (center, self.views.rails[free_views.sides[k].edge].parameter(center))
+                    yield t, own_end, True
                 else:
-                    yield t, None
+                    yield t, None, True
             return
         k = 1 if one.role is Role.CONTACT else 0
         far = free_views.sides[k]
         if isinstance(sector, Sliding):
-            yield from ((t, None) for t in self._beside(sector, curves[far.role]))
+            yield from ((t, None, True) for t in self._beside(sector, curves[far.role]))
             return
         # An arc that is met twice is seen where the line enters the obstacle. At the other place no view
         # ends: those beside it are all longer than the range, or all shorter.
         for pin in self._rim(Point(*sector.center), self._square_from_center(sector), far.edge):
             for t in sector.through(pin[0]):
-                yield t, (k, pin) if self._is_towards(sector, t, far.role, pin[0]) else None
+                is_told = self._is_towards(sector, t, far.role, pin[0])
+                yield t, (k, pin) if is_told else None, is_told and _meets_rim_once(sector)
 
     def _is_flat(self, free_views: FreeViews, low: End, high: End, t: Real) -> bool:
         """Whether the view at one of two ends is as long as the range, and its length stationary there.
@@ -257,6 +274,14 @@ class RangeEnds:
             away: Real = radius + self.range.radius if sector.outward else radius - self.range.radius
             return away * away
         return Real(self.range.square)
+
+
+def _meets_rim_once(sector: Sector) -> bool:
+    """Whether what lies on a line, and as far from the sector's centre as the range reaches, is at the range.
+
+    A normal through the centre of its arc passes two such places. Parallels have no centre.
+    """
+    return not isinstance(sector, Sliding) and (not isinstance(sector, Spokes) or sector.outward)
 
 
 def _point_of(view: Callable[[], End], k: int) -> Point:

@@ -8,7 +8,7 @@ its two ends (see `view_families`). Only obstacles that are not acquired yet are
 from __future__ import annotations
 
 from collections import ChainMap, deque
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cmp_to_key, partial
 
@@ -28,7 +28,7 @@ from exactacq.sensing.straight_way import StraightWay
 from exactacq.sensing.targets import Targets
 from exactacq.sensing.underway import LegNews, Underway
 from exactacq.sensing.visibility_complex import VisibilityComplex
-from exactacq.visibility.place_facts import NOTHING_KNOWN, PlaceFacts
+from exactacq.visibility.place_facts import NOTHING_KNOWN, Alignment, PlaceFacts
 from exactacq.visibility.sensor_range import Range
 
 VIEWS_KEPT = 64
@@ -39,13 +39,17 @@ ORDER = {kind: k for k, kind in enumerate(SENSED)}
 
 @dataclass(slots=True)
 class Notice:
-    """A report from a place of a leg (``u`` on its rail); ``reason`` says why an obstacle was lost."""
+    """A report from a place of a leg (``u`` on its rail); ``reason`` says why an obstacle was lost.
+
+    Along ``rays`` the place sees the ends of the gaps that close there.
+    """
 
     kind: EventKind
     obstacle: int
     u: Real
     place: Point
     reason: Reason | None = None
+    rays: Sequence[Alignment] = ()
 
 
 def _in_order(leg: Leg, a: Notice, b: Notice) -> int:
@@ -83,6 +87,7 @@ class Sensor:
         self._views: deque[Seen] = deque(maxlen=VIEWS_KEPT)
         self._last: LegNews | None = None
         self._here: Point | None = None
+        self._told_of: tuple[Point | None, PlaceFacts] = None, NOTHING_KNOWN
 
     # -- moving ------------------------------------------------------------------------------------
 
@@ -110,8 +115,12 @@ class Sensor:
         self._here = ahead.leg.end
         return self._settle(ahead.notices, ahead.learned)
 
-    def ahead(self, leg: Leg, retraced: bool = False) -> Ahead:
-        """What moving along a leg will tell; nothing is learned where the robot has been (*retraced*)."""
+    def ahead(self, leg: Leg, retraced: bool = False, facts: PlaceFacts = NOTHING_KNOWN) -> Ahead:
+        """What moving along a leg will tell; nothing is learned where the robot has been (*retraced*).
+
+        *facts* are what is known of the view from its end.
+        """
+        self._told_of = leg.end, facts
         obstacles = self._near(leg) - self.acquired
         shares = None
         if obstacles:
@@ -207,7 +216,9 @@ class Sensor:
         for kept in self._views:
             if kept.place is place:
                 return kept
-        made = Seen(self.table, self.rails, place, self.range, own, facts())
+        end, told = self._told_of
+        known = told if place is end and told is not NOTHING_KNOWN else facts()
+        made = Seen(self.table, self.rails, place, self.range, own, known)
         self._views.appendleft(made)
         return made
 
@@ -243,4 +254,6 @@ class Sensor:
         """When an obstacle that is wholly known after a leg became so."""
         leg = shares.leg
         seen = self._with_view(self._view(leg.start, leg.own(leg.first)), [k])
-        return Notice(EventKind.ACQUIRE, k, *Acquisition(shares, k, ChainMap(seen, self.covers)).place())
+        acquisition = Acquisition(shares, k, ChainMap(seen, self.covers))
+        u, place = acquisition.place()
+        return Notice(EventKind.ACQUIRE, k, u, place, rays=acquisition.rays(place))

@@ -9,6 +9,7 @@ from typing import TypeAlias
 from flint import fmpq
 
 from exactacq.cached import cached_property
+from exactacq.geometry.constructions import is_put_on
 from exactacq.geometry.curve_images import curve_image
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.late import Pin
@@ -78,8 +79,12 @@ class StraightWay:
             first = self.table.line_numbers.first_arc(circle)
             arc = self.table.curves[first]
             assert isinstance(arc, Arc), "only arcs have circles"
-            place = self.foot(arc.center)
-            pin = self._feet[circle] = place, self.rail.parameter(place)
+            # An end that was made on the circle is the foot: its numbers might take long to tell.
+            pin = next((end for end in self.ends if is_put_on(end[0], arc.carrier)), None)
+            if pin is None:
+                foot = self.foot(arc.center)
+                pin = foot, self.rail.parameter(foot)
+            self._feet[circle], place = pin, pin[0]
             for e in self.table.on_circle_of(first):
                 if self.table.curves[e].contains(place):
                     on_arc = place, self.clipper.rails[e].parameter(place)

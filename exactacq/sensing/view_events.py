@@ -24,6 +24,7 @@ from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
 from exactacq.kernel.leg_changes import BEGINS, TURNS, AtEnd, Turn
+from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.scene import Scene, radius_of
@@ -100,9 +101,9 @@ class SweepCell:
         """What the parameters belong to."""
         return self.views.leg.rail
 
-    def point(self, u: fmpq) -> Point:
+    def point(self, u: object) -> Point:
         """The place at a rational parameter."""
-        return self.rail.point(u)
+        return self.rail.point(rational(u))
 
     @cached_property
     def map(self) -> Map:
@@ -114,7 +115,7 @@ class SweepCell:
         rails = shares.complex.clipper.rails
         return Map(self.scene.obstacles, shares.targets, rails, shares.cut(part).taught({}))
 
-    def windows(self, u: fmpq) -> list[tuple[Point, Point | None]]:
+    def windows(self, u: object) -> list[tuple[Point, Point | None]]:
         """The windows of the view at a rational parameter: the touched point, and the point seen beyond it.
 
         The latter is None if it is out of range. A view along the robot's own line is no window here. What is
@@ -122,7 +123,7 @@ class SweepCell:
         """
         touched: list[Point] = []
         found: list[tuple[Point, Point | None]] = []
-        for share in self.views.sights.bounding(Real(u), self.point(u)):
+        for share in self.views.sights.bounding(Real(rational(u)), self.point(u)):
             free_views = share.family.free_views
             assert free_views is not None, "what bounds a view touches something"
             near, seen = free_views.sector.touch(share.family.first.t)[0], share.shown.start

@@ -124,7 +124,7 @@ class Robot(Observer):
             walker.go_straight(START, end)
         elif end != here:
             for part in walker.memory.parts(Segment(here, end)):
-                sighting = self._walk_until(Piece("straight", None, part), kinds)
+                sighting = self._walk_until(Piece("straight", None, part), kinds, here)
                 if sighting is not None:
                     kind = HaltKind.EVENT
                     break
@@ -175,7 +175,7 @@ class Robot(Observer):
             lap = self._lap = Lap(walker.boundary(), here, hand == "left")
         while lap.rest:
             ends_here, curve = lap.next(target)
-            sighting = self._walk_along(Piece("boundary", obstacle, curve), kinds)
+            sighting = self._walk_along(Piece("boundary", obstacle, curve), kinds, here)
             lap.walked(walker.position)
             if not lap.rest:
                 self._lap = None
@@ -436,11 +436,14 @@ class Robot(Observer):
 
         return min(ways, key=cmp_to_key(order))[2:]
 
-    def _walk_along(self, piece: Piece, kinds: Collection[EventKind]) -> Sighting | None:
-        """Walk a piece, or up to the first sighting of one of some kinds, which is returned."""
+    def _walk_along(self, piece: Piece, kinds: Collection[EventKind], start: Point) -> Sighting | None:
+        """Walk a piece, or up to the first sighting of one of some kinds, which is returned.
+
+        The robot set out from *start*: a sighting there does not count.
+        """
         if kinds:
             for part in self._walker.memory.divided(piece):
-                sighting = self._walk_until(part, kinds)
+                sighting = self._walk_until(part, kinds, start)
                 if sighting is not None:
                     return sighting
             return None
@@ -448,18 +451,25 @@ class Robot(Observer):
         self._walker.position = piece.end
         return None
 
-    def _walk_until(self, piece: Piece, kinds: Collection[EventKind]) -> Sighting | None:
+    def _walk_until(self, piece: Piece, kinds: Collection[EventKind], start: Point) -> Sighting | None:
         """Walk a piece that is one leg, or up to the first such sighting."""
         walker, found = self._walker, None
         ahead = walker.memory.ahead(piece)
         leg, own = ahead.leg, dict(self._own)
         for notice in ahead.notices:
             number = own.setdefault(notice.obstacle, len(own))
-            if notice.kind in kinds and leg.order(notice.u, leg.first) > 0:
-                found = Sighting(notice.kind, number, notice.place, notice.reason)
-                if leg.order(notice.u, leg.last) < 0:
-                    piece = Piece(piece.kind, piece.obstacle, _upto(piece.curve, notice.place))
-                break
+            if notice.kind not in kinds:
+                continue
+            is_at_start = leg.order(notice.u, leg.first) == 0
+            if is_at_start and walker.position is start:
+                continue
+            found = Sighting(notice.kind, number, notice.place, notice.reason)
+            if is_at_start:
+                # What was in sight to the end of the leg before is lost as this one begins.
+                return found
+            if leg.order(notice.u, leg.last) < 0:
+                piece = Piece(piece.kind, piece.obstacle, _upto(piece.curve, notice.place))
+            break
         walker.move(piece)
         walker.position = piece.end
         return found

@@ -12,10 +12,9 @@ from __future__ import annotations
 
 from collections import defaultdict
 from dataclasses import dataclass, field
-from math import isclose
 from typing import NamedTuple
 
-from flint import fmpq
+from flint import arb, fmpq
 
 from exactacq.geometry.coordinates import Vector, cross, dot
 from exactacq.geometry.curves import Arc, Curve
@@ -28,8 +27,8 @@ from exactacq.visibility.line_balls import LONG, line, long_frame
 from exactacq.visibility.line_families import Sector
 
 NO_AXIS: Vector = (fmpq(0), fmpq(0))
-CLOSE = 1e-9
-"""Lengths whose floats differ by more are not equal; those of others may be."""
+BITS = 64
+"""Precision of the balls that tell which lengths are not equal."""
 
 
 class _Figure(NamedTuple):
@@ -85,19 +84,19 @@ class CongruentChords:
     met: defaultdict[tuple[object, ...], list[_Stationary]] = field(default_factory=lambda: defaultdict(list))
 
     def chord(
-        self, sector: Sector, t: Real, candidates: list[Real], ends: tuple[Curve, Curve], length: float
+        self, sector: Sector, t: Real, candidates: list[Real], ends: tuple[Curve, Curve], length: arb
     ) -> Chord:
         """The chord at a parameter, as the image of one that was met before if it is one.
 
         *candidates* are all roots of the sector's polynomial, *t* one of them, *ends* the chord's edges; the
-        *length* is about the chord's.
+        *length* is a ball around the chord's, which is wide where the line nearly touches these.
         """
         figure = _figure(sector, *ends)
         if figure is None:
             return chord_at(sector, t, *ends)
         for key, mirrors in ((figure.key, False), (figure.mirrored, True)):
             for other in self.met.get(key, ()):
-                if not isclose(float(other.chord.length), length, rel_tol=CLOSE):
+                if not other.chord.length.ball(BITS).overlaps(length):
                     continue
                 isometry = _isometry(figure, other.figure, mirrors)
                 if isometry is not None and _is_image(sector, t, isometry, other):

@@ -20,6 +20,7 @@ from typing import Any
 
 from flint import arb, fmpq
 
+from exactacq.geometry.constructions import put_on, put_on_tangent
 from exactacq.geometry.coordinates import Vector, advance, cross, dot, minus, raw, sign, square_root
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import spans
@@ -88,12 +89,19 @@ class _Touch:
     times as long as the way. Where the tangent is a known *ray*, it gives direction and point.
     """
 
-    __slots__ = ("_vector", "arc", "around", "circle", "origin", "ray", "side")
+    __slots__ = ("_vector", "arc", "around", "circle", "origin", "place", "ray", "side")
 
     def __init__(
-        self, origin: Vector, around: Balls, arc: Arc, side: int, circle: int, ray: Alignment | None
+        self,
+        place: Point,
+        origin: Vector,
+        around: Balls,
+        arc: Arc,
+        side: int,
+        circle: int,
+        ray: Alignment | None,
     ) -> None:
-        self.origin, self.around, self.arc, self.side = origin, around, arc, side
+        self.place, self.origin, self.around, self.arc, self.side = place, origin, around, arc, side
         self.circle, self.ray = circle, ray
         self._vector: Vector | None = None
 
@@ -118,7 +126,10 @@ class _Touch:
         square = dot(w, w)
         excess = square - radius_sq
         u, v = _tangent(w, excess, (excess * radius_sq).sqrt() * self.side)
-        return late_point((x + u / square, y + v / square), self._point), (u, v)
+        touch = late_point((x + u / square, y + v / square), self._point)
+        put_on(touch, self.arc.carrier)
+        put_on_tangent(touch, self.place, self.arc.carrier)
+        return touch, (u, v)
 
     def long(self) -> Balls:
         """Long balls around the direction."""
@@ -399,7 +410,9 @@ class FrontFaces:
         arc = self.table.curves[e]
         assert isinstance(arc, Arc)
         circle = self.table.line_numbers.feature(e, True)
-        touch = _Touch(self.origin, self.around, arc, side, circle, self._rays.get((circle, -side)))
+        touch = _Touch(
+            self.point, self.origin, self.around, arc, side, circle, self._rays.get((circle, -side))
+        )
         return SweepEnd(touch.found, touch.vector, touch.long, e, -side)
 
     # -- the point's own edges ---------------------------------------------------------------------

@@ -355,7 +355,7 @@ class Links:
                 if behind is None or length is None:
                     yield chord_at(sector, t, behind, ahead)
                 else:
-                    yield self._congruent.chord(sector, t, stationary, (behind, ahead), float(length.mid()))
+                    yield self._congruent.chord(sector, t, stationary, (behind, ahead), length)
 
     # -- from the start ----------------------------------------------------------------------------
 

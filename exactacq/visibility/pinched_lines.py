@@ -14,7 +14,6 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from exactacq.geometry.coordinates import cross, sign
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.points import Point
 from exactacq.kernel.grazing_lines import OPEN, YES
@@ -24,7 +23,7 @@ from exactacq.kernel.lines import line_at
 from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.visibility.features import Feature, corners_of_segments, leaving
+from exactacq.visibility.features import Feature, Joint, corners_of_segments, joint, leaving
 from exactacq.visibility.line_families import Sector
 from exactacq.visibility.rotational_sweep import Passed
 
@@ -126,4 +125,5 @@ class TangentLine:
         on = self.direction.cross(Point(*after)).clear_sign(BITS)
         if not (back and on):
             return None
-        return on if back == on and sign(cross(before, after)) > 0 else 0
+        is_touched = back == on and joint(incoming, outgoing, before, after) is Joint.CONVEX
+        return on if is_touched else 0

@@ -14,6 +14,7 @@ from operator import itemgetter
 
 from flint import arb, fmpq
 
+from exactacq.geometry.constructions import put_on_tangent
 from exactacq.geometry.coordinates import Vector, advance, cross, minus, raw, sign
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.late import Balls, balls, late_point
@@ -238,8 +239,10 @@ class RadialSweep:
         curve = self.table.curves[e]
         if faces.has_rays and (ray := faces.ray(self.events(rank))) is not None:
             known = ray.met.get(e)
-            return _hit(curve, ray.contact, False, ray.direction) if known is None else known
-        return _hit(curve, faces.point, e in faces.own, self.direction(rank))
+            if known is not None:
+                return known
+            return self._touching(_hit(curve, ray.contact, False, ray.direction), rank)
+        return self._touching(_hit(curve, faces.point, e in faces.own, self.direction(rank)), rank)
 
     def late_hit(self, face: int, rank: int) -> Point:
         """The point of a face in the direction of a rank that it covers, made when it is looked into."""
@@ -250,7 +253,17 @@ class RadialSweep:
             return self.hit(face, rank)
         vector, make = faces.late_offset(group[0])
         around = _ball_hit(curve, faces.around, own, vector)
-        return late_point(around, _made_hit, curve, faces.point, own, make)
+        return self._touching(late_point(around, _made_hit, curve, faces.point, own, make), rank)
+
+    def _touching(self, hit: Point, rank: int) -> Point:
+        """A point that was made in the direction of a rank, told which circles the line to it touches."""
+        faces, count = self.faces, len(self.table.vertices)
+        for event in self.events(rank):
+            if event >= count:
+                arc = self.table.curves[faces.mark(event).edge]
+                assert isinstance(arc, Arc), "what is no vertex is the tangent of an arc"
+                put_on_tangent(hit, faces.point, arc.carrier)
+        return hit
 
     def covering(self, rank: int) -> list[int]:
         """The faces that cover a rank's direction and do not end there."""

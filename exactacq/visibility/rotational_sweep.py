@@ -190,19 +190,33 @@ def swept(
     is_inward = frame.kind == SPOKES and frame.sense < 0
     through = table.edges_at(Point(*sector.center)) if is_inward else ()
     first, last = ends
+    broken = list(_break_events(table, sector, breaks, through)) if breaks or through else []
     sweep = PencilSweep(
         # A tangent of a circle meets none of its arcs but at the contact.
         Surroundings(near, frame, table.on_circle_of(own[0]) if sector.round else own),
         known_line(*low, [(first, 0, 0)] if near.has_vertex(first) else [], sector.low),
         known_line(*high, [(last, 0, 0)] if near.has_vertex(last) else [], sector.high),
-        list(_break_events(table, sector, breaks, through)) if breaks or through else [],
+        broken,
         table.following[own[0]] if len(own) == 2 else NOTHING,
         bool(through),
         None if breaks or vertex == NOTHING else _on_lattice(table, sector, frame.kind, vertex),
     )
     if sweep.stage != DONE:
         _Decisions(table, sector, own, through, sweep).make()
-    return Pencil(table, sector, sweep.rows, sweep.pinched)
+    if not breaks:
+        return Pencil(table, sector, sweep.rows, sweep.pinched)
+    return Pencil(table, sector, sweep.rows, [b for b in sweep.bounds if _is_pinched(b, broken)])
+
+
+def _is_pinched(bound: BoundLine, broken: Sequence[BoundLine]) -> bool:
+    """Whether no line beside one may be free as far: it passes several things, or one along a break.
+
+    On one side of a break lines lead into the obstacle at the contact. A line that floats do not part from a
+    break counts.
+    """
+    if bound.passes_several:
+        return True
+    return bool(bound.passed) and any(bound.low <= b.high and b.low <= bound.high for b in broken)
 
 
 def _on_lattice(table: EdgeTable, sector: Sector, kind: int, vertex: int) -> LatticeLines | None:

@@ -1,0 +1,133 @@
+"""Points that know how they were made: what arithmetic need not prove, and that no more is taken for known.
+
+The strategies go from place to place where the last of an arc is seen, or where its nearest point is: the
+numbers of each are made of those of the one before.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from flint import fmpq
+
+import exactacq as xa
+from exactacq import Circle, Point, Scene, Segment
+from exactacq.auditing import comparisons
+from exactacq.geometry.constructions import is_put_on, put_on, put_on_tangent
+from exactacq.geometry.curves import Arc
+from exactacq.geometry.intersections import ContactKind, contacts
+from exactacq.numbers import tower
+
+HERE = Path(__file__).parent
+UNIT = Arc.circle(Point(0, 0), fmpq(1))
+ROOT3 = xa.Real(3).sqrt()
+FAR = Point(3, 0)
+
+
+@contextmanager
+def work_in_fields(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[float]]:
+    """What numbers cost that are computed in their fields: of ties that nothing simpler decides."""
+    spent: list[float] = []
+    plain = tower.Tower._spend
+
+    def counted(self: tower.Tower, work: float) -> None:
+        spent.append(work)
+        plain(self, work)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(tower.Tower, "_spend", counted)
+        yield spent
+
+
+def test_a_point_knows_the_circles_that_it_was_made_on() -> None:
+    (contact, _) = contacts(Segment(FAR, Point(-3, 1)), UNIT)
+    assert is_put_on(contact.start, UNIT.carrier)
+    assert not is_put_on(Point(*contact.start), UNIT.carrier)
+    assert not is_put_on(contact.start, Arc.circle(Point(0, 0), fmpq(2)).carrier)
+    assert UNIT.on_circle(contact.start)
+    assert UNIT.on_circle(Point(*contact.start))
+
+
+def test_where_a_way_ends_on_an_arc_is_no_root_to_be_found() -> None:
+    """A point near the circle that claims to lie on it is believed: so arithmetic is not asked."""
+    liar = Point(fmpq(1, 2), ROOT3 / 2 + fmpq(1, 10**40))
+    way = Segment(Point(2, 3), liar)
+    assert [c.kind for c in contacts(way, UNIT)] == []
+    put_on(liar, UNIT.carrier)
+    (contact,) = contacts(way, UNIT)
+    assert contact.kind is ContactKind.TOUCHING
+    assert contact.start is liar
+
+
+@pytest.mark.parametrize("beyond", [0, 1])
+def test_a_way_through_an_arc_from_a_point_of_it_meets_it_twice(beyond: int) -> None:
+    start = Point(fmpq(1, 2), ROOT3 / 2)
+    put_on(start, UNIT.carrier)
+    across = Segment(start, Point(fmpq(1, 2), -ROOT3 / 2 - beyond))
+    here, there = contacts(across, UNIT)
+    assert here.start is start
+    assert there.start == Point(fmpq(1, 2), -ROOT3 / 2)
+    assert (there.kind is ContactKind.CROSSING) == (beyond > 0)
+
+
+def test_a_line_that_was_made_touching_a_circle_touches_it_once() -> None:
+    """It does so inside the way, or at its end if that was made on the circle."""
+    touch, last = Point(fmpq(1, 2), ROOT3 / 2), Point(-1, ROOT3)
+    origin = Point(2, 0)
+    for end in (touch, last):
+        put_on_tangent(end, origin, UNIT.carrier)
+    put_on(touch, UNIT.carrier)
+    (contact,) = contacts(Segment(origin, last), UNIT)
+    assert contact.kind is ContactKind.TOUCHING
+    assert contact.start == touch
+    (contact,) = contacts(Segment(origin, touch), UNIT)
+    assert contact.start is touch
+
+
+def test_the_audit_does_not_believe_a_point() -> None:
+    for liar in (Point(fmpq(1, 2), fmpq(1, 2)), Point(fmpq(1, 2), ROOT3 / 2 + fmpq(1, 10**40))):
+        put_on(liar, UNIT.carrier)
+        assert UNIT.passes(liar)
+        assert not comparisons.passes(UNIT, liar)
+
+
+def to_nearest(robot: xa.Robot) -> None:
+    """Three times to a nearest known point of an arc; once another pin is in the way."""
+    for x in (7.044, 1, 9.02):
+        near = (robot.map.nearest(i, robot.position) for i in robot.map.seen)
+        robot.go_to(min(near, key=lambda point: abs(point.xy[0] - x)))
+
+
+def to_frontiers(robot: xa.Robot) -> None:
+    """Straight to the last that is seen of something, which lies on an arc or past one, again and again."""
+    for k in range(6):
+        ends = robot.frontier
+        robot.go_to(ends[k % len(ends)][1])
+
+
+PINS = [Circle((x, 0), 1) for x in (0, 5, 10)]
+POSTS = [Circle((fmpq(5, 2), fmpq(1, 10)), fmpq(1, 2)), Circle((fmpq(15, 2), fmpq(-1, 10)), fmpq(1, 2))]
+
+
+@pytest.mark.parametrize("own", [to_nearest, to_frontiers])
+def test_places_made_of_places_decide(
+    own: Callable[[xa.Robot], None], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """That a goal lies on its own arc was asked of numbers with three and more nested roots."""
+    scene = Scene([*PINS, *POSTS], start=(fmpq(5, 2), -2))
+    with work_in_fields(monkeypatch) as spent:
+        run = xa.explore(scene, own, 20)
+        assert len(run.events) > 5
+    assert sum(spent) < 5000
+    xa.audit(run)
+
+
+def test_a_halt_where_a_gap_closes_is_told_along_what_it_closes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """From the halt an end of the gap is seen past an arc. That point was made before, in simpler numbers."""
+    scene = xa.load(HERE / "data" / "issue21.dxf", start=(700, 60))
+    with work_in_fields(monkeypatch) as spent:
+        assert len(xa.explore(scene, "nearest-frontier", 560).events) == 16
+    assert sum(spent) < 5000
