@@ -10,14 +10,29 @@ arithmetic decides. Points that others hand over have none, nor have those that 
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from flint import fmpq
 
 from exactacq.geometry.points import Point
 
-Carrier: TypeAlias = "tuple[fmpq, fmpq, fmpq]"
-"""A circle whose centre and squared radius are rational: both coordinates, then the square."""
+
+class Carrier(NamedTuple):
+    """A circle whose centre and squared radius are rational."""
+
+    x: fmpq
+    y: fmpq
+    square: fmpq
+
+
+class _Tangent(NamedTuple):
+    """The line from a point that touches a circle."""
+
+    origin: Point
+    carrier: Carrier
+
+
+_Fact: TypeAlias = "Carrier | _Tangent"
 
 
 def put_on(point: Point, carrier: Carrier | None) -> None:
@@ -28,20 +43,20 @@ def put_on(point: Point, carrier: Carrier | None) -> None:
 
 def is_put_on(point: Point, carrier: Carrier | None) -> bool:
     """Whether a point was made on a circle; of one that was not, nothing is known."""
-    return carrier is not None and carrier in _facts(point)
+    return any(isinstance(fact, Carrier) and fact == carrier for fact in _facts(point))
 
 
 def put_on_tangent(point: Point, origin: Point, carrier: Carrier | None) -> None:
     """Note that a point was made on the line from another one that touches a circle."""
     if carrier is not None and not is_put_on_tangent(point, origin, carrier):
-        point._facts = (*_facts(point), (origin, carrier))
+        point._facts = (*_facts(point), _Tangent(origin, carrier))
 
 
 def is_put_on_tangent(point: Point, origin: Point, carrier: Carrier | None) -> bool:
     """Whether a point was made on the line from that very object that touches a circle."""
-    facts = (fact for fact in _facts(point) if len(fact) == 2 and fact[0] is origin)
-    return any(fact[1] == carrier for fact in facts)
+    found = (fact for fact in _facts(point) if isinstance(fact, _Tangent) and fact.origin is origin)
+    return any(fact.carrier == carrier for fact in found)
 
 
-def _facts(point: Point) -> tuple[tuple[object, ...], ...]:
+def _facts(point: Point) -> tuple[_Fact, ...]:
     return getattr(point, "_facts", ())

@@ -222,7 +222,7 @@ class Arc:
     def carrier(self) -> Carrier | None:
         """The supporting circle if its centre and squared radius are rational, as those of boundaries."""
         center, square = self.center.rational, Real(self.radius_sq).rational
-        return None if center is None or square is None else (*center, square)
+        return None if center is None or square is None else Carrier(*center, square)
 
     @cached_property
     def radius(self) -> Real:

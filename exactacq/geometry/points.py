@@ -44,7 +44,7 @@ class Point:
 
     __slots__ = ("_facts", "_xy", "x", "y")
     _xy: tuple[float, float]
-    _facts: tuple[tuple[object, ...], ...]  # see `exactacq.geometry.constructions`
+    _facts: tuple[Any, ...]  # see `exactacq.geometry.constructions`
 
     def __init__(self, x: object, y: object) -> None:
         self.x = x if isinstance(x, Real) else real(x) if type(x) is fmpq else Real(x)

@@ -27,6 +27,7 @@ from exactacq.visibility.place_facts import (
     Alignment,
     Hold,
     PlaceFacts,
+    tangents_at,
     tangents_from,
 )
 
@@ -85,7 +86,11 @@ def rays_along(table: EdgeTable, view: Share) -> Iterator[Alignment]:
     place, seen = balls(end.points[side]), balls(end.points[1 - side])
     *_, u, v = line(views.sector, end.t.ball(BITS))
     ahead = ball_sign(dot(from_to(place, seen), (u, v)))
-    for ray in tangents_from(table, place, views.sector, end.t, [views.anchor]):
+    if views.sides[side].role is Role.CONTACT and views.sector.round:
+        rays = tangents_at(views.sector, end.t, views.anchor)
+    else:
+        rays = tangents_from(table, place, views.sector, end.t, [views.anchor])
+    for ray in rays:
         yield replace(ray, met={view.edge: end.points[1 - side]}) if ray.sense == ahead else ray
 
 

@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 from flint import arb, fmpq
 
-from exactacq.geometry.constructions import is_put_on
+from exactacq.geometry.constructions import Carrier, is_put_on
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import contacts, line_contacts
 from exactacq.geometry.late import Pin, balls, late_point
@@ -152,8 +152,9 @@ class RangeEnds:
         for at in found:
             if not distinct or _by_parameter(at, distinct[-1]):
                 distinct.append(at)
-            elif distinct[-1][1] is None:
-                distinct[-1] = at
+            else:
+                t, pin, is_tight = distinct[-1]
+                distinct[-1] = t, at[1] if pin is None else pin, is_tight or at[2]
         ends = ((self.views.end(free_views, t, known), is_tight) for t, known, is_tight in distinct)
         return [end.tightened() if is_tight else end for end, is_tight in ends if self._may_be_at_range(end)]
 
@@ -168,7 +169,7 @@ class RangeEnds:
         if Role.CONTACT in roles and _meets_rim_once(free_views.sector):
             square = self._square_from_center(free_views.sector).rational
             far = end.points[1 - roles.index(Role.CONTACT)]
-            if square is not None and is_put_on(far, (*free_views.sector.center, square)):
+            if square is not None and is_put_on(far, Carrier(*free_views.sector.center, square)):
                 return 0
         return self.range.order(*end.points)
 

@@ -25,7 +25,7 @@ import numpy as np
 from flint import arb, fmpq
 
 from exactacq.cached import cached_property
-from exactacq.geometry.constructions import is_put_on
+from exactacq.geometry.constructions import Carrier, is_put_on
 from exactacq.geometry.coordinates import cross, dot, sign
 from exactacq.geometry.points import Point
 from exactacq.kernel import lines
@@ -211,7 +211,7 @@ class Rolling(Sector):
         """Roots of (k + p) t^2 - 2 q t + (k - p) = 0, k = |e|^2, p and q the components along e and e'."""
         _, along, across = self._frame((point.x, point.y))
         k = Real(dot(self.base, self.base))
-        on_circle = self.is_rational and is_put_on(point, (*self.center, dot(self.base, self.base)))
+        on_circle = self.is_rational and is_put_on(point, Carrier(*self.center, dot(self.base, self.base)))
         square = Real(0) if on_circle else along * along + across * across - k * k
         if square.sign() < 0:
             return []

@@ -93,6 +93,15 @@ def tangents_from(
     return _alignments(table, place, (u, v), partial(sector.touch, t), features, features[0])
 
 
+def tangents_at(sector: Sector, t: Real, circle: int) -> Iterator[Alignment]:
+    """The two rays from a place of a circle, given as a feature, along its tangent: a line of a sector.
+
+    The circle lies to the left of that line.
+    """
+    for sense in (1, -1):
+        yield Alignment(partial(sector.touch, t), sense, circle, frozenset({(circle, sense)}))
+
+
 def along_way(table: EdgeTable, place: Balls, way: Segment, features: Sequence[int]) -> Iterator[Alignment]:
     """The two rays from a place on a straight way along it, whose line touches *features*.
 
