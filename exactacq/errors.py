@@ -86,7 +86,9 @@ class Undecided(ExactacqError, ArithmeticError):
 
     def __init__(self, comparison: str = "", run: Any = None) -> None:
         self.comparison, self.run = comparison, run
-        super().__init__(comparison if run is None else f"{_so_far(run)}: {comparison}; {CURE}")
+        self.is_told = False
+        cure = CURES.get(getattr(run, "strategy", ""), CURE_OF_OWN)
+        super().__init__(comparison if run is None else f"{_so_far(run)}: {comparison}; {cure}")
 
     @property
     def place(self) -> Any:
@@ -104,6 +106,12 @@ class Undecided(ExactacqError, ArithmeticError):
 
 CURE = "a start or a radius close by may decide it"
 """What to try where a run is undecided: ties are exact, so the least change ends them."""
+CURES = dict.fromkeys(("sightseer", "seed-spreader", "nearest-frontier"), CURE)
+CURE_OF_OWN = (
+    "places found from places have longer and longer numbers: going on from a corner, or from "
+    "`map.beside` an end of what is known, makes them short again"
+)
+"""The same, of another strategy: it is the one that picks the places."""
 
 
 def _so_far(run: Any) -> str:
@@ -112,6 +120,32 @@ def _so_far(run: Any) -> str:
     x, y = stop.point.xy
     at = "" if stop.obstacle is None else f" on {list(run.names())[stop.obstacle]}"
     return f"undecided after {float(run.length):.6g} of the path, at ({x:.6g}, {y:.6g}){at}"
+
+
+class deciding:  # noqa: N801  # It is used as a word, as `about`.
+    """Put what is being decided before the numbers of an `Undecided`: *words* with places for *what*.
+
+    Nothing is written unless the comparison fails. The innermost words stay: they are the closest.
+    """
+
+    __slots__ = ("_what", "_words")
+
+    def __init__(self, words: str, *what: Any) -> None:
+        self._words, self._what = words, what
+
+    def __enter__(self) -> None: ...
+
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
+        if isinstance(error, Undecided) and error.run is None and not error.is_told:
+            told = Undecided(f"{self._words.format(*map(_spot, self._what))}: {error.comparison}")
+            told.is_told = True
+            raise told from error
+
+
+def _spot(what: Any) -> str:
+    """A place in six digits, anything else as it is."""
+    spot = getattr(what, "xy", None)
+    return str(what) if spot is None else "({:.6g}, {:.6g})".format(*spot)
 
 
 class AuditError(ExactacqError, AssertionError):

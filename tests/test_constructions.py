@@ -6,6 +6,8 @@ numbers of each are made of those of the one before.
 
 from __future__ import annotations
 
+import copy
+import pickle
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -92,6 +94,19 @@ def test_the_audit_does_not_believe_a_point() -> None:
         put_on(liar, UNIT.carrier)
         assert UNIT.passes(liar)
         assert not comparisons.passes(UNIT, liar)
+
+
+def test_a_copy_knows_nothing() -> None:
+    """A chain of a thousand places, each made from the one before, is written without them."""
+    at = Point(0, 0)
+    for k in range(1000):
+        onward = Point(k + 1, ROOT3)
+        put_on_tangent(onward, at, UNIT.carrier)
+        put_on(onward, UNIT.carrier)
+        at = onward
+    for again in (pickle.loads(pickle.dumps(at)), copy.deepcopy(at)):
+        assert again == at
+        assert not is_put_on(again, UNIT.carrier)
 
 
 def to_nearest(robot: xa.Robot) -> None:

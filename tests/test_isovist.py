@@ -12,6 +12,7 @@ from xml.etree import ElementTree
 import pytest
 from nightly import some
 
+import exactacq as xa
 from exactacq import Circle, InvalidScene, Length, Outline, Point, Polygon, Real, Scene, isovist
 from exactacq.files.octagons import random_octagons
 from exactacq.gc_pause import uncollected
@@ -273,3 +274,17 @@ def test_a_view_is_no_part_of_a_cycle() -> None:
     with uncollected():
         del view
         assert known() is None
+
+
+@pytest.mark.parametrize("divided", [(), (3,), (1, 3), (1, Fraction(5, 2), 3)])
+def test_what_is_seen_along_a_wall_does_not_depend_on_vertices_that_divide_it(
+    divided: tuple[object, ...],
+) -> None:
+    """From (2, 0) on the upper side of a box the view runs along that side to both ends, and past them."""
+    xs = sorted({0, 4, *divided}, reverse=True)
+    scene = xa.Scene([xa.Polygon([(0, -2), (4, -2), *((x, 0) for x in xs)])])
+    view = xa.isovist(scene, (2, 0), 8)
+    windows = [piece for piece in view.pieces if piece.kind.value == "window"]
+    assert sorted(str(piece.near) for piece in windows) == ["(0, 0)", "(4, 0)"]
+    along = [piece.curve for piece in view.pieces if piece.kind.value == "edge"]
+    assert sum((curve.length for curve in along), xa.Length(0)) == 4

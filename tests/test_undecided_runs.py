@@ -14,6 +14,7 @@ import pytest
 import exactacq as xa
 from exactacq import cli
 from exactacq.auditing import audit as auditing
+from exactacq.errors import deciding
 from exactacq.files.scene_json import scene_to_json
 from exactacq.output.animation import frames
 from exactacq.play import exploring
@@ -122,3 +123,23 @@ def test_without_a_run_there_is_none() -> None:
     error = xa.Undecided("two numbers")
     assert (error.run, error.place, error.obstacle, str(error)) == (None, None, None, "two numbers")
     assert pickle.loads(pickle.dumps(error)).comparison == "two numbers"
+
+
+def test_what_is_decided_is_told_in_words() -> None:
+    """The closest words stay; what went well costs no word."""
+    at = xa.Point(1, "1/3")
+    with (
+        pytest.raises(xa.Undecided) as caught,
+        deciding("what is known at {}", at),
+        deciding("what is seen from {}", at),
+    ):
+        raise xa.Undecided(WORDS)
+    assert caught.value.comparison == f"what is seen from (1, 0.333333): {WORDS}"
+    with pytest.raises(ValueError, match="^other$"), deciding("{} and {}"):
+        raise ValueError("other")
+
+
+def test_a_strategy_of_ones_own_is_told_what_helps(monkeypatch: pytest.MonkeyPatch) -> None:
+    undecided_after(monkeypatch, 2)
+    with pytest.raises(xa.Undecided, match="going on from a corner"):
+        xa.explore(xa.load("circles"), lambda robot: [robot.go_to((x, 0)) for x in (1, 2, 3)])

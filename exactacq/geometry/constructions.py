@@ -25,14 +25,14 @@ class Carrier(NamedTuple):
     square: fmpq
 
 
-class _Tangent(NamedTuple):
+class _FromOrigin(NamedTuple):
     """The line from a point that touches a circle."""
 
     origin: Point
     carrier: Carrier
 
 
-_Fact: TypeAlias = "Carrier | _Tangent"
+_Fact: TypeAlias = "Carrier | _FromOrigin"
 
 
 def put_on(point: Point, carrier: Carrier | None) -> None:
@@ -49,12 +49,12 @@ def is_put_on(point: Point, carrier: Carrier | None) -> bool:
 def put_on_tangent(point: Point, origin: Point, carrier: Carrier | None) -> None:
     """Note that a point was made on the line from another one that touches a circle."""
     if carrier is not None and not is_put_on_tangent(point, origin, carrier):
-        point._facts = (*_facts(point), _Tangent(origin, carrier))
+        point._facts = (*_facts(point), _FromOrigin(origin, carrier))
 
 
 def is_put_on_tangent(point: Point, origin: Point, carrier: Carrier | None) -> bool:
     """Whether a point was made on the line from that very object that touches a circle."""
-    found = (fact for fact in _facts(point) if isinstance(fact, _Tangent) and fact.origin is origin)
+    found = (fact for fact in _facts(point) if isinstance(fact, _FromOrigin) and fact.origin is origin)
     return any(fact.carrier == carrier for fact in found)
 
 

@@ -50,6 +50,10 @@ class Point:
         self.x = x if isinstance(x, Real) else real(x) if type(x) is fmpq else Real(x)
         self.y = y if isinstance(y, Real) else real(y) if type(y) is fmpq else Real(y)
 
+    def __reduce__(self) -> tuple[type[Point], tuple[Real, Real]]:
+        # How it was made is known of this object alone; the places before it would follow, one by one.
+        return Point, (self.x, self.y)
+
     @classmethod
     def of(cls, value: Point | Sequence[object]) -> Point:
         """A point from a Point or a pair of numbers; `FormatError` for anything else.

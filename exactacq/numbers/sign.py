@@ -10,7 +10,7 @@ from flint import arb
 from exactacq.errors import Undecided
 from exactacq.numbers.atoms import Node, Sqrt
 from exactacq.numbers.linear_forms import field_of, is_surd, merged
-from exactacq.numbers.rationals import ball_sign, decimal_string
+from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.tower import vanishes, vanishes_about
 from exactacq.numbers.transcendental import generic_in, sign_at
 
@@ -59,8 +59,8 @@ def decided_sign(value: Any) -> int:
                 if _is_known_zero(value):
                     return 0
                 raise Undecided(
-                    f"sign of {decimal_string(value.ball, 20)}...: excluding 0 would take {limit} bits, "
-                    f"more than {ZERO_TEST_BITS}"
+                    f"whether a number that is 0 to {_zeros(ball):,} decimals is 0: a proof would take "
+                    f"{limit:,} bits, more than {ZERO_TEST_BITS:,}"
                 )
             bits = min(2 * bits, limit + limit // 4 + 4096) if bits < limit else 2 * bits
     bits = 2 * FILTER_BITS[-1]
@@ -99,6 +99,11 @@ def _is_known_zero(value: Any) -> bool:
     known = [number.args[0](type(value).of_atom(number)) for number in zeros]
     changed = [value, *(value + sign * own for own in known for sign in (-1, 1))]
     return any(vanishes_about(form, _numbers_in(form)) for form in changed)
+
+
+def _zeros(ball: arb) -> int:
+    """How many decimals of all numbers in a ball around 0 are 0."""
+    return int(-float((ball.abs_upper().log() / arb(10).log()).mid()))
 
 
 def _separation_bits(value: Any) -> int:

@@ -13,6 +13,7 @@ from typing import Any, TypeAlias
 
 from flint import fmpq
 
+from exactacq.errors import deciding
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.interval_union import EMPTY, Cover
 from exactacq.geometry.points import Point
@@ -251,11 +252,13 @@ class Memory:
         owner = piece.obstacle
         if owner is not None and self.ground is not None:
             owner = self.ground.components[owner].obstacle.index
-        return legs_of(self._table, self._sensor.rails, owner, piece.curve)
+        with deciding("what the way from {} to {} touches", piece.start, piece.end):
+            return legs_of(self._table, self._sensor.rails, owner, piece.curve)
 
     def parts(self, way: Segment) -> list[Segment]:
         """The parts of a straight way of which each is one leg (see `ahead`)."""
-        return [part for _, part in parts_of(self._table, way)]
+        with deciding("what the way from {} to {} touches", way.start, way.end):
+            return [part for _, part in parts_of(self._table, way)]
 
     def divided(self, piece: Piece) -> list[Piece]:
         """A piece along a boundary in pieces of which each is one leg (see `ahead`)."""
@@ -328,6 +331,10 @@ class Memory:
 
     def within(self, count: int, place: Point) -> Map:
         """The map when the robot is at a place inside piece number *count*."""
+        with deciding("what is known at {}", place):
+            return self._within(count, place)
+
+    def _within(self, count: int, place: Point) -> Map:
         legs, before = self._legs[count], self._before[count]
         if count in self._retraced:
             # What it shows is known, in other forms of the same numbers.

@@ -12,6 +12,7 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cmp_to_key, partial
 
+from exactacq.errors import deciding
 from exactacq.geometry.interval_union import Cover, Interval
 from exactacq.geometry.points import Point
 from exactacq.kernel.extents import Span
@@ -98,6 +99,10 @@ class Sensor:
 
     def look_around(self, place: Point) -> tuple[list[Notice], dict[int, Cover]]:
         """Take in the view from the start of the path; as `follow`."""
+        with deciding("what is seen from {}", place):
+            return self._looked_around(place)
+
+    def _looked_around(self, place: Point) -> tuple[list[Notice], dict[int, Cover]]:
         view = self._view(place)
         near = sorted({*self.targets.near(view.spans), *self.targets.lookouts})
         seen = [k for k in near if self.visible(place, k)]
@@ -122,12 +127,11 @@ class Sensor:
         """
         self._told_of = leg.end, facts
         obstacles = self._near(leg) - self.acquired
-        shares = None
-        if obstacles:
-            known = self._known
-            shares = Shares(self.complex, self.targets, leg, obstacles, self._view, known)
-        told = ([], {}) if shares is None else self._told(shares, retraced)
-        return Ahead(leg, *told, shares)
+        if not obstacles:
+            return Ahead(leg, [], {}, None)
+        with deciding("what is seen on the way from {} to {}", leg.start, leg.end):
+            shares = Shares(self.complex, self.targets, leg, obstacles, self._view, self._known)
+            return Ahead(leg, *self._told(shares, retraced), shares)
 
     def _told(self, shares: Shares, retraced: bool) -> tuple[list[Notice], dict[int, Cover]]:
         leg = shares.leg

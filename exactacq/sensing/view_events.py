@@ -17,7 +17,7 @@ from typing import Any, TypeAlias
 from flint import fmpq
 
 from exactacq.cached import cached_property
-from exactacq.errors import shown
+from exactacq.errors import deciding, shown
 from exactacq.gc_pause import uncollected
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve, Segment
@@ -222,10 +222,12 @@ class Sweep:
     def events(self) -> tuple[SweepEvent, ...]:
         """All events inside the piece; those of one place by edge."""
         found: list[SweepEvent] = []
-        for k, views in enumerate(self._legs):
-            if k:
-                found += views.events_at_start(self._legs[k - 1], k)
-            found += views.events(k)
+        piece, _ = self._made_of
+        with deciding("where the view changes on the way from {} to {}", piece.start, piece.end):
+            for k, views in enumerate(self._legs):
+                if k:
+                    found += views.events_at_start(self._legs[k - 1], k)
+                found += views.events(k)
         return tuple(found)
 
     @cached_property

@@ -11,7 +11,7 @@ from functools import partial
 from heapq import heapify, heappop, heappush
 from itertools import islice
 
-from exactacq.errors import Undecided
+from exactacq.errors import Undecided, deciding
 from exactacq.geometry.points import Point
 from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.length import Length
@@ -60,7 +60,10 @@ class _LinksByLength:
         least = _at_most(self._found[0][0]) if self._found else 0.0
         close = [link for length, j, link in self._found if length <= least and j not in visited]
         close.sort(key=lambda link: link.target)
-        close.sort(key=lambda link: link.length)
+        if len(close) > 1:
+            names = ", ".join(f"O{link.target + 1}" for link in close)
+            with deciding("which of the links to {} is the shortest", names):
+                close.sort(key=lambda link: link.length)
         self._found = [found for found in self._found if found[0] > least]
         heapify(self._found)
         return close[::-1]

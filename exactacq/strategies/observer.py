@@ -15,7 +15,7 @@ from typing import Final
 
 from flint import fmpq
 
-from exactacq.errors import InvalidScene, MoveError, shown
+from exactacq.errors import InvalidScene, MoveError, deciding, shown
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Point, distance_sq
 from exactacq.numbers.length import Length
@@ -455,6 +455,10 @@ class Observer:
 
     def _hit_on(self, way: Segment) -> tuple[int, Point] | None:
         """The obstacle that a way with distinct ends leads into first, and where."""
+        with deciding("what the way from {} to {} leads into", way.start, way.end):
+            return self._decided_hit_on(way)
+
+    def _decided_hit_on(self, way: Segment) -> tuple[int, Point] | None:
         if self._ground is None:
             hit = first_hit(self._table, way)
             return None if hit is None else (hit.obstacle, hit.place)

@@ -23,6 +23,7 @@ from flint import arb
 from numpy.typing import NDArray
 
 from exactacq.cached import cached_property
+from exactacq.errors import deciding
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.late import BITS
 from exactacq.geometry.nearest_points import Nearest, NearestFamily, NearestFamilyKind, nearest_points
@@ -136,7 +137,8 @@ class Links:
         """The link from obstacle i to obstacle j, or None if no free segment of length <= radius exists."""
         key = (min(i, j), max(i, j))
         if key not in self._between:
-            self._between[key] = self._shortest_between(*key)
+            with deciding("what the link between the obstacles O{} and O{} is", *(k + 1 for k in key)):
+                self._between[key] = self._shortest_between(*key)
         link = self._between[key]
         return link if link is None or link.source == i else link.reversed()
 

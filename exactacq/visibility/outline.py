@@ -8,12 +8,14 @@ first in each direction and from which ends are within range.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from enum import Enum
 
 from exactacq.geometry.coordinates import dot, minus, raw, sign
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.kernel.view_parts import HERE, RANGE, WINDOW, OutlinePiece, open_pieces
+from exactacq.scene.edge_table import STRAIGHT
 from exactacq.visibility.radial_sweep import BLOCKED, NOTHING
 from exactacq.visibility.visible_boundary import BoundaryView
 
@@ -144,22 +146,35 @@ def _nearer(view: BoundaryView, one: int, other: int) -> int:
 def _from_here(view: BoundaryView, far: int, rank: int, outward: bool) -> list[OutlinePiece]:
     """From a boundary point to a far one: along a straight own edge as far as it goes, then a window.
 
-    The pieces come from the point on if *outward*, else to it.
+    The edge may go on in others. The pieces come from the point on if *outward*, else to it.
     """
 
     def row(edge: int, a: int, b: int, near: int) -> OutlinePiece:
         return _piece(edge, a, b, near) if outward else _piece(edge, b, a, near)
 
-    for e in view.own:
-        for vertex in (e, view.table.following[e]):
-            if not (view.runs_out(e, vertex) and view.sweep.rank.get(vertex) == rank):
-                continue
-            excess = view.disc.excess(view.sweep.faces.place(vertex))
-            if excess >= 0 or vertex == far:
-                return [row(e, HERE, far if excess > 0 else vertex, HERE)]
-            rows = [row(e, HERE, vertex, HERE), row(WINDOW, vertex, far, vertex)]
-            return rows if outward else rows[::-1]
-    return [row(WINDOW, HERE, far, HERE)]
+    rows, at = list[OutlinePiece](), HERE
+    for e, vertex in _straight_on(view, rank):
+        excess = view.disc.excess(view.sweep.faces.place(vertex))
+        rows.append(row(e, at, far if excess > 0 else vertex, HERE))
+        at = vertex
+        if excess >= 0 or vertex == far:
+            break
+    else:
+        rows.append(row(WINDOW, at, far, at))
+    return rows if outward else rows[::-1]
+
+
+def _straight_on(view: BoundaryView, rank: int) -> Iterator[tuple[int, int]]:
+    """The straight edges on the ray of a rank from an own one on, each with the vertex at its far end."""
+    table, ranks = view.table, view.sweep.rank
+    for own in view.own:
+        for end, onward in ((own, table.preceding), (table.following[own], table.following)):
+            if view.runs_out(own, end) and ranks.get(end) == rank:
+                e, vertex = own, end
+                while e == own or (table.kinds[e] == STRAIGHT and ranks.get(vertex) == rank):
+                    yield e, vertex
+                    e, vertex = onward[e], onward[vertex]
+                return
 
 
 def _point(view: BoundaryView, end: int) -> Point:
