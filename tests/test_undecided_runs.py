@@ -135,7 +135,7 @@ def test_what_is_decided_is_told_in_words() -> None:
     ):
         raise xa.Undecided(WORDS)
     assert caught.value.comparison == f"what is seen from (1, 0.333333): {WORDS}"
-    with pytest.raises(ValueError, match="^other$"), deciding("{} and {}"):
+    with pytest.raises(ValueError, match=r"^other$"), deciding("{} and {}"):
         raise ValueError("other")
 
 
