@@ -51,6 +51,7 @@ def asked(loop: str | tuple[Corner, ...], x: Any, y: Any) -> tuple[Loop, Spot]:
     return Loop(found, STILL), Spot(Fraction(x), Fraction(y))
 
 
+HALF, ZERO = Fraction(1, 2), Fraction(0)
 UNIT = bow((0, 0), (1, 0))
 AXIS = segment((-2, 0), (2, 0))
 VERTICAL_CHORD = corners((0, 0, 1), (0, 4, 1))
@@ -119,9 +120,15 @@ CONTACT_FAULTS = [
         Fault(intersections, "_segment_arc", "is_end or hit.tangent", "hit.tangent"),
     ),
     Planted(
+        "an end of a segment is taken to lie on an arc",
+        CONTACTS,
+        (segment((2, 0), (3, 0)), UNIT),
+        Fault(intersections, "_is_known_on", "and arc.on_circle(point)", ""),
+    ),
+    Planted(
         "a segment's end on an arc is computed again",
         CONTACTS,
-        (segment((1, 0), (3, 0)), UNIT),
+        (Straight(Spot(HALF, ZERO, Fraction(3), ZERO, HALF), spot((2, 3))), UNIT),
         Fault(intersections, "_segment_arc", "segment.start if after == 0 else", ""),
     ),
     Planted(

@@ -26,10 +26,11 @@ class Carrier(NamedTuple):
 
 
 class _FromOrigin(NamedTuple):
-    """The line from a point that touches a circle."""
+    """The line from a point that touches a circle, and where it does if that was made."""
 
     origin: Point
     carrier: Carrier
+    touch: Point | None
 
 
 _Fact: TypeAlias = "Carrier | _FromOrigin"
@@ -46,16 +47,29 @@ def is_put_on(point: Point, carrier: Carrier | None) -> bool:
     return any(isinstance(fact, Carrier) and fact == carrier for fact in _facts(point))
 
 
-def put_on_tangent(point: Point, origin: Point, carrier: Carrier | None) -> None:
-    """Note that a point was made on the line from another one that touches a circle."""
+def put_on_tangent(point: Point, origin: Point, carrier: Carrier | None, touch: Point | None = None) -> None:
+    """Note that a point was made on the line from another one that touches a circle, in *touch* if given."""
     if carrier is not None and not is_put_on_tangent(point, origin, carrier):
-        point._facts = (*_facts(point), _FromOrigin(origin, carrier))
+        point._facts = (*_facts(point), _FromOrigin(origin, carrier, touch))
 
 
 def is_put_on_tangent(point: Point, origin: Point, carrier: Carrier | None) -> bool:
     """Whether a point was made on the line from that very object that touches a circle."""
+    return _tangent(point, origin, carrier) is not None
+
+
+def touch_on_tangent(point: Point, origin: Point, carrier: Carrier | None) -> Point | None:
+    """Where the line from that very object on which a point was made touches a circle, if that was made."""
+    fact = _tangent(point, origin, carrier)
+    if fact is None or fact.touch is not None:
+        return None if fact is None else fact.touch
+    # A line that touches a circle meets it once.
+    return point if is_put_on(point, carrier) else None
+
+
+def _tangent(point: Point, origin: Point, carrier: Carrier | None) -> _FromOrigin | None:
     found = (fact for fact in _facts(point) if isinstance(fact, _FromOrigin) and fact.origin is origin)
-    return any(fact.carrier == carrier for fact in found)
+    return next((fact for fact in found if fact.carrier == carrier), None)
 
 
 def _facts(point: Point) -> tuple[_Fact, ...]:

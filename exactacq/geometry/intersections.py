@@ -164,7 +164,7 @@ def _line_arc(origin: Vector, direction: Vector, arc: Arc, on: Touched) -> list[
     height = cross(direction, w)
     square = dot(direction, direction)
     discriminant = square * arc.radius_sq - height * height
-    made = [p for p in on if isinstance(p, Point) and is_put_on(p, arc.carrier)]
+    made = [p for p in on if isinstance(p, Point) and _is_known_on(arc, p)]
     if _touches(on, arc):
         count = 1
     elif made:
@@ -191,6 +191,13 @@ def _line_arc(origin: Vector, direction: Vector, arc: Arc, on: Touched) -> list[
         return [_LineHit(middle, tangent=True)] if _spans_at(arc, w, direction, middle) else []
     half = Real(discriminant).sqrt() / square
     return [_LineHit(root) for root in (middle - half, middle + half) if _spans_at(arc, w, direction, root)]
+
+
+def _is_known_on(arc: Arc, point: Point) -> bool:
+    """Whether a point is known to lie on an arc's circle: it was made there, or rational numbers tell."""
+    if is_put_on(point, arc.carrier):
+        return True
+    return not point.is_late and point.rational is not None and arc.on_circle(point)
 
 
 def _spans_at(arc: Arc, w: Vector, direction: Vector, parameter: Any) -> bool:

@@ -12,7 +12,7 @@ import numpy as np
 from exactacq.cached import cached_property
 from exactacq.errors import FormatError
 from exactacq.geometry.box_index import box
-from exactacq.geometry.constructions import is_put_on, put_on_tangent
+from exactacq.geometry.constructions import is_put_on, put_on_tangent, touch_on_tangent
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import ContactKind, contacts, is_made_touching
@@ -94,7 +94,8 @@ class Leg:
             if table.line_numbers.is_circle(feature):
                 arc = table.curves[table.line_numbers.first_arc(feature)]
                 assert isinstance(arc, Arc), "only arcs have circles"
-                put_on_tangent(place, self.start, arc.carrier)
+                touch = touch_on_tangent(self.end, self.start, arc.carrier)
+                put_on_tangent(place, self.start, arc.carrier, touch)
 
     @cached_property
     def box(self) -> tuple[float, float, float, float]:

@@ -9,7 +9,7 @@ from typing import TypeAlias
 from flint import fmpq
 
 from exactacq.cached import cached_property
-from exactacq.geometry.constructions import is_put_on
+from exactacq.geometry.constructions import is_put_on, touch_on_tangent
 from exactacq.geometry.curve_images import curve_image
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.late import Pin
@@ -18,6 +18,7 @@ from exactacq.kernel.bounded import TINY, UNIT
 from exactacq.kernel.ways import Crossing, WayImage, lines_at_ends
 from exactacq.numbers.float_bounds import margin, rough
 from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import CONCAVE
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.legs import Leg
 from exactacq.sensing.line_family import rational_line
@@ -47,6 +48,17 @@ class StraightWay:
         self.number = len(self.clipper.rails) - 1
         self._feet: dict[int, Pin] = {}
         self._through_centres: dict[int, bool] = {}
+        if leg.touches:
+            self._name_ends()
+
+    def _name_ends(self) -> None:
+        """Name the ends that lie on edges, as where the way's own line meets these: it enters them once."""
+        for end, _ in self.ends:
+            for e in self.table.edges_at(end):
+                if self.table.kinds[e] != CONCAVE:
+                    pin = end, self.clipper.rails[e].parameter(end)
+                    for sense in (1, -1):
+                        self.clipper.views.pins.put((OWN, e, sense), pin)
 
     @property
     def ends(self) -> tuple[Pin, Pin]:
@@ -82,7 +94,8 @@ class StraightWay:
             # An end that was made on the circle is the foot: its numbers might take long to tell.
             pin = next((end for end in self.ends if is_put_on(end[0], arc.carrier)), None)
             if pin is None:
-                foot = self.foot(arc.center)
+                (start, _), (end, _) = self.ends
+                foot = touch_on_tangent(end, start, arc.carrier) or self.foot(arc.center)
                 pin = foot, self.rail.parameter(foot)
             self._feet[circle], place = pin, pin[0]
             for e in self.table.on_circle_of(first):

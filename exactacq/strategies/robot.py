@@ -114,15 +114,15 @@ class Robot(Observer):
         self._check_border(target)
         hit = self._hit_on(Segment(here, target)) if target != here else None
         end = target if hit is None else hit[1]
-        kind, sighting = (HaltKind.ARRIVED if hit is None else HaltKind.HIT), None
-        if hit is not None and end == here and walker.at == hit[0]:
+        kind, sighting, moves = (HaltKind.ARRIVED if hit is None else HaltKind.HIT), None, end != here
+        if hit is not None and not moves and walker.at == hit[0]:
             return Halt(kind, here, self.at)
         decided = self._decided(reason)
-        if end != here:
+        if moves:
             self._set_off(decided)
-        if not kinds:
-            walker.go_straight(START, end)
-        elif end != here:
+        if not kinds or not moves:
+            walker.go_straight(START, end if moves else here)
+        else:
             for part in walker.memory.parts(Segment(here, end)):
                 sighting = self._walk_until(Piece("straight", None, part), kinds, here)
                 if sighting is not None:

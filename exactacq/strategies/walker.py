@@ -90,10 +90,14 @@ class Walker:
         self.visited.setdefault(self.at, self.count)
 
     def go_straight(self, node: Node, target: Point) -> None:
-        """Go to a point along a free segment; from then on the walker is at *node*."""
+        """Go to a point along a free segment; from then on the walker is at *node*.
+
+        Where it is already it keeps its place: an equal point has other numbers, which have to be compared.
+        """
         if self.position != target:
             self.move(Piece("straight", None, Segment(self.position, target)))
-        self.at, self.position = node, target
+            self.position = target
+        self.at = node
 
     def boundary(self) -> Boundary:
         """That of the obstacle where the walker is."""

@@ -13,6 +13,7 @@ from functools import partial
 from typing import TypeAlias
 
 from exactacq.cached import cached_property
+from exactacq.geometry.constructions import touch_on_tangent
 from exactacq.geometry.coordinates import Vector, cross, dot, raw
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.late import BITS, Balls, balls, from_to
@@ -35,7 +36,8 @@ class Alignment:
     """A ray from a place along a line, in its direction or (*sense* -1) against it.
 
     *exact* gives a point of the line and its direction. If there is an ``anchor``, the line touches that
-    feature there. Where it meets edges for the only time, by their numbers, is ``met`` as far as it is known.
+    feature there. Where it meets edges for the only time, by their numbers, is ``met`` as far as it is known,
+    and where it touches circles are its ``feet``.
     """
 
     exact: Callable[[], tuple[Point, Point]]
@@ -43,6 +45,7 @@ class Alignment:
     anchor: int | None
     touched: frozenset[Touched]
     met: Mapping[int, Point] = field(default_factory=dict)
+    feet: Mapping[int, Point] = field(default_factory=dict)
 
     @cached_property
     def _line(self) -> tuple[Point, Point]:
@@ -60,6 +63,8 @@ class Alignment:
 
     def touch(self, circle: int, center: Point) -> Point:
         """Where the ray touches a circle, given as a feature, about a centre."""
+        if circle in self.feet:
+            return self.feet[circle]
         if circle == self.anchor:
             return self.contact
         along = self._line[1]
@@ -108,10 +113,16 @@ def along_way(table: EdgeTable, place: Balls, way: Segment, features: Sequence[i
     A line enters a straight edge or a convex arc once: so where an end of the way lies on one, it does there.
     """
     along = way.end - way.start
+    feet: dict[int, Point] = {}
+    for feature in filter(table.line_numbers.is_circle, features):
+        arc = table.curves[table.line_numbers.first_arc(feature)]
+        assert isinstance(arc, Arc), "only arcs have circles"
+        if (foot := touch_on_tangent(way.end, way.start, arc.carrier)) is not None:
+            feet[feature] = foot
     for ray in _alignments(table, place, balls(along), lambda: (way.start, along), features, None):
         end = way.end if ray.sense > 0 else way.start
         convex = (e for e in table.edges_at(end) if table.kinds[e] != CONCAVE)
-        yield replace(ray, met=dict.fromkeys(convex, end))
+        yield replace(ray, met=dict.fromkeys(convex, end), feet=feet)
 
 
 def _alignments(

@@ -260,9 +260,10 @@ class RadialSweep:
         faces, count = self.faces, len(self.table.vertices)
         for event in self.events(rank):
             if event >= count:
-                arc = self.table.curves[faces.mark(event).edge]
+                mark = faces.mark(event)
+                arc = self.table.curves[mark.edge]
                 assert isinstance(arc, Arc), "what is no vertex is the tangent of an arc"
-                put_on_tangent(hit, faces.point, arc.carrier)
+                put_on_tangent(hit, faces.point, arc.carrier, mark.point)
         return hit
 
     def covering(self, rank: int) -> list[int]:
