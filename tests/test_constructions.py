@@ -146,3 +146,50 @@ def test_a_halt_where_a_gap_closes_is_told_along_what_it_closes(monkeypatch: pyt
     with work_in_fields(monkeypatch) as spent:
         assert len(xa.explore(scene, "nearest-frontier", 560).events) == 16
     assert sum(spent) < 5000
+
+
+def audited(scene: Scene, own: Callable[[xa.Robot], object]) -> xa.Run:
+    run = xa.explore(scene, own)
+    xa.audit(run)
+    return run
+
+
+@pytest.mark.parametrize("off", [0, fmpq(1, 10**9)])
+def test_a_line_that_touches_a_disc_enters_another_where_it_is_met_first(off: object) -> None:
+    """The robot halts at irrational places of a line that is computed with by two points of whole coordinates.
+
+    One of these lies on the disc, at the place where the line leaves it.
+    """
+    touched, met = Circle((-1, 0), 1), Circle((fmpq(3, 4) + off, 1), fmpq(1, 4))
+    behind = [Circle((-9, 3), fmpq(1, 2)), Circle((-9, 4), fmpq(1, 4))]
+
+    def own(robot: xa.Robot) -> None:
+        for _ in range(2):
+            assert robot.go_to((3, 1), until="lose").kind == "event"
+        robot.go_to((-9, 1))
+
+    run = audited(Scene([touched, met, *behind], start=(-9, 1), radius=7), own)
+    assert not run.map.knows(1, Point(1 + off, 1))
+    assert float(run.map.known_length(1)) == pytest.approx(0.38377, abs=1e-4)
+
+
+def sector(r: object, s: object, *corners: tuple[object, object]) -> xa.Outline:
+    outer, inner = xa.Around((0, 0)), xa.Around((0, 0), ccw=False)
+    (a, b), (c, d) = corners
+    return xa.Outline([(a * s, b * s, outer), (c * s, d * s), (c * r, d * r, inner), (a * r, b * r)])
+
+
+def test_a_halt_at_a_corner_is_told_no_ray_of_another_place() -> None:
+    """A corner that ends a gap is seen from a stretch of the way: the ray from its other end is another one."""
+    ring = sector(3, 4, (fmpq(-3, 5), fmpq(4, 5)), (fmpq(-4, 5), fmpq(3, 5)))
+    hook = xa.Outline(
+        [(-4, 6, xa.Around((-2, 6))), (0, 6, xa.Around((-1, 6))), (-2, 6, xa.Around((-3, 6), ccw=False))]
+    )
+
+    def own(robot: xa.Robot) -> None:
+        robot.go_to((fmpq(-12, 5), fmpq(-16, 5)))
+        places = [robot.go_to((-4, 4), until="acquire").place for _ in range(2)]
+        assert places[0] == Point(fmpq(-76, 21), fmpq(16, 7))
+
+    run = audited(Scene([ring, hook], start=(0, 0), radius=30), own)
+    assert [event.kind.value for event in run.events] == ["start", "sight", "sight", "acquire", "stop"]

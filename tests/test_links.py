@@ -523,3 +523,19 @@ def test_a_link_along_the_boundary_under_the_start(upper: str, lower: str) -> No
     assert any(k == 1 for k, _ in xa.isovist(scene, start).seen())
     least = fmpq(5, 2)
     assert xa.visibility_graph(scene)["S"][1]["weight"] == least
+
+
+@pytest.mark.parametrize(
+    ("target", "length"),
+    [
+        (xa.Circle((0, -4), 1), 3),
+        (xa.Polygon([(-2, -4), (-2, -5), (2, -5), (2, -4)]), 4),
+        (xa.Polygon([(-2, -4), (-2, -5), (2, -5), (2, -4), (0, -4)]), 4),
+    ],
+    ids=["disc", "side", "divided side"],
+)
+def test_a_link_out_of_a_hollow_between_two_arcs(target: object, length: int) -> None:
+    """One ray leads out of it, and meets nothing on its way."""
+    hollow = xa.Outline([(0, 0, xa.Around((1, 0))), (1, -1), (1, 1), (-1, 1), (-1, -1, xa.Around((-1, 0)))])
+    graph = xa.visibility_graph(xa.Scene([hollow, target], start=(0, 0), radius=9))
+    assert {k: graph["S"][k]["weight"] for k in graph["S"]} == {0: 0, 1: length}

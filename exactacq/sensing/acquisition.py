@@ -94,7 +94,7 @@ class Acquisition:
         """The rays from the place that was found along which the ends of gaps that close there are seen."""
         table = self._every.complex.table
         views = (view for view in self._reaching if view.source.start is place)
-        return [ray for view in views for ray in rays_along(table, view)]
+        return [ray for view in views for ray in rays_along(table, view, place)]
 
     def _closing(self, clusters: list[list[Place]], stretch: Meanwhile) -> tuple[list[Place], Meanwhile]:
         """The first cluster of places of a stretch after which the obstacle is whole; the stretch around it.

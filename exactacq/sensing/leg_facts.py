@@ -78,10 +78,16 @@ class LegFacts:
         return [(end, share) for share in shares for end in (share.family.first, share.family.last)]
 
 
-def rays_along(table: EdgeTable, view: Share) -> Iterator[Alignment]:
-    """The rays along a share's only view, from the leg: the one to what it shows meets just that there."""
-    (end, views), side = (view.family.first, view.family.free_views), view.side
-    if views is None or views.anchor is None:
+def rays_along(table: EdgeTable, share: Share, start: Point) -> Iterator[Alignment]:
+    """The rays along an extreme view of a share that begins at a place, the very object, of the leg.
+
+    The one to what the view shows meets just that there. Where a corner is shown, views from a stretch of the
+    leg show it, and only those from its ends are known.
+    """
+    views, side = share.family.free_views, share.side
+    ends = (share.family.first, share.family.last)
+    end = next((end for end in ends if end.points[side] is start), None)
+    if end is None or views is None or views.anchor is None:
         return
     place, seen = balls(end.points[side]), balls(end.points[1 - side])
     *_, u, v = line(views.sector, end.t.ball(BITS))
@@ -91,7 +97,7 @@ def rays_along(table: EdgeTable, view: Share) -> Iterator[Alignment]:
     else:
         rays = tangents_from(table, place, views.sector, end.t, [views.anchor])
     for ray in rays:
-        yield replace(ray, met={view.edge: end.points[1 - side]}) if ray.sense == ahead else ray
+        yield replace(ray, met={share.edge: end.points[1 - side]}) if ray.sense == ahead else ray
 
 
 def _is_at(v: Real, u: Real, tight: bool) -> bool:

@@ -86,7 +86,8 @@ class Leg:
         if not self.touches:
             return NOTHING_KNOWN
         assert isinstance(self.rail.curve, Segment), "only lines touch features"
-        return PlaceFacts([*along_way(table, balls(place), self.rail.curve, self.touches)])
+        line, ends = self.rail.curve, (self.span.start, self.span.end)
+        return PlaceFacts([*along_way(table, balls(place), line, ends, self.touches)])
 
     def tell_touched(self, table: EdgeTable, place: Point) -> None:
         """Tell a place which circles the line from the start of a straight way to it touches."""

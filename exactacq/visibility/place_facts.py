@@ -107,22 +107,25 @@ def tangents_at(sector: Sector, t: Real, circle: int) -> Iterator[Alignment]:
         yield Alignment(partial(sector.touch, t), sense, circle, frozenset({(circle, sense)}))
 
 
-def along_way(table: EdgeTable, place: Balls, way: Segment, features: Sequence[int]) -> Iterator[Alignment]:
-    """The two rays from a place on a straight way along it, whose line touches *features*.
+def along_way(
+    table: EdgeTable, place: Balls, line: Segment, ends: tuple[Point, Point], features: Sequence[int]
+) -> Iterator[Alignment]:
+    """The two rays from a place on a straight way along it, whose *line* touches *features*.
 
-    A line enters a straight edge or a convex arc once: so where an end of the way lies on one, it does there.
+    The way is free and has these *ends*: so where one lies on a straight edge or a convex arc, the line
+    enters that there, which it does once.
     """
-    along = way.end - way.start
+    along, (start, end) = line.end - line.start, ends
     feet: dict[int, Point] = {}
     for feature in filter(table.line_numbers.is_circle, features):
         arc = table.curves[table.line_numbers.first_arc(feature)]
         assert isinstance(arc, Arc), "only arcs have circles"
-        if (foot := touch_on_tangent(way.end, way.start, arc.carrier)) is not None:
+        if (foot := touch_on_tangent(end, start, arc.carrier)) is not None:
             feet[feature] = foot
-    for ray in _alignments(table, place, balls(along), lambda: (way.start, along), features, None):
-        end = way.end if ray.sense > 0 else way.start
-        convex = (e for e in table.edges_at(end) if table.kinds[e] != CONCAVE)
-        yield replace(ray, met=dict.fromkeys(convex, end), feet=feet)
+    for ray in _alignments(table, place, balls(along), lambda: (line.start, along), features, None):
+        there = end if ray.sense > 0 else start
+        convex = (e for e in table.edges_at(there) if table.kinds[e] != CONCAVE)
+        yield replace(ray, met=dict.fromkeys(convex, there), feet=feet)
 
 
 def _alignments(

@@ -209,14 +209,16 @@ def swept(
 
 
 def _is_pinched(bound: BoundLine, broken: Sequence[BoundLine]) -> bool:
-    """Whether no line beside one may be free as far: it passes several things, or one along a break.
+    """Whether no line beside one may be free as far.
 
-    On one side of a break lines lead into the obstacle at the contact. A line that floats do not part from a
-    break counts.
+    It passes several things, one thing along a break, or none along two. On one side of a break lines lead
+    into the obstacle at the contact; on both sides if two are one, as in a hollow between two arcs. A line
+    that floats do not part from a break counts.
     """
     if bound.passes_several:
         return True
-    return bool(bound.passed) and any(bound.low <= b.high and b.low <= bound.high for b in broken)
+    along = [b for b in broken if bound.low <= b.high and b.low <= bound.high]
+    return len(along) > 1 or (bool(along) and bool(bound.passed))
 
 
 def _on_lattice(table: EdgeTable, sector: Sector, kind: int, vertex: int) -> LatticeLines | None:
