@@ -156,7 +156,7 @@ def audited(scene: Scene, own: Callable[[xa.Robot], object]) -> xa.Run:
 
 @pytest.mark.parametrize("off", [0, fmpq(1, 10**9)])
 def test_a_line_that_touches_a_disc_enters_another_where_it_is_met_first(off: object) -> None:
-    """The robot halts at irrational places of a line that is computed with by two points of whole coordinates.
+    """The robot halts at irrational places of a line that is computed with by points of whole coordinates.
 
     One of these lies on the disc, at the place where the line leaves it.
     """
@@ -180,7 +180,7 @@ def sector(r: object, s: object, *corners: tuple[object, object]) -> xa.Outline:
 
 
 def test_a_halt_at_a_corner_is_told_no_ray_of_another_place() -> None:
-    """A corner that ends a gap is seen from a stretch of the way: the ray from its other end is another one."""
+    """A corner that ends a gap is seen from a stretch of the way: the ray from its other end differs."""
     ring = sector(3, 4, (fmpq(-3, 5), fmpq(4, 5)), (fmpq(-4, 5), fmpq(3, 5)))
     hook = xa.Outline(
         [(-4, 6, xa.Around((-2, 6))), (0, 6, xa.Around((-1, 6))), (-2, 6, xa.Around((-3, 6), ccw=False))]
