@@ -111,7 +111,7 @@ CURE_OF_OWN = (
     "places found from places have longer and longer numbers: going on from a corner, or from "
     "`map.beside` an end of what is known, makes them short again"
 )
-"""The same, of another strategy: it is the one that picks the places."""
+"""What to try where a strategy of the user's own is undecided: it picks the places itself."""
 
 
 def _so_far(run: Any) -> str:

@@ -11,17 +11,24 @@ import pickle
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from random import Random
 
 import pytest
 from flint import fmpq
+from nightly import some
 
 import exactacq as xa
 from exactacq import Circle, Point, Scene, Segment
 from exactacq.auditing import comparisons
+from exactacq.geometry import curves, intersections
 from exactacq.geometry.constructions import is_put_on, put_on, put_on_tangent
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.intersections import ContactKind, contacts
 from exactacq.numbers import tower
+from exactacq.sensing import legs, memory, range_ends, straight_way
+from exactacq.study.random_scenes import Subject, arc_scene
+from exactacq.visibility import line_families, place_facts
+from exactacq.visibility.place_facts import NOTHING_KNOWN
 
 HERE = Path(__file__).parent
 UNIT = Arc.circle(Point(0, 0), fmpq(1))
@@ -193,3 +200,46 @@ def test_a_halt_at_a_corner_is_told_no_ray_of_another_place() -> None:
 
     run = audited(Scene([ring, hook], start=(0, 0), radius=30), own)
     assert [event.kind.value for event in run.events] == ["start", "sight", "sight", "acquire", "stop"]
+
+
+def wander(seed: int) -> Callable[[xa.Robot], None]:
+    """Some moves to frontiers, nearest points and along boundaries, most until something is seen or lost."""
+
+    def own(robot: xa.Robot) -> None:
+        rng = Random(seed)
+        for _ in range(6):
+            until = rng.choice([(), ("sight", "regain"), ("acquire",), ("lose",), ("lose", "acquire")])
+            ends, kind = robot.frontier, rng.randrange(3)
+            if kind == 0 and robot.at is not None:
+                robot.walk(rng.choice(["left", "right"]), until=until)
+            elif kind == 1 and ends:
+                robot.go_to(rng.choice(ends)[1], until=until)
+            elif robot.seen:
+                robot.go_to(robot.map.nearest(rng.choice(robot.seen), robot.position), until=until)
+
+    return own
+
+
+def told(seed: int) -> list[object] | None:
+    """What happens in a run, and what is known at its end, in digits; None if it is undecided."""
+    try:
+        run = xa.explore(arc_scene(Subject.SIGHTSEER, seed), wander(seed))
+    except xa.Undecided:
+        return None
+    known = [run.map.known_length(k).decimal(30) for k in run.map.seen]
+    return [*((e.kind, e.obstacle, [c.decimal(30) for c in e.point]) for e in run.events), *known]
+
+
+@pytest.mark.parametrize("seed", some(range(60), 12))
+def test_what_is_known_of_points_changes_nothing(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without it numbers tell the same, where they can: no point claims what it was not made with."""
+    with_facts = told(seed)
+    for module in (curves, intersections, legs, straight_way, line_families, range_ends, place_facts):
+        for name, nothing in (("is_put_on", False), ("is_put_on_tangent", False), ("touch_on_tangent", None)):
+            if hasattr(module, name):
+                monkeypatch.setattr(module, name, lambda *_, nothing=nothing: nothing)
+    monkeypatch.setattr(memory, "_facts_told", lambda *_: NOTHING_KNOWN)
+    without = told(seed)
+    if without is None:
+        pytest.skip("numbers alone do not decide it")
+    assert with_facts == without

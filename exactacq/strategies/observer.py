@@ -456,18 +456,15 @@ class Observer:
     def _hit_on(self, way: Segment) -> tuple[int, Point] | None:
         """The obstacle that a way with distinct ends leads into first, and where."""
         with deciding("what the way from {} to {} leads into", way.start, way.end):
-            return self._decided_hit_on(way)
-
-    def _decided_hit_on(self, way: Segment) -> tuple[int, Point] | None:
-        if self._ground is None:
-            hit = first_hit(self._table, way)
-            return None if hit is None else (hit.obstacle, hit.place)
-        for gap in self._blocking.gaps(way)[:1]:
-            assert gap.component is not None, (
-                "a way from a free point is blocked where it leads into something"
-            )
-            return gap.component.index, gap.begin.point
-        return None
+            if self._ground is None:
+                hit = first_hit(self._table, way)
+                return None if hit is None else (hit.obstacle, hit.place)
+            for gap in self._blocking.gaps(way)[:1]:
+                assert gap.component is not None, (
+                    "a way from a free point is blocked where it leads into something"
+                )
+                return gap.component.index, gap.begin.point
+            return None
 
     def _check_border(self, point: Point) -> None:
         if self._ground is None:
