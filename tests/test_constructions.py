@@ -26,6 +26,9 @@ from exactacq.geometry.curves import Arc
 from exactacq.geometry.intersections import ContactKind, contacts
 from exactacq.numbers import tower
 from exactacq.sensing import legs, memory, range_ends, straight_way
+from exactacq.strategies.seed_spreader.prediction.decide import _way
+from exactacq.strategies.seed_spreader.prediction.pieces import Pieces
+from exactacq.strategies.seed_spreader.prediction.sight import Sights
 from exactacq.study.random_scenes import Subject, arc_scene
 from exactacq.visibility import line_families, place_facts
 from exactacq.visibility.place_facts import NOTHING_KNOWN
@@ -159,6 +162,28 @@ def audited(scene: Scene, own: Callable[[xa.Robot], object]) -> xa.Run:
     run = xa.explore(scene, own)
     xa.audit(run)
     return run
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+def test_a_line_of_sight_that_touches_a_disc_is_not_asked_where_it_leads(
+    sense: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A look ahead on a board of 100 pins, R = 50, was undecided: whether a tangent has the disc's direction.
+
+    The line passes the place where another tangent, from an irrational place, touches a disc. A disc that is
+    seen from inside blocks it.
+    """
+    start, one, other = Point(40, 37 + ROOT3), Point(38, 10), Arc.circle(Point(18, 14), fmpq(1))
+    disc = other if sense > 0 else other.reversed()
+    first = _way(start, xa.Real(0), one, xa.Real(1))
+    assert first is not None
+    corner = start + first * (first.dot(one - start) / first.norm_sq())
+    way = _way(corner, xa.Real(0), disc.center, xa.Real(-1))
+    assert way is not None
+    place, seen = (corner + way * ((x - corner.x) / way.x) for x in (40, 15))
+    with work_in_fields(monkeypatch) as spent:
+        assert Sights(Pieces([disc], 50)).is_free(place, seen, (disc, corner)) == (sense > 0)
+    assert not spent
 
 
 @pytest.mark.parametrize("off", [0, fmpq(1, 10**9)])

@@ -21,6 +21,7 @@ from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.points import Point
 from exactacq.numbers.function_zeros import roots
 from exactacq.numbers.real import Real, fmpq
+from exactacq.strategies.seed_spreader.hulls import ConvexHull
 from exactacq.strategies.seed_spreader.prediction.decide import sees_later
 from exactacq.strategies.seed_spreader.prediction.sight import growth
 
@@ -510,3 +511,21 @@ def test_a_circle_that_the_line_of_the_walk_touches(start: object, is_seen: bool
         seen = sees_later(fmpq(x), Real(start), fmpq(0), targets, lambda _, known=known: known, fmpq(2))
         assert seen is is_seen
         targets, known = ([_mirrored(curve, -1, 1) for curve in curves] for curves in (targets, known))
+
+
+def test_what_lies_between_some_places_is_in_their_convex_hull() -> None:
+    """Also where places coincide, or lie on a line: places on a grid do, here far from the origin."""
+    rng = Random(5)
+    for _ in range(500):
+        far, places = 10.0 ** rng.randrange(7), [(rng.randrange(4), rng.randrange(4)) for _ in range(7)]
+        places = [(x + far, y - far) for x, y in places[: rng.randrange(1, 8)]]
+        between = ConvexHull(places, 1e-9 * far)
+        (a, b), (c, d) = rng.choice(places), rng.choice(places)
+        t, west, south, east, north = (rng.random() for _ in range(5))
+        x, y = a + t * (c - a), b + t * (d - b)
+        assert between.may_meet((x, y, x, y))
+        assert between.may_meet((x - west, y - south, x + east, y + north))
+    triangle = ConvexHull([(0, 0), (4, 0), (0, 4)], 0.0)
+    assert not triangle.may_meet((2.1, 2.1, 9, 9))
+    assert not triangle.may_meet((1, -2, 2, -1))
+    assert triangle.may_meet((2, 2, 9, 9))

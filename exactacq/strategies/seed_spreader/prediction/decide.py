@@ -96,7 +96,8 @@ def sees_later(
         return False
     hulls = [hull(curve) for curve in goals] + [(*point.xy, *point.xy) for point in dots]
     field = walk.field(hulls)
-    known = list(unique([*goals, *blockers(field)]))
+    corridor = walk.corridor(hulls, field)
+    known = list(unique([*goals, *(curve for curve in blockers(field) if corridor.may_meet(hull(curve)))]))
     return _Candidates(walk, known, len(list(unique(goals))), dots, field).run()
 
 

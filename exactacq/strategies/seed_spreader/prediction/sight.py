@@ -12,9 +12,10 @@ from flint import arb, fmpq
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import ContactKind, Touched, contacts
 from exactacq.geometry.points import Point
+from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.precision import workprec
 from exactacq.numbers.real import Real
-from exactacq.strategies.seed_spreader.hulls import overlap
+from exactacq.strategies.seed_spreader.hulls import ConvexHull, overlap
 from exactacq.strategies.seed_spreader.prediction.pieces import Pieces
 
 
@@ -47,9 +48,18 @@ class VerticalWay:
         a, b, c, d = (f(h[k] for h in hulls) for k, f in enumerate((min, min, max, max)))
         low, high = max(self.low, b - r), min(self.high, d + r)
         left, right = max(min(x, a), x - r), min(max(x, c), x + r)
-        pad = 1e-9 * (r + abs(x) + abs(low) + abs(high))
+        pad = self._pad(low, high)
         bottom, top = min(low, max(b, low - r)), max(high, min(d, high + r))
         return left - pad, bottom - pad, right + pad, top + pad
+
+    def corridor(self, hulls: Sequence[tuple[float, ...]], field: Sequence[float]) -> ConvexHull:
+        """The convex hull of all lines of sight to boxes; *field* is the box around these."""
+        x, low, high = float(self.x), max(self.low, field[1]), min(self.high, field[3])
+        corners = [(u, v) for a, b, c, d in hulls for u in (a, c) for v in (b, d)]
+        return ConvexHull([*corners, (x, low), (x, high)], margin(self._pad(low, high)))
+
+    def _pad(self, low: float, high: float) -> float:
+        return 1e-9 * (self.reach + abs(float(self.x)) + abs(low) + abs(high))
 
 
 def unique(curves: Sequence[Curve]) -> Iterator[Curve]:
@@ -68,15 +78,19 @@ def unique(curves: Sequence[Curve]) -> Iterator[Curve]:
 
 
 class _Germ(NamedTuple):
-    """A curve that leaves a point: its direction and its curvature, or a number of the same order."""
+    """A curve that leaves a point: its direction and its curvature, or a number of the same order.
+
+    Those that are known to run *along* the line of sight have one direction, or opposite ones.
+    """
 
     way: Point
     bend: fmpq
+    along: bool = False
 
 
 def _enters(leave: _Germ, back: _Germ, way: Point) -> bool:
     """Whether a ray leaves a point strictly between two curves, counterclockwise from leave to back."""
-    ray = _Germ(way, fmpq(0))
+    ray = _Germ(way, fmpq(0), along=True)
     to_ray, to_back = _turn(leave, ray), _turn(leave, back)
     if not to_ray or to_ray > to_back:
         return False
@@ -86,7 +100,7 @@ def _enters(leave: _Germ, back: _Germ, way: Point) -> bool:
 def _turn(a: _Germ, b: _Germ) -> int:
     """How far b lies counterclockwise of a: 0 nowhere, 1 by its bend, 2 to 4 below, by and above a half turn,
     5 a full turn less a bend."""
-    side = a.way.cross(b.way).sign()
+    side = 0 if a.along and b.along else a.way.cross(b.way).sign()
     if side:
         return 3 - side
     if a.way.dot(b.way).sign() < 0:
@@ -94,15 +108,17 @@ def _turn(a: _Germ, b: _Germ) -> int:
     return 0 if a.bend == b.bend else 1 if b.bend > a.bend else 5
 
 
-def _germ(curve: Curve, at: Point) -> _Germ:
-    """A curve as it runs on from one of its points."""
+def _germ(curve: Curve, at: Point, on: Touched) -> _Germ:
+    """A curve as it runs on from one of its points, through which a line goes that touches *on*."""
     if isinstance(curve, Segment):
         return _Germ(curve.whole.direction, fmpq(0))
-    return _Germ(curve.tangent(at), (1 if curve.ccw else -1) / curve.radius_sq)
+    # A line that touches a circle meets it once, so it does here.
+    along, bend = any(curve is one for one in on), (1 if curve.ccw else -1) / curve.radius_sq
+    return _Germ(curve.tangent(at), bend, along)
 
 
 def _reversed(germ: _Germ) -> _Germ:
-    return _Germ(-germ.way, -germ.bend)
+    return _Germ(-germ.way, -germ.bend, germ.along)
 
 
 class Sights:
@@ -126,30 +142,30 @@ class Sights:
         found = contacts(sight, self.pieces.curves[k], on)
         if any(contact.kind is ContactKind.CROSSING for contact in found):
             return False
-        return all(self._may_pass(sight, k, z) for contact in found for z in contact.places)
+        return all(self._may_pass(sight, k, z, on) for contact in found for z in contact.places)
 
-    def _may_pass(self, sight: Segment, k: int, z: Point) -> bool:
+    def _may_pass(self, sight: Segment, k: int, z: Point, on: Touched) -> bool:
         """Whether a sight that touches a piece at a point does not enter the blocked side there."""
         curves, curve = self.pieces.curves, self.pieces.curves[k]
         at_end, at_begin = z == sight.end, z == sight.start
         leave, back = None, None
         if z == curve.start:
-            leave, other = _germ(curve, z), int(self.pieces.before[k])
-            back = None if other < 0 else _reversed(_germ(curves[other], z))
+            leave, other = _germ(curve, z, on), int(self.pieces.before[k])
+            back = None if other < 0 else _reversed(_germ(curves[other], z, on))
         elif z == curve.end:
-            back, other = _reversed(_germ(curve, z)), int(self.pieces.after[k])
-            leave = None if other < 0 else _germ(curves[other], z)
+            back, other = _reversed(_germ(curve, z, on)), int(self.pieces.after[k])
+            leave = None if other < 0 else _germ(curves[other], z, on)
         else:
-            leave = _germ(curve, z)
+            leave = _germ(curve, z, on)
             back = _reversed(leave)
         if (leave is None or back is None) and not at_end:
             # From places beside a lone end the like sights are free: so is this one, their limit.
             return True
         # At a lone end that is looked at, the boundary is taken to go straight on.
-        leave = _Germ(-back.way, fmpq(0)) if leave is None and back is not None else leave
+        leave = _Germ(-back.way, fmpq(0), back.along) if leave is None and back is not None else leave
         # Each of the three cases above knows one of the two germs.
         assert leave is not None
-        back = _Germ(-leave.way, fmpq(0)) if back is None else back
+        back = _Germ(-leave.way, fmpq(0), leave.along) if back is None else back
         ways = [] if at_end else [sight.direction]
         ways += [] if at_begin else [-sight.direction]
         return not any(_enters(leave, back, way) for way in ways)
