@@ -28,6 +28,7 @@ from exactacq.numbers.real import Real
 
 Floats: TypeAlias = NDArray[np.float64]
 Bools: TypeAlias = NDArray[np.bool_]
+Ints: TypeAlias = NDArray[np.intp]
 
 PRECISION = 2 * BITS
 """Working bits: the root of what vanishes to this precision still vanishes to `BITS`."""
@@ -38,8 +39,8 @@ UNIT = 2.0**-46
 most 3 pi, which as a sum of rounded parts is off by less than 2^-48."""
 ROOM = 2.0**-46
 """Error of a cross product, for sizes of the scene and of the two vectors: see `Walls.block`."""
-CHUNK = 1 << 18
-"""Entries of one table of sights by chords: bounds the memory."""
+CHUNK, BATCH = 2048, 16
+"""Of many sights so many meet so many chords at once: a table that the processor's cache holds."""
 
 
 class BallPoint(NamedTuple):
@@ -181,6 +182,7 @@ class Walls:
         self.starts = np.array([chord.start for chord in chords]).reshape(-1, 2)
         self.ends = np.array([chord.end for chord in chords]).reshape(-1, 2)
         self.bulges = np.array([chord.bulge for chord in chords])
+        self._blocked = np.zeros(len(chords), dtype=np.intp)
 
     def join(self) -> None:
         """Find which pieces join; done once, with the working precision set."""
@@ -208,27 +210,35 @@ class Walls:
         2^-49 S (l + m). `ROOM` is eight times that. The error is at least the grain, which covers a and b.
         """
         found = np.zeros(len(p), dtype=bool)
-        step = max(1, CHUNK // max(1, len(self.starts)))
-        for k in range(0, len(p), step):
-            part = slice(k, k + step)
-            found[part] = self._block(p[part, None], q[part, None], error[part, None])
+        # What has blocked most comes first: few segments are left for the other chords.
+        order = np.argsort(-self._blocked, kind="stable")
+        while len(order) and len(left := np.flatnonzero(~found)):
+            width = max(BATCH, CHUNK * BATCH // len(left))
+            some, order = order[:width], order[width:]
+            for k in range(0, len(left), CHUNK):
+                rows = left[k : k + CHUNK]
+                crossed = self._crossed(p[rows, None], q[rows, None], error[rows, None], some)
+                found[rows] = crossed.any(axis=1)
+                self._blocked[some] += crossed.sum(axis=0)
         return found
 
-    def _block(self, p: Floats, q: Floats, error: Floats) -> Bools:
-        sight, chord = q - p, self.ends - self.starts
+    def _crossed(self, p: Floats, q: Floats, error: Floats, some: Ints) -> Bools:
+        """Which segments certainly cross which of some chords."""
+        starts, ends = self.starts[some], self.ends[some]
+        sight, chord = q - p, ends - starts
         length, width = np.hypot(*np.moveaxis(sight, -1, 0)), np.hypot(*chord.T)
-        to_start, to_end = self.starts - p, self.ends - p
+        to_start, to_end = starts - p, ends - p
         far = np.hypot(*np.moveaxis(to_start, -1, 0)) + width
         error = np.maximum(error, self.grain)
         room = ROOM * self.size
         least = 2 * error * length + room * (length + far)
         one, two = _cross(sight, to_start), _cross(sight, to_end)
         beside = (np.minimum(one, two) < -least) & (np.maximum(one, two) > least)
-        least = (2 * error + self.bulges) * width + room * (width + far + length)
-        one, two = -_cross(chord, to_start), _cross(chord, q - self.starts)
+        least = (2 * error + self.bulges[some]) * width + room * (width + far + length)
+        one, two = -_cross(chord, to_start), _cross(chord, q - starts)
         across = (np.minimum(one, two) < -least) & (np.maximum(one, two) > least)
-        blocked: Bools = (beside & across).any(axis=1)
-        return blocked
+        crossed: Bools = beside & across
+        return crossed
 
     # -- balls -------------------------------------------------------------------------------------
 

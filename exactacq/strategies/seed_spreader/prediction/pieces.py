@@ -26,8 +26,8 @@ MARGIN = 1e-11
 """Margin of lengths, for coordinates of size 1: 10^4 times the rounding errors of the formulas."""
 ANGLE = 1e-10
 """Margin of sines of angles."""
-CHUNK = 1 << 17
-"""Entries of one table of lines by pieces: bounds the memory."""
+CHUNK, BATCH = 2048, 16
+"""Of many lines so many meet so many pieces at once: a table that the processor's cache holds."""
 
 
 def cross(a: Floats, b: Floats) -> Any:
@@ -76,6 +76,7 @@ class Pieces:
         circles = [(*c.center.xy, float(c.radius)) if isinstance(c, Arc) else (0.0, 0.0, 1.0) for c in curves]
         table = np.array(circles).reshape(-1, 3)
         self.center, self.radius = table[:, :2], table[:, 2]
+        self._blocked = np.zeros(len(curves), dtype=np.intp)
         close = norm(self.end[:, None] - self.start[None]) <= self.slack
         self.before = np.full(len(curves), -1)
         self.after = np.full(len(curves), -1)
@@ -108,31 +109,35 @@ class Pieces:
     def block(self, p: Floats, q: Floats, error: Floats) -> Flags:
         """Which segments, with ends known up to an error, certainly cross a piece inside it."""
         found = np.zeros(len(p), dtype=bool)
-        step = max(1, CHUNK // max(1, len(self.curves)))
-        for k in range(0, len(p), step):
-            part = slice(k, k + step)
-            found[part] = self._block(p[part, None], q[part, None], error[part, None])
+        # What has blocked most comes first: few segments are left for the other pieces.
+        order = np.argsort(-self._blocked, kind="stable")
+        while len(order) and len(left_over := np.flatnonzero(~found)):
+            width = max(BATCH, CHUNK * BATCH // len(left_over))
+            some, order = order[:width], order[width:]
+            is_straight = self.sense[some] == 0
+            for k in range(0, len(left_over), CHUNK):
+                rows = left_over[k : k + CHUNK]
+                a, b, errors = p[rows, None], q[rows, None], error[rows, None]
+                crossed = np.zeros((len(rows), len(some)), dtype=bool)
+                crossed[:, is_straight] = self._crossed_straight(a, b, errors, some[is_straight])
+                crossed[:, ~is_straight] = self._crossed_round(a, b, errors, some[~is_straight])
+                found[rows] = crossed.any(axis=1)
+                self._blocked[some] += crossed.sum(axis=0)
         return found
 
-    def _block(self, p: Floats, q: Floats, error: Floats) -> Flags:
-        length = norm(q - p)
-        d = unit(q - p)
-        straight = self.sense == 0
-        blocked = np.zeros(len(p), dtype=bool)
-        if straight.any():
-            a, b = self.start[straight] - p, self.end[straight] - p
-            along = unit(b - a)
-            grown = self.slack + error * (1 + 2 * np.maximum(norm(a), norm(b)) / np.maximum(length, TINY))
-            one, two = cross(d, a), cross(d, b)
-            parted = (one * two < 0) & (np.minimum(np.abs(one), np.abs(two)) > grown)
-            one, two = -cross(along, a), cross(along, q - p - a)
-            parted &= (one * two < 0) & (np.minimum(np.abs(one), np.abs(two)) > self.slack + error)
-            blocked |= parted.any(axis=1)
-        if not straight.all():
-            blocked |= self._block_round(p, d, length, error, np.flatnonzero(~straight))
-        return blocked
+    def _crossed_straight(self, p: Floats, q: Floats, error: Floats, k: Ints) -> Flags:
+        length, d = norm(q - p), unit(q - p)
+        a, b = self.start[k] - p, self.end[k] - p
+        along = unit(b - a)
+        grown = self.slack + error * (1 + 2 * np.maximum(norm(a), norm(b)) / np.maximum(length, TINY))
+        one, two = cross(d, a), cross(d, b)
+        parted = (one * two < 0) & (np.minimum(np.abs(one), np.abs(two)) > grown)
+        one, two = -cross(along, a), cross(along, q - p - a)
+        parted &= (one * two < 0) & (np.minimum(np.abs(one), np.abs(two)) > self.slack + error)
+        return np.asarray(parted)
 
-    def _block_round(self, p: Floats, d: Floats, length: Floats, error: Floats, k: Ints) -> Flags:
+    def _crossed_round(self, p: Floats, q: Floats, error: Floats, k: Ints) -> Flags:
+        length, d = norm(q - p), unit(q - p)
         radius, sense, full = self.radius[k], self.sense[k], self.full[k]
         offset = self.center[k] - p
         height, middle = cross(d, offset), dot(offset, d)
@@ -142,14 +147,14 @@ class Pieces:
         shift = grown * (2 + 2 * radius / half)
         chord = self.end[k] - self.start[k]
         wide = norm(chord) > 1e-6 * radius
-        blocked = np.zeros(len(p), dtype=bool)
+        crossed = np.zeros(height.shape, dtype=bool)
         for root in (middle - half, middle + half):
             inner = (root > shift) & (root < length - shift)
             place = p + root[..., None] * d
             side = cross(unit(chord), place - self.start[k]) * -sense
             inside = full | wide & (side > shift)
-            blocked |= (deep & inner & inside).any(axis=1)
-        return blocked
+            crossed |= deep & inner & inside
+        return crossed
 
 
 @dataclass(frozen=True)
