@@ -416,7 +416,13 @@ class _LineBatch:
         return self.search._is_seen(p, center, on)
 
     def _sees_close(self, i: int, j: int) -> bool:
-        """Two features that floats cannot part, or a line that seems to run along the walk."""
+        """Two features that floats cannot part, or a line that seems to run along the walk.
+
+        No line touches just two circles about one centre.
+        """
+        one, other = (self._shape(k)[0].rational for k in (i, j))
+        if one is not None and one == other:
+            return False
         goals = [k for k in (i, j) if self.proposals.goal[k]]
         targets = range(len(self.search.targets))
         return any(self._sees_along(i, j, -1, k, -1) for k in goals) or any(
@@ -432,6 +438,9 @@ class _LineBatch:
                 looked_at.add(cell.target)
                 if self._sees_on_line(cell.target):
                     return True
+            if self._is_point_of_line(cell.touch):
+                # Of the walk's own line alone, which was asked for.
+                continue
             answer = self._sees_in(cell, lines)
             if answer:
                 return True
