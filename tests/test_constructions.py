@@ -12,31 +12,34 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from random import Random
+from typing import TypeAlias
 
 import pytest
 from flint import fmpq
 from nightly import some
 
 import exactacq as xa
-from exactacq import Circle, Point, Scene, Segment
+from exactacq import Circle, Outline, Point, Scene, Segment
 from exactacq.auditing import comparisons
 from exactacq.geometry import curves, intersections
 from exactacq.geometry.constructions import is_put_on, put_on, put_on_tangent
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.intersections import ContactKind, contacts
 from exactacq.numbers import tower
-from exactacq.sensing import legs, memory, range_ends, straight_way
+from exactacq.sensing import acquisition, legs, memory, range_ends, straight_way
+from exactacq.sensing.path import Piece
 from exactacq.strategies.seed_spreader.prediction.decide import _way
 from exactacq.strategies.seed_spreader.prediction.pieces import Pieces
 from exactacq.strategies.seed_spreader.prediction.sight import Sights
 from exactacq.study.random_scenes import Subject, arc_scene
 from exactacq.visibility import line_families, place_facts
-from exactacq.visibility.place_facts import NOTHING_KNOWN
 
 HERE = Path(__file__).parent
 UNIT = Arc.circle(Point(0, 0), fmpq(1))
 ROOT3 = xa.Real(3).sqrt()
 FAR = Point(3, 0)
+
+Slot: TypeAlias = "list[tuple[object, ...]]"
 
 
 @contextmanager
@@ -186,6 +189,52 @@ def test_a_line_of_sight_that_touches_a_disc_is_not_asked_where_it_leads(
     assert not spent
 
 
+def among_slots(low: Slot, high: Slot, start: tuple[int, int], radius: int) -> Scene:
+    """Two slots, bent like the plate with round ends that they are cut into."""
+    plate = Outline([(0, -25), (70, -25, 1), (70, 25), (0, 25)])
+    return Scene([Outline(low), Outline(high)], start, radius=radius, enclosure=plate)
+
+
+@pytest.mark.parametrize("start", [(88, -2), (25, 17), (26, 9), (29, -4)])
+def test_a_halt_where_a_gap_closes_at_the_range_sees_its_end(start: tuple[int, int]) -> None:
+    """The end of what was known, exactly 21 from where the robot halts, is the end of what it sees there."""
+    low = [("52.527", "-11.649", "0.099"), ("58.351", "-17.473", 1)]
+    low += [("60.57", "-14.145", "-0.099"), ("55.855", "-9.43", 1)]
+    high = [("58.351", "17.473", "0.099"), ("52.527", "11.649", 1)]
+    high += [("55.855", "9.43", "-0.099"), ("60.57", "14.145", 1)]
+    run = xa.explore(among_slots(low, high, start, 21), "nearest-frontier")
+    assert run.map.acquired == (0, 1, 2)
+
+
+def test_a_halt_where_a_gap_closes_along_the_arc_that_is_walked_sees_its_end() -> None:
+    """The end of what was known is seen along the tangent of the arc; balls hardly hold its parameter."""
+    low = [("52.52694381890525", "-11.6487041207298", "48431676/489112441")]
+    low += [("58.3512958792702", "-17.47305618109475", "141161246478402/141161246478403")]
+    low += [("60.57009666417113", "-14.14485500374335", "-48431676/489112441")]
+    low += [("55.85514499625665", "-9.42990333582887", 1)]
+    high = [("58.35129587927017", "17.47305618109473", "9559439/96540961")]
+    high += [("52.52694381890527", "11.64870412072983", "163287535202857/163287535202858")]
+    high += [("55.85514499625667", "9.42990333582889", "-9559439/96540961")]
+    high += [("60.57009666417111", "14.14485500374333", 1)]
+    run = xa.explore(among_slots(low, high, (22, 20), 22), "nearest-frontier")
+    assert run.map.acquired == (0, 1, 2)
+
+
+def test_what_was_looked_along_is_not_looked_for_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where an obstacle becomes whole on a way that the robot halts on is found once."""
+    asked = list[int]()
+    place = acquisition.Acquisition.place
+
+    def counted(self: acquisition.Acquisition) -> acquisition.Place:
+        asked.append(self.k)
+        return place(self)
+
+    monkeypatch.setattr(acquisition.Acquisition, "place", counted)
+    run = xa.explore(xa.load("circles"), "nearest-frontier")
+    acquired = [event.obstacle for event in run.events if event.kind is xa.EventKind.ACQUIRE]
+    assert len(asked) == len(set(asked)) == len(acquired)
+
+
 @pytest.mark.parametrize("off", [0, fmpq(1, 10**9)])
 def test_a_line_that_touches_a_disc_enters_another_where_it_is_met_first(off: object) -> None:
     """The robot halts at irrational places of a line that is computed with by points of whole coordinates.
@@ -257,13 +306,20 @@ def told(seed: int) -> list[object] | None:
 
 @pytest.mark.parametrize("seed", some(range(60), 12))
 def test_what_is_known_of_points_changes_nothing(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without it numbers tell the same, where they can: no point claims what it was not made with."""
-    with_facts = told(seed)
+    """Without it numbers tell the same, where they can: no point claims what it was not made with.
+
+    There each way is looked along anew when it is walked, also up to a halt.
+    """
+    with_facts, taken = told(seed), memory.Memory._taken
+
+    def taken_whole(self: memory.Memory, piece: Piece) -> object:
+        return taken(self, piece) if self._looked[0] is piece else None
+
     for module in (curves, intersections, legs, straight_way, line_families, range_ends, place_facts):
         for name, nothing in (("is_put_on", False), ("is_put_on_tangent", False), ("touch_on_tangent", None)):
             if hasattr(module, name):
                 monkeypatch.setattr(module, name, lambda *_, nothing=nothing: nothing)
-    monkeypatch.setattr(memory, "_facts_told", lambda *_: NOTHING_KNOWN)
+    monkeypatch.setattr(memory.Memory, "_taken", taken_whole)
     without = told(seed)
     if without is None:
         pytest.skip("numbers alone do not decide it")

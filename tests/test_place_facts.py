@@ -19,7 +19,9 @@ from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.leg_facts import LegFacts
 from exactacq.sensing.leg_views import Shares
+from exactacq.sensing.sensor import Ahead, Notice, Sensor
 from exactacq.strategies.run import Run
+from exactacq.study.random_scenes import Subject, arc_scene
 from exactacq.visibility.front_faces import FrontFaces
 from exactacq.visibility.place_facts import NOTHING_KNOWN, Alignment, PlaceFacts
 from exactacq.visibility.range_clip import Disc, within
@@ -55,15 +57,19 @@ def check_ray(ray: Alignment, table: EdgeTable, place: Point) -> None:
     assert (place - ray.contact).cross(direction) == 0
     for feature, side in ray.touched:
         if side == 0:
-            way = table.curves[feature].start - place
+            touch = table.curves[feature].start
         else:
             arc = table.curves[table.line_numbers.first_arc(feature)]
             assert isinstance(arc, Arc)
             touch = ray.touch(feature, arc.center)
-            way, spoke = touch - place, arc.center - touch
+            spoke = arc.center - touch
             assert spoke.dot(direction) == 0 and spoke.norm_sq() == arc.radius_sq
             assert direction.cross(spoke).sign() == side
-        assert way.cross(direction) == 0 and way.dot(direction) > 0
+        way = touch - place
+        assert way.cross(direction) == 0 and (way.dot(direction) > 0 or touch == place)
+    for e, met in ray.met.items():
+        assert table.curves[e].contains(met)
+        assert (met - place).cross(direction) == 0 and (met - place).dot(direction) > 0
 
 
 def check_tangent(curve: Curve, way: Point, touch: Point) -> None:
@@ -79,8 +85,9 @@ def check(facts: PlaceFacts, table: EdgeTable, place: Point, range_: Range) -> N
     """All facts are true, and a view that is told of them sees the same as one that is not."""
     for ray in facts.rays:
         check_ray(ray, table, place)
-    for corner in facts.corners:
-        assert (corner - place).norm_sq() == range_.square
+    for e, point in facts.rim:
+        assert (point - place).norm_sq() == range_.square
+        assert table.curves[e].contains(point)
     for e, touch in facts.tangent.items():
         assert (touch - place).norm_sq() == range_.square
         check_tangent(table.curves[e], touch - place, touch)
@@ -121,9 +128,34 @@ def test_facts_are_true(terrain: object, legs: list[LegFacts]) -> None:
                 check(facts, table, place, range_)
                 counts["single"] += check_single(leg._shares, end.places[share.side], place)
                 counts.update("alone" if len(ray.touched) == 1 else "aligned" for ray in facts.rays)
-                counts.update(corner=len(facts.corners), tangent=len(facts.tangent), holds=len(facts.holds))
+                counts.update(rim=len(facts.rim), tangent=len(facts.tangent), holds=len(facts.holds))
         legs.clear()
-    assert all(counts[kind] for kind in ("single", "alone", "aligned", "corner", "tangent", "holds")), counts
+    assert all(counts[kind] for kind in ("single", "alone", "aligned", "rim", "tangent", "holds")), counts
+
+
+def test_facts_of_halts_are_true(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where a gap closes, the end of it is seen along a ray, or is as far away as the range.
+
+    Of each run the first halts: the numbers of later ones are made of theirs.
+    """
+    counts, halts = Counter[str](), list[tuple[PlaceFacts, Point]]()
+    upto = Sensor.upto
+
+    def noted(self: Sensor, ahead: Ahead, last: Notice, facts: PlaceFacts) -> Ahead:
+        if last.facts is not NOTHING_KNOWN and len(halts) < 4:
+            halts.append((facts, last.place))
+        return upto(self, ahead, last, facts)
+
+    monkeypatch.setattr(Sensor, "upto", noted)
+    for seed in range(60 if NIGHTLY else 14):
+        scene = arc_scene(Subject.SIGHTSEER, seed)
+        halts.clear()
+        xa.explore(scene, "nearest-frontier")
+        table = EdgeTable(scene.obstacles)
+        for facts, place in halts:
+            check(facts, table, place, Range(scene.radius))
+            counts.update(rim=len(facts.rim), met=sum(len(ray.met) for ray in facts.rays))
+    assert counts["rim"] and counts["met"], counts
 
 
 def arc(y: int, radius: int, ccw: bool, start: tuple[int, int], end: tuple[int, int]) -> Arc:

@@ -29,7 +29,7 @@ from exactacq.numbers.real import Real
 from exactacq.sensing.leg_facts import rays_along
 from exactacq.sensing.leg_views import Share, Shares
 from exactacq.sensing.legs import Leg
-from exactacq.visibility.place_facts import Alignment
+from exactacq.visibility.place_facts import NOTHING_KNOWN, PlaceFacts
 
 BITS = 64
 """Precision of the balls that part places: that of late numbers, so none is made."""
@@ -56,6 +56,7 @@ class Acquisition:
         edges, (self._low, self._high), _ = self._last
         self._targets = [target for target in shares.targets.of[k] if target.edge in edges]
         self._reaching: list[Share] = []
+        self._at_range: list[tuple[Point, int, Point]] = []
 
     @cached_property
     def shares(self) -> Shares:
@@ -90,11 +91,16 @@ class Acquisition:
         (moment,), _ = self._closing([[m] for m in distinct], stretch)
         return moment
 
-    def rays(self, place: Point) -> list[Alignment]:
-        """The rays from the place that was found along which the ends of gaps that close there are seen."""
+    def facts(self, place: Point) -> PlaceFacts:
+        """What is known of the place that was found, by the ends of gaps that close there.
+
+        They are seen along rays, or as far away as the range.
+        """
         table = self._every.complex.table
         views = (view for view in self._reaching if view.source.start is place)
-        return [ray for view in views for ray in rays_along(table, view, place)]
+        rays = [ray for view in views for ray in rays_along(table, view, place)]
+        rim = [(e, point) for at, e, point in self._at_range if at is place]
+        return PlaceFacts(rays, rim=rim) if rays or rim else NOTHING_KNOWN
 
     def _closing(self, clusters: list[list[Place]], stretch: Meanwhile) -> tuple[list[Place], Meanwhile]:
         """The first cluster of places of a stretch after which the obstacle is whole; the stretch around it.
@@ -154,7 +160,9 @@ class Acquisition:
                         yield view.source.low, view.source.start
                     corner = self._corner(e, point)
                     if corner not in corners:
-                        yield from self._in_range(leg, point)
+                        for moment in self._in_range(leg, point):
+                            self._at_range.append((moment[1], e, point))
+                            yield moment
                     if corner is not None:
                         # It may end the gaps of two edges.
                         corners.add(corner)

@@ -114,7 +114,7 @@ class Seen:
     ) -> None:
         self.table, self.place = table, place
         self._view = BoundaryView(table, place, range_, own, facts)
-        self._rails = rails
+        self._rails, self._rays = rails, facts.rays
         self._held: dict[int, dict[Hold, Pin]] = {}
 
     @property
@@ -173,6 +173,9 @@ class Seen:
         for hold in self._holds(e, point, end.tight, free_views):
             if hold in self.held(e):
                 yield self.held(e)[hold]
+            for ray in self._rays:
+                if e in ray.met and hold[1:] in ray.touched:
+                    yield ray.met[e], self._rails[e].parameter(ray.met[e])
 
     def _is_here(self, e: int, point: Point, t: Real, free_views: FreeViews, side: int) -> bool:
         """Whether this place lies on an edge, and a line from it certainly meets the edge just here.

@@ -11,22 +11,20 @@ from dataclasses import replace
 from itertools import chain
 
 from exactacq.cached import cached_property
-from exactacq.geometry.coordinates import dot
-from exactacq.geometry.late import BITS, balls, from_to
+from exactacq.geometry.late import balls, from_to
 from exactacq.geometry.points import Point
-from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.end_names import holds
 from exactacq.sensing.leg_views import Share, Shares
 from exactacq.sensing.line_points import Role
 from exactacq.sensing.view_families import End
-from exactacq.visibility.line_balls import line
 from exactacq.visibility.place_facts import (
     NOTHING_KNOWN,
     Alignment,
     Hold,
     PlaceFacts,
+    tangents_along,
     tangents_at,
     tangents_from,
 )
@@ -48,7 +46,7 @@ class LegFacts:
         """What is known of a place, with parameter *u*; `NOTHING_KNOWN` if no family ends there."""
         table, around = self._shares.complex.table, balls(place)
         rays, held = list[Alignment](), set[Hold]()
-        corners, tangent = list[Point](), dict[int, Point]()
+        rim, tangent = list[tuple[int, Point]](), dict[int, Point]()
         for end, share in self._ends:
             v, views = end.places[share.side], share.family.free_views
             if views is None or not _is_at(v, u, end.tight):
@@ -60,16 +58,16 @@ class LegFacts:
                 continue
             e, point, curve = share.edge, end.points[1 - share.side], table.curves[share.edge]
             if point is curve.start or point is curve.end:
-                corners.append(point)
+                rim.append((e, point))
             elif views.sides[1 - share.side].role is Role.CONTACT and views.is_normal:
                 tangent[table.line_numbers.circles[e]] = point
             else:
                 held.update(holds(table, place, e, point, views))
         # Last: of several forms of one ray that of the way counts, which `OwnLine` uses too.
         rays += self._shares.leg.facts(table, place).rays
-        if not (rays or held or corners or tangent):
+        if not (rays or held or rim or tangent):
             return NOTHING_KNOWN
-        return PlaceFacts(rays, held, corners, tangent)
+        return PlaceFacts(rays, held, rim, tangent)
 
     @cached_property
     def _ends(self) -> list[tuple[End, Share]]:
@@ -89,13 +87,15 @@ def rays_along(table: EdgeTable, share: Share, start: Point) -> Iterator[Alignme
     end = next((end for end in ends if end.points[side] is start), None)
     if end is None or views is None or views.anchor is None:
         return
-    place, seen = balls(end.points[side]), balls(end.points[1 - side])
-    *_, u, v = line(views.sector, end.t.ball(BITS))
-    ahead = ball_sign(dot(from_to(place, seen), (u, v)))
-    if views.sides[side].role is Role.CONTACT and views.sector.round:
+    place, (near, far) = balls(end.points[side]), (views.sides[side].role, views.sides[1 - side].role)
+    ahead = 1 if far > near else -1
+    if near is Role.CONTACT and views.sector.round:
         rays = tangents_at(views.sector, end.t, views.anchor)
     else:
-        rays = tangents_from(table, place, views.sector, end.t, [views.anchor])
+        # The numbers of a line through two places tell less than these.
+        u, v = from_to(place, balls(end.points[1 - side]))
+        direction = u * ahead, v * ahead
+        rays = tangents_along(table, place, direction, views.sector, end.t, [views.anchor])
     for ray in rays:
         yield replace(ray, met={share.edge: end.points[1 - side]}) if ray.sense == ahead else ray
 

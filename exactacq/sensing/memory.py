@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from flint import fmpq
@@ -56,19 +56,6 @@ class Report:
     def event(self, path: Path) -> Event:
         """The event on the whole path."""
         return Event(self.kind, self.place, self.obstacle, self.after, path, self.inside, reason=self.reason)
-
-
-def _facts_told(ahead: Ahead | None, place: Point) -> PlaceFacts:
-    """What a leg that was looked along tells of the view from where the robot halts on it.
-
-    It halts as something happens there: so families of views end there, or what they show.
-    """
-    here = [] if ahead is None else [notice for notice in ahead.notices if notice.place is place]
-    if ahead is None or ahead.shares is None or not here:
-        return NOTHING_KNOWN
-    facts = LegFacts(ahead.shares).at(here[0].u, place)
-    rays = [ray for notice in here for ray in notice.rays]
-    return replace(facts, rays=[*facts.rays, *rays]) if rays else facts
 
 
 def _report(notice: Notice, leg: int, after: int, inside: bool) -> Report:
@@ -197,14 +184,11 @@ class Memory:
 
     def walk(self, piece: Piece) -> list[Report]:
         """Take in all that a piece of the path shows; the reports in the order in which they come."""
-        known, ahead = self._looked
-        legs = [ahead.leg] if ahead is not None and known is piece else self._legs_of(piece)
+        looked = self._taken(piece)
+        legs = self._legs_of(piece) if looked is None else [looked.leg]
         count, reports, retraced = len(self._legs), [], self._is_retraced(piece, legs)
         for k, leg in enumerate(legs):
-            if ahead is not None and leg is ahead.leg:
-                took = ahead
-            else:
-                took = self._sensor.ahead(leg, retraced, _facts_told(ahead, leg.end))
+            took = self._sensor.ahead(leg, retraced) if looked is None else looked
             notices, learned = self._sensor.follow(took)
             self._learn(learned)
             for n in notices:
@@ -218,6 +202,21 @@ class Memory:
         if retraced:
             self._retraced.add(count)
         return self._reported(reports)
+
+    def _taken(self, piece: Piece) -> Ahead | None:
+        """What was looked along last, if the robot takes it: all of it, or to where something happens."""
+        (known, ahead), self._looked = self._looked, (None, None)
+        if ahead is None or known is piece:
+            return ahead
+        here = [notice for notice in ahead.notices if notice.place is piece.end]
+        if not here or piece.start is not ahead.leg.start:
+            return None
+        assert ahead.shares is not None, "what is told was seen"
+        # Families of views end there, or what they show.
+        facts = LegFacts(ahead.shares).at(here[0].u, piece.end)
+        for notice in here:
+            facts = facts.joined(notice.facts)
+        return self._sensor.upto(ahead, here[0], facts)
 
     def _learn(self, learned: Mapping[int, Cover]) -> None:
         self._history.learn(learned)

@@ -8,7 +8,7 @@ its two ends (see `view_families`). Only obstacles that are not acquired yet are
 from __future__ import annotations
 
 from collections import ChainMap, deque
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 from functools import cmp_to_key, partial
 
@@ -29,7 +29,7 @@ from exactacq.sensing.straight_way import StraightWay
 from exactacq.sensing.targets import Targets
 from exactacq.sensing.underway import LegNews, Underway
 from exactacq.sensing.visibility_complex import VisibilityComplex
-from exactacq.visibility.place_facts import NOTHING_KNOWN, Alignment, PlaceFacts
+from exactacq.visibility.place_facts import NOTHING_KNOWN, PlaceFacts
 from exactacq.visibility.sensor_range import Range
 
 VIEWS_KEPT = 64
@@ -42,7 +42,7 @@ ORDER = {kind: k for k, kind in enumerate(SENSED)}
 class Notice:
     """A report from a place of a leg (``u`` on its rail); ``reason`` says why an obstacle was lost.
 
-    Along ``rays`` the place sees the ends of the gaps that close there.
+    The ``facts`` are those of the ends of gaps that close there.
     """
 
     kind: EventKind
@@ -50,7 +50,7 @@ class Notice:
     u: Real
     place: Point
     reason: Reason | None = None
-    rays: Sequence[Alignment] = ()
+    facts: PlaceFacts = NOTHING_KNOWN
 
 
 def _in_order(leg: Leg, a: Notice, b: Notice) -> int:
@@ -120,18 +120,31 @@ class Sensor:
         self._here = ahead.leg.end
         return self._settle(ahead.notices, ahead.learned)
 
-    def ahead(self, leg: Leg, retraced: bool = False, facts: PlaceFacts = NOTHING_KNOWN) -> Ahead:
-        """What moving along a leg will tell; nothing is learned where the robot has been (*retraced*).
-
-        *facts* are what is known of the view from its end.
-        """
-        self._told_of = leg.end, facts
+    def ahead(self, leg: Leg, retraced: bool = False) -> Ahead:
+        """What moving along a leg will tell; nothing is learned where the robot has been (*retraced*)."""
         obstacles = self._near(leg) - self.acquired
         if not obstacles:
             return Ahead(leg, [], {}, None)
         with deciding("what is seen on the way from {} to {}", leg.start, leg.end):
             shares = Shares(self.complex, self.targets, leg, obstacles, self._view, self._known)
             return Ahead(leg, *self._told(shares, retraced), shares)
+
+    def upto(self, ahead: Ahead, last: Notice, facts: PlaceFacts) -> Ahead:
+        """What moving along a leg that was looked along will tell up to the place of one of its reports.
+
+        *facts* are what is known of the view from there. What is in sight to the end of a leg is lost as the
+        next one begins.
+        """
+        assert ahead.shares is not None, "what is told was seen"
+        leg, self._told_of = ahead.leg.upto(last.u, last.place), (last.place, facts)
+        leg.named.update(ahead.leg.named)
+        notices = [
+            n for n in ahead.notices if leg.order(n.u, last.u) < (0 if n.kind is EventKind.LOSE else 1)
+        ]
+        with deciding("what is seen on the way from {} to {}", leg.start, leg.end):
+            shares = ahead.shares.cut(leg)
+            learned = shares.taught(self.covers, self._known, leg.start is self._here)
+        return Ahead(leg, notices, learned, shares)
 
     def _told(self, shares: Shares, retraced: bool) -> tuple[list[Notice], dict[int, Cover]]:
         leg = shares.leg
@@ -260,4 +273,4 @@ class Sensor:
         seen = self._with_view(self._view(leg.start, leg.own(leg.first)), [k])
         acquisition = Acquisition(shares, k, ChainMap(seen, self.covers))
         u, place = acquisition.place()
-        return Notice(EventKind.ACQUIRE, k, u, place, rays=acquisition.rays(place))
+        return Notice(EventKind.ACQUIRE, k, u, place, facts=acquisition.facts(place))

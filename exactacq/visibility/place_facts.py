@@ -76,15 +76,21 @@ class PlaceFacts:
     """Facts about the view from one place.
 
     ``rays`` from it touch something. Exactly as far away as the range are the ends of sights that are held by
-    one of ``holds``, and the vertices ``corners``, told apart as objects. ``tangent`` has the point in
+    one of ``holds``, and the points of edges in ``rim``, told apart as objects. ``tangent`` has the point in
     which the line of a straight edge, or the circle of some arcs, touches the circle of the range: by the
     edge, or the first of the arcs.
     """
 
     rays: Sequence[Alignment] = ()
     holds: Collection[Hold] = frozenset()
-    corners: Sequence[Point] = ()
+    rim: Sequence[tuple[int, Point]] = ()
     tangent: Mapping[int, Point] = field(default_factory=dict)
+
+    def joined(self, other: PlaceFacts) -> PlaceFacts:
+        """These facts and those of the rays and of the rim that are known otherwise."""
+        if other is NOTHING_KNOWN:
+            return self
+        return replace(self, rays=[*self.rays, *other.rays], rim=[*self.rim, *other.rim])
 
 
 NOTHING_KNOWN = PlaceFacts()
@@ -95,7 +101,14 @@ def tangents_from(
 ) -> Iterator[Alignment]:
     """The two rays from a place on the line of a sector at *t*, which touches *features*, its own first."""
     *_, u, v = line(sector, t.ball(BITS))
-    return _alignments(table, place, (u, v), partial(sector.touch, t), features, features[0])
+    return tangents_along(table, place, (u, v), sector, t, features)
+
+
+def tangents_along(
+    table: EdgeTable, place: Balls, direction: Balls, sector: Sector, t: Real, features: Sequence[int]
+) -> Iterator[Alignment]:
+    """Like `tangents_from`, if balls hold the line's direction."""
+    return _alignments(table, place, direction, partial(sector.touch, t), features, features[0])
 
 
 def tangents_at(sector: Sector, t: Real, circle: int) -> Iterator[Alignment]:

@@ -26,14 +26,15 @@ Span: TypeAlias = "tuple[Point, Point]"
 class Disc:
     """The closed disc about a point with a rational squared radius, and balls around these numbers.
 
-    The points *on_rim*, told apart as objects, are known to lie on its circle.
+    Some points of curves are known to lie on its *rim*: as objects in ``on_rim``.
     """
 
-    __slots__ = ("_balls", "center", "on_rim", "point", "square")
+    __slots__ = ("_balls", "_rim", "center", "on_rim", "point", "square")
     _balls: tuple[Balls, arb]
 
-    def __init__(self, point: Point, square: fmpq, on_rim: Sequence[Point] = ()) -> None:
-        self.point, self.center, self.square, self.on_rim = point, raw(point), square, [*on_rim]
+    def __init__(self, point: Point, square: fmpq, rim: Sequence[tuple[Curve, Point]] = ()) -> None:
+        self.point, self.center, self.square, self._rim = point, raw(point), square, rim
+        self.on_rim = [point for _, point in rim]
 
     @property
     def balls(self) -> tuple[Balls, arb]:
@@ -54,6 +55,16 @@ class Disc:
             return 0
         offset = minus(raw(point), self.center)
         return sign(dot(offset, offset) - self.square)
+
+    def known(self, curve: Curve, around: Balls, other: Balls) -> Point | None:
+        """Where a curve's line or circle meets the rim, if that is known, by balls *around* it.
+
+        It meets the rim in one *other* place: what certainly is not there is here.
+        """
+        for known, point in self._rim:
+            if known is curve and _may_be_one(balls(point), around) and not _may_be_one(balls(point), other):
+                return point
+        return None
 
 
 def within(
@@ -108,6 +119,12 @@ def late_crossing(line: Segment, disc: Disc, side: int) -> Point:
 def _touched(ends: Span, excess: tuple[int, ...], inside: list[Span]) -> list[Span]:
     """What is within range of a piece of a curve that has one point there: an end, or a point *inside*."""
     return next(([(end, end)] for end, far in zip(ends, excess, strict=True) if far <= 0), inside)
+
+
+def _may_be_one(one: Balls, other: Balls) -> bool:
+    """Whether two points may be one; balls that are not finite leave it open."""
+    apart = (a.is_finite() and b.is_finite() and not a.overlaps(b) for a, b in zip(one, other, strict=True))
+    return not any(apart)
 
 
 # -- segments --------------------------------------------------------------------------------------
@@ -176,9 +193,15 @@ class _Secant:
 
     def crossing(self, side: int) -> Point:
         """Where the line enters (-1) or leaves (1) the disc."""
-        share = (self.foot + self.rest.sqrt() * side) / self.square
-        around = self.start[0] + self.along[0] * share, self.start[1] + self.along[1] * share
+        around, other = self._around(side), self._around(-side)
+        known = self.disc.known(self.line, around, other)
+        if known is not None:
+            return known
         return late_point(around, _on_line, self.line, self.disc.center, self.disc.square, side)
+
+    def _around(self, side: int) -> Balls:
+        share = (self.foot + self.rest.sqrt() * side) / self.square
+        return self.start[0] + self.along[0] * share, self.start[1] + self.along[1] * share
 
 
 def _foot(line: Segment, center: Vector, radius_sq: fmpq) -> tuple[Any, Any, Any]:
@@ -231,13 +254,17 @@ class _CircleCut:
 
     def point(self, side: int) -> Point:
         """Where the circle leaves the range to the left (1) or right (-1) of w; a late point."""
+        around, other = self._around(side), self._around(-side)
+        known = self.disc.known(self.arc, around, other)
+        return late_point(around, _crossing, self.arc, self.w, self.level, side) if known is None else known
+
+    def _around(self, side: int) -> Balls:
         x, y = balls(self.arc.center)
         u, v = x - self.disc.balls[0][0], y - self.disc.balls[0][1]
         square, radius_sq = u * u + v * v, arb(self.arc.radius_sq)
         level = (self.disc.balls[1] - square - radius_sq) / 2
         height = (radius_sq * square - level * level).sqrt() * side
-        around = x + (u * level - v * height) / square, y + (v * level + u * height) / square
-        return late_point(around, _crossing, self.arc, self.w, self.level, side)
+        return x + (u * level - v * height) / square, y + (v * level + u * height) / square
 
     def is_point(self, point: Point, excess: int, side: int) -> bool:
         """Whether a point of the circle is its crossing of the range to the left (1) or right (-1) of w.

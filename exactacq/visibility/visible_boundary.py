@@ -82,7 +82,8 @@ class BoundaryView:
     @cached_property
     def disc(self) -> Disc:
         """What is within range."""
-        return Disc(self.point, self.range.square, self._facts.corners)
+        curves = self.table.curves
+        return Disc(self.point, self.range.square, [(curves[e], point) for e, point in self._facts.rim])
 
     @property
     def parts(self) -> ViewParts:
