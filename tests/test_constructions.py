@@ -22,7 +22,7 @@ import exactacq as xa
 from exactacq import Circle, Outline, Point, Scene, Segment
 from exactacq.auditing import comparisons
 from exactacq.geometry import curves, intersections
-from exactacq.geometry.constructions import is_put_on, put_on, put_on_tangent
+from exactacq.geometry.constructions import is_put_on, put_around, put_on, put_on_tangent
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.intersections import ContactKind, contacts
 from exactacq.numbers import tower
@@ -216,8 +216,22 @@ def test_a_halt_where_a_gap_closes_along_the_arc_that_is_walked_sees_its_end() -
     high += [("52.52694381890527", "11.64870412072983", "163287535202857/163287535202858")]
     high += [("55.85514499625667", "9.42990333582889", "-9559439/96540961")]
     high += [("60.57009666417111", "14.14485500374333", 1)]
-    run = xa.explore(among_slots(low, high, (22, 20), 22), "nearest-frontier")
-    assert run.map.acquired == (0, 1, 2)
+    for start, radius in (((22, 20), 22), ((20, 23), 20)):
+        run = xa.explore(among_slots(low, high, start, radius), "nearest-frontier")
+        assert run.map.acquired == (0, 1, 2)
+    # From where the audit looks something is exactly as far away as the range.
+    xa.audit(run)
+
+
+def test_a_place_that_was_made_at_the_range_is_not_measured_again() -> None:
+    """A point that claims to be as far from another one as the range is believed: arithmetic is not asked."""
+    end, liar = Point(ROOT3 + 4, 0), Point(ROOT3 + fmpq(1, 10**40), 0)
+    around, wall = Arc.circle(end, fmpq(16)), Segment(liar, Point(-9, 0))
+    (contact,) = contacts(wall, around)
+    assert contact.start == Point(ROOT3, 0)
+    put_around(liar, end, fmpq(16))
+    for curve in (wall, Arc(liar, Point(-ROOT3, 0), Point(0, 1), fmpq(4), ccw=True)):
+        assert any(contact.start is liar for contact in contacts(curve, around))
 
 
 def test_what_was_looked_along_is_not_looked_for_again(monkeypatch: pytest.MonkeyPatch) -> None:

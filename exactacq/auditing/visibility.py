@@ -543,7 +543,10 @@ class _View:
     # -- exact -------------------------------------------------------------------------------------
 
     def sees_along(self, ray: int, k: int) -> bool:
-        """Whether a curve has a point on a ray that sees q: exact, but where it passes q by 500 digits."""
+        """Whether a curve has a point on a ray that sees q: exact, but for places at q or at the range.
+
+        These are told to 500 digits.
+        """
         direction, curve, aim = self.rays[ray].exact(), self.curves[k], self.rays[ray].aim
         found = line_contacts(self.q, direction, curve)
         if not all(t.clear_sign(TIE_BITS) or t.clear_sign(BITS) for t in found):
@@ -556,7 +559,8 @@ class _View:
             return False
         through = isinstance(curve, Segment) and len(ahead) < len(found)
         nearest = Real(0) if through else ahead[0]
-        if (nearest * nearest * direction.norm_sq()).compare(self.lookout.radius**2) > 0:
+        excess: Real = nearest * nearest * direction.norm_sq() - self.lookout.radius**2
+        if (excess.clear_sign(TIE_BITS) or excess.clear_sign(BITS)) > 0:
             return False
         edges = self._possible_edges
         met = np.unique(edges.curve[edges.low[ray] < np.inf])

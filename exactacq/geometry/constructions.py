@@ -25,6 +25,13 @@ class Carrier(NamedTuple):
     square: fmpq
 
 
+class _Around(NamedTuple):
+    """The circle of a squared radius about a point, whatever its numbers are."""
+
+    center: Point
+    square: fmpq
+
+
 class _FromOrigin(NamedTuple):
     """The line from a point that touches a circle, and where it does if that was made."""
 
@@ -33,7 +40,7 @@ class _FromOrigin(NamedTuple):
     touch: Point | None
 
 
-_Fact: TypeAlias = "Carrier | _FromOrigin"
+_Fact: TypeAlias = "Carrier | _Around | _FromOrigin"
 
 
 def put_on(point: Point, carrier: Carrier | None) -> None:
@@ -45,6 +52,18 @@ def put_on(point: Point, carrier: Carrier | None) -> None:
 def is_put_on(point: Point, carrier: Carrier | None) -> bool:
     """Whether a point was made on a circle; of one that was not, nothing is known."""
     return any(isinstance(fact, Carrier) and fact == carrier for fact in _facts(point))
+
+
+def put_around(point: Point, center: Point, square: fmpq) -> None:
+    """Note that a point was made at a squared distance from another one."""
+    if not is_put_around(point, center, square):
+        point._facts = (*_facts(point), _Around(center, square))
+
+
+def is_put_around(point: Point, center: Point, square: fmpq) -> bool:
+    """Whether a point was made at a squared distance from that very object."""
+    found = (fact for fact in _facts(point) if isinstance(fact, _Around) and fact.center is center)
+    return any(fact.square == square for fact in found)
 
 
 def put_on_tangent(point: Point, origin: Point, carrier: Carrier | None, touch: Point | None = None) -> None:

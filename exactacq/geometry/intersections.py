@@ -17,7 +17,7 @@ from typing import Any, TypeAlias
 
 from flint import fmpq
 
-from exactacq.geometry.constructions import is_put_on, is_put_on_tangent, put_on
+from exactacq.geometry.constructions import is_put_around, is_put_on, is_put_on_tangent, put_on
 from exactacq.geometry.coordinates import (
     Vector,
     advance,
@@ -32,6 +32,7 @@ from exactacq.geometry.coordinates import (
     sign,
 )
 from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.late import balls, may_be_one
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
 
@@ -195,7 +196,7 @@ def _line_arc(origin: Vector, direction: Vector, arc: Arc, on: Touched) -> list[
 
 def _is_known_on(arc: Arc, point: Point) -> bool:
     """Whether a point is known to lie on an arc's circle: it was made there, or rational numbers tell."""
-    if is_put_on(point, arc.carrier):
+    if is_put_on(point, arc.carrier) or is_put_around(point, arc.center, arc.radius_sq):
         return True
     return not point.is_late and point.rational is not None and arc.on_circle(point)
 
@@ -318,17 +319,25 @@ def _arcs(a: Arc, b: Arc) -> list[Contact]:
     found = []
     foot = (center[0] + d[0] * t, center[1] + d[1] * t)
     height = Real(height_sq).sqrt()
-    ends = [p for arc in (a, b) if not arc.full for p in (arc.start, arc.end)]
+    ends = [(p, other) for arc, other in ((a, b), (b, a)) if not arc.full for p in (arc.start, arc.end)]
     for h in (height, -height)[:count]:
         point = advance(foot, (-d[1], d[0]), h)
         if h.rational is None:
             put_on(point, a.carrier)
             put_on(point, b.carrier)
-        end = next((p for p in ends if p == point), None)
+        beyond = advance(foot, (-d[1], d[0]), -h)
+        end = next((p for p, other in ends if _is_met(p, other, point, beyond)), None)
         if all(_on_arc(arc, point, end) for arc in (a, b)):
             kind = ContactKind.CROSSING if end is None and count == 2 else ContactKind.TOUCHING
             found.append(_at(kind, point if end is None else end))
     return found
+
+
+def _is_met(end: Point, other: Arc, point: Point, beyond: Point) -> bool:
+    """Whether the end of an arc is the *point* where its circle meets another's, and not the one *beyond*."""
+    if _is_known_on(other, end) and not may_be_one(balls(end), balls(beyond)):
+        return True
+    return end == point
 
 
 def _on_arc(arc: Arc, point: Point, end: Point | None) -> bool:

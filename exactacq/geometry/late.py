@@ -92,6 +92,12 @@ def from_to(start: Balls, end: Balls) -> Balls:
     return end[0] - start[0], end[1] - start[1]
 
 
+def may_be_one(one: Balls, other: Balls) -> bool:
+    """Whether two points may be one; balls that are not finite leave it open."""
+    apart = (a.is_finite() and b.is_finite() and not a.overlaps(b) for a, b in zip(one, other, strict=True))
+    return not any(apart)
+
+
 def clearly_between(start: Balls, end: Balls, direction: Balls) -> bool | None:
     """Whether a direction lies counterclockwise between two others; None if balls leave that open.
 

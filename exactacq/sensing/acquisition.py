@@ -18,6 +18,7 @@ from typing import TypeAlias
 from flint import fmpq
 
 from exactacq.cached import cached_property
+from exactacq.geometry.constructions import put_around
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.intersections import contacts
 from exactacq.geometry.interval_union import EMPTY, Cover
@@ -160,7 +161,7 @@ class Acquisition:
                         yield view.source.low, view.source.start
                     corner = self._corner(e, point)
                     if corner not in corners:
-                        for moment in self._in_range(leg, point):
+                        for moment in self._in_range(leg, e, point):
                             self._at_range.append((moment[1], e, point))
                             yield moment
                     if corner is not None:
@@ -212,12 +213,15 @@ class Acquisition:
         curve = table.curves[e]
         return e if point is curve.start else table.following[e] if point is curve.end else None
 
-    def _in_range(self, leg: Leg, point: Point) -> Iterator[Place]:
-        """The places of a leg that are as far from a point as the range."""
+    def _in_range(self, leg: Leg, e: int, point: Point) -> Iterator[Place]:
+        """The places of a leg that are as far from a point of an edge as the range."""
         range_ = self.shares.complex.range
         least, most = distance_bounds(leg.box, point)
         if most < range_.below or least > range_.above:
             return
+        for view in self.shares.end_views:
+            if view.is_at_range(e, point):
+                put_around(view.place, point, range_.square)
         yield from _at_distance(leg, point, range_.square)
 
 

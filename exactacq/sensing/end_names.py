@@ -198,6 +198,10 @@ class Seen:
         again = 2 * ((cx - x) * u + (cy - y) * v) / (u * u + v * v)
         return not _overlap((x + u * again, y + v * again), there)
 
+    def is_at_range(self, e: int, point: Point) -> bool:
+        """Whether a point of an edge, as an object, was made where what is seen of it ends at the range."""
+        return any(hold[1] == RANGE and pin[0] is point for hold, pin in self.held(e).items())
+
     def held(self, e: int) -> dict[Hold, Pin]:
         """The ends of what is seen of an edge, by what holds them."""
         if e not in self._held:

@@ -150,9 +150,9 @@ class Shares:
         """An extreme view that begins at an end of the leg, as what is seen from there has its other end."""
         u = end.places[side]
         if u is self.leg.first:
-            view = self._end_views[0]
+            view = self.end_views[0]
         elif u is self.leg.last:
-            view = self._end_views[1]
+            view = self.end_views[1]
         else:
             view = self.view(leg.start if u is leg.first else leg.end, leg.own(u))
         return view.pinned(end, family, side)
@@ -163,7 +163,7 @@ class Shares:
         along = [k for k in obstacles if self._is_along(k)]
         chooser = None
         if known is not None:
-            at_end = {} if self._facts else self._end_views[1].surely
+            at_end = {} if self._facts else self.end_views[1].surely
             chooser = FamilyFilter(leg, self.targets, obstacles, along, known, at_end, self._facts)
         choose = None if chooser is None else chooser.choose
         # Facts are told of every place, and what is not chosen from is wanted all.
@@ -301,7 +301,7 @@ class Shares:
         is_here: bool = False,
     ) -> None:
         """Add to the covers that have grown what the views from the ends of the leg show; see `taught`."""
-        for view in self._end_views:
+        for view in self.end_views:
             if is_here and view.place is self.leg.start:
                 continue
             spans: Mapping[int, Sequence[Interval]] = view.spans
@@ -325,7 +325,7 @@ class Shares:
         return frozenset(k for k, target in owners if k in self.obstacles and target.contains(leg.span))
 
     @cached_property
-    def _end_views(self) -> tuple[Seen, Seen]:
+    def end_views(self) -> tuple[Seen, Seen]:
         """What is seen from the first and from the last place of the leg."""
         leg, table = self.leg, self.complex.table
         return (
@@ -342,7 +342,7 @@ class Shares:
     def shown(self) -> set[int]:
         """The obstacles of which something may be in sight somewhere on the leg."""
         of = [k for k, shares in self.of.items() if shares]
-        seen = self.targets.near(e for view in self._end_views for e in view.edges)
+        seen = self.targets.near(e for view in self.end_views for e in view.edges)
         return {*of, *self.in_sight, *self.ends, *self._along, *seen.intersection(self.obstacles)}
 
     def is_in_sight(self, k: int) -> bool:
@@ -359,7 +359,7 @@ class Shares:
             return Cover((leg.span,))
         times = EMPTY
         places = (leg.first, leg.start), (leg.last, leg.end)
-        for (u, place), view in zip(places, self._end_views, strict=True):
+        for (u, place), view in zip(places, self.end_views, strict=True):
             if self.targets.is_among(k, view.spans):
                 times = times.added(Interval(u, place, u, place))
         sources = [share.source for share in self.of[k]]
@@ -402,7 +402,7 @@ class Shares:
         leg = self.leg
         if u is not leg.first and u is not leg.last:
             return False
-        place, view = (leg.start, self._end_views[0]) if u is leg.first else (leg.end, self._end_views[1])
+        place, view = (leg.start, self.end_views[0]) if u is leg.first else (leg.end, self.end_views[1])
         return any(
             self.complex.range.order(place, point) < 0
             for _, (e, interval) in self.targets.within({k}, view.spans)

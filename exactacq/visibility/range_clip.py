@@ -15,7 +15,7 @@ from flint import arb, fmpq
 from exactacq.geometry.coordinates import Vector, advance, cross, dot, minus, raw, sign, square_root
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import spans
-from exactacq.geometry.late import Balls, ball_of, balls, clearly_between, from_to, late_point
+from exactacq.geometry.late import Balls, ball_of, balls, clearly_between, from_to, late_point, may_be_one
 from exactacq.geometry.points import Point
 from exactacq.numbers.rationals import ball_sign
 
@@ -62,7 +62,7 @@ class Disc:
         It meets the rim in one *other* place: what certainly is not there is here.
         """
         for known, point in self._rim:
-            if known is curve and _may_be_one(balls(point), around) and not _may_be_one(balls(point), other):
+            if known is curve and may_be_one(balls(point), around) and not may_be_one(balls(point), other):
                 return point
         return None
 
@@ -119,12 +119,6 @@ def late_crossing(line: Segment, disc: Disc, side: int) -> Point:
 def _touched(ends: Span, excess: tuple[int, ...], inside: list[Span]) -> list[Span]:
     """What is within range of a piece of a curve that has one point there: an end, or a point *inside*."""
     return next(([(end, end)] for end, far in zip(ends, excess, strict=True) if far <= 0), inside)
-
-
-def _may_be_one(one: Balls, other: Balls) -> bool:
-    """Whether two points may be one; balls that are not finite leave it open."""
-    apart = (a.is_finite() and b.is_finite() and not a.overlaps(b) for a, b in zip(one, other, strict=True))
-    return not any(apart)
 
 
 # -- segments --------------------------------------------------------------------------------------

@@ -161,10 +161,10 @@ class BoundaryView:
         }
         return self._tidied(pieces)
 
-    def _numbered(self, e: int, span: Span) -> Part:
+    def _numbered(self, e: int, span: Span, at_range: bool = False) -> Part:
         start, end = span
-        first = self.ends.number(e, start)
-        return first, first if end is start else self.ends.number(e, end)
+        first = self.ends.number(e, start, at_range)
+        return first, first if end is start else self.ends.number(e, end, at_range)
 
     def _tidied(self, pieces: dict[int, list[Part]]) -> dict[int, list[Part]]:
         """Vertices that the range leaves alone on an edge moved to the edge that starts there, or dropped
@@ -391,7 +391,7 @@ class BoundaryView:
             if e not in self.own:
                 curve = table.curves[e]
                 for span in within(curve, curve.start, curve.end, self.disc):
-                    found.setdefault(e, []).append((-1, 0, self._numbered(e, span)))
+                    found.setdefault(e, []).append((-1, 0, self._numbered(e, span, at_range=True)))
         for event in ray.events:
             if event in covered:
                 continue
@@ -418,7 +418,7 @@ class BoundaryView:
             if isinstance(curve, Segment):
                 alone = False
                 spans = within(curve, curve.start, curve.end, self.disc)
-                found[e] = [(0, 0, self._numbered(e, span)) for span in spans]
+                found[e] = [(0, 0, self._numbered(e, span, at_range=True)) for span in spans]
             elif not curve.ccw:
                 alone &= e not in found
         if alone and self.own:
