@@ -34,3 +34,20 @@ def test_the_map_of_an_empty_scene_has_no_obstacle() -> None:
     assert (known.seen, known.known_length()) == ((), xa.Length(0))
     with pytest.raises(ValueError, match="no obstacle 0: this map has 0"):
         known.known(0)
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [
+        xa.Circle((3, 0), 1),
+        xa.Outline([(2, 0, xa.Around((3, 0))), (4, 0, xa.Around((3, 0)))]),
+        xa.Polygon([(2, 0), (3, -1), (4, 0), (3, 1)]),
+    ],
+    ids=["inside an edge", "at a joint", "at a corner"],
+)
+def test_a_single_known_point_is_one_end(shape: xa.Circle | xa.Outline | xa.Polygon) -> None:
+    """It was two where two edges meet: each of them knows it."""
+    robot = xa.Robot(xa.Scene([shape], start=(0, -3), radius=2))
+    robot.go_to((0, 3))
+    assert robot.map.frontier == ((0, xa.Point(2, 0)),)
+    assert len(robot.map.known(0)) == 1

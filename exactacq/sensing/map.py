@@ -267,7 +267,7 @@ class Map:
                 open_start = not (at_start and self._goes_on(before, target, self._reaches_end(before)))
                 open_end = not (at_end and self._goes_on(target, after, self._reaches_start(after)))
                 if single:
-                    if open_start and open_end:
+                    if open_start and open_end and not self._is_told_beside(i, k, part):
                         yield part.start
                     continue
                 if open_start:
