@@ -25,7 +25,7 @@ class Carrier(NamedTuple):
     square: fmpq
 
 
-class _Around(NamedTuple):
+class _CircleAbout(NamedTuple):
     """The circle of a squared radius about a point, whatever its numbers are."""
 
     center: Point
@@ -40,7 +40,7 @@ class _FromOrigin(NamedTuple):
     touch: Point | None
 
 
-_Fact: TypeAlias = "Carrier | _Around | _FromOrigin"
+_Fact: TypeAlias = "Carrier | _CircleAbout | _FromOrigin"
 
 
 def put_on(point: Point, carrier: Carrier | None) -> None:
@@ -57,12 +57,12 @@ def is_put_on(point: Point, carrier: Carrier | None) -> bool:
 def put_around(point: Point, center: Point, square: fmpq) -> None:
     """Note that a point was made at a squared distance from another one."""
     if not is_put_around(point, center, square):
-        point._facts = (*_facts(point), _Around(center, square))
+        point._facts = (*_facts(point), _CircleAbout(center, square))
 
 
 def is_put_around(point: Point, center: Point, square: fmpq) -> bool:
     """Whether a point was made at a squared distance from that very object."""
-    found = (fact for fact in _facts(point) if isinstance(fact, _Around) and fact.center is center)
+    found = (fact for fact in _facts(point) if isinstance(fact, _CircleAbout) and fact.center is center)
     return any(fact.square == square for fact in found)
 
 
