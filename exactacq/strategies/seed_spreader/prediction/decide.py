@@ -54,7 +54,7 @@ from exactacq.strategies.seed_spreader.prediction.sight import (
 from exactacq.strategies.seed_spreader.range_thresholds import nearest_point, thresholds
 
 UP = Point(0, 1)
-GRID = 8
+COARSE, FINE = 8, 32
 """Places of the walk, and points of each target, that are tried first, less one."""
 TRIES = 6
 """Lines of sight of the grid that are tried exactly."""
@@ -126,7 +126,7 @@ class _Candidates:
     def run(self) -> bool:
         """Proposals first, then all candidates, from the cheapest."""
         stands = self._stands()
-        if stands is None or self._sees_from_grid():
+        if stands is None or self._sees_from_grid(COARSE) or self._sees_from_grid(FINE):
             return True
         if any(self._is_seen(p, q) for p, q in chain(self._along_line(stands), self._at_range(stands))):
             return True
@@ -218,16 +218,16 @@ class _Candidates:
 
     # -- proposals -------------------------------------------------------------------------------------
 
-    def _sees_from_grid(self) -> bool:
+    def _sees_from_grid(self, n: int) -> bool:
         """Whether some of a grid of lines of sight is free: most walks that see something are told here."""
-        walk, n = self.walk, GRID
+        walk, shares = self.walk, _inner_shares(n)
         # From the far end on.
         steps = range(n, 0, -1) if walk.sense > 0 else range(n)
         if not self.targets:
             return False
-        ends = [(rail, u) for rail in map(Rail, self.targets) for u in _inner(rail)]
-        q = np.concatenate([*map(_spots, self.targets)])
-        leave = self.pieces.tangents(np.repeat(np.arange(len(self.targets)), GRID + 1), q)
+        ends = [(rail, u) for rail in map(Rail, self.targets) for u in _parameters(rail, shares)]
+        q = np.concatenate([_spots(curve, shares) for curve in self.targets])
+        leave = self.pieces.tangents(np.repeat(np.arange(len(self.targets)), n + 1), q)
         tries = TRIES
         for y in (rational(self.low + (self.high - self.low) * (k / n)) for k in steps):
             p = np.array([float(walk.x), float(y)])
@@ -294,23 +294,24 @@ class _Candidates:
             yield from ((Point(walk.x, y), q) for y in thresholds(walk.x, Segment(q, q), walk.radius))
 
 
-INNER = np.clip(np.arange(GRID + 1) / GRID, 2.0**-10, 1 - 2.0**-10)
-"""Shares of a curve's parameters, near its ends too."""
+def _inner_shares(n: int) -> NDArray[np.float64]:
+    """Shares of a curve's parameters, n + 1 of them, near its ends too."""
+    return np.clip(np.arange(n + 1) / n, 2.0**-10, 1 - 2.0**-10)
 
 
-def _inner(rail: Rail) -> list[float]:
+def _parameters(rail: Rail, shares: NDArray[np.float64]) -> list[float]:
     """Parameters of points inside a curve."""
-    found: list[float] = (float(rail.top) * INNER).tolist()
+    found: list[float] = (float(rail.top) * shares).tolist()
     return found
 
 
-def _spots(curve: Curve) -> NDArray[np.float64]:
+def _spots(curve: Curve, shares: NDArray[np.float64]) -> NDArray[np.float64]:
     """These points in floats, about."""
     if isinstance(curve, Segment):
         (ax, ay), (bx, by) = curve.start.xy, curve.end.xy
-        return np.stack((ax + INNER * (bx - ax), ay + INNER * (by - ay)), axis=1)
+        return np.stack((ax + shares * (bx - ax), ay + shares * (by - ay)), axis=1)
     rail = Rail(curve)
-    return np.array([rail.point(rational(u)).xy for u in _inner(rail)])
+    return np.array([rail.point(rational(u)).xy for u in _parameters(rail, shares)])
 
 
 def _tangent_points(p: Point, arc: Arc) -> Iterator[Point]:
