@@ -158,6 +158,7 @@ RULES = [
     ),
     (([square(0, 0, 2), square(1, 1, 2)], {}), "obstacle O1, edge 1, crosses obstacle O2, edge 0, at (2, 1)"),
     (([square(0, 0, 2), square(2, 1, 2)], {}), "overlaps obstacle O2, edge 3, from (2, 1) to (2, 2)"),
+    (([Circle((9, 9), 2), Circle((9, 9), 2)], {}), "overlaps obstacle O2, edge 0, all around"),
     (([square(0, 0, 3, "big"), square(1, 1)], {}), "obstacle O2 lies inside obstacle O1 'big', at (1, 1)"),
     (([Circle((2, 2), 1), square(0, 0, 4)], {}), "obstacle O1 lies inside obstacle O2, at (3, 2)"),
     (([square(20, 0)], {"enclosure": ROOM}), "obstacle O1 lies outside the enclosure 'room', at (20, 0)"),

@@ -104,6 +104,8 @@ class _MeetingLoops:
         kind, start, end = self.contact.kind, self.contact.start, self.contact.end
         along = kind is ContactKind.OVERLAP
         place = f"from {place_text(start)} to {place_text(end)}" if along else f"at {place_text(start)}"
+        if along and start is end:
+            place = "all around"
         if one is other:
             return f"{_label(one)}: {_edges(self.first | self.second)} {kind.value} {place}: {SIMPLE}"
         verb = {"cross": "crosses", "touch": "touches", "overlap": "overlaps"}[kind.value]
