@@ -19,7 +19,7 @@ from flint import fmpq
 from nightly import some
 
 import exactacq as xa
-from exactacq import Circle, Outline, Point, Scene, Segment
+from exactacq import Circle, Outline, Point, Polygon, Scene, Segment
 from exactacq.auditing import comparisons
 from exactacq.geometry import curves, intersections
 from exactacq.geometry.constructions import is_put_on, put_around, put_on, put_on_tangent
@@ -249,6 +249,36 @@ def test_what_was_looked_along_is_not_looked_for_again(monkeypatch: pytest.Monke
     assert len(asked) == len(set(asked)) == len(acquired)
 
 
+def test_what_was_looked_along_is_not_taken_for_another_way() -> None:
+    """Halts where a way begins: then the robot goes on another one, between the same two places.
+
+    A lap along a circle begins and ends where it is lost, and there are two ways along a circle of two arcs.
+    """
+    block = Polygon([(2, -6), (4, -6), (4, -5), (2, -5)])
+    lap = xa.Robot(Scene([Circle((3, 0), 1), block], (0, -1), radius=20))
+    lap.go_to((3, -1))
+    lap.walk("left", until=["lose"])
+    lap.circle()
+    assert lap.map.acquired == (0,)
+    halves = Outline([(4, 0, xa.Around((3, 0))), (2, 0, xa.Around((3, 0)))])
+    above = Polygon([(1, 8), (1, 6), (2, 6), (2, 8)])
+    back = xa.Robot(Scene([halves, block, above], (0, -1), radius=20))
+    back.go_to((3, -1))
+    back.walk("left", until=["lose"])
+    back.walk("right", to=(2, 0))
+    assert back.map.acquired == ()
+
+
+def test_nothing_is_noted_on_points_that_others_keep() -> None:
+    """Each robot of a scene would leave something on its start, where it sees a wall as far as it can."""
+    room = Polygon([(0, 0), (12, 0), (12, 2), (0, 2)])
+    scene = Scene([], (1, 1), radius=9, enclosure=room)
+    for _ in range(3):
+        assert xa.Robot(scene).go_to((9, 1), until="acquire").kind == "event"
+    assert scene.start is not None
+    assert not hasattr(scene.start, "_facts")
+
+
 @pytest.mark.parametrize("off", [0, fmpq(1, 10**9)])
 def test_a_line_that_touches_a_disc_enters_another_where_it_is_met_first(off: object) -> None:
     """The robot halts at irrational places of a line that is computed with by points of whole coordinates.
@@ -297,11 +327,13 @@ def wander(seed: int) -> Callable[[xa.Robot], None]:
         rng = Random(seed)
         for _ in range(6):
             until = rng.choice([(), ("sight", "regain"), ("acquire",), ("lose",), ("lose", "acquire")])
-            ends, kind = robot.frontier, rng.randrange(3)
+            ends, kind = robot.frontier, rng.randrange(4)
             if kind == 0 and robot.at is not None:
                 robot.walk(rng.choice(["left", "right"]), until=until)
             elif kind == 1 and ends:
                 robot.go_to(rng.choice(ends)[1], until=until)
+            elif kind == 3 and robot.at is not None:
+                robot.circle()
             elif robot.seen:
                 robot.go_to(robot.map.nearest(rng.choice(robot.seen), robot.position), until=until)
 
@@ -327,12 +359,12 @@ def test_what_is_known_of_points_changes_nothing(seed: int, monkeypatch: pytest.
     with_facts, taken = told(seed), memory.Memory._taken
 
     def taken_whole(self: memory.Memory, piece: Piece) -> object:
-        return taken(self, piece) if self._looked[0] is piece else None
+        return taken(self, piece) if self._looked[0] is piece else (None, None)
 
     for module in (curves, intersections, legs, straight_way, line_families, range_ends, place_facts):
-        for name, nothing in (("is_put_on", False), ("is_put_on_tangent", False), ("touch_on_tangent", None)):
+        for name in ("is_put_on", "is_put_around", "is_put_on_tangent", "touch_on_tangent"):
             if hasattr(module, name):
-                monkeypatch.setattr(module, name, lambda *_, nothing=nothing: nothing)
+                monkeypatch.setattr(module, name, lambda *_: None)
     monkeypatch.setattr(memory.Memory, "_taken", taken_whole)
     without = told(seed)
     if without is None:

@@ -19,7 +19,8 @@ from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.leg_facts import LegFacts
 from exactacq.sensing.leg_views import Shares
-from exactacq.sensing.sensor import Ahead, Notice, Sensor
+from exactacq.sensing.legs import Leg
+from exactacq.sensing.sensor import Ahead, Sensor
 from exactacq.strategies.run import Run
 from exactacq.study.random_scenes import Subject, arc_scene
 from exactacq.visibility.front_faces import FrontFaces
@@ -141,10 +142,10 @@ def test_facts_of_halts_are_true(monkeypatch: pytest.MonkeyPatch) -> None:
     counts, halts = Counter[str](), list[tuple[PlaceFacts, Point]]()
     upto = Sensor.upto
 
-    def noted(self: Sensor, ahead: Ahead, last: Notice, facts: PlaceFacts) -> Ahead:
-        if last.facts is not NOTHING_KNOWN and len(halts) < 4:
-            halts.append((facts, last.place))
-        return upto(self, ahead, last, facts)
+    def noted(self: Sensor, ahead: Ahead, leg: Leg, facts: PlaceFacts, retraced: bool = False) -> Ahead:
+        if (facts.rays or facts.rim) and len(halts) < 4:
+            halts.append((facts, leg.end))
+        return upto(self, ahead, leg, facts, retraced)
 
     monkeypatch.setattr(Sensor, "upto", noted)
     for seed in range(60 if NIGHTLY else 14):

@@ -40,7 +40,7 @@ most 3 pi, which as a sum of rounded parts is off by less than 2^-48."""
 ROOM = 2.0**-46
 """Error of a cross product, for sizes of the scene and of the two vectors: see `Walls.block`."""
 CHUNK, BATCH = 2048, 16
-"""Of many sights so many meet so many chords at once: a table that the processor's cache holds."""
+"""Sights and chords, of many of both, that are compared at once: a table that the processor's cache holds."""
 
 
 class BallPoint(NamedTuple):

@@ -56,12 +56,16 @@ def is_put_on(point: Point, carrier: Carrier | None) -> bool:
 
 def put_around(point: Point, center: Point, square: fmpq) -> None:
     """Note that a point was made at a squared distance from another one."""
-    if not is_put_around(point, center, square):
+    if not _is_around(point, center, square):
         point._facts = (*_facts(point), _CircleAbout(center, square))
 
 
-def is_put_around(point: Point, center: Point, square: fmpq) -> bool:
-    """Whether a point was made at a squared distance from that very object."""
+def is_put_around(point: Point, other: Point, square: fmpq) -> bool:
+    """Whether one of two points was made at a squared distance from the other, that very object."""
+    return _is_around(point, other, square) or _is_around(other, point, square)
+
+
+def _is_around(point: Point, center: Point, square: fmpq) -> bool:
     found = (fact for fact in _facts(point) if isinstance(fact, _CircleAbout) and fact.center is center)
     return any(fact.square == square for fact in found)
 

@@ -221,7 +221,7 @@ class Acquisition:
             return
         for view in self.shares.end_views:
             if view.is_at_range(e, point):
-                put_around(view.place, point, range_.square)
+                put_around(point, view.place, range_.square)
         yield from _at_distance(leg, point, range_.square)
 
 

@@ -79,8 +79,8 @@ class LegFacts:
 def rays_along(table: EdgeTable, share: Share, start: Point) -> Iterator[Alignment]:
     """The rays along an extreme view of a share that begins at a place, the very object, of the leg.
 
-    The one to what the view shows meets just that there. Where a corner is shown, views from a stretch of the
-    leg show it, and only those from its ends are known.
+    The one to what the view shows comes to that edge there. Where a corner is shown, views from a stretch of
+    the leg show it, and only those from its ends are known.
     """
     views, side = share.family.free_views, share.side
     ends = (share.family.first, share.family.last)

@@ -58,6 +58,19 @@ class Report:
         return Event(self.kind, self.place, self.obstacle, self.after, path, self.inside, reason=self.reason)
 
 
+def _facts_at(ahead: Ahead, halt: Notice) -> PlaceFacts:
+    """What a leg that was looked along tells of the view from where the robot halts on it.
+
+    It halts as something happens there: so families of views end there, or what they show.
+    """
+    assert ahead.shares is not None, "what is told was seen"
+    facts = LegFacts(ahead.shares).at(halt.u, halt.place)
+    for notice in ahead.notices:
+        if notice.place is halt.place:
+            facts = facts.joined(notice.facts)
+    return facts
+
+
 def _report(notice: Notice, leg: int, after: int, inside: bool) -> Report:
     return Report(notice.kind, notice.obstacle, notice.place, notice.u, leg, notice.reason, after, inside)
 
@@ -149,7 +162,7 @@ class Memory:
         self.reports: list[Report] = []
         # The number of reports before every piece, and of all.
         self._told: list[int] = []
-        self._looked: tuple[Piece | None, Ahead | None] = None, None
+        self._looked: tuple[Piece | None, Piece | None, Ahead | None] = None, None, None
         self._walked: set[tuple[object, object]] = set()
         self._walked_on: dict[int, Cover] = {}
         self._retraced: set[int] = set()
@@ -184,11 +197,19 @@ class Memory:
 
     def walk(self, piece: Piece) -> list[Report]:
         """Take in all that a piece of the path shows; the reports in the order in which they come."""
-        looked = self._taken(piece)
-        legs = self._legs_of(piece) if looked is None else [looked.leg]
+        ahead, halt = self._taken(piece)
+        if ahead is None:
+            legs = self._legs_of(piece)
+        else:
+            legs = [ahead.leg if halt is None else ahead.leg.upto(halt.u, halt.place)]
         count, reports, retraced = len(self._legs), [], self._is_retraced(piece, legs)
         for k, leg in enumerate(legs):
-            took = self._sensor.ahead(leg, retraced) if looked is None else looked
+            if ahead is None:
+                took = self._sensor.ahead(leg, retraced)
+            else:
+                took = (
+                    ahead if halt is None else self._sensor.upto(ahead, leg, _facts_at(ahead, halt), retraced)
+                )
             notices, learned = self._sensor.follow(took)
             self._learn(learned)
             for n in notices:
@@ -203,20 +224,20 @@ class Memory:
             self._retraced.add(count)
         return self._reported(reports)
 
-    def _taken(self, piece: Piece) -> Ahead | None:
-        """What was looked along last, if the robot takes it: all of it, or to where something happens."""
-        (known, ahead), self._looked = self._looked, (None, None)
+    def _taken(self, piece: Piece) -> tuple[Ahead | None, Notice | None]:
+        """What was looked along last, if the robot takes it, and where on it the robot halts, if it does.
+
+        It takes what was looked along over only where something happens at the halt.
+        """
+        known, part, ahead = self._looked
+        self._looked = None, None, None
         if ahead is None or known is piece:
-            return ahead
-        here = [notice for notice in ahead.notices if notice.place is piece.end]
-        if not here or piece.start is not ahead.leg.start:
-            return None
-        assert ahead.shares is not None, "what is told was seen"
-        # Families of views end there, or what they show.
-        facts = LegFacts(ahead.shares).at(here[0].u, piece.end)
-        for notice in here:
-            facts = facts.joined(notice.facts)
-        return self._sensor.upto(ahead, here[0], facts)
+            return ahead, None
+        if piece is part:
+            for notice in ahead.notices:
+                if notice.place is piece.end and ahead.leg.order(notice.u, ahead.leg.first):
+                    return ahead, notice
+        return None, None
 
     def _learn(self, learned: Mapping[int, Cover]) -> None:
         self._history.learn(learned)
@@ -273,8 +294,13 @@ class Memory:
         for notice in ahead.notices:
             # What the way touches, its part to there does.
             leg.tell_touched(self._table, notice.place)
-        self._looked = piece, ahead
+        self._looked = piece, None, ahead
         return ahead
+
+    def shorten(self, part: Piece) -> None:
+        """Tell that of the piece that was looked along last a part from its start is to be walked next."""
+        known, _, ahead = self._looked
+        self._looked = known, part, ahead
 
     def map_ahead(self, ahead: Ahead, u: Real, place: Point, obstacles: Set[int]) -> Map:
         """The map of some obstacles as it will be at a place of a piece that was looked along.

@@ -129,21 +129,22 @@ class Sensor:
             shares = Shares(self.complex, self.targets, leg, obstacles, self._view, self._known)
             return Ahead(leg, *self._told(shares, retraced), shares)
 
-    def upto(self, ahead: Ahead, last: Notice, facts: PlaceFacts) -> Ahead:
-        """What moving along a leg that was looked along will tell up to the place of one of its reports.
+    def upto(self, ahead: Ahead, leg: Leg, facts: PlaceFacts, retraced: bool = False) -> Ahead:
+        """What moving along a leg will tell that is the first part of one that was looked along.
 
-        *facts* are what is known of the view from there. What is in sight to the end of a leg is lost as the
-        next one begins.
+        *facts* are what is known of the view from where it ends. What is in sight to there is lost as the
+        next leg begins. Nothing is learned where the robot has been (*retraced*).
         """
         assert ahead.shares is not None, "what is told was seen"
-        leg, self._told_of = ahead.leg.upto(last.u, last.place), (last.place, facts)
+        self._told_of = leg.end, facts
         leg.named.update(ahead.leg.named)
         notices = [
-            n for n in ahead.notices if leg.order(n.u, last.u) < (0 if n.kind is EventKind.LOSE else 1)
+            n for n in ahead.notices if leg.order(n.u, leg.last) < (0 if n.kind is EventKind.LOSE else 1)
         ]
         with deciding("what is seen on the way from {} to {}", leg.start, leg.end):
             shares = ahead.shares.cut(leg)
-            learned = shares.taught(self.covers, self._known, leg.start is self._here)
+            is_here = leg.start is self._here
+            learned = {} if retraced else shares.taught(self.covers, self._known, is_here)
         return Ahead(leg, notices, learned, shares)
 
     def _told(self, shares: Shares, retraced: bool) -> tuple[list[Notice], dict[int, Cover]]:

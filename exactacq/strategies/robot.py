@@ -405,6 +405,7 @@ class Robot(Observer):
                     if not part.passes(stop):
                         raise MoveError(f"{stop} is not on the way")
                     piece = Piece("straight", None, Segment(walker.position, stop))
+                    walker.memory.shorten(piece)
                 if stop is None or stop != walker.position:
                     if walker.position is way.start:
                         self._set_off(decided)
@@ -469,6 +470,7 @@ class Robot(Observer):
                 return found
             if leg.order(notice.u, leg.last) < 0:
                 piece = Piece(piece.kind, piece.obstacle, _upto(piece.curve, notice.place))
+                walker.memory.shorten(piece)
             break
         walker.move(piece)
         walker.position = piece.end

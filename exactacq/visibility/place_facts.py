@@ -36,8 +36,8 @@ class Alignment:
     """A ray from a place along a line, in its direction or (*sense* -1) against it.
 
     *exact* gives a point of the line and its direction. If there is an ``anchor``, the line touches that
-    feature there. Where it meets edges for the only time, by their numbers, is ``met`` as far as it is known,
-    and where it touches circles are its ``feet``.
+    feature there. Where it comes to edges, by their numbers, is ``met`` as far as it is known (it leaves a
+    circle in another place), and where it touches circles are its ``feet``.
     """
 
     exact: Callable[[], tuple[Point, Point]]
@@ -87,7 +87,7 @@ class PlaceFacts:
     tangent: Mapping[int, Point] = field(default_factory=dict)
 
     def joined(self, other: PlaceFacts) -> PlaceFacts:
-        """These facts and those of the rays and of the rim that are known otherwise."""
+        """These facts with the rays and the rim of others."""
         if other is NOTHING_KNOWN:
             return self
         return replace(self, rays=[*self.rays, *other.rays], rim=[*self.rim, *other.rim])

@@ -419,7 +419,7 @@ class _LineBatch:
     def _sees_close(self, i: int, j: int) -> bool:
         """Two features that floats cannot part, or a line that seems to run along the walk.
 
-        No line touches just two circles about one centre.
+        Two arcs about one centre have no line in common, or all: then these are asked for one by one.
         """
         one, other = (self._shape(k)[0].rational for k in (i, j))
         if one is not None and one == other:

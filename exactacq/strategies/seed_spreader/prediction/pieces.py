@@ -27,7 +27,7 @@ MARGIN = 1e-11
 ANGLE = 1e-10
 """Margin of sines of angles."""
 CHUNK, BATCH = 2048, 16
-"""Of many lines so many meet so many pieces at once: a table that the processor's cache holds."""
+"""Lines and pieces, of many of both, that are compared at once: a table that the processor's cache holds."""
 
 
 def cross(a: Floats, b: Floats) -> Any:

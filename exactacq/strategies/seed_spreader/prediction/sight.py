@@ -56,7 +56,8 @@ class VerticalWay:
         """The convex hull of all lines of sight to boxes; *field* is the box around these."""
         x, low, high = float(self.x), max(self.low, field[1]), min(self.high, field[3])
         corners = [(u, v) for a, b, c, d in hulls for u in (a, c) for v in (b, d)]
-        return ConvexHull([*corners, (x, low), (x, high)], margin(self._pad(low, high)))
+        pad = self._pad(low, high) + 1e-9 * max(abs(c) for corner in corners for c in corner)
+        return ConvexHull([*corners, (x, low), (x, high)], margin(pad))
 
     def _pad(self, low: float, high: float) -> float:
         return 1e-9 * (self.reach + abs(float(self.x)) + abs(low) + abs(high))
