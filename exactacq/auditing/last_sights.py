@@ -94,10 +94,13 @@ class LastSights:
             across[j] <= self.rest.reach + self.rest.grain
         )
         i, j = i[keep], j[keep]
-        apart = np.array(
-            [not _is_one(self.turned[a].post, self.turned[b].post) for a, b in zip(i, j, strict=True)],
-            dtype=bool,
-        )
+        # Two circles may be one where their centres are, a point and a circle where the point lies on it.
+        size = np.abs(self.turn)
+        gap = np.hypot(*(self.center[j] - self.center[i]).T)
+        expected = np.where((size[i] > 0) != (size[j] > 0), size[i] + size[j], 0.0)
+        apart = np.abs(gap - expected) > 1e3 * self.rest.grain
+        for k in np.flatnonzero(~apart):
+            apart[k] = not _is_one(self.turned[i[k]].post, self.turned[j[k]].post)
         return i[apart], j[apart]
 
     def _lines(self) -> Iterator[_TouchingLine]:
