@@ -159,6 +159,21 @@ def test_facts_of_halts_are_true(monkeypatch: pytest.MonkeyPatch) -> None:
     assert counts["rim"] and counts["met"], counts
 
 
+def test_where_a_curve_leaves_the_range_is_a_point_that_is_known_to_be_there() -> None:
+    """And where it enters it is another one, of which nothing is known."""
+    line, circle = Segment(Point(-3, 0), Point(3, 0)), Arc.circle(Point(3, 0), fmpq(4))
+    for curve, known, other in ((line, Point(2, 0), Point(-2, 0)), (line, Point(-2, 0), Point(2, 0))):
+        (part,) = within(curve, curve.start, curve.end, Disc(Point(0, 0), fmpq(4), [(curve, known)]))
+        assert known in part and other in part
+        assert any(end is known for end in part)
+    upper, lower = (Point(fmpq(3, 2), side * Real(7).sqrt() / 2) for side in (1, -1))
+    for known in (upper, lower):
+        disc = Disc(Point(0, 0), fmpq(4), [(circle, known)])
+        (part,) = within(circle, Point(5, 0), Point(3, -2), disc)
+        assert part == (upper, lower)
+        assert [end is known for end in part] == [known is upper, known is lower]
+
+
 def arc(y: int, radius: int, ccw: bool, start: tuple[int, int], end: tuple[int, int]) -> Arc:
     """An arc about (0, y) between two directions, each with whole numbers and of length 5."""
     points = (Point(fmpq(u * radius, 5), y + fmpq(v * radius, 5)) for u, v in (start, end))
