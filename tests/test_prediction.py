@@ -529,3 +529,10 @@ def test_what_lies_between_some_places_is_in_their_convex_hull() -> None:
     assert not triangle.may_meet((2.1, 2.1, 9, 9))
     assert not triangle.may_meet((1, -2, 2, -1))
     assert triangle.may_meet((2, 2, 9, 9))
+
+
+def test_past_a_circle_that_the_walk_touches() -> None:
+    """From its places other lines go past the circle too; the wall is exactly as far away as the range."""
+    circle, facing = Arc.circle(Point(-1, 6), fmpq(1)), Segment(Point(-3, fmpq(5, 2)), Point(-3, fmpq(21, 4)))
+    known = [circle, facing]
+    assert sees_later(fmpq(0), Real(4), fmpq(11, 2), [facing], lambda _: known, fmpq(3))
