@@ -94,7 +94,8 @@ class LastSights:
             across[j] <= self.rest.reach + self.rest.grain
         )
         i, j = i[keep], j[keep]
-        # Two circles may be one where their centres are, a point and a circle where the point lies on it.
+        # Two circles may be one where their centres are, a point and a circle where the point lies on it:
+        # what is compared is off by some grains. A pair that is kept for no reason costs time alone.
         size = np.abs(self.turn)
         gap = np.hypot(*(self.center[j] - self.center[i]).T)
         expected = np.where((size[i] > 0) != (size[j] > 0), size[i] + size[j], 0.0)

@@ -320,12 +320,11 @@ def _arcs(a: Arc, b: Arc) -> list[Contact]:
     foot = (center[0] + d[0] * t, center[1] + d[1] * t)
     height = Real(height_sq).sqrt()
     ends = [(p, other) for arc, other in ((a, b), (b, a)) if not arc.full for p in (arc.start, arc.end)]
-    for h in (height, -height)[:count]:
-        point = advance(foot, (-d[1], d[0]), h)
-        if h.rational is None:
+    points = [advance(foot, (-d[1], d[0]), h) for h in (height, -height)[:count]]
+    for point, beyond in zip(points, reversed(points), strict=True):
+        if height.rational is None:
             put_on(point, a.carrier)
             put_on(point, b.carrier)
-        beyond = advance(foot, (-d[1], d[0]), -h)
         end = next((p for p, other in ends if _is_met(p, other, point, beyond)), None)
         if all(_on_arc(arc, point, end) for arc in (a, b)):
             kind = ContactKind.CROSSING if end is None and count == 2 else ContactKind.TOUCHING

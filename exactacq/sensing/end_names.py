@@ -16,7 +16,7 @@ from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.late import BITS as LATE_BITS
-from exactacq.geometry.late import Balls, Pin, balls
+from exactacq.geometry.late import Pin, balls, may_be_one
 from exactacq.geometry.points import Point
 from exactacq.kernel.extents import Span
 from exactacq.kernel.radial_sweep import Part
@@ -185,7 +185,7 @@ class Seen:
         if e not in self._view.own:
             return False
         here, there, curve = balls(self.place), balls(point), self.table.curves[e]
-        if not _overlap(here, there):
+        if not may_be_one(here, there):
             return False
         *_, u, v = line(free_views.sector, t.ball(LATE_BITS))
         if isinstance(curve, Segment):
@@ -196,7 +196,7 @@ class Seen:
             return True
         (x, y), (cx, cy) = here, balls(curve.center)
         again = 2 * ((cx - x) * u + (cy - y) * v) / (u * u + v * v)
-        return not _overlap((x + u * again, y + v * again), there)
+        return not may_be_one((x + u * again, y + v * again), there)
 
     def is_at_range(self, e: int, point: Point) -> bool:
         """Whether a point of an edge, as an object, was made where what is seen of it ends at the range."""
@@ -263,11 +263,6 @@ def _is_in(bracket: Span, spans: Iterable[Span]) -> bool:
     """Whether a bracket lies in one of some intervals."""
     low, high = bracket
     return any(a <= low and high <= b for a, b in spans)
-
-
-def _overlap(a: Balls, b: Balls) -> bool:
-    """Whether two points may be one."""
-    return bool(a[0].overlaps(b[0]) and a[1].overlaps(b[1]))
 
 
 def _apart(a: Real, b: Real) -> bool:

@@ -7,7 +7,7 @@ Balls decide what they can, and the roots are late points: made when they are lo
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, TypeAlias
 
 from flint import arb, fmpq
@@ -56,13 +56,15 @@ class Disc:
         offset = minus(raw(point), self.center)
         return sign(dot(offset, offset) - self.square)
 
-    def known(self, curve: Curve, around: Balls, other: Balls) -> Point | None:
-        """Where a curve's line or circle meets the rim, if that is known, by balls *around* it.
+    def known(self, curve: Curve, around: Callable[[int], Balls], side: int) -> Point | None:
+        """Where a curve's line or circle meets the rim on a side, 1 or -1, if that is known.
 
-        It meets the rim in one *other* place: what certainly is not there is here.
+        *around* gives balls for both sides: what certainly is not on the other one is on this one.
         """
         for known, point in self._rim:
-            if known is curve and may_be_one(balls(point), around) and not may_be_one(balls(point), other):
+            if known is not curve or may_be_one(balls(point), around(-side)):
+                continue
+            if may_be_one(balls(point), around(side)):
                 return point
         return None
 
@@ -187,11 +189,10 @@ class _Secant:
 
     def crossing(self, side: int) -> Point:
         """Where the line enters (-1) or leaves (1) the disc."""
-        around, other = self._around(side), self._around(-side)
-        known = self.disc.known(self.line, around, other)
+        known = self.disc.known(self.line, self._around, side)
         if known is not None:
             return known
-        return late_point(around, _on_line, self.line, self.disc.center, self.disc.square, side)
+        return late_point(self._around(side), _on_line, self.line, self.disc.center, self.disc.square, side)
 
     def _around(self, side: int) -> Balls:
         share = (self.foot + self.rest.sqrt() * side) / self.square
@@ -248,9 +249,10 @@ class _CircleCut:
 
     def point(self, side: int) -> Point:
         """Where the circle leaves the range to the left (1) or right (-1) of w; a late point."""
-        around, other = self._around(side), self._around(-side)
-        known = self.disc.known(self.arc, around, other)
-        return late_point(around, _crossing, self.arc, self.w, self.level, side) if known is None else known
+        known = self.disc.known(self.arc, self._around, side)
+        if known is not None:
+            return known
+        return late_point(self._around(side), _crossing, self.arc, self.w, self.level, side)
 
     def _around(self, side: int) -> Balls:
         x, y = balls(self.arc.center)
