@@ -227,7 +227,7 @@ class Memory:
     def _taken(self, piece: Piece) -> tuple[Ahead | None, Notice | None]:
         """What was looked along last, if the robot takes it, and where on it the robot halts, if it does.
 
-        It takes what was looked along over only where something happens at the halt.
+        Nothing if nothing happens where it halts: then the part is looked along anew.
         """
         known, part, ahead = self._looked
         self._looked = None, None, None
