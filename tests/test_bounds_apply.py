@@ -16,6 +16,10 @@ from exactacq.study.random_scenes import random_scene
 
 SIGHTSEERS = {name: xa.load(name) for name in ("circles", "squares", "m14")}
 SIGHTSEERS |= {f"random {seed}": random_scene(Subject.SIGHTSEER, seed) for seed in some(range(8), 4)}
+SIGHTSEERS["by way of S alone"] = xa.Scene([xa.Circle((0, 0), 1), xa.Circle((10, 0), 1)], (5, 0), radius=5)
+SIGHTSEERS["some by way of S alone"] = xa.Scene(
+    [xa.Circle((x, y), 1) for x, y in ((0, 0), (10, 0), (0, 3), (10, 3))], (5, 0), radius=5
+)
 SPREADERS = {
     name: xa.load(name) for name in ("figure3", "figure4", "case1", "case2", "case3", "m15", "m20-8")
 }
@@ -24,7 +28,7 @@ SPREADERS |= {f"random {seed}": random_scene(Subject.SEED_SPREADER, seed) for se
 
 @pytest.mark.parametrize("name", SIGHTSEERS)
 def test_bounds_of_the_sightseer(name: str) -> None:
-    """All are for the paper's model (a)."""
+    """All are for the paper's model (a): not where obstacles see each other by way of the start alone."""
     case = Case(SIGHTSEERS[name])
     for bound in case.sightseer.bounds:
         assert bound.applies == PREMISES["T1 corrected"].holds(case), bound.name

@@ -362,7 +362,16 @@ def test_what_is_known_of_points_changes_nothing(seed: int, monkeypatch: pytest.
         return taken(self, piece) if self._looked[0] is piece else (None, None)
 
     for module in (curves, intersections, legs, straight_way, line_families, range_ends, place_facts):
-        for name in ("is_put_on", "is_put_around", "is_put_on_tangent", "touch_on_tangent"):
+        if hasattr(module, "corners_passed"):
+            monkeypatch.setattr(module, "corners_passed", lambda *_: ())
+        for name in (
+            "is_put_on",
+            "is_put_around",
+            "is_tangent",
+            "is_normal",
+            "is_past_corner",
+            "touch_on_tangent",
+        ):
             if hasattr(module, name):
                 monkeypatch.setattr(module, name, lambda *_: None)
     monkeypatch.setattr(memory.Memory, "_taken", taken_whole)

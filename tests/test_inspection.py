@@ -248,6 +248,22 @@ def test_an_outline_in_pieces_around_a_hole(tmp_path: Path) -> None:
     assert {chain.cures for chain in found.open_chains} == {("--tolerance 1",)}
 
 
+def test_an_arc_whose_end_is_joined_to_a_line_stays_open(tmp_path: Path) -> None:
+    """Its end is moved to the line's: so it has no centre any more, and `check` ended in an error.
+
+    What stays open is asked what it would enclose.
+    """
+    path = tmp_path / "d.kicad_pcb"
+    path.write_text(
+        """(kicad_pcb (version 20211014) (generator pcbnew)
+ (gr_line (start 41.5 39.11) (end 43.36 39.11) (layer "Edge.Cuts") (width 0.12))
+ (gr_arc (start 41.84 37.21) (mid 42.070574 38.233345) (end 41.51 39.12) (layer "Edge.Cuts") (width 0.12))
+ (gr_circle (center 50 50) (end 53 50) (layer "Edge.Cuts") (width 0.1)))"""
+    )
+    (chain,) = xa.inspect(path, tolerance="0.037").open_chains
+    assert len(chain.pieces) == 2 and not chain.encloses
+
+
 def test_sides_of_a_slot_are_not_closed_by_a_tolerance() -> None:
     """Joined at both ends they are one line, drawn twice: a cure was named that only hid one of them."""
     chains = xa.inspect(DATA / "ref_dxf_metric.dxf").open_chains

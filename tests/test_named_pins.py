@@ -32,7 +32,8 @@ def test_what_was_asked_for_last_is_kept() -> None:
 def test_a_way_adds_to_what_is_shared() -> None:
     scene, way = NamedPins(), pin(3)
     scene.put((1, 2, 0), pin(1))
-    added = NamedPins(scene, {(7, 8, 0): way})
+    added = NamedPins(scene)
+    added.put((7, 8, 0), way)
     assert added.get((1, 2, 0)) is scene.get((1, 2, 0))
     assert (added.get((7, 8, 0)), scene.get((7, 8, 0))) == (way, None)
     assert added.at(way[1]) == {(7, 8, 0): way}

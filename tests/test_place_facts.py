@@ -19,7 +19,7 @@ from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.leg_facts import LegFacts
 from exactacq.sensing.leg_views import Shares
-from exactacq.sensing.legs import Leg
+from exactacq.sensing.legs import HaltPlace, Leg
 from exactacq.sensing.sensor import Ahead, Sensor
 from exactacq.strategies.run import Run
 from exactacq.study.random_scenes import Subject, arc_scene
@@ -139,13 +139,15 @@ def test_facts_of_halts_are_true(monkeypatch: pytest.MonkeyPatch) -> None:
 
     Of each run the first halts: the numbers of later ones are made of theirs.
     """
-    counts, halts = Counter[str](), list[tuple[PlaceFacts, Point]]()
+    counts, halts = Counter[str](), list[HaltPlace]()
     upto = Sensor.upto
 
-    def noted(self: Sensor, ahead: Ahead, leg: Leg, facts: PlaceFacts, retraced: bool = False) -> Ahead:
-        if (facts.rays or facts.rim) and len(halts) < 4:
-            halts.append((facts, leg.end))
-        return upto(self, ahead, leg, facts, retraced)
+    def noted(self: Sensor, ahead: Ahead, leg: Leg, retraced: bool = False) -> Ahead:
+        halt = leg.halts[-1]
+        assert halt.place is leg.end
+        if (halt.facts.rays or halt.facts.rim) and len(halts) < 4:
+            halts.append(halt)
+        return upto(self, ahead, leg, retraced)
 
     monkeypatch.setattr(Sensor, "upto", noted)
     for seed in range(60 if NIGHTLY else 14):
@@ -153,8 +155,11 @@ def test_facts_of_halts_are_true(monkeypatch: pytest.MonkeyPatch) -> None:
         halts.clear()
         xa.explore(scene, "nearest-frontier")
         table = EdgeTable(scene.obstacles)
-        for facts, place in halts:
-            check(facts, table, place, Range(scene.radius))
+        for halt in halts:
+            facts = halt.facts
+            check(facts, table, halt.place, Range(scene.radius))
+            for _, ray in halt.lines:
+                check_ray(ray, table, halt.place)
             counts.update(rim=len(facts.rim), met=sum(len(ray.met) for ray in facts.rays))
     assert counts["rim"] and counts["met"], counts
 

@@ -10,6 +10,7 @@ arithmetic decides. Points that others hand over have none, nor have those that 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import NamedTuple, TypeAlias
 
 from flint import fmpq
@@ -32,7 +33,7 @@ class _CircleAbout(NamedTuple):
     square: fmpq
 
 
-class _FromOrigin(NamedTuple):
+class _CircleTangent(NamedTuple):
     """The line from a point that touches a circle, and where it does if that was made."""
 
     origin: Point
@@ -40,13 +41,28 @@ class _FromOrigin(NamedTuple):
     touch: Point | None
 
 
-_Fact: TypeAlias = "Carrier | _CircleAbout | _FromOrigin"
+class _CircleNormal(NamedTuple):
+    """The line from a point through the centre of a circle."""
+
+    origin: Point
+    carrier: Carrier
+
+
+class _CornerLine(NamedTuple):
+    """The line from a point through another one, most often a corner."""
+
+    origin: Point
+    corner: Point
+
+
+_Line: TypeAlias = "_CircleTangent | _CircleNormal | _CornerLine"
+_Fact: TypeAlias = "Carrier | _CircleAbout | _Line"
 
 
 def put_on(point: Point, carrier: Carrier | None) -> None:
     """Note that a point was made on a circle; nothing if that is not rational."""
     if carrier is not None and not is_put_on(point, carrier):
-        point._facts = (*_facts(point), carrier)
+        _put(point, carrier)
 
 
 def is_put_on(point: Point, carrier: Carrier | None) -> bool:
@@ -57,7 +73,7 @@ def is_put_on(point: Point, carrier: Carrier | None) -> bool:
 def put_around(point: Point, center: Point, square: fmpq) -> None:
     """Note that a point was made at a squared distance from another one."""
     if not _is_around(point, center, square):
-        point._facts = (*_facts(point), _CircleAbout(center, square))
+        _put(point, _CircleAbout(center, square))
 
 
 def is_put_around(point: Point, other: Point, square: fmpq) -> bool:
@@ -70,29 +86,93 @@ def _is_around(point: Point, center: Point, square: fmpq) -> bool:
     return any(fact.square == square for fact in found)
 
 
+# -- lines through two points ----------------------------------------------------------------------
+#
+# What is known of the line of two points was noted at one of them, as that was made on the line from the
+# other one, that very object. Of the other forms of a fact the first counts.
+
+
 def put_on_tangent(point: Point, origin: Point, carrier: Carrier | None, touch: Point | None = None) -> None:
     """Note that a point was made on the line from another one that touches a circle, in *touch* if given."""
-    if carrier is not None and not is_put_on_tangent(point, origin, carrier):
-        point._facts = (*_facts(point), _FromOrigin(origin, carrier, touch))
+    if carrier is not None and _tangent(origin, point, carrier) is None:
+        _put(point, _CircleTangent(origin, carrier, touch))
 
 
-def is_put_on_tangent(point: Point, origin: Point, carrier: Carrier | None) -> bool:
-    """Whether a point was made on the line from that very object that touches a circle."""
-    return _tangent(point, origin, carrier) is not None
+def is_tangent(start: Point, end: Point, carrier: Carrier | None) -> bool:
+    """Whether the line of two points is known to touch a circle."""
+    return _tangent(start, end, carrier) is not None
 
 
-def touch_on_tangent(point: Point, origin: Point, carrier: Carrier | None) -> Point | None:
-    """Where the line from that very object on which a point was made touches a circle, if that was made."""
-    fact = _tangent(point, origin, carrier)
+def touch_on_tangent(start: Point, end: Point, carrier: Carrier | None) -> Point | None:
+    """Where the line of two points that is known to touch a circle does so, if that was made."""
+    fact = _tangent(start, end, carrier)
     if fact is None or fact.touch is not None:
         return None if fact is None else fact.touch
     # A line that touches a circle meets it once.
-    return point if is_put_on(point, carrier) else None
+    return next((point for point in (end, start) if is_put_on(point, carrier)), None)
 
 
-def _tangent(point: Point, origin: Point, carrier: Carrier | None) -> _FromOrigin | None:
-    found = (fact for fact in _facts(point) if isinstance(fact, _FromOrigin) and fact.origin is origin)
-    return next((fact for fact in found if fact.carrier == carrier), None)
+def put_on_normal(point: Point, origin: Point, carrier: Carrier | None) -> None:
+    """Note that a point was made on the line from another one through the centre of a circle."""
+    if carrier is not None and not is_normal(origin, point, carrier):
+        _put(point, _CircleNormal(origin, carrier))
+
+
+def is_normal(start: Point, end: Point, carrier: Carrier | None) -> bool:
+    """Whether the line of two points is known to pass the centre of a circle."""
+    return any(isinstance(line, _CircleNormal) and line.carrier == carrier for line in _lines(start, end))
+
+
+def put_past_corner(point: Point, origin: Point, corner: Point) -> None:
+    """Note that a point was made on the line from another one through a corner; nothing of one of the two."""
+    if corner is not point and not is_past_corner(origin, point, corner):
+        _put(point, _CornerLine(origin, corner))
+
+
+def is_past_corner(start: Point, end: Point, corner: Point) -> bool:
+    """Whether the line of two points is known to pass a corner; *corner* is rational."""
+    return any(corner is other or _is_equal(corner, other) for other in corners_passed(start, end))
+
+
+def corners_passed(start: Point, end: Point) -> list[Point]:
+    """The corners, as objects, that the line of two points is known to pass."""
+    return [line.corner for line in _lines(start, end) if isinstance(line, _CornerLine)]
+
+
+def _is_equal(corner: Point, other: Point) -> bool:
+    """Whether a rational point is seen to equal another one: nothing late is made."""
+    return not other.is_late and corner.rational == other.rational
+
+
+def put_on_line(point: Point, start: Point, end: Point) -> None:
+    """Note that a point was made on the line of two others: what is known of this line it takes over."""
+    if point is start or point is end:
+        return
+    put_past_corner(point, start, end)
+    for line in _lines(start, end):
+        match line:
+            case _CircleTangent(_, carrier, touch):
+                put_on_tangent(point, start, carrier, touch)
+            case _CircleNormal(_, carrier):
+                put_on_normal(point, start, carrier)
+            case _CornerLine(_, corner):
+                put_past_corner(point, start, corner)
+
+
+def _tangent(start: Point, end: Point, carrier: Carrier | None) -> _CircleTangent | None:
+    lines = (line for line in _lines(start, end) if isinstance(line, _CircleTangent))
+    return next((line for line in lines if line.carrier == carrier), None)
+
+
+def _lines(start: Point, end: Point) -> Iterator[_Line]:
+    for point, origin in ((end, start), (start, end)):
+        for fact in _facts(point):
+            if isinstance(fact, _CircleTangent | _CircleNormal | _CornerLine) and fact.origin is origin:
+                yield fact
+
+
+def _put(point: Point, fact: _Fact) -> None:
+    point._facts = (*_facts(point), fact)
 
 
 def _facts(point: Point) -> tuple[_Fact, ...]:

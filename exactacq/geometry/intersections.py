@@ -17,7 +17,7 @@ from typing import Any, TypeAlias
 
 from flint import fmpq
 
-from exactacq.geometry.constructions import is_put_around, is_put_on, is_put_on_tangent, put_on
+from exactacq.geometry.constructions import corners_passed, is_put_around, is_put_on, is_tangent, put_on
 from exactacq.geometry.coordinates import (
     Vector,
     advance,
@@ -182,8 +182,10 @@ def _line_arc(origin: Vector, direction: Vector, arc: Arc, on: Touched) -> list[
     if on_line:
         p, v = on_line[0]
         first = _LineHit(ratio(v, direction), p, tangent=count == 1)
-        other = 2 * middle - first.parameter
-        return [first, _LineHit(other)] if count == 2 and _spans_at(arc, w, direction, other) else [first]
+        again = next((q for q in made if not may_be_one(balls(p), balls(q))), None)
+        other = 2 * middle - first.parameter if again is None else ratio(minus(raw(again), origin), direction)
+        is_met = count == 2 and _spans_at(arc, w, direction, other)
+        return [first, _LineHit(other, again)] if is_met else [first]
     if made:
         first = _LineHit(ratio(minus(raw(made[0]), origin), direction), made[0], tangent=count == 1)
         roots = [first, _LineHit(2 * middle - first.parameter)][:count]
@@ -222,10 +224,10 @@ def contacts(a: Curve, b: Curve, on: Touched = ()) -> list[Contact]:
     *a* is known to touch; its own ends need not be among that.
     """
     if isinstance(a, Segment):
-        on = (a.start, a.end, *on)
+        on = (a.start, a.end, *corners_passed(a.start, a.end), *on)
         return _segments(a, b, on) if isinstance(b, Segment) else _segment_arc(a, b, on)
     if isinstance(b, Segment):
-        return _segment_arc(b, a, (b.start, b.end))
+        return _segment_arc(b, a, (b.start, b.end, *corners_passed(b.start, b.end)))
     if compare(raw(a.center), raw(b.center)) == 0:
         return _same_circle(a, b) if a.radius_sq == b.radius_sq else []
     return _arcs(a, b)
@@ -273,7 +275,7 @@ def _collinear(a: Segment, b: Segment) -> list[Contact]:
 def _segment_arc(segment: Segment, arc: Arc, on: Touched) -> list[Contact]:
     origin = raw(segment.start)
     direction = minus(raw(segment.end), origin)
-    if is_made_touching(segment, arc):
+    if is_tangent(segment.start, segment.end, arc.carrier):
         on = (arc, *on)
     found = []
     for hit in _line_arc(origin, direction, arc, on):
@@ -286,12 +288,6 @@ def _segment_arc(segment: Segment, arc: Arc, on: Touched) -> list[Contact]:
         kind = ContactKind.TOUCHING if is_end or hit.tangent else ContactKind.CROSSING
         found.append(_at(kind, _made(origin, direction, hit.parameter, arc) if end is None else end))
     return found
-
-
-def is_made_touching(segment: Segment, arc: Arc) -> bool:
-    """Whether one end of a segment was made on the line from the other that touches an arc's circle."""
-    start, end, carrier = segment.start, segment.end, arc.carrier
-    return is_put_on_tangent(end, start, carrier) or is_put_on_tangent(start, end, carrier)
 
 
 def _made(origin: Vector, direction: Vector, parameter: Any, arc: Arc) -> Point:

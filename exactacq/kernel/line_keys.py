@@ -8,9 +8,12 @@ lies (1 and 2); or by two circles and which of their common tangents it is (3 to
 
 from __future__ import annotations
 
-from typing import final
+from typing import Final, final
 
 from exactacq.kernel.bound_lines import Passed
+
+NORMAL: Final = 7
+"""The kind of the normals of straight edges."""
 
 
 @final
@@ -66,16 +69,20 @@ class LineNumbers:
         return key_of_corners(a, b, self.count)
 
     def features(self, key: int) -> tuple[int, int]:
-        """The two features that a line touches, by its number."""
+        """The two features that a line touches, by its number; no normal does."""
         kind, pair = key % 8, key // 8
         a, b = pair // self.count, pair % self.count
         if kind == 0:
             return a, b
         return (a if kind < 3 else self.count + a), self.count + b
 
+    def is_normal(self, key: int) -> bool:
+        """Whether a line is known as the normal of a straight edge."""
+        return key % 8 == NORMAL
+
     def touches(self, key: int, edge: int) -> bool:
         """Whether a line touches the circle of an edge; a straight edge has none, nor has a way."""
-        if key % 8 == 0 or edge >= self.count:
+        if key % 8 in (0, NORMAL) or edge >= self.count:
             return False
         return self.count + self.circles[edge] in self.features(key)
 
@@ -92,5 +99,5 @@ def key_of_corners(a: int, b: int, count: int) -> int:
 
 
 def key_of_normal(edge: int, vertex: int, count: int) -> int:
-    """The number of the normal of a straight edge through a vertex: kind 7, of no line that touches two."""
-    return (edge * count + vertex) * 8 + 7
+    """The number of the normal of a straight edge through a vertex."""
+    return (edge * count + vertex) * 8 + NORMAL

@@ -51,6 +51,7 @@ class Exploration:
     parts: int = 0
     data: bytes = b""
     trouble: dict[str, Any] = field(default_factory=dict)
+    is_wanted: bool = True
 
     def heard(self, kind: bytes, content: bytes) -> None:
         """Take in a message of the process."""
@@ -183,7 +184,7 @@ class Api:
         """Explore a drawing; a run that is not finished ends."""
         body = await request.body()
         self._count += 1
-        self.explorer.stop()
+        self._end(self.exploration)
         self.exploration = Exploration(self._count)
         task = asyncio.create_task(self._explore(self.exploration, body))
         self._tasks.add(task)
@@ -193,7 +194,11 @@ class Api:
     async def _explore(self, exploration: Exploration, body: bytes) -> None:
         try:
             await self.explorer.ask(
-                {"do": "explore"}, body, seconds=self.limits.seconds, heard=exploration.heard
+                {"do": "explore"},
+                body,
+                seconds=self.limits.seconds,
+                heard=exploration.heard,
+                is_wanted=lambda: exploration.is_wanted,
             )
             exploration.state = "finished"
         except TaskError as error:
@@ -223,10 +228,16 @@ class Api:
         )
 
     async def stop(self, request: Any) -> Any:
-        """End the run that is at work."""
+        """End the run that is at work, or waits for its turn."""
         if self.exploration is not None and self.exploration.state == "running":
-            self.explorer.stop()
+            self._end(self.exploration)
         return _json({})
+
+    def _end(self, exploration: Exploration | None) -> None:
+        """End a run, and what else its process does."""
+        if exploration is not None:
+            exploration.is_wanted = False
+        self.explorer.stop()
 
     async def save(self, request: Any) -> Any:
         """A file of the last run."""

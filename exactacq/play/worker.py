@@ -15,6 +15,9 @@ from exactacq.study.processes import program
 Heard = Callable[[bytes, bytes], None]
 """Called with the letter and the content of each message before the answer."""
 
+STOPPED = {"error": "stopped", "stopped": True}
+"""What is told of a task that was stopped."""
+
 
 class TaskError(Exception):
     """A task has no answer; ``told`` says why, as JSON data with the key "error"."""
@@ -44,15 +47,19 @@ class Worker:
         *,
         seconds: float,
         heard: Heard = lambda kind, content: None,
+        is_wanted: Callable[[], bool] = lambda: True,
     ) -> bytes:
         """The answer to a task, for which there are so many seconds; `TaskError` if there is none.
 
-        Tasks wait for one another. A process that dies, or takes too long, is replaced.
+        Tasks wait for one another; one that is not wanted any more when its turn comes is not begun. A
+        process that dies, or takes too long, is replaced.
         """
         async with self._turn:
             self._stopped = False
             await self._begin()
             try:
+                if not is_wanted():
+                    raise TaskError(STOPPED)
                 async with asyncio.timeout(seconds):
                     return await self._done(json.dumps(task).encode() + b"\n" + body, heard)
             except TimeoutError:
@@ -60,7 +67,7 @@ class Worker:
                 raise TaskError({"error": f"{limit}; see the option --seconds"}) from None
             except (asyncio.IncompleteReadError, OSError):
                 if self._stopped:
-                    raise TaskError({"error": "stopped", "stopped": True}) from None
+                    raise TaskError(STOPPED) from None
                 death = f"the process ended: it needed more than {self.megabytes} MB, or failed"
                 raise TaskError({"error": f"{death}; see the option --memory"}) from None
             finally:

@@ -14,7 +14,7 @@ from typing import TypeAlias
 from flint import fmpq
 
 from exactacq.cached import cached_property
-from exactacq.geometry.coordinates import minus, raw
+from exactacq.geometry.coordinates import minus, raw, same_direction
 from exactacq.geometry.curve_images import held_point
 from exactacq.geometry.curve_parameter import ZERO, Rail
 from exactacq.geometry.curves import Curve, Segment
@@ -32,7 +32,7 @@ from exactacq.sensing.line_family import PencilFamilies, Reached, SingleLine, Si
 from exactacq.sensing.line_images import LineImages
 from exactacq.sensing.line_points import Role, Side
 from exactacq.visibility.end_rays import end_rays
-from exactacq.visibility.features import Feature, corner_at, features, leaving, parallel
+from exactacq.visibility.features import Feature, corner_at, features, leaving
 from exactacq.visibility.line_families import Sector, Sliding, Spokes, corner_sectors, quarters
 from exactacq.visibility.line_names import Namer
 from exactacq.visibility.pinched_lines import may_be_pinched
@@ -64,7 +64,7 @@ class FamilySweeper:
     def __init__(self, table: EdgeTable, range_: Range) -> None:
         self.table, self.range = table, range_
         rails = [Rail(curve) for curve in table.curves]
-        self.clipper = FamilyClipper(rails, range_, table.roundoff, table.line_numbers)
+        self.clipper = FamilyClipper(rails, range_, table)
         self.images = LineImages(table, range_)
         self._namer, self._numbers = Namer(table), table.line_numbers
         self.follower = LineFollower(table, range_, self.clipper.views, self._namer, self.images)
@@ -211,7 +211,8 @@ class FamilySweeper:
             if met == NONE:
                 place = *EVERYTHING, *place_beyond(spot, segment, int(role), self.images.reach)
             origin, spans = EndOnLine(make, run), (place[:2], EVERYTHING)
-            yield SingleImage((met, e), spans, place[2:], spot, segment, [], origin, (0, 0, 0))
+            keys = self._numbers.keys(self._namer.number(feature), [*_bound(sweep, image, role).passed])
+            yield SingleImage((met, e), spans, place[2:], spot, segment, keys, origin, (0, 0, 0))
 
     def _end(
         self, feature: Feature, sweep: Pencil, image: FamilyImage, role: Role, e: int, near: frozenset[int]
@@ -220,8 +221,7 @@ class FamilySweeper:
         where in floats, and what makes the place.
         """
         ahead = role is Role.AHEAD
-        row = sweep.rows[image.number]
-        bound = row.first if ahead else row.last
+        bound = _bound(sweep, image, role)
         if all(not side and number in (e, self.table.next[e]) for number, side, _ in bound.passed):
             met, place = image.edge(role), image.places(role)[0 if ahead else 1]
             make = partial(self._reached, feature, sweep, bound, role, met)
@@ -253,9 +253,15 @@ class FamilySweeper:
         curves = self.table.curves
         before, after = self.table.preceding[e], self.table.following[e]
         ends = leaving(curves[before], at_end=True), leaving(curves[e], at_end=False)
-        incoming = before if parallel(*ends) else e
+        incoming = before if same_direction(*ends) else e
         ends = leaving(curves[e], at_end=True), leaving(curves[after], at_end=False)
-        return incoming, after if parallel(*ends) else e
+        return incoming, after if same_direction(*ends) else e
+
+
+def _bound(sweep: Pencil, image: FamilyImage, role: Role) -> BoundLine:
+    """The first line of a family if its edge lies ahead, else the last one."""
+    row = sweep.rows[image.number]
+    return row.first if role is Role.AHEAD else row.last
 
 
 def normals(curve: Curve) -> Iterator[Sector]:

@@ -114,7 +114,7 @@ class Seen:
     ) -> None:
         self.table, self.place = table, place
         self._view = BoundaryView(table, place, range_, own, facts)
-        self._rails, self._rays = rails, facts.rays
+        self._rails, self._facts = rails, facts
         self._held: dict[int, dict[Hold, Pin]] = {}
 
     @property
@@ -173,9 +173,6 @@ class Seen:
         for hold in self._holds(e, point, end.tight, free_views):
             if hold in self.held(e):
                 yield self.held(e)[hold]
-            for ray in self._rays:
-                if e in ray.met and hold[1:] in ray.touched:
-                    yield ray.met[e], self._rails[e].parameter(ray.met[e])
 
     def _is_here(self, e: int, point: Point, t: Real, free_views: FreeViews, side: int) -> bool:
         """Whether this place lies on an edge, and a line from it certainly meets the edge just here.
@@ -199,13 +196,20 @@ class Seen:
         return not may_be_one((x + u * again, y + v * again), there)
 
     def is_at_range(self, e: int, point: Point) -> bool:
-        """Whether a point of an edge, as an object, was made where what is seen of it ends at the range."""
-        return any(hold[1] == RANGE and pin[0] is point for hold, pin in self.held(e).items())
+        """Whether what is seen of an edge is known to end at the range in a point, that very object."""
+        if any(point is other for _, other in self._facts.rim):
+            return True
+        return any(pin[0] is point and self._view.is_at_range(e, end) for end, pin in self.spans.ends_on(e))
 
     def held(self, e: int) -> dict[Hold, Pin]:
         """The ends of what is seen of an edge, by what holds them."""
         if e not in self._held:
             self._held[e] = self._held_on(e)
+            for ray in self._facts.rays:
+                if e in ray.met:
+                    pin = ray.met[e], self._rails[e].parameter(ray.met[e])
+                    for touched in ray.touched:
+                        self._held[e].setdefault((e, *touched), pin)
         return self._held[e]
 
     def _held_on(self, e: int) -> dict[Hold, Pin]:
@@ -216,7 +220,7 @@ class Seen:
             if point is curve.start or point is curve.end:
                 # A line through the corner may meet the edge again: there its name is another's.
                 continue
-            if self._view.is_at_range(end):
+            if self._view.is_at_range(e, end):
                 found[e, RANGE, self._onward(e, point)] = pin
             found.update((hold, pin) for hold in self._view.holds(e, end))
         return {hold: pin for hold, pin in found.items() if hold[1] != RANGE or hold[2]}

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from typing import overload
 
 from exactacq.geometry.curve_parameter import ZERO, Rail
 from exactacq.geometry.curves import Curve
 from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.late import Pin
-from exactacq.kernel.line_keys import LineNumbers
 from exactacq.numbers.between import rational_between
-from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.line_views import LineViews
-from exactacq.sensing.named_pins import PinName
-from exactacq.sensing.range_ends import RangeEnds
+from exactacq.sensing.range_ends import IsAtRange, RangeEnds
 from exactacq.sensing.view_families import End, FreeViews, ViewFamily
 from exactacq.visibility.sensor_range import Range
 
@@ -55,37 +53,28 @@ class FamilyClipper:
         self,
         rails: Sequence[Rail],
         range_: Range,
-        roundoff: float,
-        numbers: LineNumbers,
+        table: EdgeTable,
         base: FamilyClipper | None = None,
         touched: Collection[int] = (),
-        known: Mapping[PinName, Pin] | None = None,
+        at_range: IsAtRange | None = None,
     ) -> None:
         """*base* are the rails without a way, *touched* the numbers of the features that it touches.
 
-        Some of its points are *known*.
+        Of some views from it *at_range* tells that they are as long as the range.
         """
-        self.rails, self.range, self.roundoff = rails, range_, roundoff
-        self.views: LineViews = LineViews(rails, numbers, None if base is None else base.views, known)
-        self._ends = RangeEnds(self.views, range_, touched)
+        self.rails, self.range, self._table = rails, range_, table
+        self.views: LineViews = LineViews(rails, table, None if base is None else base.views)
+        self._ends = RangeEnds(self.views, range_, touched, at_range)
 
     def with_way(
-        self, way: Rail, touches: Collection[int] = (), known: Mapping[PinName, Pin] | None = None
+        self, way: Rail, touches: Collection[int] = (), at_range: IsAtRange | None = None
     ) -> FamilyClipper:
         """These and one more curve, a way through free space, with the numbers of the features it touches.
 
-        Some of its points are *known*.
+        Of some views from it *at_range* tells that they are as long as the range.
         """
-        extent = max(abs(v) for p in (way.curve.start, way.curve.end) for v in p.xy)
-        return FamilyClipper(
-            RailsAndWay(self.rails, way),
-            self.range,
-            max(self.roundoff, margin(2.0**-50 * extent)),
-            self.views.numbers,
-            self,
-            touches,
-            known,
-        )
+        rails = RailsAndWay(self.rails, way)
+        return FamilyClipper(rails, self.range, self._table, self, touches, at_range)
 
     def curve(self, e: int) -> Curve:
         """The curve of a number."""
@@ -153,8 +142,6 @@ class FamilyClipper:
             return None
         first = self._moved(family, family.first, family.last, side, span)
         last = self._moved(family, family.last, family.first, side, span)
-        if family.free_views is not None and first.t.compare(last.t) > 0:
-            first, last = last, first
         return ViewFamily(family.edges, first, last, family.free_views)
 
     def _moved(self, family: ViewFamily, end: End, other: End, side: int, span: Interval) -> End:

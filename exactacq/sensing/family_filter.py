@@ -122,6 +122,16 @@ class FamilyFilter:
             self.spared[e] = [one for n in some if _family(one := extents[n]) not in chosen]
         return list(chosen.values())
 
+    def ending_at(self, u: Real) -> list[Extent]:
+        """Those that may begin or end at a place of the leg, by floats."""
+        low, high = bounds(u, None if self.leg.edge is None else self.leg.rail)
+        found = []
+        for one in self._offered:
+            (first, last), (begin, end) = one.source, one.surely
+            if (first <= high and low <= begin) or (end <= high and low <= last):
+                found.append(one)
+        return found
+
     @cached_property
     def _part(self) -> LegSpan:
         span, rail = self.leg.span, None if self.leg.edge is None else self.leg.rail

@@ -24,6 +24,7 @@ from exactacq.visibility.place_facts import (
     Alignment,
     Hold,
     PlaceFacts,
+    Touched,
     tangents_along,
     tangents_at,
     tangents_from,
@@ -45,7 +46,7 @@ class LegFacts:
     def at(self, u: Real, place: Point) -> PlaceFacts:
         """What is known of a place, with parameter *u*; `NOTHING_KNOWN` if no family ends there."""
         table, around = self._shares.complex.table, balls(place)
-        rays, held = list[Alignment](), set[Hold]()
+        rays, held = dict[frozenset[Touched], Alignment](), set[Hold]()
         rim, tangent = list[tuple[int, Point]](), dict[int, Point]()
         for end, share in self._ends:
             v, views = end.places[share.side], share.family.free_views
@@ -54,7 +55,8 @@ class LegFacts:
             if not end.tight:
                 features = views.touched(end.t, table.line_numbers)
                 if features:
-                    rays += tangents_from(table, around, views.sector, end.t, features)
+                    for ray in tangents_from(table, around, views.sector, end.t, features):
+                        rays.setdefault(ray.touched, ray)
                 continue
             e, point, curve = share.edge, end.points[1 - share.side], table.curves[share.edge]
             if point is curve.start or point is curve.end:
@@ -63,11 +65,10 @@ class LegFacts:
                 tangent[table.line_numbers.circles[e]] = point
             else:
                 held.update(holds(table, place, e, point, views))
+        some = rays or held or rim or tangent
+        found = PlaceFacts([*rays.values()], held, rim, tangent) if some else NOTHING_KNOWN
         # Last: of several forms of one ray that of the way counts, which `OwnLine` uses too.
-        rays += self._shares.leg.facts(table, place).rays
-        if not (rays or held or rim or tangent):
-            return NOTHING_KNOWN
-        return PlaceFacts(rays, held, rim, tangent)
+        return found.joined(self._shares.leg.facts(table, place))
 
     @cached_property
     def _ends(self) -> list[tuple[End, Share]]:

@@ -19,7 +19,7 @@ from flint import arb
 
 from exactacq.cached import cached_property
 from exactacq.geometry.curve_images import curve_image
-from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.late import Pin, late_point
 from exactacq.geometry.points import Point
@@ -218,10 +218,7 @@ class LegSights:
         table, span, stops = self.complex.table, self.leg.span, list[Pin]()
         for number in self.leg.touches:
             if table.line_numbers.is_circle(number):
-                arc = table.curves[table.line_numbers.first_arc(number)]
-                assert isinstance(arc, Arc), "only arcs have circles"
-                foot = self._way.foot(arc.center)
-                u = self.leg.rail.parameter(foot)
+                foot, u = self._way.foot_on(number)
                 if span.low.compare(u) < 0 < span.high.compare(u):
                     stops.append((foot, u))
         stops.sort(key=lambda stop: stop[1])

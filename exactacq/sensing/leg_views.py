@@ -16,6 +16,7 @@ from typing import TypeAlias
 from exactacq.cached import cached_property
 from exactacq.geometry.curve_images import curve_image
 from exactacq.geometry.interval_union import EMPTY, Cover, Interval
+from exactacq.geometry.late import balls
 from exactacq.geometry.points import Point
 from exactacq.kernel.extents import Extent, Span
 from exactacq.numbers.between import rational_between
@@ -154,7 +155,8 @@ class Shares:
         elif u is self.leg.last:
             view = self.end_views[1]
         else:
-            view = self.view(leg.start if u is leg.first else leg.end, leg.own(u))
+            place = leg.start if u is leg.first else leg.end
+            view = self.view(place, leg.own(u), partial(leg.facts, self.complex.table, place))
         return view.pinned(end, family, side)
 
     def _families(self, known: Mapping[int, Sequence[Span]] | None) -> Families:
@@ -197,6 +199,15 @@ class Shares:
             extents = [one for e in asked for one in self._spared.pop(e)]
             for k, shares in self._found(self._made(extents)).items():
                 self.of[k] += shares
+
+    def ending_at(self, u: Real) -> Shares:
+        """This with the families that may begin or end at a place and were left out; see `families`."""
+        if self._filter is None:
+            return self
+        of = self._found(self._made(self._filter.ending_at(u)))
+        for k, shares in self.of.items():
+            of[k] += shares
+        return Shares(self.complex, self.targets, self.leg, self.obstacles, self.view, of=of, ends=self.ends)
 
     @cached_property
     def _clipper(self) -> FamilyClipper:
@@ -402,11 +413,19 @@ class Shares:
         leg = self.leg
         if u is not leg.first and u is not leg.last:
             return False
-        place, view = (leg.start, self.end_views[0]) if u is leg.first else (leg.end, self.end_views[1])
+        view = self.end_views[0 if u is leg.first else 1]
         return any(
-            self.complex.range.order(place, point) < 0
+            self._is_nearer(view, e, point)
             for _, (e, interval) in self.targets.within({k}, view.spans)
             for point in self._samples(e, interval)
+        )
+
+    def _is_nearer(self, view: Seen, e: int, point: Point) -> bool:
+        """Whether a point of an edge that a view shows is nearer than the range."""
+        range_ = self.complex.range
+        clear = range_.clear_order(balls(view.place), balls(point))
+        return clear < 0 or (
+            clear == 0 and not view.is_at_range(e, point) and range_.order(view.place, point) < 0
         )
 
     def _samples(self, e: int, interval: Interval) -> Iterator[Point]:

@@ -6,28 +6,49 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
 from exactacq.cached import cached_property
 from exactacq.errors import FormatError
 from exactacq.geometry.box_index import box
-from exactacq.geometry.constructions import is_put_on, put_on_tangent, touch_on_tangent
+from exactacq.geometry.constructions import (
+    is_past_corner,
+    is_put_on,
+    is_tangent,
+    put_on_line,
+    put_on_tangent,
+    touch_on_tangent,
+)
+from exactacq.geometry.coordinates import cross
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve, Segment
-from exactacq.geometry.intersections import ContactKind, contacts, is_made_touching
+from exactacq.geometry.intersections import ContactKind, contacts
 from exactacq.geometry.interval_union import Interval
-from exactacq.geometry.late import Pin, balls
+from exactacq.geometry.late import Pin, balls, from_to
 from exactacq.geometry.points import Point
 from exactacq.kernel.shadows import Spot
 from exactacq.numbers.float_bounds import rough
+from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable, Floats, Ints, corners
 from exactacq.sensing.named_pins import PinName
-from exactacq.visibility.place_facts import NOTHING_KNOWN, PlaceFacts, along_way
+from exactacq.visibility.place_facts import NOTHING_KNOWN, Alignment, PlaceFacts, along_way
 
 BITS = 256
 """Precision of the balls that tell which corners a way may touch, and which places are inside an edge."""
+
+
+class HaltPlace(NamedTuple):
+    """A place where a robot halted, what is known of the view from there, and lines of sight that pass it.
+
+    These come with the names under which a way is crossed by them.
+    """
+
+    place: Point
+    facts: PlaceFacts
+    lines: tuple[tuple[PinName, Alignment], ...]
 
 
 @dataclass(frozen=True)
@@ -36,7 +57,7 @@ class Leg:
 
     ``ahead`` tells whether the rail's parameter grows along the way; ``touches`` has the numbers of the
     features that the line of a straight way touches (see `line_keys`), ``beside`` the edges before and after
-    the edge.
+    the edge. ``halts`` are the ends at which a robot halted, with what is known of the view from there.
     """
 
     rail: Rail
@@ -45,6 +66,7 @@ class Leg:
     ahead: bool
     touches: tuple[int, ...] = ()
     beside: tuple[int, int] | None = None
+    halts: tuple[HaltPlace, ...] = ()
 
     @property
     def start(self) -> Point:
@@ -82,20 +104,31 @@ class Leg:
         return {}
 
     def facts(self, table: EdgeTable, place: Point) -> PlaceFacts:
-        """What is known of the view from a place of a straight way by the features that its line touches."""
+        """What is known of the view from a place: of a halt, and by what a straight way touches."""
+        halted = next((halt.facts for halt in self.halts if halt.place is place), NOTHING_KNOWN)
         if not self.touches:
-            return NOTHING_KNOWN
+            return halted
         assert isinstance(self.rail.curve, Segment), "only lines touch features"
         line, ends = self.rail.curve, (self.span.start, self.span.end)
-        return PlaceFacts([*along_way(table, balls(place), line, ends, self.touches)])
+        return halted.joined(PlaceFacts([*along_way(table, balls(place), line, ends, self.touches)]))
+
+    def tell_crossed(self, halt: HaltPlace) -> None:
+        """Tell a straight way which lines it crosses at its start, where the robot halted; not its own."""
+        along = from_to(balls(self.start), balls(self.end))
+        for name, ray in halt.lines:
+            if ball_sign(cross(balls(Point(*ray.direction)), along)):
+                self.named[name] = halt.place, self.first
 
     def tell_touched(self, table: EdgeTable, place: Point) -> None:
-        """Tell a place which circles the line from the start of a straight way to it touches."""
+        """Tell a place of a way through free space what is known of the line from its start to there."""
+        if self.edge is not None or place is self.start or place is self.end:
+            return
+        put_on_line(place, self.start, self.end)
         for feature in self.touches:
             if table.line_numbers.is_circle(feature):
                 arc = table.curves[table.line_numbers.first_arc(feature)]
                 assert isinstance(arc, Arc), "only arcs have circles"
-                touch = touch_on_tangent(self.end, self.start, arc.carrier)
+                touch = touch_on_tangent(self.start, self.end, arc.carrier)
                 put_on_tangent(place, self.start, arc.carrier, touch)
 
     @cached_property
@@ -208,7 +241,12 @@ def _corners_on(table: EdgeTable, way: Segment) -> list[tuple[int, Point]]:
     numbers = np.unique(np.concatenate((near, table.next[near])))
     heights, slack = _heights(table, way, table.start[numbers])
     corners = [(n, table.curves[n].start) for n in numbers[np.abs(heights) <= slack].tolist()]
-    return [(n, p) for n, p in corners if _is_zero(way.direction.cross(p - way.start))]
+    start, end = way.start, way.end
+    return [
+        (n, p)
+        for n, p in corners
+        if is_past_corner(start, end, p) or _is_zero((end - start).cross(p - start))
+    ]
 
 
 def _circles_beside(table: EdgeTable, way: Segment) -> list[int]:
@@ -229,7 +267,7 @@ def _circles_beside(table: EdgeTable, way: Segment) -> list[int]:
 
 def _touches(way: Segment, arc: Arc) -> bool:
     """Whether the line of a way touches an arc's circle: in an end of the way if that was made on it."""
-    if is_made_touching(way, arc):
+    if is_tangent(way.start, way.end, arc.carrier):
         return True
     for end in (way.start, way.end):
         if is_put_on(end, arc.carrier):

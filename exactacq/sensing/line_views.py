@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from flint import arb
 
@@ -12,9 +12,9 @@ from exactacq.geometry.curves import Curve
 from exactacq.geometry.late import Balls, Pin, balls, late_point
 from exactacq.geometry.points import Point
 from exactacq.kernel.curve_images import CurveImage
-from exactacq.kernel.line_keys import LineNumbers
 from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
+from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.line_points import LinePoints, Role, Side, along_normal
 from exactacq.sensing.named_pins import NamedPins, PinName
 from exactacq.sensing.view_families import End, FreeViews, SidePin, ViewFamily
@@ -27,24 +27,22 @@ from exactacq.visibility.rotational_sweep import Passed
 class LineViews:
     """Makes the views of families along single lines; holds the rails of the scene's edges by number.
 
-    *base* are those that it adds a way to, of which some points are *known*.
+    *base* are those that it adds a way to.
     """
 
     def __init__(
         self,
         rails: Sequence[Rail],
-        numbers: LineNumbers,
+        table: EdgeTable,
         base: LineViews | None = None,
-        known: Mapping[PinName, Pin] | None = None,
     ) -> None:
-        self.rails, self.numbers = rails, numbers
-        self.pins: NamedPins = NamedPins(None if base is None else base.pins, known)
+        self.rails, self.table, self.numbers = rails, table, table.line_numbers
+        self.pins: NamedPins = NamedPins(None if base is None else base.pins)
         self._points = LinePoints(rails)
         self._base = base
         self.way: int | None = None if base is None else len(rails) - 1
         """The number of the way that is added."""
         self._balls: dict[int, CurveBalls] = {}
-        self._images: dict[int, CurveImage] = {}
         self._last: tuple[Sector | None, Real | None, Line] = (None, None, (arb(), arb(), arb(), arb()))
 
     def curve(self, e: int) -> Curve:
@@ -53,11 +51,7 @@ class LineViews:
 
     def image(self, e: int) -> CurveImage:
         """The curve of a number in floats."""
-        if self._base is not None and 0 <= e < len(self._base.rails):
-            return self._base.image(e)
-        if e not in self._images:
-            self._images[e] = curve_image(self.curve(e))
-        return self._images[e]
+        return curve_image(self.curve(e)) if e == self.way else self.table.curve_images[e]
 
     def end(self, free_views: FreeViews, t: Real, known: SidePin | None = None) -> End:
         """The view of a free views at a parameter; the point of one side there may be *known*."""
@@ -88,11 +82,12 @@ class LineViews:
         once = edge == self.way or edge in [e for e, touching, _ in passed if touching]
         way = role if role is not Role.CONTACT or sector.round else Role.BEHIND
         keys = [(name, edge, 0 if once or touches(name, edge) else way * sense) for name, sense in names]
-        for key in keys:
-            known = self.pins.get(key)
-            if known is not None:
-                return known
-        pin = self._late_pin(sector, t, side, passed)
+        pin = next((pin for key in keys if (pin := self.pins.get(key)) is not None), None)
+        if pin is not None and len(keys) == 1:
+            return pin
+        if pin is None:
+            pin = self._late_pin(sector, t, side, passed)
+        # Who knows the line by another of its names finds it too.
         for key in keys:
             self._pins_of(key).put(key, pin)
         return pin

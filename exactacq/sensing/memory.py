@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
 from flint import fmpq
@@ -24,7 +24,7 @@ from exactacq.scene.terrain_components import Ground
 from exactacq.sensing.event import Event, EventKind, Reason
 from exactacq.sensing.leg_facts import LegFacts
 from exactacq.sensing.leg_views import Covers
-from exactacq.sensing.legs import Leg, legs_of, parts_of
+from exactacq.sensing.legs import HaltPlace, Leg, legs_of, parts_of
 from exactacq.sensing.map import Body, Map
 from exactacq.sensing.path import Path, Piece
 from exactacq.sensing.sensor import Ahead, Notice, Sensor
@@ -64,7 +64,7 @@ def _facts_at(ahead: Ahead, halt: Notice) -> PlaceFacts:
     It halts as something happens there: so families of views end there, or what they show.
     """
     assert ahead.shares is not None, "what is told was seen"
-    facts = LegFacts(ahead.shares).at(halt.u, halt.place)
+    facts = LegFacts(ahead.shares.ending_at(halt.u)).at(halt.u, halt.place)
     for notice in ahead.notices:
         if notice.place is halt.place:
             facts = facts.joined(notice.facts)
@@ -163,6 +163,7 @@ class Memory:
         # The number of reports before every piece, and of all.
         self._told: list[int] = []
         self._looked: tuple[Piece | None, Piece | None, Ahead | None] = None, None, None
+        self._halt: HaltPlace | None = None
         self._walked: set[tuple[object, object]] = set()
         self._walked_on: dict[int, Cover] = {}
         self._retraced: set[int] = set()
@@ -201,15 +202,13 @@ class Memory:
         if ahead is None:
             legs = self._legs_of(piece)
         else:
-            legs = [ahead.leg if halt is None else ahead.leg.upto(halt.u, halt.place)]
+            legs = [ahead.leg if halt is None else self._halted(ahead, halt)]
         count, reports, retraced = len(self._legs), [], self._is_retraced(piece, legs)
         for k, leg in enumerate(legs):
             if ahead is None:
                 took = self._sensor.ahead(leg, retraced)
             else:
-                took = (
-                    ahead if halt is None else self._sensor.upto(ahead, leg, _facts_at(ahead, halt), retraced)
-                )
+                took = ahead if halt is None else self._sensor.upto(ahead, leg, retraced)
             notices, learned = self._sensor.follow(took)
             self._learn(learned)
             for n in notices:
@@ -238,6 +237,16 @@ class Memory:
                 if notice.place is piece.end and ahead.leg.order(notice.u, ahead.leg.first):
                     return ahead, notice
         return None, None
+
+    def _halted(self, ahead: Ahead, halt: Notice) -> Leg:
+        """The part of a leg that was looked along, up to where the robot halts."""
+        part = ahead.leg.upto(halt.u, halt.place)
+        facts, place = _facts_at(ahead, halt), halt.place
+        facts.tell(self._table, place, self.radius * self.radius)
+        names = [name for name, (at, _) in ahead.leg.named.items() if at is place]
+        lines = ((name, ray) for name in names for ray in facts.rays if ray.is_on(self._table, name[0]))
+        self._halt = HaltPlace(place, facts, tuple(lines))
+        return replace(part, halts=(*part.halts, self._halt))
 
     def _learn(self, learned: Mapping[int, Cover]) -> None:
         self._history.learn(learned)
@@ -273,7 +282,13 @@ class Memory:
         if owner is not None and self.ground is not None:
             owner = self.ground.components[owner].obstacle.index
         with deciding("what the way from {} to {} touches", piece.start, piece.end):
-            return legs_of(self._table, self._sensor.rails, owner, piece.curve)
+            legs = legs_of(self._table, self._sensor.rails, owner, piece.curve)
+        halt = self._halt
+        if halt is not None and piece.start is halt.place:
+            first = legs[0] = replace(legs[0], halts=(halt,))
+            if first.edge is None:
+                first.tell_crossed(halt)
+        return legs
 
     def parts(self, way: Segment) -> list[Segment]:
         """The parts of a straight way of which each is one leg (see `ahead`)."""
@@ -399,8 +414,10 @@ class Memory:
         at = [(legs[-1], legs[-1].last) for legs in self._legs[:count][-1:]]
         at += [(legs[0], legs[0].first) for legs in self._legs[count:][:1]]
         own = next((own for leg, u in at if (own := leg.own(u)) is not None), None)
-        rays = [ray for leg, _ in at for ray in leg.facts(self._table, place).rays]
-        return own, PlaceFacts(rays) if rays else NOTHING_KNOWN
+        facts = NOTHING_KNOWN
+        for leg, _ in at:
+            facts = facts.joined(leg.facts(self._table, place))
+        return own, facts
 
     def _leg_at(self, count: int, place: Point) -> tuple[int, Real] | None:
         """The number of a leg of a piece on which a place is, and its parameter there."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Mapping
+from collections.abc import Callable, Hashable
 from typing import TypeAlias
 
 from exactacq.geometry.late import Pin
@@ -27,11 +27,9 @@ class NamedPins:
 
     __slots__ = ("_base", "_own", "_rims")
 
-    def __init__(self, base: NamedPins | None = None, known: Mapping[PinName, Pin] | None = None) -> None:
+    def __init__(self, base: NamedPins | None = None) -> None:
         self._own = Recent[PinName, Pin](PINS_KEPT)
-        for name, pin in (known or {}).items():
-            self.put(name, pin)
-        self._rims: dict[RimName, list[Pin]] = {}
+        self._rims = Recent[RimName, list[Pin]](PINS_KEPT)
         self._base = base
 
     def get(self, name: PinName) -> Pin | None:
@@ -55,7 +53,6 @@ class NamedPins:
         """
         found = self._rims.get(name)
         if found is None:
-            if len(self._rims) >= PINS_KEPT:
-                self._rims.clear()
-            found = self._rims[name] = make()
+            found = make()
+            self._rims.put(name, found)
         return found

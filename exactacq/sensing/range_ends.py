@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator
-from functools import cache, cmp_to_key, partial
+from functools import cache, partial
 from itertools import pairwise
+from operator import itemgetter
 from typing import TypeAlias
 
 from flint import arb, fmpq
@@ -41,12 +42,26 @@ Candidate: TypeAlias = "tuple[Real, SidePin | None, bool]"
 as the range."""
 
 
-class RangeEnds:
-    """Restricts families to the range. *touched* are the numbers of the features that a way touches."""
+IsAtRange: TypeAlias = "Callable[[FreeViews, End], bool]"
+"""Tells whether one of some views is known to be as long as the range."""
 
-    def __init__(self, views: LineViews, range_: Range, touched: Collection[int] = ()) -> None:
+
+class RangeEnds:
+    """Restricts families to the range.
+
+    *touched* are the numbers of the features that a way touches. Of some views from it *at_range* tells that
+    they are as long as the range.
+    """
+
+    def __init__(
+        self,
+        views: LineViews,
+        range_: Range,
+        touched: Collection[int] = (),
+        at_range: IsAtRange | None = None,
+    ) -> None:
         self.views, self.range = views, range_
-        self._touched = touched
+        self._touched, self._is_known_at_range = touched, at_range
 
     def within(self, free_views: FreeViews) -> Iterator[ViewFamily]:
         """The parts of a free views that lie within range, as closed families; single views count."""
@@ -58,7 +73,7 @@ class RangeEnds:
             kept = views.end(free_views, free_views.low if told == LAST_TOO_LONG else free_views.high)
             yield ViewFamily(edges, *((kept, last) if told == LAST_TOO_LONG else (last, kept)), free_views)
             return
-        low, high = views.end(free_views, free_views.low), views.end(free_views, free_views.high)
+        low, high = (self._extreme(free_views, t) for t in (free_views.low, free_views.high))
         if told == ALL_IN_RANGE:
             yield ViewFamily(edges, low, high, free_views)
             return
@@ -75,6 +90,12 @@ class RangeEnds:
                 begin = None
             elif not before and not after and self._order(free_views, end) <= 0:
                 yield ViewFamily(edges, end, end, free_views)
+
+    def _extreme(self, free_views: FreeViews, t: Real) -> End:
+        """The first or the last view."""
+        end = self.views.end(free_views, t)
+        is_known = self._is_known_at_range is not None and self._is_known_at_range(free_views, end)
+        return end.tightened() if is_known else end
 
     def _is_inside(self, free_views: FreeViews, t: fmpq) -> bool:
         at = line(free_views.sector, arb(t))
@@ -147,10 +168,10 @@ class RangeEnds:
             for at in self._candidates(free_views, low, high)
             if at[0].compare(free_views.low) > 0 and at[0].compare(free_views.high) < 0
         ]
-        found.sort(key=cmp_to_key(_by_parameter))
+        found.sort(key=itemgetter(0))
         distinct: list[Candidate] = []
         for at in found:
-            if not distinct or _by_parameter(at, distinct[-1]):
+            if not distinct or at[0].compare(distinct[-1][0]):
                 distinct.append(at)
             else:
                 t, pin, is_tight = distinct[-1]
@@ -288,10 +309,6 @@ def _meets_rim_once(sector: Sector) -> bool:
 def _point_of(view: Callable[[], End], k: int) -> Point:
     """The point of a view on its side k."""
     return view().points[k]
-
-
-def _by_parameter(a: Candidate, b: Candidate) -> int:
-    return a[0].compare(b[0])
 
 
 def _is_rational(curve: Curve) -> bool:

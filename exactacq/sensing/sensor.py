@@ -88,14 +88,16 @@ class Sensor:
         self._views: deque[Seen] = deque(maxlen=VIEWS_KEPT)
         self._last: LegNews | None = None
         self._here: Point | None = None
-        self._told_of: tuple[Point | None, PlaceFacts] = None, NOTHING_KNOWN
 
     # -- moving ------------------------------------------------------------------------------------
 
     def visible(self, place: Point, k: int) -> list[tuple[int, Interval]]:
         """What is seen of an obstacle from a place: edges and intervals."""
-        ends = [(end.edge, end.pin) for end in self.targets.lookouts.get(k, ()) if end.sees(place)]
-        return [*(part for _, part in self.targets.within({k}, self._view(place).spans)), *ends]
+        return self._shown(self._view(place), k)
+
+    def _shown(self, view: Seen, k: int) -> list[tuple[int, Interval]]:
+        ends = [(end.edge, end.pin) for end in self.targets.lookouts.get(k, ()) if end.sees(view.place)]
+        return [*(part for _, part in self.targets.within({k}, view.spans)), *ends]
 
     def look_around(self, place: Point) -> tuple[list[Notice], dict[int, Cover]]:
         """Take in the view from the start of the path; as `follow`."""
@@ -105,7 +107,7 @@ class Sensor:
     def _looked_around(self, place: Point) -> tuple[list[Notice], dict[int, Cover]]:
         view = self._view(place)
         near = sorted({*self.targets.near(view.spans), *self.targets.lookouts})
-        seen = [k for k in near if self.visible(place, k)]
+        seen = [k for k in near if self._shown(view, k)]
         learned = self._with_view(view, seen)
         notices = []
         for k in seen:
@@ -129,14 +131,13 @@ class Sensor:
             shares = Shares(self.complex, self.targets, leg, obstacles, self._view, self._known)
             return Ahead(leg, *self._told(shares, retraced), shares)
 
-    def upto(self, ahead: Ahead, leg: Leg, facts: PlaceFacts, retraced: bool = False) -> Ahead:
+    def upto(self, ahead: Ahead, leg: Leg, retraced: bool = False) -> Ahead:
         """What moving along a leg will tell that is the first part of one that was looked along.
 
-        *facts* are what is known of the view from where it ends. What is in sight to there is lost as the
-        next leg begins. Nothing is learned where the robot has been (*retraced*).
+        What is in sight up to its end is lost as the next leg begins. Nothing is learned where the robot has
+        been (*retraced*).
         """
         assert ahead.shares is not None, "what is told was seen"
-        self._told_of = leg.end, facts
         leg.named.update(ahead.leg.named)
         notices = [
             n for n in ahead.notices if leg.order(n.u, leg.last) < (0 if n.kind is EventKind.LOSE else 1)
@@ -234,9 +235,7 @@ class Sensor:
         for kept in self._views:
             if kept.place is place:
                 return kept
-        end, told = self._told_of
-        known = told if place is end and told is not NOTHING_KNOWN else facts()
-        made = Seen(self.table, self.rails, place, self.range, own, known)
+        made = Seen(self.table, self.rails, place, self.range, own, facts())
         self._views.appendleft(made)
         return made
 
@@ -244,7 +243,7 @@ class Sensor:
         """The covers that grow by what a view shows of some obstacles."""
         learned: dict[int, Cover] = {}
         for k in obstacles:
-            for e, interval in self.visible(view.place, k):
+            for e, interval in self._shown(view, k):
                 add(learned, self.covers, e, interval)
         return learned
 
@@ -271,7 +270,8 @@ class Sensor:
     def _acquired(self, shares: Shares, k: int) -> Notice:
         """When an obstacle that is wholly known after a leg became so."""
         leg = shares.leg
-        seen = self._with_view(self._view(leg.start, leg.own(leg.first)), [k])
+        here = leg.start is self._here
+        seen = {} if here else self._with_view(self._view(leg.start, leg.own(leg.first)), [k])
         acquisition = Acquisition(shares, k, ChainMap(seen, self.covers))
         u, place = acquisition.place()
         return Notice(EventKind.ACQUIRE, k, u, place, facts=acquisition.facts(place))

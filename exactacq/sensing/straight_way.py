@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import partial
 from typing import TypeAlias
 
 from flint import fmpq
 
 from exactacq.cached import cached_property
-from exactacq.geometry.constructions import is_put_on, touch_on_tangent
+from exactacq.geometry.constructions import is_normal, is_put_on, touch_on_tangent
 from exactacq.geometry.curve_images import curve_image
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.late import Pin
@@ -18,11 +18,13 @@ from exactacq.kernel.bounded import TINY, UNIT
 from exactacq.kernel.ways import Crossing, WayImage, lines_at_ends
 from exactacq.numbers.float_bounds import margin, rough
 from exactacq.numbers.real import Real
-from exactacq.scene.edge_table import CONCAVE
-from exactacq.sensing.end_names import Seen
-from exactacq.sensing.legs import Leg
+from exactacq.scene.edge_table import CONCAVE, EdgeTable
+from exactacq.sensing.end_names import Seen, holds
+from exactacq.sensing.legs import HaltPlace, Leg
 from exactacq.sensing.line_family import rational_line
 from exactacq.sensing.line_images import bounds
+from exactacq.sensing.line_points import Role
+from exactacq.sensing.view_families import End, FreeViews
 from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.visibility.line_names import Names
 
@@ -44,7 +46,10 @@ class StraightWay:
         self.line, self.spots = leg.rail.curve, leg.spots
         self.touches: frozenset[int] = frozenset(leg.touches)
         self.piece = Segment(leg.span.start, leg.span.end)
-        self.clipper = complex_.clipper.with_way(leg.rail, leg.touches, leg.named)
+        at_range = partial(_is_at_range, self.table, leg.halts) if leg.halts else None
+        self.clipper = complex_.clipper.with_way(leg.rail, leg.touches, at_range)
+        for name, pin in leg.named.items():
+            self.clipper.views.pins.put(name, pin)
         self.number = len(self.clipper.rails) - 1
         self._feet: dict[int, Pin] = {}
         self._through_centres: dict[int, bool] = {}
@@ -75,8 +80,9 @@ class StraightWay:
         if circle not in self._through_centres:
             arc = self.table.curves[circle]
             assert isinstance(arc, Arc), "only arcs have circles"
-            height = self.piece.direction.cross(arc.center - self.piece.start)
-            self._through_centres[circle] = height.sign() == 0
+            start, end = self.piece.start, self.piece.end
+            passes = is_normal(start, end, arc.carrier) or (end - start).cross(arc.center - start).sign() == 0
+            self._through_centres[circle] = passes
         return self._through_centres[circle]
 
     def own_names(self, direction: Point) -> Names:
@@ -95,7 +101,7 @@ class StraightWay:
             pin = next((end for end in self.ends if is_put_on(end[0], arc.carrier)), None)
             if pin is None:
                 (start, _), (end, _) = self.ends
-                foot = touch_on_tangent(end, start, arc.carrier) or self.foot(arc.center)
+                foot = touch_on_tangent(start, end, arc.carrier) or self.foot(arc.center)
                 pin = foot, self.rail.parameter(foot)
             self._feet[circle], place = pin, pin[0]
             for e in self.table.on_circle_of(first):
@@ -109,7 +115,7 @@ class StraightWay:
         """The way in floats."""
         (ax, ay), (bx, by) = ((rough(p.x), rough(p.y)) for p, _ in self.ends)
         error = margin(UNIT * (abs(ax) + abs(ay) + abs(bx) + abs(by)) + TINY)
-        starts, stops = (self._vertices_at(end) for end, _ in self.ends)
+        starts, stops = (self.vertices_at(end) for end, _ in self.ends)
         low, high = bounds(self.span.low, None), bounds(self.span.high, None)
         return WayImage(curve_image(self.line), low, high, (ax, ay, bx, by, error), starts, stops)
 
@@ -129,7 +135,7 @@ class StraightWay:
                 if at[0] == point:
                     image.touching.update((key, family.edges[1]) for key in keys)
 
-    def _vertices_at(self, point: Point) -> list[int]:
+    def vertices_at(self, point: Point) -> list[int]:
         """The vertices at a point."""
         if point.rational is None:
             return []
@@ -149,3 +155,18 @@ class StraightWay:
         height = along.cross(center - self.line.start)
         excess: Real = height * height - along.norm_sq() * radius_sq
         return excess.sign() == 0
+
+
+def _is_at_range(table: EdgeTable, halts: Iterable[HaltPlace], free_views: FreeViews, view: End) -> bool:
+    """Whether an extreme view of a family from where a robot halted is known to be as long as the range."""
+    for halt in halts:
+        for k, point in enumerate(view.points):
+            if point is halt.place:
+                facts, side, far = halt.facts, free_views.sides[1 - k], view.points[1 - k]
+                if any(far is other for _, other in facts.rim):
+                    return True
+                if free_views.is_normal:
+                    circle = table.line_numbers.circles[side.edge]
+                    return side.role is Role.CONTACT and circle in facts.tangent
+                return any(hold in facts.holds for hold in holds(table, point, side.edge, far, free_views))
+    return False

@@ -89,8 +89,6 @@ class WayCrossings:
         *told* is on which side of the contact they do, if that is known, and the views of *near* sides, by
         their roles, are known to be within range.
         """
-        if not any(side is not None and side.edge in wanted for side in line_family.sides):
-            return
         if not line_family.sector.round and line_family.anchor in self.way.touches:
             # Every line through a corner that the way touches crosses it there and shows nothing else.
             return
@@ -135,7 +133,7 @@ class WayCrossings:
         self, line_family: LineFamily, t: fmpq, wanted: frozenset[int], told: Role | None
     ) -> Role | None:
         """On which side of the contact a line crosses the way, if it does; *told* if floats part its ends."""
-        if told is not None and line_family.sector.is_rational:
+        if told is not None:
             ax, ay, bx, by, error = self.way.image.ends
             near = float(t)
             at = line_at(line_family.sector.image, near, UNIT * abs(near) + TINY)
@@ -167,8 +165,6 @@ class WayCrossings:
     def _clear_role(self, line_family: LineFamily, t: fmpq) -> tuple[bool, Role | None]:
         """Whether long balls tell that, and what they tell."""
         sector = line_family.sector
-        if not sector.is_rational:
-            return False, None
         start, end = self._long_ends
         with workprec(LONG):
             at = line(sector, arb(t), long_frame(sector))

@@ -5,7 +5,7 @@ Each part then crosses the way in all its lines or in none.
 
 from __future__ import annotations
 
-from functools import cmp_to_key
+from operator import itemgetter
 from typing import TypeAlias
 
 from exactacq.geometry.coordinates import dot
@@ -56,7 +56,7 @@ class WayCuts:
             for t, names in zip((line_family.low, line_family.high), line_family.names, strict=True)
         )
         inner = [line for line in lines if self._is_inside(line_family, line[0], line[1])]
-        inner.sort(key=cmp_to_key(_by_parameter))
+        inner.sort(key=itemgetter(0))
         cuts: list[Cut] = [low]
         for cut in inner:
             if cut[0].compare(cuts[-1][0]) != 0:
@@ -91,17 +91,13 @@ class WayCuts:
         """Whether a line through a point of the way lies strictly inside a line family.
 
         A way often ends on a line that bounds a line family. That is asked of the point: comparing parameters
-        would take a root more. If the way's own line bounds the family, its name says so.
+        would take a root more.
         """
-        for bound, side, names in (
-            (line_family.low, 1, line_family.names[0]),
-            (line_family.high, -1, line_family.names[1]),
-        ):
+        bounds = (line_family.low, 1), (line_family.high, -1)
+        for (bound, side), names in zip(bounds, line_family.names, strict=True):
             if t.overlaps(bound):
-                if self._is_along(names):
-                    return False
                 contact, direction = line_family.sector.touch(bound)
-                if direction.cross(pin[0] - contact).sign() == 0:
+                if self._is_crossed_in(pin, names) or direction.cross(pin[0] - contact).sign() == 0:
                     return False
             if t.compare(bound) != side:
                 return False
@@ -121,10 +117,19 @@ class WayCuts:
         contact, direction = line_family.sector.touch(t)
         if is_own:
             return contact, self.way.rail.parameter(contact)
+        crossed = next((pin for pin in near if self._is_crossed_in(pin, names)), None)
+        if crossed is not None:
+            return crossed
         on_line = [pin for pin in near if direction.cross(pin[0] - contact).sign() == 0]
         if len(on_line) == 2:
             return self._pin_of_own(line_family, contact)
         return on_line[0] if on_line else None
+
+    def _is_crossed_in(self, pin: Pin, names: Names) -> bool:
+        """Whether a line is known to cross the way at an end of it."""
+        pins, number = self.way.clipper.views.pins, self.way.number
+        found = (pins.get((name, number, 0)) for name, _ in names)
+        return any(known is not None and known[0] is pin[0] for known in found)
 
     def _pin_of_own(self, line_family: LineFamily, contact: Point) -> Pin:
         """Where the lines of a line family near one that is the way's own cross the way.
@@ -140,7 +145,3 @@ class WayCuts:
 def _is_center(sector: Sector, point: Point) -> bool:
     """Whether a point is the centre of the arc to which a sector's lines are normal."""
     return isinstance(sector, Spokes) and point == Point(*sector.center)
-
-
-def _by_parameter(a: Cut, b: Cut) -> int:
-    return a[0].compare(b[0])

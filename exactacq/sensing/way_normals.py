@@ -55,11 +55,13 @@ class WayNormals:
         """The ends of the way at which it is normal to an arc: there its own normal touches the arc's circle.
 
         By circles and the sign of that normal among the two that touch. That these are equal is long to prove
-        where the way is irrational: robots leave arcs, and come to them, along normals.
+        where the way is irrational: robots leave arcs, and come to them, along normals. And the ends that are
+        vertices, by their numbers and 0.
         """
         found: dict[tuple[int, int], Real] = {}
         if self.way.piece.direction.rational is None:
             for point, u in self.way.ends:
+                found.update(((vertex, 0), u) for vertex in self.way.vertices_at(point))
                 for e in self.way.seen_from(self._view, point).own:
                     arc = self.way.table.curves[e]
                     if isinstance(arc, Arc) and self.way.passes_centre(circle := self.way.table.circles[e]):

@@ -90,7 +90,8 @@ def sightseer_bounds(run: SightseerRun, table: EdgeTable | None = None) -> tuple
     total, largest = Length.sum(perimeters), max(perimeters)
     around = total * fmpq(3, 2) + largest * (fmpq(n - 2) * HALF)
     reach = Length(radius)
-    approach = Length.sum(link.length for link in links if link.source == START)
+    ways_in = [link.length for link in links if link.source == START]
+    approach = Length.sum(ways_in)
     steps = [link.length for link in links if link.source != START]
     if n == 1:
         corrected = approach + total
@@ -100,8 +101,9 @@ def sightseer_bounds(run: SightseerRun, table: EdgeTable | None = None) -> tuple
         corrected = approach + step * (2 * n - 3) + around - last * HALF
     printed = min([reach, _largest_distance(scene, radius, table)]) * (2 * (n - 1)) + around
     wide = reach * (2 * (n - 1)) + around
-    # Then chains of links join all obstacles, and the start sees one: the paper's model (a).
-    linked = run.complete
+    # Then chains of links join all obstacles, none by way of the start, which sees one: the model (a).
+    # From one that does not join them all the robot goes back to the start, and sets out a second time.
+    linked = run.complete and len(ways_in) < 2
     return (
         _bound("(1)", "Theorem 1, as printed", printed, length, linked),
         _bound("(2)", "Theorem 1 for d_max >= R, as printed", wide, length, linked),

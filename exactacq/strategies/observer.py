@@ -16,6 +16,7 @@ from typing import Final
 from flint import fmpq
 
 from exactacq.errors import InvalidScene, MoveError, deciding, shown
+from exactacq.geometry.constructions import put_on_line
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Point, distance_sq
 from exactacq.numbers.length import Length
@@ -458,7 +459,10 @@ class Observer:
         with deciding("what the way from {} to {} leads into", way.start, way.end):
             if self._ground is None:
                 hit = first_hit(self._table, way)
-                return None if hit is None else (hit.obstacle, hit.place)
+                if hit is None:
+                    return None
+                put_on_line(hit.place, way.start, way.end)
+                return hit.obstacle, hit.place
             for gap in self._blocking.gaps(way)[:1]:
                 assert gap.component is not None, (
                     "a way from a free point is blocked where it leads into something"

@@ -15,7 +15,7 @@ from exactacq.geometry.curves import Segment
 from exactacq.kernel.family_images import NONE
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.features import Joint, joint, leaving
-from exactacq.visibility.line_families import Turning, Vector, corner_sectors
+from exactacq.visibility.line_families import Turning, corner_sectors
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,7 +27,6 @@ class EndRays:
     """
 
     sector: Turning
-    bounds: tuple[Vector, Vector]
     own: tuple[int, int]
     passed: tuple[int, int]
 
@@ -50,7 +49,7 @@ def end_rays(table: EdgeTable, e: int) -> Iterator[EndRays]:
             far = _far_end(table, along, outgoing)
             (sector,) = corner_sectors(table.vertices[outgoing], first, last)
             passed = (far, NONE) if is_start else (NONE, far)
-            yield EndRays(sector, (first, last), (incoming, outgoing), passed)
+            yield EndRays(sector, (incoming, outgoing), passed)
 
 
 def _far_end(table: EdgeTable, e: int, vertex: int) -> int:

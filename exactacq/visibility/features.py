@@ -14,7 +14,7 @@ from weakref import WeakKeyDictionary
 
 from flint import fmpq
 
-from exactacq.geometry.coordinates import cross, dot, raw, sign
+from exactacq.geometry.coordinates import cross, dot, raw, same_direction, sign
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.points import Point
 from exactacq.kernel.images import STRAIGHT
@@ -137,7 +137,7 @@ def enters(incoming: Curve, outgoing: Curve, before: Vector, after: Vector, dire
     if the edge is straight or convex.
     """
     back = -before[0], -before[1]
-    along = [parallel(after, direction), parallel(back, direction)]
+    along = [same_direction(after, direction), same_direction(back, direction)]
     curls = [isinstance(c, Arc) and not c.ccw for c in (outgoing, incoming)]
     turn = sign(cross(after, back))
     if turn == 0 and sign(dot(after, back)) > 0:
@@ -149,11 +149,6 @@ def enters(incoming: Curve, outgoing: Curve, before: Vector, after: Vector, dire
         return curls[0] if along[0] else curls[1]
     left, right = sign(cross(after, direction)) > 0, sign(cross(direction, back)) > 0
     return (left and right) if turn > 0 else left if turn == 0 else (left or right)
-
-
-def parallel(a: Vector, b: Vector) -> bool:
-    """Whether two vectors have the same direction."""
-    return sign(cross(a, b)) == 0 and sign(dot(a, b)) > 0
 
 
 def directions_at(table: EdgeTable, point: Point, own: Iterable[int]) -> Iterator[Vector]:

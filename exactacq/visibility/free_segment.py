@@ -8,9 +8,9 @@ obstacle.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cmp_to_key
 from itertools import pairwise
 from math import hypot, inf
+from operator import itemgetter
 
 from flint import fmpq
 
@@ -94,7 +94,7 @@ def walk_line(table: EdgeTable, sector: Sector, t: Real, reach: float) -> tuple[
     possible = met(table.images, edges, held_point(contact), held_point(direction))
     edges_met, walls = _as_far_as_walls(table, sector, t, possible)
     hits = [(tau, e) for e in edges_met for tau in line_contacts(contact, direction, table.curves[e])]
-    hits.sort(key=cmp_to_key(_by_parameter))
+    hits.sort(key=itemgetter(0))
     far = reach * (1 + 1e-9) / size
     begun = {e for tau, e in hits if abs(float(tau)) <= far and not table.kind[e]}
     ahead = _as_far([hit for hit in hits if hit[0].sign() > 0], begun, far)
@@ -149,10 +149,6 @@ def _as_far(hits: list[tuple[Real, int]], begun: set[int], far: float) -> list[t
     ends = (abs(float(tau)) for tau, e in hits if e in begun)
     limit = max(far, *ends, 0.0)
     return [hit for hit in hits if abs(float(hit[0])) <= limit]
-
-
-def _by_parameter(a: tuple[Real, int], b: tuple[Real, int]) -> int:
-    return a[0].compare(b[0])
 
 
 def _until_blocked(

@@ -21,7 +21,17 @@ from typing import Any
 from flint import arb, fmpq
 
 from exactacq.geometry.constructions import put_on, put_on_tangent
-from exactacq.geometry.coordinates import Vector, advance, cross, dot, minus, raw, sign, square_root
+from exactacq.geometry.coordinates import (
+    Vector,
+    advance,
+    cross,
+    dot,
+    minus,
+    raw,
+    same_direction,
+    sign,
+    square_root,
+)
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import spans
 from exactacq.geometry.late import Balls, ball_of, balls, clearly_between, from_to, late_point
@@ -33,7 +43,7 @@ from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.visibility.features import is_spike, parallel
+from exactacq.visibility.features import is_spike
 from exactacq.visibility.line_balls import LONG, long_vector
 from exactacq.visibility.line_families import BITS, held
 from exactacq.visibility.place_facts import NOTHING_KNOWN, Alignment, PlaceFacts, Touched
@@ -300,10 +310,10 @@ class FrontFaces:
         """The known ray that touches one of some events, or None."""
         if not self._rays:
             return None
-        found = (self._rays.get(self._touched(event)) for event in events)
+        found = (self._rays.get(self.touched(event)) for event in events)
         return next((ray for ray in found if ray is not None), None)
 
-    def _touched(self, event: int) -> Touched:
+    def touched(self, event: int) -> Touched:
         """What a ray to an event touches."""
         if event < len(self.table.vertices):
             return event, 0
@@ -432,7 +442,7 @@ class FrontFaces:
                 arcs.append((incoming, high, incoming))
             if isinstance(after, Arc) and not after.ccw:
                 arcs.append((outgoing, table.following[outgoing], low))
-        if len(self.own) == 2 and parallel(self.offset(low), self.offset(high)):
+        if len(self.own) == 2 and same_direction(self.offset(low), self.offset(high)):
             return None if is_spike(before, after) else Cone(low, low)
         return Cone(low, high)
 

@@ -261,7 +261,7 @@ class Sliding(Sector):
     """The normals of the segment from C to C + e, going to its left or right.
 
     Of some that are ``touching`` a circle the parameter is known, by the first arc on the circle and the sign
-    that tells which of the two tangents it is.
+    that tells which of the two tangents it is; of some through a vertex, by its number and 0.
     """
 
     leftward: bool

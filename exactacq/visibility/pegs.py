@@ -24,7 +24,7 @@ from typing import NamedTuple
 import numpy as np
 
 from exactacq.cached import cached_property
-from exactacq.geometry.coordinates import Vector, cross, dot, raw, sign
+from exactacq.geometry.coordinates import Vector, cross, dot, raw, same_direction, sign
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
@@ -39,7 +39,6 @@ from exactacq.visibility.features import (
     features,
     is_spike,
     leaving,
-    parallel,
 )
 
 ZERO = Real(0)
@@ -231,7 +230,7 @@ class Pegs:
             return
         if following in self.at_vertex:
             peg.after = self.at_vertex[following].number
-        elif parallel(self._leaving(e, at_end=True), self._leaving(following, at_end=False)):
+        elif same_direction(self._leaving(e, at_end=True), self._leaving(following, at_end=False)):
             for other in self.on_edge.get(following, ()):
                 if other.arc and other.arc.start is curves[following].start:
                     peg.after, other.before = other.number, peg.number

@@ -12,8 +12,16 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TypeAlias
 
+from flint import fmpq
+
 from exactacq.cached import cached_property
-from exactacq.geometry.constructions import touch_on_tangent
+from exactacq.geometry.constructions import (
+    put_around,
+    put_on_normal,
+    put_on_tangent,
+    put_past_corner,
+    touch_on_tangent,
+)
 from exactacq.geometry.coordinates import Vector, cross, dot, raw
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.late import BITS, Balls, balls, from_to
@@ -61,6 +69,34 @@ class Alignment:
         """The ray's direction."""
         return raw(self._line[1] * self.sense)
 
+    def is_on(self, table: EdgeTable, line: int) -> bool:
+        """Whether the ray lies on the line of a number, which touches two features."""
+        touched = {feature for feature, _ in self.touched}
+        return (
+            line >= 0
+            and not table.line_numbers.is_normal(line)
+            and touched.issuperset(table.line_numbers.features(line))
+        )
+
+    def tell(self, table: EdgeTable, place: Point) -> None:
+        """Tell the place what the lines from there to what the ray comes to touch: all are the ray's."""
+        numbers, corners, circles = table.line_numbers, list[Point](), list[tuple[int, Arc]]()
+        for feature, side in self.touched:
+            curve = table.curves[numbers.first_arc(feature) if side else feature]
+            if side:
+                assert isinstance(curve, Arc), "only arcs have circles"
+                circles.append((feature, curve))
+            else:
+                corners.append(curve.start)
+        for goal in (*corners, *self.met.values()):
+            if goal is place:
+                continue
+            for feature, arc in circles:
+                put_on_tangent(place, goal, arc.carrier, self.feet.get(feature))
+            for corner in corners:
+                if corner is not goal:
+                    put_past_corner(place, goal, corner)
+
     def touch(self, circle: int, center: Point) -> Point:
         """Where the ray touches a circle, given as a feature, about a centre."""
         if circle in self.feet:
@@ -86,11 +122,28 @@ class PlaceFacts:
     rim: Sequence[tuple[int, Point]] = ()
     tangent: Mapping[int, Point] = field(default_factory=dict)
 
+    def tell(self, table: EdgeTable, place: Point, square: fmpq) -> None:
+        """Tell the place, by *square* the range, what is known of the lines from there to what it sees."""
+        for ray in self.rays:
+            ray.tell(table, place)
+        for _, point in self.rim:
+            put_around(place, point, square)
+        for circle, point in self.tangent.items():
+            put_around(place, point, square)
+            curve = table.curves[circle]
+            if isinstance(curve, Arc):
+                put_on_normal(place, point, curve.carrier)
+
     def joined(self, other: PlaceFacts) -> PlaceFacts:
-        """These facts with the rays and the rim of others."""
-        if other is NOTHING_KNOWN:
-            return self
-        return replace(self, rays=[*self.rays, *other.rays], rim=[*self.rim, *other.rim])
+        """These facts and others of the same place."""
+        if other is NOTHING_KNOWN or self is NOTHING_KNOWN:
+            return self if other is NOTHING_KNOWN else other
+        return PlaceFacts(
+            [*self.rays, *other.rays],
+            {*self.holds, *other.holds},
+            [*self.rim, *other.rim],
+            {**self.tangent, **other.tangent},
+        )
 
 
 NOTHING_KNOWN = PlaceFacts()
@@ -133,7 +186,7 @@ def along_way(
     for feature in filter(table.line_numbers.is_circle, features):
         arc = table.curves[table.line_numbers.first_arc(feature)]
         assert isinstance(arc, Arc), "only arcs have circles"
-        if (foot := touch_on_tangent(end, start, arc.carrier)) is not None:
+        if (foot := touch_on_tangent(start, end, arc.carrier)) is not None:
             feet[feature] = foot
     for ray in _alignments(table, place, balls(along), lambda: (line.start, along), features, None):
         there = end if ray.sense > 0 else start

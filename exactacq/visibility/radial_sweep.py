@@ -40,6 +40,9 @@ NOTHING, BLOCKED = floats.NOTHING, floats.BLOCKED
 """First faces of cells without one: nothing within reach, and inside the point's own obstacle."""
 
 
+NOWHERE_KNOWN = arb("nan"), arb("nan")
+
+
 class RadialSweep:
     """The sights of a free point, counterclockwise, and the exact points where they begin and end.
 
@@ -310,19 +313,13 @@ def _made_hit(curve: Curve, point: Point, own: bool, make: Callable[[], Vector])
 def _ball_hit(curve: Curve, point: Balls, own: bool, vector: Balls) -> Balls:
     """Balls around that point, perhaps not finite."""
     (x, y), (u, v) = point, vector
-    if isinstance(curve, Segment):
-        (sx, sy), (ax, ay) = balls(curve.start), balls(curve.direction)
-        share = (u * (y - sy) - v * (x - sx)) / (u * ay - v * ax)
-        return sx + ax * share, sy + ay * share
-    cx, cy = balls(curve.center)
-    cx, cy = cx - x, cy - y
-    middle, size = cx * u + cy * v, u * u + v * v
     if own:
-        tau = 2 * middle / size
-    else:
-        root = (middle * middle - size * (cx * cx + cy * cy - arb(curve.radius_sq))).sqrt()
-        tau = (middle - root if curve.ccw else middle + root) / size
-    return x + u * tau, y + v * tau
+        assert isinstance(curve, Arc), "no ray meets a straight edge through its place again"
+        cx, cy = balls(curve.center)
+        tau = 2 * ((cx - x) * u + (cy - y) * v) / (u * u + v * v)
+        return x + u * tau, y + v * tau
+    met = CurveBalls(curve).met((x, y, u, v), 1)
+    return NOWHERE_KNOWN if met is None else met[1]
 
 
 def _parameter(curve: Curve, point: Point, own: bool, ray: Point) -> Real:

@@ -93,18 +93,14 @@ def within(
 
 def of_circle(circle: Arc, disc: Disc) -> list[Span] | None:
     """The part of a full circle in a disc: at most one; None if all of it is."""
-    w = minus(raw(circle.center), disc.center)
-    level, square = _level(circle, w, disc.square), dot(w, w)
-    rest = sign(circle.radius_sq * square - level * level)
-    if rest <= 0:
-        touching = rest == 0 and sign(level) < 0
-        if sign(level) > 0 or (sign(level) == 0 and not touching):
-            return None
-        if not touching:
-            return []
-        point = advance(raw(circle.center), w, level / square)
+    at = _CircleCut(circle, disc)
+    rest = at.rest()
+    if rest < 0 or (rest == 0 and sign(at.level) >= 0):
+        return None if sign(at.level) >= 0 else []
+    if rest == 0:
+        point = at.touching()
         return [(point, point)]
-    part = _crossing(circle, w, level, 1), _crossing(circle, w, level, -1)
+    part = at.point(1), at.point(-1)
     return [part] if circle.ccw else [part[::-1]]
 
 

@@ -388,7 +388,8 @@ class _Decisions:
 
     def _measured(self, sector: Sliding, event: BoundLine) -> _Value:
         """The parameter of a normal of an irrational segment, with its height."""
-        known = sector.touching.get((self.table.circles[event.number], event.sign)) if event.side else None
+        number, sign = (self.table.circles[event.number], event.sign) if event.side else (event.number, 0)
+        known = sector.touching.get((number, sign))
         value = value_of(self.table, sector, event) if known is None else known
         if event.number == NOTHING or known is not None:
             return _Value(value, height=sector.height_at(value))

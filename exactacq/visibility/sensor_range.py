@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from flint import arb, fmpq
 
+from exactacq.geometry.constructions import is_put_around
 from exactacq.geometry.late import Balls, balls
 from exactacq.geometry.points import Point, distance_sq
 from exactacq.numbers.rationals import ball_sign
@@ -27,6 +28,8 @@ class Range:
             clear = self.clear_order(balls(a), balls(b))
             if clear:
                 return clear
+            if is_put_around(a, b, self.square):
+                return 0
         return distance_sq(a, b).compare(self.square)
 
     def clear_order(self, a: Balls, b: Balls) -> int:

@@ -6,6 +6,7 @@ past an event meets a face behind it, where an edge leaves the range, and points
 
 from __future__ import annotations
 
+from exactacq.geometry.constructions import put_around
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.points import Point
 from exactacq.kernel.view_parts import CROSSING, GIVEN, HERE, HIT, ViewParts
@@ -47,6 +48,7 @@ class ViewEnds:
                 line = sweep.table.curves[sweep.edge(face)]
                 assert isinstance(line, Segment)
                 point = (crossing if read else late_crossing)(line, self.disc, rank)
+                put_around(point, sweep.faces.point, self.disc.square)
                 rank = AT_RANGE
         self._ranks[end] = rank
         return point
@@ -67,6 +69,7 @@ class ViewEnds:
         self._points[end] = point
         if at_range:
             self._ranks[end] = AT_RANGE
+            put_around(point, self.sweep.faces.point, self.disc.square)
         return end
 
     def span(self, part: tuple[int, int]) -> Span:

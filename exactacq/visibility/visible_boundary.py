@@ -14,6 +14,7 @@ from math import inf
 from typing import Any, TypeAlias
 
 from exactacq.cached import cached_property
+from exactacq.geometry.constructions import put_around
 from exactacq.geometry.coordinates import Vector, at_distance, dot, minus, raw, sign
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.points import Point
@@ -101,7 +102,10 @@ class BoundaryView:
             e, start, end = sweep.edge(sight.face), sight.start, sight.end
             whole = ends.point(start), ends.point(end)
             at = zip(whole, (start, end), strict=True)
-            self.disc.on_rim += [point for point, k in at if self._is_at_rim(e, ends.rank(k))]
+            for point, k in at:
+                if self._is_at_rim(e, ends.rank(k)):
+                    self.disc.on_rim.append(point)
+                    put_around(point, self.point, self.range.square)
             found: list[Part] = []
             last: Point | None = None
             for span in self._clipped(e, whole):
@@ -198,9 +202,10 @@ class BoundaryView:
             return [(curve.start, opposite), (opposite, curve.start)]
         return some
 
-    def is_at_range(self, end: int) -> bool:
-        """Whether an end of what is seen, by its number, was made as a point as far away as the range."""
-        return self.ends.rank(end) == AT_RANGE
+    def is_at_range(self, e: int, end: int) -> bool:
+        """Whether an end of what is seen of an edge, by its number, is known to be at the range."""
+        rank = self.ends.rank(end)
+        return rank == AT_RANGE or self._is_at_rim(e, rank)
 
     def holds(self, e: int, end: int) -> list[Hold]:
         """What holds an end of what is seen that is no vertex and ends a sight, by what the ray touches."""
@@ -208,16 +213,7 @@ class BoundaryView:
         return [] if rank is None or rank == AT_RANGE else self._holds(e, rank)
 
     def _holds(self, e: int, rank: int) -> list[Hold]:
-        numbers = self.table.line_numbers
-        return [(e, numbers.feature(number, side != 0), side) for number, side in self._touched(rank)]
-
-    def _touched(self, rank: int) -> list[tuple[int, int]]:
-        """What a ray touches: vertices with 0, arcs with 1 if the circle is to its left, else -1."""
-        count, faces, found = len(self.table.vertices), self.sweep.faces, list[tuple[int, int]]()
-        for event in self.sweep.events(rank):
-            mark = None if event < count else faces.mark(event)
-            found.append((event, 0) if mark is None else (mark.edge, mark.side))
-        return found
+        return [(e, *self.sweep.faces.touched(event)) for event in self.sweep.events(rank)]
 
     def _is_at_rim(self, e: int, rank: int | None) -> bool:
         """Whether the end of a sight, made on the ray of a rank, is known to be as far away as the range."""

@@ -90,10 +90,12 @@ def test_broken_rules_are_told_with_their_places(address: str) -> None:
     assert "terrain" in post(address, "api/check", swept).json()["flaws"][0]["text"]
 
 
-def test_a_run_can_be_stopped(address: str) -> None:
+@pytest.mark.parametrize("wait", [0, 0.3])
+def test_a_run_can_be_stopped(wait: float, address: str) -> None:
+    """Also one that waits for its turn: it was begun all the same, and went on to its end."""
     scene = HTTP.get(address + "api/gallery/plate", timeout=60).json()["scene"]
     number = post(address, "api/run", {"scene": scene}).json()["number"]
-    time.sleep(0.3)
+    time.sleep(wait)
     assert post(address, "api/stop", {}).status_code == 200
     assert finished(address, number)["state"] == "stopped"
     assert post(address, "api/check", {"scene": SCENE}).json() == {"flaws": []}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import atan, hypot
 
 from flint import fmpq
@@ -87,7 +87,12 @@ def walked(path: Sequence[Chain]) -> list[Corner]:
         ends = {_place(c) for c in (other.corners[0], other.corners[-1])} if other else set()
         turned = _place(corners[-1]) != _place(ahead[0]) if corners else _place(ahead[-1]) not in ends
         row = piece.backwards() if turned and len(path) > 1 else ahead
-        corners = [*corners[:-1], *row] if corners else list(row)
+        if corners:
+            # One of the two ends was moved to the other one: the arc before it may have lost its centre.
+            shift = max(corners[-1].shift, row[0].shift)
+            corners = [*corners[:-1], replace(row[0], shift=shift), *row[1:]]
+        else:
+            corners = list(row)
     return corners
 
 

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from flint import fmpq
 
-from exactacq.geometry.constructions import put_on
+from exactacq.geometry.constructions import put_on, put_on_normal
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.intersections import spans
 from exactacq.geometry.points import Point, distance_sq
@@ -23,6 +23,7 @@ def nearest_point(curve: Curve, place: Point) -> Point:
         if (ray.x.sign() or ray.y.sign()) and spans(curve, (ray.x, ray.y)):
             foot: Point = curve.center + ray * (curve.radius / ray.norm_sq().sqrt())
             put_on(foot, curve.carrier)
+            put_on_normal(foot, place, curve.carrier)
             return foot
         nearer = distance_sq(curve.start, place).compare(distance_sq(curve.end, place)) <= 0
         return curve.start if nearer else curve.end
