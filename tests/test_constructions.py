@@ -22,7 +22,18 @@ import exactacq as xa
 from exactacq import Circle, Outline, Point, Polygon, Scene, Segment
 from exactacq.auditing import comparisons
 from exactacq.geometry import curves, intersections
-from exactacq.geometry.constructions import is_put_on, put_around, put_on, put_on_tangent
+from exactacq.geometry.constructions import (
+    corners_passed,
+    is_normal,
+    is_past_corner,
+    is_put_on,
+    put_around,
+    put_on,
+    put_on_line,
+    put_on_normal,
+    put_on_tangent,
+    put_past_corner,
+)
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.intersections import ContactKind, contacts
 from exactacq.numbers import tower
@@ -379,3 +390,53 @@ def test_what_is_known_of_points_changes_nothing(seed: int, monkeypatch: pytest.
     if without is None:
         pytest.skip("numbers alone do not decide it")
     assert with_facts == without
+
+
+@pytest.mark.parametrize("x", [fmpq(-1, 4), 1, 4])
+def test_a_halt_where_two_common_tangents_meet_tells_them_apart(x: object) -> None:
+    """From the outer centre of similitude of two discs the robot goes on along one of their tangents.
+
+    That was taken for the other one, which the way crosses where it begins: a run ended in an error.
+    """
+    discs = [Circle((0, 0), 1), Circle((4, 0), 2), Circle((1, 4), fmpq(1, 2)), Circle((1, -4), fmpq(1, 2))]
+    scene = Scene([*discs, Circle((-6, fmpq(5, 2)), fmpq(1, 2))], start=(-2, 0), radius=9)
+    goal = Point(x, -(xa.Real(x) + 4) / xa.Real(15).sqrt())
+
+    def own(robot: xa.Robot) -> None:
+        assert robot.go_to((-5, 0), until="sight").place == Point(-4, 0)
+        robot.go_to(goal, until=("sight", "regain", "lose"))
+        robot.go_to((-3, 3), until=("sight", "regain", "lose"))
+
+    assert len(audited(scene, own).events) == 9
+
+
+def test_a_way_is_told_of_lines_that_it_was_made_on() -> None:
+    """A point that claims so is believed, and what is made on the way to it takes it over."""
+    start, end, corner, place = Point(0, 0), Point(2, ROOT3), Point(1, 5), Point(1, ROOT3 / 2)
+    assert not is_normal(start, end, UNIT.carrier) and not is_past_corner(start, end, corner)
+    put_on_normal(end, start, UNIT.carrier)
+    put_past_corner(end, start, corner)
+    for a, b in ((start, end), (end, start)):
+        assert is_normal(a, b, UNIT.carrier) and is_past_corner(a, b, Point(1, 5))
+        assert not is_past_corner(a, b, Point(1, 4))
+    assert not is_normal(start, Point(*end), UNIT.carrier)
+    put_on_line(place, start, end)
+    assert is_normal(start, place, UNIT.carrier) and is_past_corner(start, place, corner)
+    assert [point is end for point in corners_passed(start, place)] == [True, False]
+
+
+def look_again(robot: xa.Robot) -> None:
+    """To one end of what is known after another; where something happens on the way it decides anew."""
+    for n in range(5):
+        ends = robot.frontier
+        if ends:
+            robot.go_to(ends[7 * n % len(ends)][1], until=("sight", "regain", "lose"))
+
+
+@pytest.mark.parametrize("seed", some(range(12), 4))
+def test_robots_that_decide_anew_where_something_happens(seed: int) -> None:
+    try:
+        run = xa.explore(arc_scene(Subject.SIGHTSEER, seed), look_again)
+    except xa.Undecided:
+        pytest.skip("places found from places have longer and longer numbers")
+    xa.audit(run)

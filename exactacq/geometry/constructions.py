@@ -141,7 +141,7 @@ def corners_passed(start: Point, end: Point) -> list[Point]:
 
 def _is_equal(corner: Point, other: Point) -> bool:
     """Whether a rational point is seen to equal another one: nothing late is made."""
-    return not other.is_late and corner.rational == other.rational
+    return not other.is_late and other.rational is not None and corner.rational == other.rational
 
 
 def put_on_line(point: Point, start: Point, end: Point) -> None:

@@ -76,10 +76,6 @@ class LineNumbers:
             return a, b
         return (a if kind < 3 else self.count + a), self.count + b
 
-    def is_normal(self, key: int) -> bool:
-        """Whether a line is known as the normal of a straight edge."""
-        return key % 8 == NORMAL
-
     def touches(self, key: int, edge: int) -> bool:
         """Whether a line touches the circle of an edge; a straight edge has none, nor has a way."""
         if key % 8 in (0, NORMAL) or edge >= self.count:

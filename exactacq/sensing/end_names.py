@@ -12,12 +12,15 @@ from math import inf
 from typing import Any
 
 from exactacq.cached import cached_property
+from exactacq.geometry.constructions import is_put_on
+from exactacq.geometry.curve_images import held_point
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.late import BITS as LATE_BITS
-from exactacq.geometry.late import Pin, balls, may_be_one
+from exactacq.geometry.late import Pin, balls, from_to, may_be_one
 from exactacq.geometry.points import Point
+from exactacq.kernel.clearance import met_ahead
 from exactacq.kernel.extents import Span
 from exactacq.kernel.radial_sweep import Part
 from exactacq.numbers.rationals import ball_sign
@@ -25,6 +28,7 @@ from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.view_families import End, FreeViews, ViewFamily
 from exactacq.visibility.line_balls import line
+from exactacq.visibility.line_families import Sliding
 from exactacq.visibility.place_facts import NOTHING_KNOWN, Hold, PlaceFacts
 from exactacq.visibility.sensor_range import Range
 from exactacq.visibility.visible_boundary import BoundaryView
@@ -170,7 +174,7 @@ class Seen:
         """What a point of an edge that is seen along an extreme view may be."""
         if free_views is not None and self._is_here(e, point, end.t, free_views, side):
             yield self.place, self._rails[e].parameter(self.place)
-        for hold in self._holds(e, point, end.tight, free_views):
+        for hold in self._holds(e, point, end, free_views):
             if hold in self.held(e):
                 yield self.held(e)[hold]
 
@@ -201,6 +205,26 @@ class Seen:
             return True
         return any(pin[0] is point and self._view.is_at_range(e, end) for end, pin in self.spans.ends_on(e))
 
+    def ahead(self, features: Collection[int], onward: Point) -> dict[int, Point]:
+        """Where a line from here that touches features meets edges ahead, by these; see `held_ahead`."""
+        edges = met_ahead(self.table.images, [*self.edges], held_point(self.place), held_point(onward))
+        return {e: point for e in edges for point in self.held_ahead(e, features, onward)}
+
+    def held_ahead(self, e: int, features: Iterable[int], onward: Point) -> Iterator[Point]:
+        """The end of a sight on an edge along a line that touches *features*, one of them ahead or here."""
+        numbers, (u, v) = self.table.line_numbers, balls(onward)
+        for feature in features:
+            is_round = numbers.is_circle(feature)
+            curve = self.table.curves[numbers.first_arc(feature) if is_round else feature]
+            center = curve.center if is_round and isinstance(curve, Arc) else curve.start
+            x, y = from_to(balls(self.place), balls(center))
+            is_here = is_round and isinstance(curve, Arc) and is_put_on(self.place, curve.carrier)
+            side = ball_sign(u * y - v * x) if is_round else 0
+            if (is_here or ball_sign(u * x + v * y) > 0) and bool(side) == is_round:
+                pin = self.held(e).get((e, feature, side))
+                if pin is not None:
+                    yield pin[0]
+
     def held(self, e: int) -> dict[Hold, Pin]:
         """The ends of what is seen of an edge, by what holds them."""
         if e not in self._held:
@@ -225,11 +249,11 @@ class Seen:
             found.update((hold, pin) for hold in self._view.holds(e, end))
         return {hold: pin for hold, pin in found.items() if hold[1] != RANGE or hold[2]}
 
-    def _holds(self, e: int, point: Point, tight: bool, free_views: FreeViews | None) -> Iterator[Hold]:
-        if tight:
+    def _holds(self, e: int, point: Point, end: End, free_views: FreeViews | None) -> Iterator[Hold]:
+        if end.tight:
             yield e, RANGE, self._onward(e, point)
         if free_views is not None:
-            yield from holds(self.table, self.place, e, point, free_views)
+            yield from holds(self.table, self.place, e, point, free_views, end.t)
 
     def _onward(self, e: int, point: Point) -> int:
         """1 or -1 as a point of an edge lies to one side or the other from here; 0 if balls do not tell."""
@@ -241,9 +265,14 @@ class Seen:
         return clear or (point - self.place).dot(curve.direction).clear_sign(BITS)
 
 
-def holds(table: EdgeTable, place: Point, e: int, point: Point, free_views: FreeViews) -> Iterator[Hold]:
-    """What holds a point of an edge that a family sees from a place along one of its lines."""
+def holds(
+    table: EdgeTable, place: Point, e: int, point: Point, free_views: FreeViews, t: Real
+) -> Iterator[Hold]:
+    """What holds a point of an edge that a family sees from a place along one of its lines, that at *t*."""
     numbers, feature = table.line_numbers, free_views.anchor
+    if isinstance(free_views.sector, Sliding):
+        touching = (circle for (circle, sign), u in free_views.sector.touching.items() if sign and u is t)
+        feature = next((numbers.feature(circle, True) for circle in touching), None)
     if feature is None:
         return
     if numbers.is_circle(feature):

@@ -55,8 +55,10 @@ class LegFacts:
             if not end.tight:
                 features = views.touched(end.t, table.line_numbers)
                 if features:
+                    lines = views.lines(end.t)
                     for ray in tangents_from(table, around, views.sector, end.t, features):
-                        rays.setdefault(ray.touched, ray)
+                        known = rays.setdefault(ray.touched, ray)
+                        rays[ray.touched] = replace(known, lines=known.lines | lines)
                 continue
             e, point, curve = share.edge, end.points[1 - share.side], table.curves[share.edge]
             if point is curve.start or point is curve.end:
@@ -64,7 +66,7 @@ class LegFacts:
             elif views.sides[1 - share.side].role is Role.CONTACT and views.is_normal:
                 tangent[table.line_numbers.circles[e]] = point
             else:
-                held.update(holds(table, place, e, point, views))
+                held.update(holds(table, place, e, point, views, end.t))
         some = rays or held or rim or tangent
         found = PlaceFacts([*rays.values()], held, rim, tangent) if some else NOTHING_KNOWN
         # Last: of several forms of one ray that of the way counts, which `OwnLine` uses too.

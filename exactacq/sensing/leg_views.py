@@ -339,10 +339,11 @@ class Shares:
     def end_views(self) -> tuple[Seen, Seen]:
         """What is seen from the first and from the last place of the leg."""
         leg, table = self.leg, self.complex.table
-        return (
-            self.view(leg.start, leg.own(leg.first), partial(leg.facts, table, leg.start)),
-            self.view(leg.end, leg.own(leg.last), partial(leg.facts, table, leg.end)),
-        )
+        start = self.view(leg.start, leg.own(leg.first), partial(leg.facts, table, leg.start))
+        facts = partial(leg.facts, table, leg.end)
+        if leg.edge is None and leg.touches:
+            facts = partial(facts, lambda: start.ahead(leg.touches, leg.end - leg.start))
+        return start, self.view(leg.end, leg.own(leg.last), facts)
 
     def note(self, places: Iterable[Real]) -> None:
         """Keep the names of places of a straight way, of which something is reported."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import NamedTuple
@@ -103,14 +103,19 @@ class Leg:
         """
         return {}
 
-    def facts(self, table: EdgeTable, place: Point) -> PlaceFacts:
-        """What is known of the view from a place: of a halt, and by what a straight way touches."""
+    def facts(
+        self, table: EdgeTable, place: Point, met: Callable[[], Mapping[int, Point]] = dict
+    ) -> PlaceFacts:
+        """What is known of the view from a place: of a halt, and by what a straight way touches.
+
+        Where that is met beyond the place, by edges, may be known.
+        """
         halted = next((halt.facts for halt in self.halts if halt.place is place), NOTHING_KNOWN)
         if not self.touches:
             return halted
         assert isinstance(self.rail.curve, Segment), "only lines touch features"
         line, ends = self.rail.curve, (self.span.start, self.span.end)
-        return halted.joined(PlaceFacts([*along_way(table, balls(place), line, ends, self.touches)]))
+        return halted.joined(PlaceFacts([*along_way(table, place, line, ends, self.touches, met())]))
 
     def tell_crossed(self, halt: HaltPlace) -> None:
         """Tell a straight way which lines it crosses at its start, where the robot halted; not its own."""

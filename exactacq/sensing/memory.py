@@ -242,9 +242,10 @@ class Memory:
         """The part of a leg that was looked along, up to where the robot halts."""
         part = ahead.leg.upto(halt.u, halt.place)
         facts, place = _facts_at(ahead, halt), halt.place
-        facts.tell(self._table, place, self.radius * self.radius)
+        if place.rational is None:
+            facts.tell(self._table, place, self.radius * self.radius)
         names = [name for name, (at, _) in ahead.leg.named.items() if at is place]
-        lines = ((name, ray) for name in names for ray in facts.rays if ray.is_on(self._table, name[0]))
+        lines = ((name, ray) for name in names for ray in facts.rays if name[0] in ray.lines)
         self._halt = HaltPlace(place, facts, tuple(lines))
         return replace(part, halts=(*part.halts, self._halt))
 

@@ -5,15 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from exactacq.cached import cached_property
-from exactacq.geometry.constructions import is_put_on
 from exactacq.geometry.curve_images import held_point
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.interval_union import Cover
-from exactacq.geometry.late import Pin, balls, from_to, may_be_one
+from exactacq.geometry.late import Pin, balls, may_be_one
 from exactacq.geometry.points import Point
 from exactacq.kernel.clearance import met, met_ahead
-from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.straight_way import StraightWay, View
@@ -114,25 +112,11 @@ class OwnLine:
 
         Past what the line touches beyond the end, or just there, a sight on the edge ends in one of them.
         """
-        for known in self._held_ahead(view, e, onward):
+        for known in view.held_ahead(e, self.way.touches, onward):
             near = [k for k, point in enumerate(met) if may_be_one(balls(point), balls(known))]
             if len(near) == 1:
                 met[near[0]] = known
         return met
-
-    def _held_ahead(self, view: Seen, e: int, onward: Point) -> Iterator[Point]:
-        """The ends of sights on an edge that are held by what the way's line touches ahead of a place."""
-        numbers, place, (u, v) = self.table.line_numbers, balls(view.place), balls(onward)
-        for feature in self.way.touches:
-            is_round = numbers.is_circle(feature)
-            curve = self.table.curves[numbers.first_arc(feature) if is_round else feature]
-            x, y = from_to(place, balls(curve.center if is_round and isinstance(curve, Arc) else curve.start))
-            is_here = isinstance(curve, Arc) and is_round and is_put_on(view.place, curve.carrier)
-            side = ball_sign(u * y - v * x) if is_round else 0
-            if (is_here or ball_sign(u * x + v * y) > 0) and bool(side) == is_round:
-                pin = view.held(e).get((e, feature, side))
-                if pin is not None:
-                    yield pin[0]
 
     def _leads_on(self, e: int, end: Point, onward: Point) -> bool:
         """Whether an edge through an end is an arc, or straight and along the line."""

@@ -57,13 +57,15 @@ class StraightWay:
             self._name_ends()
 
     def _name_ends(self) -> None:
-        """Name the ends that lie on edges, as where the way's own line meets these: it enters them once."""
-        for end, _ in self.ends:
+        """Name the ends that lie on edges, as where the way's own line meets these.
+
+        It enters an edge once; a concave arc it may leave in another place, but not towards the way.
+        """
+        for (end, _), outward in zip(self.ends, (-1, 1), strict=True):
             for e in self.table.edges_at(end):
-                if self.table.kinds[e] != CONCAVE:
-                    pin = end, self.clipper.rails[e].parameter(end)
-                    for sense in (1, -1):
-                        self.clipper.views.pins.put((OWN, e, sense), pin)
+                pin = end, self.clipper.rails[e].parameter(end)
+                for sense in (outward,) if self.table.kinds[e] == CONCAVE else (1, -1):
+                    self.clipper.views.pins.put((OWN, e, sense), pin)
 
     @property
     def ends(self) -> tuple[Pin, Pin]:
@@ -73,7 +75,17 @@ class StraightWay:
 
     def seen_from(self, view: View, end: Point) -> Seen:
         """What is seen from an end of it; *view* makes views, or knows them."""
-        return view(end, None, partial(self.leg.facts, self.table, end))
+        leg = self.leg
+        if end is not leg.end or not leg.touches:
+            return view(end, None, partial(leg.facts, self.table, end))
+        onward = leg.end - leg.start
+        return view(
+            end,
+            None,
+            partial(
+                leg.facts, self.table, end, lambda: self.seen_from(view, leg.start).ahead(leg.touches, onward)
+            ),
+        )
 
     def passes_centre(self, circle: int) -> bool:
         """Whether its line passes the centre of the circle of an arc, given as the first arc on it."""
@@ -168,5 +180,7 @@ def _is_at_range(table: EdgeTable, halts: Iterable[HaltPlace], free_views: FreeV
                 if free_views.is_normal:
                     circle = table.line_numbers.circles[side.edge]
                     return side.role is Role.CONTACT and circle in facts.tangent
-                return any(hold in facts.holds for hold in holds(table, point, side.edge, far, free_views))
+                return any(
+                    hold in facts.holds for hold in holds(table, point, side.edge, far, free_views, view.t)
+                )
     return False

@@ -94,6 +94,11 @@ class FreeViews:
         side = self.sides[k]
         return None if side.on_way or not self.sector.turns else side.role is Role.CONTACT
 
+    def lines(self, t: Real) -> frozenset[int]:
+        """The numbers of the first or the last line; none if it has no name."""
+        bounds = zip((self.low, self.high), self.names, strict=True)
+        return frozenset(number for bound, names in bounds if t is bound for number, _ in names)
+
     def touched(self, t: Real, numbers: LineNumbers) -> list[int]:
         """The features that the first or the last line touches, by their numbers; none for a normal."""
         for bound, passed in zip((self.low, self.high), self.passed, strict=True):

@@ -2,11 +2,11 @@
 
 Its edges are families of lines that touch one feature, its vertices are lines that touch two, the free
 bitangents (Pocchiola and Vegter, "The visibility complex", 1996). Where a viewer crosses such a line its
-view changes: a visual event (Hall-Holt, "Kinetic visibility", 2002). Three kinds of families are swept
-where the robot comes near: the tangent lines of every feature, the normals of every edge, and the normals
-of every convex corner. Normals only tell from where an obstacle is in sight; they are swept where tangents
-may not (see `exactacq.kernel.normals`). Each family is swept once; cost: near linear in the scene at
-constant density and range.
+view changes: a visual event (Hall-Holt, "Kinetic visibility", 2002). Four kinds of families are swept
+where the robot comes near: the tangent lines of every feature, the normals of every edge, those of every
+convex corner, and the rays from the ends of edges. Normals only tell from where an obstacle is in sight; they
+are swept where tangents may not (see `exactacq.kernel.normals`). A family that was dropped is swept again
+where the robot comes back; cost: near linear in the scene at constant density and range.
 """
 
 from __future__ import annotations
@@ -31,8 +31,9 @@ from exactacq.visibility.sensor_range import Range
 
 KEPT = 512
 """When the families of so many edges are remembered, or of twice those of a neighbourhood if these are more,
-the others are dropped that were not used meanwhile. So no way makes a family twice, and memory is bounded by
-what is near."""
+the others are dropped that were not used meanwhile. So no one way makes a family twice, and memory is
+bounded by what is near. With four times as many a run among 1,000 octagons takes an eighth less time, and
+95 MB more."""
 SEEN_FROM_KEPT = 128
 """Edges for which it is remembered what is seen from them."""
 

@@ -461,7 +461,9 @@ class Observer:
                 hit = first_hit(self._table, way)
                 if hit is None:
                     return None
-                put_on_line(hit.place, way.start, way.end)
+                if hit.place.rational is None:
+                    # No vertex of the scene: that would keep what is noted.
+                    put_on_line(hit.place, way.start, way.end)
                 return hit.obstacle, hit.place
             for gap in self._blocking.gaps(way)[:1]:
                 assert gap.component is not None, (

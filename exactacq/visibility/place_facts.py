@@ -45,7 +45,8 @@ class Alignment:
 
     *exact* gives a point of the line and its direction. If there is an ``anchor``, the line touches that
     feature there. Where it comes to edges, by their numbers, is ``met`` as far as it is known (it leaves a
-    circle in another place), and where it touches circles are its ``feet``.
+    circle in another place), and where it touches circles are its ``feet``. ``lines`` are numbers of its line
+    (see `exactacq.kernel.line_keys`), if they are known.
     """
 
     exact: Callable[[], tuple[Point, Point]]
@@ -54,6 +55,7 @@ class Alignment:
     touched: frozenset[Touched]
     met: Mapping[int, Point] = field(default_factory=dict)
     feet: Mapping[int, Point] = field(default_factory=dict)
+    lines: frozenset[int] = frozenset()
 
     @cached_property
     def _line(self) -> tuple[Point, Point]:
@@ -68,15 +70,6 @@ class Alignment:
     def direction(self) -> Vector:
         """The ray's direction."""
         return raw(self._line[1] * self.sense)
-
-    def is_on(self, table: EdgeTable, line: int) -> bool:
-        """Whether the ray lies on the line of a number, which touches two features."""
-        touched = {feature for feature, _ in self.touched}
-        return (
-            line >= 0
-            and not table.line_numbers.is_normal(line)
-            and touched.issuperset(table.line_numbers.features(line))
-        )
 
     def tell(self, table: EdgeTable, place: Point) -> None:
         """Tell the place what the lines from there to what the ray comes to touch: all are the ray's."""
@@ -174,12 +167,17 @@ def tangents_at(sector: Sector, t: Real, circle: int) -> Iterator[Alignment]:
 
 
 def along_way(
-    table: EdgeTable, place: Balls, line: Segment, ends: tuple[Point, Point], features: Sequence[int]
+    table: EdgeTable,
+    place: Point,
+    line: Segment,
+    ends: tuple[Point, Point],
+    features: Sequence[int],
+    met: Mapping[int, Point],
 ) -> Iterator[Alignment]:
     """The two rays from a place on a straight way along it, whose *line* touches *features*.
 
     The way is free and has these *ends*: so where one lies on a straight edge or a convex arc, the line
-    enters that there, which it does once.
+    enters that there, which it does once. Ahead of the way edges are *met*.
     """
     along, (start, end) = line.end - line.start, ends
     feet: dict[int, Point] = {}
@@ -188,10 +186,14 @@ def along_way(
         assert isinstance(arc, Arc), "only arcs have circles"
         if (foot := touch_on_tangent(start, end, arc.carrier)) is not None:
             feet[feature] = foot
-    for ray in _alignments(table, place, balls(along), lambda: (line.start, along), features, None):
+    here = [f for f, foot in feet.items() if foot is place]
+    for ray in _alignments(
+        table, balls(place), balls(along), lambda: (line.start, along), features, None, here
+    ):
         there = end if ray.sense > 0 else start
         convex = (e for e in table.edges_at(there) if table.kinds[e] != CONCAVE)
-        yield replace(ray, met=dict.fromkeys(convex, there), feet=feet)
+        known = {**(met if ray.sense > 0 else {}), **dict.fromkeys(convex, there)}
+        yield replace(ray, met=known, feet=feet)
 
 
 def _alignments(
@@ -201,18 +203,22 @@ def _alignments(
     exact: Callable[[], tuple[Point, Point]],
     features: Sequence[int],
     anchor: int | None,
+    here: Collection[int] = (),
 ) -> Iterator[Alignment]:
-    """What is too near to the place for balls to tell on which ray it lies is left out."""
+    """What is too near to the place for balls to tell on which ray it lies is left out.
+
+    Of some circles it is known that they are touched just *here*, by both rays.
+    """
     rays: dict[int, set[Touched]] = {1: set(), -1: set()}
     for feature in features:
         is_round = table.line_numbers.is_circle(feature)
         curve = table.curves[table.line_numbers.first_arc(feature) if is_round else feature]
         # The line touches a circle in the foot of its centre, so that both lie on one ray.
         way = from_to(place, balls(curve.center if is_round and isinstance(curve, Arc) else curve.start))
-        ahead = ball_sign(dot(way, direction))
-        side = ball_sign(cross(direction, way)) * ahead if is_round else 0
-        if ahead and bool(side) == is_round:
-            rays[ahead].add((feature, side))
+        for sense in (1, -1) if feature in here else (ball_sign(dot(way, direction)),):
+            side = ball_sign(cross(direction, way)) * sense if is_round else 0
+            if sense and bool(side) == is_round:
+                rays[sense].add((feature, side))
     for sense, touched in rays.items():
         if touched:
             yield Alignment(exact, sense, anchor, frozenset(touched))
