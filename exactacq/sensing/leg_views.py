@@ -28,7 +28,7 @@ from exactacq.sensing.family_filter import FamilyFilter, LastShown
 from exactacq.sensing.free_way import WayViews
 from exactacq.sensing.legs import Leg
 from exactacq.sensing.named_pins import NamedPins
-from exactacq.sensing.straight_way import StraightWay, View
+from exactacq.sensing.straight_way import StraightWay, View, view_from_end
 from exactacq.sensing.targets import Targets
 from exactacq.sensing.view_families import End, ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
@@ -339,11 +339,10 @@ class Shares:
     def end_views(self) -> tuple[Seen, Seen]:
         """What is seen from the first and from the last place of the leg."""
         leg, table = self.leg, self.complex.table
-        start = self.view(leg.start, leg.own(leg.first), partial(leg.facts, table, leg.start))
-        facts = partial(leg.facts, table, leg.end)
-        if leg.edge is None and leg.touches:
-            facts = partial(facts, lambda: start.ahead(leg.touches, leg.end - leg.start))
-        return start, self.view(leg.end, leg.own(leg.last), facts)
+        return (
+            view_from_end(self.view, table, leg, leg.start, leg.own(leg.first)),
+            view_from_end(self.view, table, leg, leg.end, leg.own(leg.last)),
+        )
 
     def note(self, places: Iterable[Real]) -> None:
         """Keep the names of places of a straight way, of which something is reported."""

@@ -75,17 +75,7 @@ class StraightWay:
 
     def seen_from(self, view: View, end: Point) -> Seen:
         """What is seen from an end of it; *view* makes views, or knows them."""
-        leg = self.leg
-        if end is not leg.end or not leg.touches:
-            return view(end, None, partial(leg.facts, self.table, end))
-        onward = leg.end - leg.start
-        return view(
-            end,
-            None,
-            partial(
-                leg.facts, self.table, end, lambda: self.seen_from(view, leg.start).ahead(leg.touches, onward)
-            ),
-        )
+        return view_from_end(view, self.table, self.leg, end)
 
     def passes_centre(self, circle: int) -> bool:
         """Whether its line passes the centre of the circle of an arc, given as the first arc on it."""
@@ -167,6 +157,20 @@ class StraightWay:
         height = along.cross(center - self.line.start)
         excess: Real = height * height - along.norm_sq() * radius_sq
         return excess.sign() == 0
+
+
+def view_from_end(
+    view: View, table: EdgeTable, leg: Leg, end: Point, own: tuple[int, ...] | None = None
+) -> Seen:
+    """What is seen from an end of a leg, with its edges if these are known.
+
+    What a straight way comes to beyond its last place is in sight from the first, past what its line touches.
+    """
+    facts = partial(leg.facts, table, end)
+    if end is leg.end and leg.edge is None and leg.touches:
+        onward = leg.end - leg.start
+        facts = partial(facts, lambda: view_from_end(view, table, leg, leg.start).ahead(leg.touches, onward))
+    return view(end, own, facts)
 
 
 def _is_at_range(table: EdgeTable, halts: Iterable[HaltPlace], free_views: FreeViews, view: End) -> bool:
