@@ -37,6 +37,7 @@ from exactacq.geometry.constructions import (
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.intersections import ContactKind, contacts
 from exactacq.numbers import tower
+from exactacq.numbers.precision import workprec
 from exactacq.sensing import acquisition, legs, memory, range_ends, straight_way
 from exactacq.sensing.path import Piece
 from exactacq.strategies.seed_spreader.prediction.decide import _way
@@ -420,6 +421,7 @@ def test_a_way_is_told_of_lines_that_it_was_made_on() -> None:
         assert is_normal(a, b, UNIT.carrier) and is_past_corner(a, b, Point(1, 5))
         assert not is_past_corner(a, b, Point(1, 4))
     assert not is_normal(start, Point(*end), UNIT.carrier)
+    assert not is_normal(start, end, Arc.circle(Point(0, 0), fmpq(2)).carrier)
     put_on_line(place, start, end)
     assert is_normal(start, place, UNIT.carrier) and is_past_corner(start, place, corner)
     assert [point is end for point in corners_passed(start, place)] == [True, False]
@@ -440,3 +442,27 @@ def test_robots_that_decide_anew_where_something_happens(seed: int) -> None:
     except xa.Undecided:
         pytest.skip("places found from places have longer and longer numbers")
     xa.audit(run)
+
+
+def test_what_a_halt_tells_to_be_at_the_range_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As long balls say; and much else is not."""
+    told, is_at_range = list[tuple[bool, bool]](), straight_way._is_at_range
+
+    def checked(*given: object) -> bool:
+        found = is_at_range(*given)  # type: ignore[arg-type]
+        halts, view = given[1], given[3]
+        with workprec(512):
+            (x, y), (u, v) = (tuple(c.ball(512) for c in p) for p in view.points)  # type: ignore[attr-defined]
+            off = (x - u) * (x - u) + (y - v) * (y - v) - fmpq(radius) * fmpq(radius)
+        told.append((found, bool(abs(off) < 1e-60)))
+        assert halts
+        return found
+
+    monkeypatch.setattr(straight_way, "_is_at_range", checked)
+    for seed in (5, 9, 17, 26):
+        scene = arc_scene(Subject.SIGHTSEER, seed)
+        radius = scene.radius
+        assert radius is not None
+        xa.explore(scene, look_again)
+    assert all(is_so for found, is_so in told if found)
+    assert any(found for found, _ in told) and any(not is_so for _, is_so in told)

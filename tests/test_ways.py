@@ -32,7 +32,7 @@ from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.legs import legs_of
 from exactacq.sensing.line_family import LineFamily
 from exactacq.sensing.sensor import Sensor
-from exactacq.sensing.straight_way import StraightWay
+from exactacq.sensing.straight_way import OWN, StraightWay
 from exactacq.sensing.way_crossings import WayCrossings
 from exactacq.sensing.way_normals import WayNormals
 from exactacq.study.claims.model import Subject
@@ -288,3 +288,18 @@ def test_a_normal_at_the_end_of_a_way_touches_the_circle_that_it_leads_to(hole: 
     sector = Sliding(*((p.x, p.y) for p in (way.start, way.direction)), Real(0), Real(1), leftward=True)
     assert sector.exact((fmpq(10), fmpq(0)), fmpq(9), 1, sign) == u
     assert sector.exact((fmpq(10), fmpq(0)), fmpq(9), 1, -sign) != u
+
+
+def test_an_end_on_a_concave_arc_is_what_the_way_leads_to_and_not_what_its_line_meets_ahead() -> None:
+    """The line of a chord leaves a round room in two places: in one of them against the way."""
+    room = xa.Circle((0, 0), 10)
+    scene = xa.Scene([xa.Circle((0, -7), 1)], enclosure=room)
+    sensor = Sensor(EdgeTable(scene.obstacles), Range(fmpq(20)))
+    way = Segment(xa.Point(-6, -8), xa.Point(2, -8))
+    (leg,) = legs_of(sensor.table, sensor.rails, None, way)
+    assert leg.touches
+    (wall,) = sensor.table.edges_at(way.start)
+    pins = StraightWay(sensor.complex, leg).clipper.views.pins
+    behind = pins.get((OWN, wall, -1))
+    assert behind is not None and behind[0] is way.start
+    assert pins.get((OWN, wall, 1)) is None
