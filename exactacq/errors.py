@@ -108,8 +108,8 @@ CURE = "a start or a radius close by may decide it"
 """What to try where a run is undecided: ties are exact, so the least change ends them."""
 CURES = dict.fromkeys(("sightseer", "seed-spreader", "nearest-frontier"), CURE)
 CURE_OF_OWN = (
-    "places found from places have longer and longer numbers: going on from a corner, or from "
-    "`map.beside` an end of what is known, makes them short again"
+    "places found from places have longer and longer numbers: moves that halt with `just_past=True`, and "
+    "ways to corners or to `map.beside` an end of what is known, keep them short"
 )
 """What to try where a strategy of the user's own is undecided: it picks the places itself."""
 

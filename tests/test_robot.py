@@ -461,3 +461,35 @@ def test_a_straight_way_halts_at_a_corner_that_it_touches() -> None:
     halt = robot.go_to((8, 0), until="lose")
     assert (halt.kind.value, halt.place) == ("event", xa.Point(2, 0))
     assert robot.go_to((8, 0), until="regain").kind == "event"
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_just_past_a_sighting_nothing_else_has_happened_and_numbers_are_short(seed: int) -> None:
+    scene = random_scene(Subject.SIGHTSEER, seed)
+    rng = Random(seed)
+    goal, kinds, hand = (
+        (rng.randint(-9, 9), rng.randint(-9, 9)),
+        SIGHTS[seed % 4],
+        rng.choice(["left", "right"]),
+    )
+    exact, past = xa.Robot(scene), xa.Robot(scene)
+    at = exact.go_to(goal, until=kinds)
+    short = past.go_to(goal, until=kinds, just_past=True)
+    if at.kind == "hit":
+        at, short = exact.walk(hand, until=kinds), past.walk(hand, until=kinds, just_past=True)
+    assert (short.kind, short.obstacle, short.sighting) == (at.kind, at.obstacle, at.sighting)
+    # What is in sight up to the very place of the sighting is lost beyond it.
+    told = len(exact.sightings)
+    assert past.sightings[:told] == exact.sightings
+    assert all(later.kind == "lose" and later.place == at.place for later in past.sightings[told:])
+    if at.kind == "event" and at.place.rational is None:
+        assert short.place.rational is not None
+        assert exact.length.compare(past.length) < 0
+
+
+def test_moves_just_past_sightings_end_at_the_goal_and_at_corners_too() -> None:
+    robot = xa.Robot(SQUARES)
+    halt = robot.go_to((20, 0), until="sight", just_past=True)
+    assert (halt.kind, halt.place) == ("hit", Point(2, 0))
+    halt = robot.walk(until="acquire", just_past=True)
+    assert halt.kind == "event" and halt.place == halt.sighting.place == Point(4, 1)

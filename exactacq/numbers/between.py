@@ -20,7 +20,7 @@ def rational_between(low: Real, high: Real) -> fmpq:
             if left < arb(between) < right:
                 return between
         if left < right:
-            return _short_between(ends(left)[1], ends(right)[0])
+            return _dyadic_between(ends(left)[1], ends(right)[0])
     first, last = low.rational, high.rational
     if first is not None and last is not None:
         a, b = nearest_float(first), nearest_float(last)
@@ -33,11 +33,18 @@ def rational_between(low: Real, high: Real) -> fmpq:
     while True:
         (_, left_end), (right_end, _) = low.enclosure(bits), high.enclosure(bits)
         if left_end < right_end:
-            return _short_between(left_end, right_end)
+            return _dyadic_between(left_end, right_end)
         bits *= 2
 
 
-def _short_between(low: fmpq, high: fmpq) -> fmpq:
+def short_between(low: Real, high: Real) -> fmpq:
+    """A rational strictly between two reals that is about as short as their distance allows."""
+    first = rational_between(low, high)
+    last = rational_between(Real(first), high)
+    return rational_between(Real(first), Real(last))
+
+
+def _dyadic_between(low: fmpq, high: fmpq) -> fmpq:
     """A multiple of a power of two between two rationals, near their middle."""
     scale = fmpz(2) ** (int((1 / (high - low)).ceil().bit_length()) + 3)
     return fmpq(((low + high) / 2 * scale).floor(), scale)

@@ -29,6 +29,7 @@ from exactacq.geometry.interval_union import Interval
 from exactacq.geometry.late import Pin, balls, from_to
 from exactacq.geometry.points import Point
 from exactacq.kernel.shadows import Spot
+from exactacq.numbers.between import rational_between, short_between
 from exactacq.numbers.float_bounds import rough
 from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
@@ -38,6 +39,8 @@ from exactacq.visibility.place_facts import NOTHING_KNOWN, Alignment, PlaceFacts
 
 BITS = 256
 """Precision of the balls that tell which corners a way may touch, and which places are inside an edge."""
+SOON = 6
+"""So often the way to whatever happens next is halved for a place just past a sighting."""
 
 
 class HaltPlace(NamedTuple):
@@ -175,6 +178,14 @@ class Leg:
         """The part of the leg between two places, given as the robot passes them."""
         low, high = (begin, end) if self.ahead else (end, begin)
         return replace(self, span=Interval(*low, *high))
+
+    def just_past(self, u: Real, after: Real) -> Point:
+        """A place with short numbers early on the way from one parameter to a later one."""
+        # Late numbers are not made: that may take longer than all else.
+        near = after
+        for _ in range(SOON):
+            near = Real(rational_between(u, near) if self.ahead else rational_between(near, u))
+        return self.rail.point(short_between(u, near) if self.ahead else short_between(near, u))
 
     def order(self, a: Real, b: Real) -> int:
         """-1, 0 or 1 as the robot passes one parameter before, at or after another."""

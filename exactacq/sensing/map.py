@@ -10,15 +10,13 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol, TypeAlias
 
-from flint import fmpq
-
 from exactacq.cached import cached_property
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.geo import Geo, collection, feature
 from exactacq.geometry.interval_union import EMPTY, Cover, Interval
 from exactacq.geometry.points import Point
-from exactacq.numbers.between import rational_between
+from exactacq.numbers.between import short_between
 from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
 from exactacq.sensing.targets import Target, Targets
@@ -244,7 +242,7 @@ class Map:
                 else:
                     continue
                 is_vertex = last in (low, high)
-                return end if is_vertex else self._rails[target.edge].point(_short_between(low, high))
+                return end if is_vertex else self._rails[target.edge].point(short_between(low, high))
         return end
 
     def ends(self, i: int) -> Iterator[Point]:
@@ -348,10 +346,3 @@ class Map:
                     yield Known(k, part.start, part.start, None)
             else:
                 yield Known(k, part.start, part.end, curve.part(part.start, part.end))
-
-
-def _short_between(low: Real, high: Real) -> fmpq:
-    """A rational strictly between two numbers that is about as short as their distance allows."""
-    first = rational_between(low, high)
-    last = rational_between(Real(first), high)
-    return rational_between(Real(first), Real(last))

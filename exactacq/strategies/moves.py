@@ -138,6 +138,15 @@ class Way:
         return f"Way(source={self.source}, target={self.target}, {ends}, length={self.length!r})"
 
 
+class Awaited(NamedTuple):
+    """What ends a move: a sighting of one of some kinds, but not where the robot sets out."""
+
+    kinds: frozenset[EventKind]
+    start: Point
+    just_past: bool
+    """Whether the robot goes a little farther, to a place with short numbers."""
+
+
 class EnoughMoves(BaseException):
     """A robot was to move more often than it may. Not an `Exception`, so that no strategy goes on."""
 

@@ -22,7 +22,7 @@ from exactacq.strategies.known_links import NearestLink
 from exactacq.strategies.known_map import Sighting
 from exactacq.strategies.lap import Lap
 from exactacq.strategies.lookout import Lookout
-from exactacq.strategies.moves import EnoughMoves, Halt, HaltKind, KnownLink, Watch, Way, kinds_of
+from exactacq.strategies.moves import Awaited, EnoughMoves, Halt, HaltKind, KnownLink, Watch, Way, kinds_of
 from exactacq.strategies.observer import Observer, not_there
 from exactacq.strategies.routes import Exit, Route
 from exactacq.strategies.sightings import Sightings
@@ -95,22 +95,34 @@ class Robot(Observer):
         point: Point | Sequence[object],
         *,
         until: EventKind | Collection[EventKind] = (),
+        just_past: bool = False,
         reason: Why = "",
     ) -> Halt:
         """Go straight to a point, or to the first place where that would lead into an obstacle.
 
         With *until*, kinds of sightings, the robot halts at the first of these on its way; those that happen
-        just where it sets out do not count. Touching boundaries does not stop it. ValueError for kinds that
-        no sensor reports, `MoveError` for a point beyond a border that confines the robot.
+        just where it sets out do not count. Touching boundaries does not stop it.
+
+        The place of a sighting often has long numbers, and those of a place that is found from there are
+        longer. *just_past* the sighting it halts at one with short numbers, if the way has any: within the
+        first 64th of the way to whatever happens next, or at the end of the edge or way if it happens there.
+        The sighting has its own place.
+
+        ValueError for kinds that no sensor reports, `MoveError` for a point beyond a border that confines the
+        robot.
 
         >>> import exactacq as xa
         >>> robot = xa.Robot(xa.load("circles"), radius=5)
         >>> halt = robot.go_to((0, 5), until="lose")
         >>> print(halt.kind, halt.sighting.reason, halt.place)
         event range (0, 2*sqrt(6))
+        >>> halt = robot.go_to((0, -7), until="lose", just_past=True)
+        >>> print(halt.place, halt.sighting.place)
+        (0, -40217/8192) (0, -2*sqrt(6))
         """
-        kinds, target, walker = kinds_of(until), Point.of(point), self._walker
+        target, walker = Point.of(point), self._walker
         here = walker.position
+        awaited = Awaited(kinds_of(until), here, just_past)
         self._check_border(target)
         hit = self._hit_on(Segment(here, target)) if target != here else None
         end = target if hit is None else hit[1]
@@ -120,11 +132,11 @@ class Robot(Observer):
         decided = self._decided(reason)
         if moves:
             self._set_off(decided)
-        if not kinds or not moves:
+        if not awaited.kinds or not moves:
             walker.go_straight(START, end if moves else here)
         else:
             for part in walker.memory.parts(Segment(here, end)):
-                sighting = self._walk_until(Piece("straight", None, part), kinds, here)
+                sighting = self._walk_until(Piece("straight", None, part), awaited)
                 if sighting is not None:
                     kind = HaltKind.EVENT
                     break
@@ -141,14 +153,15 @@ class Robot(Observer):
         *,
         to: Point | Sequence[object] | None = None,
         until: EventKind | Collection[EventKind] = (),
+        just_past: bool = False,
         reason: Why = "",
     ) -> Halt:
         """Walk along the present boundary with a hand at it: all around, or to a point, or until an event.
 
         A lap that was interrupted goes on if the hand is the same: the robot is round where it began. *to* is
-        a point of the boundary; if it is none, the robot finds that out by coming round. For *until* see
-        `go_to`. `MoveError` at no boundary and at one that a border cuts, ValueError for another hand or
-        other kinds.
+        a point of the boundary; if it is none, the robot finds that out by coming round. For *until* and
+        *just_past* see `go_to`. `MoveError` at no boundary and at one that a border cuts, ValueError for
+        another hand or other kinds.
 
         >>> import exactacq as xa
         >>> robot = xa.Robot(xa.load("squares"))
@@ -160,9 +173,10 @@ class Robot(Observer):
         """
         if hand not in ("left", "right"):
             raise ValueError(f'a hand is "left" or "right", not {shown(hand)}')
-        kinds, target = kinds_of(until), None if to is None else Point.of(to)
+        target = None if to is None else Point.of(to)
         walker, obstacle = self._walker, self._at_boundary()
         here = walker.position
+        awaited = Awaited(kinds_of(until), here, just_past)
         if not walker.boundary().closed:
             raise MoveError(
                 "the border cuts this boundary, and no lap leads around it: use circle or walk_to"
@@ -175,7 +189,7 @@ class Robot(Observer):
             lap = self._lap = Lap(walker.boundary(), here, hand == "left")
         while lap.rest:
             ends_here, curve = lap.next(target)
-            sighting = self._walk_along(Piece("boundary", obstacle, curve), kinds, here)
+            sighting = self._walk_along(Piece("boundary", obstacle, curve), awaited)
             lap.walked(walker.position)
             if not lap.rest:
                 self._lap = None
@@ -437,14 +451,11 @@ class Robot(Observer):
 
         return min(ways, key=cmp_to_key(order))[2:]
 
-    def _walk_along(self, piece: Piece, kinds: Collection[EventKind], start: Point) -> Sighting | None:
-        """Walk a piece, or up to the first sighting of one of some kinds, which is returned.
-
-        The robot set out from *start*: a sighting there does not count.
-        """
-        if kinds:
+    def _walk_along(self, piece: Piece, awaited: Awaited) -> Sighting | None:
+        """Walk a piece, or until what is awaited, which is returned."""
+        if awaited.kinds:
             for part in self._walker.memory.divided(piece):
-                sighting = self._walk_until(part, kinds, start)
+                sighting = self._walk_until(part, awaited)
                 if sighting is not None:
                     return sighting
             return None
@@ -452,24 +463,28 @@ class Robot(Observer):
         self._walker.position = piece.end
         return None
 
-    def _walk_until(self, piece: Piece, kinds: Collection[EventKind], start: Point) -> Sighting | None:
-        """Walk a piece that is one leg, or up to the first such sighting."""
+    def _walk_until(self, piece: Piece, awaited: Awaited) -> Sighting | None:
+        """Walk a piece that is one leg, or until what is awaited."""
         walker, found = self._walker, None
         ahead = walker.memory.ahead(piece)
         leg, own = ahead.leg, dict(self._own)
-        for notice in ahead.notices:
+        for k, notice in enumerate(ahead.notices):
             number = own.setdefault(notice.obstacle, len(own))
-            if notice.kind not in kinds:
+            if notice.kind not in awaited.kinds:
                 continue
             is_at_start = leg.order(notice.u, leg.first) == 0
-            if is_at_start and walker.position is start:
+            if is_at_start and walker.position is awaited.start:
                 continue
             found = Sighting(notice.kind, number, notice.place, notice.reason)
             if is_at_start:
                 # What was in sight to the end of the leg before is lost as this one begins.
                 return found
             if leg.order(notice.u, leg.last) < 0:
-                piece = Piece(piece.kind, piece.obstacle, _upto(piece.curve, notice.place))
+                place = notice.place
+                if awaited.just_past:
+                    later = (n.u for n in ahead.notices[k:] if leg.order(notice.u, n.u) < 0)
+                    place = leg.just_past(notice.u, next(later, leg.last))
+                piece = Piece(piece.kind, piece.obstacle, _upto(piece.curve, place))
                 walker.memory.shorten(piece)
             break
         walker.move(piece)
