@@ -19,7 +19,7 @@ from nightly import some
 import exactacq as xa
 from exactacq import FormatError, cli
 from exactacq.files.octagons import random_octagons
-from exactacq.output.figures.labels import FAR, GAP, LabelRoom, around, extent
+from exactacq.output.figures.labels import FAR, GAP, SPACE, LabelRoom, around, extent
 from exactacq.output.vocabulary import Labels
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle, Polygon
@@ -219,10 +219,12 @@ def test_boxes_in_a_room_are_disjoint_and_clear_where_they_can_be(seed: int) -> 
         for _ in range(40)
     ]
     assert sum(p is not None for p in placed) > 25
-    for k, one in enumerate(room.boxes):
+    boxes = [around(p.middle, extent(["O1", "#1"], p.size)) for p in placed if p is not None]
+    for k, one in enumerate(boxes):
         assert one[0] >= 0 and one[2] <= 200 and one[1] >= 0 and one[3] <= 150
-        for other in room.boxes[:k]:
-            assert one[2] <= other[0] or other[2] <= one[0] or one[3] <= other[1] or other[3] <= one[1]
+        for other in boxes[:k]:
+            beside = max(one[0] - other[2], other[0] - one[2])
+            assert beside >= SPACE * 8.0 or one[3] <= other[1] or other[3] <= one[1]
     alone = LabelRoom(200, 150)
     alone.mark_line(wall)
     found = alone.beside(["O1"], 8.0, np.array([[100.5, 75.0]]), 2.0, FAR)

@@ -28,6 +28,8 @@ BESIDE = 8.0
 """Largest size of labels that do not fit into what they name."""
 GAP = 1.0
 """Least gap between a label and another one, or a line."""
+SPACE = 0.4
+"""Least gap between labels side by side, in sizes of the text: else they read as one."""
 STEP = 2.0
 """Distance of the places for a label that are looked at."""
 NEAR, FAR = 14.0, 44.0
@@ -180,7 +182,9 @@ class LabelRoom:
         return (float(x), float(y)), (float(u), float(v))
 
     def _taken(self, box: Box, placed: Placed) -> Placed:
-        self.boxes.append(box)
+        left, bottom, right, top = box
+        space = SPACE * placed.size
+        self.boxes.append((left - space, bottom, right + space, top))
         return placed
 
 
