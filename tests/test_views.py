@@ -18,7 +18,7 @@ from exactacq.geometry.points import Location, distance_sq
 from exactacq.numbers.rationals import rational
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.sensor_range import Range
-from exactacq.visibility.visible_boundary import seen_from
+from exactacq.visibility.visible_boundary import BoundaryView
 
 Q = Fraction
 TINY = Q(1, 10**60)
@@ -77,9 +77,9 @@ def holds(curve: Curve, piece: tuple[Point, Point], point: Point) -> bool:
 
 
 def check(scene: Scene, eye: Point, radius: object, rng: Random) -> None:
-    """`seen_from` against brute force in sample points, vertices and the pieces' own ends."""
+    """What a place sees, against brute force in sample points, vertices and the pieces' own ends."""
     table = EdgeTable(scene.obstacles)
-    seen = seen_from(table, eye, Range(rational(radius)))
+    seen = BoundaryView(table, eye, Range(rational(radius))).seen()
 
     def reported(point: Point, edges: tuple[int, ...]) -> bool:
         return any(
@@ -131,7 +131,7 @@ def test_brute_force_agrees_from_algebraic_points(make: Callable[[Random], objec
     rng = Random(seed)
     scene = make(rng).scene()
     first = next(eyes(scene, rng))
-    pieces = seen_from(EdgeTable(scene.obstacles), first, Range(rational(4))).values()
+    pieces = BoundaryView(EdgeTable(scene.obstacles), first, Range(rational(4))).seen().values()
     ends = [end for spans in pieces for piece in spans for end in piece if end.rational is None]
     for eye in rng.sample(ends, min(2, len(ends))):
         check(scene, eye, rng.choice(RADII), rng)
@@ -147,10 +147,10 @@ def test_floats_only_prune(
     scene = make(rng).scene()
     table = EdgeTable(scene.obstacles)
     for eye in eyes(scene, rng):
-        fast = seen_from(table, eye, Range(rational(4)))
+        fast = BoundaryView(table, eye, Range(rational(4))).seen()
         with monkeypatch.context() as patch:
             patch.setattr(kernel, "EXACT_ONLY", True)
-            slow = seen_from(table, eye, Range(rational(4)))
+            slow = BoundaryView(table, eye, Range(rational(4))).seen()
         assert fast.keys() == slow.keys()
         for e, pieces in fast.items():
             assert len(pieces) == len(slow[e])
@@ -164,7 +164,7 @@ def test_a_larger_range_sees_more(seed: int) -> None:
     scene = random_terrain(rng).scene()
     table = EdgeTable(scene.obstacles)
     for eye in eyes(scene, rng):
-        views = [seen_from(table, eye, Range(rational(radius))) for radius in (2, 3, Q(9, 2))]
+        views = [BoundaryView(table, eye, Range(rational(radius))).seen() for radius in (2, 3, Q(9, 2))]
         for less, more in pairwise(views):
             for e, pieces in less.items():
                 ends = (end for piece in pieces for end in piece)

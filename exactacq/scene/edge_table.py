@@ -183,7 +183,7 @@ class EdgeTable:
     def edges_at(self, point: Point) -> tuple[int, ...]:
         """The edges through a point of a boundary: at a vertex the incoming one, then the outgoing one.
 
-        None for a point that is on no boundary.
+        Empty for a point that is on no boundary.
         """
         x, y = point.xy
         near = self.around((x, y), (x, y), 0.0)

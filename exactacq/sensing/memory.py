@@ -352,11 +352,6 @@ class Memory:
         return Moment(self._history, self._history.moments - 1, {})
 
     @property
-    def in_sight(self) -> Set[int]:
-        """The obstacles in sight, acquired ones aside."""
-        return self._sensor.in_sight
-
-    @property
     def acquired(self) -> Set[int]:
         """The obstacles that are wholly known."""
         return self._sensor.acquired

@@ -161,5 +161,5 @@ class ChainTable(EdgeTable):
         return any(Real(u).sign() > 0 and Real(u).compare(1) < 0 for u in found)
 
 
-_MADE_LATE = ("tree", "images", "hulls", "circles", "_on_circles", "line_numbers", "curve_images")
+_MADE_LATE = ("tree", "images", "hulls", "circles", "_on_circles", "lattice", "line_numbers", "curve_images")
 """What a table makes when it is first asked for."""

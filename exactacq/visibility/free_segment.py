@@ -32,7 +32,7 @@ def is_free(table: EdgeTable, start: Point, end: Point) -> bool:
     """Whether the segment between two points, neither of them inside an obstacle, is free.
 
     Without a contact between its ends it is taken to be outside: from a boundary it must not lead straight
-    into the obstacle (`View.buries` tells).
+    into the obstacle (see `BoundaryView.buries`).
     """
     first, last = held_point(start), held_point(end)
     (ax, ay, a), (bx, by, b) = first, last

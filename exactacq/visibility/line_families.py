@@ -21,7 +21,6 @@ from dataclasses import dataclass, field
 from math import frexp, hypot, ldexp
 from typing import Any, TypeAlias
 
-import numpy as np
 from flint import arb, fmpq
 
 from exactacq.cached import cached_property
@@ -34,7 +33,7 @@ from exactacq.kernel.images import ROLLING, SLIDING, SPOKES, TURNING, LineFrame
 from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.rationals import nearest_float
 from exactacq.numbers.real import Real
-from exactacq.scene.edge_table import Floats, with_rests
+from exactacq.scene.edge_table import with_rests
 from exactacq.visibility.quadratic_roots import QuadraticRoot, root_of
 
 Vector: TypeAlias = "tuple[Any, Any]"
@@ -66,11 +65,6 @@ class Sector(ABC):
     def turns(self) -> bool:
         """Whether lines turn counterclockwise, about the contact or, where they only go ahead, behind it."""
         return True
-
-    @cached_property
-    def origin(self) -> Floats:
-        """The centre in floats."""
-        return np.array((float(self.center[0]), float(self.center[1])))
 
     @cached_property
     def size(self) -> float:

@@ -33,20 +33,6 @@ Placed: TypeAlias = "tuple[int, int, Part]"
 """A part with its face and the position on it."""
 
 
-def seen_from(
-    table: EdgeTable, point: Point, range_: Range, own: tuple[int, ...] | None = None
-) -> dict[int, list[Span]]:
-    """All boundary points that a free point sees within a radius: by edge, closed pieces in its direction.
-
-    The pieces of an edge are disjoint and in order; a single point is a piece with equal ends. A vertex is
-    reported as the end of a piece of either edge, or alone with the edge that starts there. Two
-    exceptions on full circles: a piece may run over the circle's start, and a circle that is seen whole comes
-    as its two halves. *own* are the edges through the point, at a vertex the incoming one first (found if not
-    given). The point may be algebraic.
-    """
-    return BoundaryView(table, point, range_, own).seen()
-
-
 @dataclass(frozen=True, slots=True)
 class SingleRay:
     """What is seen exactly along one direction, where neighbouring rays may not go.
@@ -127,7 +113,13 @@ class BoundaryView:
         return found[0], found[0] if span[0] is span[1] else found[1]
 
     def seen(self) -> dict[int, list[Span]]:
-        """See `seen_from`."""
+        """All boundary points seen within the range: by edge, closed pieces in its direction.
+
+        The pieces of an edge are disjoint and in order; a single point is a piece with equal ends. A vertex
+        is reported as the end of a piece of either edge, or alone with the edge that starts there. Two
+        exceptions on full circles: a piece may run over the circle's start, and a circle that is seen whole
+        comes as its two halves.
+        """
         span = self.ends.span
         return {e: [span(part) for part in parts] for e, parts in self.seen_parts.items()}
 
