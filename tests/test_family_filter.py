@@ -413,12 +413,12 @@ EDGE = 0, Segment(xa.Point(1, 0), xa.Point(2, 0))
 WAY = None, Segment(xa.Point(0, -1), xa.Point(3, -1))
 
 
-def chosen_places(
+def offered(
     piece: tuple[int | None, Segment], begin: Real, end: Real, single: Real
-) -> list[tuple[Real, Real]]:
-    """From where on a piece another obstacle is told to be in sight, if all of it is known.
+) -> tuple[family_filter.FamilyFilter, Extent, Extent]:
+    """What chose among a family that is seen from one place to another and a *single* line from a third.
 
-    A family is seen from one place to another, and along a *single* line from a third.
+    Both show another obstacle, of which all is known.
     """
     square = xa.Polygon([(0, 0), (3, 0), (3, 3), (0, 3)])
     table = EdgeTable(xa.Scene([square, xa.Circle((1, -4), 1)], radius=9).obstacles)
@@ -437,9 +437,30 @@ def chosen_places(
         return leg.rail.point(u), u
 
     assert chooser.choose([family, line], pin) == []
-    found = chooser.in_sight.get(1, [])
-    assert all(leg.span.low <= i.low <= i.high <= leg.span.high for i in found)
+    return chooser, family, line
+
+
+def chosen_places(
+    piece: tuple[int | None, Segment], begin: Real, end: Real, single: Real
+) -> list[tuple[Real, Real]]:
+    """From where on a piece the other obstacle is told to be in sight."""
+    chooser, _, _ = offered(piece, begin, end, single)
+    found, span = chooser.in_sight.get(1, []), chooser.leg.span
+    assert all(span.low <= i.low <= i.high <= span.high for i in found)
     return [(i.low, i.high) for i in found]
+
+
+@pytest.mark.parametrize("piece", [EDGE, WAY], ids=["edge", "way"])
+def test_which_families_may_begin_or_end_at_a_place(piece: tuple[int | None, Segment]) -> None:
+    """A place that floats cannot tell from an end counts, one between the ends does not."""
+    begin, single, end = (Real(fmpq(n, 90)) for n in (36, 45, 54))
+    chooser, family, line = offered(piece, begin, end, single)
+    hair, wide = Real(fmpq(1, 10**15)), Real(fmpq(1, 10**6))
+    for place, here in ((begin, [family]), (end, [family]), (single, [line])):
+        for near in (place, place + hair, place - hair):
+            assert chooser.ending_at(near) == here
+        for far in (place + wide, place - wide):
+            assert chooser.ending_at(far) == []
 
 
 def test_places_near_the_ends_of_a_leg() -> None:

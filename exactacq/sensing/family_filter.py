@@ -128,7 +128,7 @@ class FamilyFilter:
         found = []
         for one in self._offered:
             (first, last), (begin, end) = one.source, one.surely
-            if (first <= high and low <= begin) or (end <= high and low <= last):
+            if first <= high and low <= last and (low <= begin or end <= high):
                 found.append(one)
         return found
 
