@@ -236,3 +236,19 @@ def test_bounds_are_told_in_two_digits_rounded_up(power: int, value: str) -> Non
 @given(st.lists(st.integers(0, 2), min_size=1, max_size=9))
 def test_the_least_rotation(rows: list[int]) -> None:
     assert _least_turned(rows) == min(rows[i:] + rows[:i] for i in range(len(rows)))  # type: ignore[arg-type]
+
+
+def test_a_loop_that_goes_back_on_itself_is_left_out() -> None:
+    """A half circle there and back, as an exporter writes a round end: a scene refuses it."""
+
+    def loop(*rows: tuple[object, object, object]) -> Chain:
+        return Chain(f"loop of {len(rows)}", [Corner(*map(fmpq, row)) for row in rows], closed=True)
+
+    lens = loop((0, 0, 1), (0, 4, fmpq(-1, 2)))
+    back = [
+        loop((0, 0, fmpq(9, 10)), (0, 4, fmpq(-9, 10))),
+        loop((9, 0, 0), (12, 0, fmpq(1, 2)), (12, 3, fmpq(-1, 2)), (12, 0, 0)),
+        loop((5, 5, 0), (6, 5, 0), (7, 5, 0), (6, 5, 0), (6, 8, 0), (6, 5, 0)),
+    ]
+    done = stitch([back[0], lens, *back[1:]], fmpq(1, 1000))
+    assert done.loops == [lens] and done.flat == len(back) and done.inside == {lens.label}

@@ -90,7 +90,7 @@ def test_splines_of_dxf(tmp_path: Path) -> None:
 
     scene = load(dxf(tmp_path, draw), start=(0, -20), flatten=0.01)
     assert len(scene.obstacles) == 2
-    assert flattened(scene).startswith("flattened 2 SPLINE into")
+    assert flattened(scene).startswith("flattened 2 SPLINEs into")
     assert any("1 SPLINE of fit points only" in note for note in scene.notes)
     assert float(scene.obstacles[0].area) == pytest.approx(9.6, abs=0.1)
 
@@ -175,6 +175,13 @@ def test_curves_that_are_alike_are_flattened_once(tmp_path: Path) -> None:
     piece = polynomial([(rational(x), rational(y)) for x, y in ((0, 0), (0, 3), (4, 3), (4, 0))])
     made = []
     for _ in range(3):
-        reader.corners("Bézier curves", [piece])
+        reader.corners("Bézier curve", [piece])
         made.append(reader.made)
     assert made[0] == made[2] > 0 and reader.arcs == 3 * 10
+
+
+def test_a_drawing_of_nothing_but_an_ellipse_is_told_to_flatten(tmp_path: Path) -> None:
+    path = dxf(tmp_path, lambda m: m.add_ellipse((0, 0), (4, 0), 0.5))
+    with pytest.raises(FormatError, match=r"nothing to read \(left out 1 ELLIPSE\); .*--flatten LENGTH"):
+        load(path, start=(9, 9))
+    assert len(load(path, start=(9, 9), flatten="0.1").obstacles) == 1

@@ -172,3 +172,37 @@ def test_collections_nested_too_deeply(tmp_path: Path) -> None:
         document = {"type": "GeometryCollection", "geometries": [document]}
     with pytest.raises(xa.FormatError, match="nested more than 16 deep"):
         read(tmp_path, document)
+
+
+@pytest.mark.parametrize(
+    "ring",
+    [
+        "[[0.1, 0.3], [4, 0.3], [4, 4], [0.1, 4], [0.1, 0.30000000000000004], [0.1, 0.3]]",
+        "[[0.1, 0.3], [4, 0.3], [4, 4], [0.1, 4], [0.10000000000000002, 0.29999999999999999]]",
+        "[[4, 0.3], [4, 4], [0.1, 4], [0.1, 0.3], [4.0000000000000009, 0.3], [4, 0.3]]",
+    ],
+)
+def test_a_ring_that_rounding_closes_is_closed(tmp_path: Path, ring: str) -> None:
+    """Its last edge is shorter than the last digit tells, and may go back along the one before it."""
+    document = f'{{"type": "Polygon", "coordinates": [{ring}]}}'
+    scene = read(tmp_path, document)
+    assert scene.shapes == read(tmp_path, polygon(json.loads(ring)[:4])).shapes
+    (note,) = scene.notes
+    assert note.startswith("left out the last vertex of 1 ring, the first one but for rounding: at most ")
+    assert 0 < float(note.split()[-3]) < 1e-15
+    line = read(tmp_path, document.replace("Polygon", "LineString").replace("[[[", "[[").replace("]]]", "]]"))
+    assert areas(line) == areas(scene)
+
+
+def test_a_short_edge_of_exact_numbers_stays(tmp_path: Path) -> None:
+    """No double has so many digits: it is meant."""
+    ring = "[[1, 1], [4, 1], [4, 4], [1, 4], [0.9999999999999999999999999, 1], [1, 1]]"
+    scene = read(tmp_path, f'{{"type": "Polygon", "coordinates": [{ring}]}}')
+    assert len(scene.shapes[0].vertices) == 5 and scene.notes == ()
+
+
+def test_what_is_left_out_is_counted_in_words(tmp_path: Path) -> None:
+    points = [{"type": "Point", "coordinates": [k, 9]} for k in range(2)]
+    ways = [{"type": "LineString", "coordinates": [[k, 0], [k, 1]]} for k in range(3)]
+    scene = read(tmp_path, {"type": "GeometryCollection", "geometries": [polygon(SQUARE), *points, *ways]})
+    assert scene.notes == ("left out 2 Points, 3 open LineStrings",)

@@ -188,7 +188,7 @@ def test_what_is_hidden_or_not_drawn_is_left_out(tmp_path: Path) -> None:
     scene = read(tmp_path, content)
     assert areas(scene) == ["pi"]
     assert set(scene.notes[0].removeprefix("left out ").split(", ")) == {
-        "1 text", "2 hidden element", "1 use of what the file does not have", "1 circle of no radius",
+        "1 text", "2 hidden elements", "1 use of what the file does not have", "1 circle of no radius",
         "1 flattened rect",
     }  # fmt: skip
 

@@ -9,7 +9,16 @@ from flint import fmpq
 
 from exactacq.files.loops.chains import Chain, Corner
 from exactacq.files.loops.stitching import stitch
-from exactacq.files.repairs.gaps import best_tolerance, closings
+from exactacq.files.repairs.gaps import (
+    MOST_PAIRS,
+    MOST_TRIED,
+    ChainGaps,
+    TriedTolerance,
+    best_tolerance,
+    closings,
+    copied,
+    gaps_of,
+)
 
 LESS = 1 - fmpq(1, 10**6)
 
@@ -108,3 +117,37 @@ def test_two_lines_side_by_side_enclose_nothing() -> None:
     assert closings(sides) == []
     (closing,) = closings([sides[0], [line((10, 0), (15, 25), (10, 50))]])
     assert closing.chains == (0, 1)
+
+
+def square(x: int, gap: object, label: str) -> Chain:
+    return line((x, 0), (x + 20, 0), (x + 20, 20), (x, 20), (x, gap), label=label)
+
+
+def test_no_more_than_some_tolerances_are_tried() -> None:
+    """One serves many gaps, but none is told for a gap that is far narrower."""
+    gaps = [fmpq(k, 10**6) for k in range(1, 21)] + [fmpq(k, 10) for k in range(1, 31)]
+    chains = [square(100 * k, gap, f"line {k}") for k, gap in enumerate(gaps)]
+    found = gaps_of(stitch(copied(chains), fmpq(0)), chains)
+    tolerances = [tried.tolerance for tried in found.tried]
+    assert len(tolerances) <= MOST_TRIED + 1 and (tolerances[0], tolerances[-1]) == (gaps[0], gaps[-1])
+    for tried in found.tried:
+        assert tried.chains == {k for k, gap in enumerate(gaps) if gap <= tried.tolerance}
+    for k, gap in enumerate(gaps):
+        assert gap <= found.least(k) <= 10 * gap
+
+
+def test_a_tolerance_is_not_told_for_a_gap_that_is_far_narrower() -> None:
+    """Its own did not help; the wide one closes it, but is none for it."""
+    chains = [square(100 * k, gap, f"line {k}") for k, gap in enumerate([fmpq(1, 10**3), fmpq(3)])]
+    found = closings([[chain] for chain in chains])
+    told = ChainGaps(tuple(found), (TriedTolerance(found[1], fmpq(3), frozenset({0, 1})),))
+    assert (told.least(0), told.least(1)) == (None, 3)
+
+
+def test_tolerances_near_many_ends_are_not_tried() -> None:
+    """So many ends would be near each other that to find them takes seconds."""
+    many = int(MOST_PAIRS**0.5) // 2 + 1
+    dust = [line((fmpq(k, 100), 1), (fmpq(k, 100), -9), label=f"dust {k}") for k in range(2 * many)]
+    chains = [square(100, 3, "wide"), square(200, fmpq(1, 10), "narrow"), *dust]
+    found = gaps_of(stitch(copied(chains), fmpq(0)), chains)
+    assert [tried.tolerance for tried in found.tried] == [fmpq(1, 10)]

@@ -270,6 +270,102 @@ def test_sides_of_a_slot_are_not_closed_by_a_tolerance() -> None:
     assert [chain.cures for chain in chains] == [("--thicken 0.47",)] * 3
 
 
+HAIRLINE = [(0, 0), (40, 0), (40, 40), (0, 40), (0, 0.003)]
+"""An outline with a gap that nobody sees."""
+
+
+def test_each_gap_is_told_its_own_tolerance(tmp_path: Path) -> None:
+    """One was told for all: 3.7 for a gap of 0.003."""
+    ways = [[(8, 10), (20, 10)], [(22.6, 10), (22.6, 22)], [(20, 24.6), (8, 24.6)], [(8, 22), (8, 12.6)]]
+    path = drawing(tmp_path / "d.dxf", HAIRLINE, box(30, 5, 5, 5), *ways)
+    found = xa.inspect(path)
+    assert [chain.cures for chain in found.open_chains] == [
+        ("--tolerance 0.003",), *4 * [("--tolerance 3.7",)]
+    ]  # fmt: skip
+    (note,) = (text for text in found.notes if "--tolerance" in text)
+    assert "--tolerance 0.003, which closes 1 of 5 open chains: LWPOLYLINE 2F ends at" in note
+    assert note.endswith("; --tolerance 3.7 closes 5")
+    assert len(xa.inspect(path, tolerance="0.003").open_chains) == 4
+    assert not xa.inspect(path, tolerance="3.7").open_chains
+
+
+def test_a_tolerance_that_takes_away_a_loop_is_not_named(tmp_path: Path) -> None:
+    """What would close a wide gap makes nothing of a small plate: the gap is told `--thicken` instead."""
+    wide = [(50, 5), (50, 0), (90, 0), (90, 40), (50, 40), (50, 8)]
+    path = drawing(tmp_path / "d.dxf", HAIRLINE, wide, box(20, 20, 2, 2))
+    found = xa.inspect(path)
+    cures = {chain.gap: chain.cures for chain in found.open_chains}
+    assert cures == {fmpq(3, 1000): ("--tolerance 0.003",), fmpq(3): ("--thicken 0.46",)}
+    assert not any("--tolerance 3" in text for text in found.notes)
+    assert len(xa.inspect(path, tolerance=3).loops) == 2
+    alone = xa.inspect(drawing(tmp_path / "a.dxf", wide))
+    assert [chain.cures for chain in alone.open_chains] == [("--tolerance 3",)]
+
+
+def test_a_tolerance_that_opens_a_loop_is_not_named(tmp_path: Path) -> None:
+    """A loop in pieces has a joint near the gap, where three ends would meet."""
+    sides = [(box(0, 0, 9, 9)[k], box(0, 0, 9, 9)[k + 1]) for k in range(4)]
+    gap = [(-2, 9.5), (-30, 9.5), (-30, 40)], [(-30, 40), (-2, 40), (-2, 11)]
+    path = drawing(tmp_path / "d.dxf", *sides, *gap)
+    (chain,) = xa.inspect(path).open_chains
+    assert (chain.gap, chain.cures) == (fmpq(3, 2), ("--tolerance 1.5",))
+    near = ([(x + 1.5, y) for x, y in piece] for piece in gap)
+    (chain,) = xa.inspect(drawing(tmp_path / "n.dxf", *sides, *near)).open_chains
+    assert (chain.gap, chain.cures) == (fmpq(3, 2), ("--thicken 0.21",))
+
+
+def test_a_star_whose_edges_are_as_short_as_its_gap_is_not_closed(tmp_path: Path) -> None:
+    """The tolerance that was named took all edges out."""
+    star = [(0, 0), (30, 10), (10, -10), (20, 20), (26, -10), (4, 10), (35, 0)]
+    path = drawing(tmp_path / "d.dxf", star)
+    found = xa.inspect(path)
+    (chain,) = found.open_chains
+    assert chain.gap == 35 and [words.split()[0] for words in chain.cures] == ["--thicken"]
+    assert not any("--tolerance" in text for text in found.notes)
+    with pytest.raises(xa.FormatError, match="; give --thicken LENGTH for walls along the lines, or select"):
+        xa.load(path, start=(50, 50))
+
+
+def test_walls_that_cannot_be_merged_are_not_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = drawing(tmp_path / "d.dxf", [(0, 0), (50, 0)], box(10, 10, 5, 5))
+
+    def fail(*told: object) -> None:
+        raise xa.FormatError("no union")
+
+    monkeypatch.setattr("exactacq.files.checking.flaws.unite", fail)
+    (chain,) = xa.inspect(path).open_chains
+    assert chain.cures == ()
+
+
+def test_lines_become_walls_only_if_nothing_else_does_as_well(tmp_path: Path) -> None:
+    """A line may be drawn for another purpose: two plates that overlap are merged without it."""
+    found = xa.inspect(drawing(tmp_path / "d.dxf", box(0, 0, 9, 9), box(5, 5, 9, 9), [(30, 0), (30, 20)]))
+    assert found.command is not None and "--union" in found.command and "--thicken" not in found.command
+    (chain,) = found.open_chains
+    assert [words.split()[0] for words in chain.cures] == ["--thicken"]
+
+
+def test_a_start_inside_a_wall_around_a_line(tmp_path: Path) -> None:
+    """It was told that edges cross, or the wall was the room."""
+    path = drawing(tmp_path / "d.dxf", [(0, 0), (50, 0), (50, 30)], box(10, 10, 5, 5))
+    message = (
+        "the start (25, 0.1) lies inside an obstacle, the wall along 'LWPOLYLINE 2F': it must lie in free "
+        "space; give another, such as the one that `exactacq check` proposes"
+    )
+    (flaw,) = xa.inspect(path, start=(25, "0.1"), thicken=2).violations
+    assert flaw.text == message
+    with pytest.raises(xa.FormatError) as caught:
+        xa.load(path, start=(25, "0.1"), thicken=2)
+    assert str(caught.value) == f"{path}: {message}"
+
+
+def test_no_start_is_proposed_inside_a_wall_around_a_line(tmp_path: Path) -> None:
+    """It was: the roomiest place lay in the body along a line, which was then taken for the room."""
+    found = xa.inspect(drawing(tmp_path / "d.dxf", [(0, 0), (50, 0)]), thicken=15)
+    assert found.ok and len(found.scene.obstacles) == 1 and found.scene.enclosure is None
+    check_start(found)
+
+
 def test_a_line_is_no_loop_but_may_be_a_wall(tmp_path: Path) -> None:
     found = xa.inspect(drawing(tmp_path / "d.dxf", [(0, 0), (50, 0)], box(10, 10, 5, 5)))
     (chain,) = found.open_chains

@@ -141,3 +141,21 @@ def test_a_plan_of_lines(tmp_path: Path) -> None:
     assert closed.enclosure is not None
     with pytest.raises(FormatError, match="start"):
         load(path, thicken=1)
+
+
+def test_walls_whose_outlines_meet_in_one_point_of_two_forms(tmp_path: Path) -> None:
+    """Two lines, one along the other, run into an arc whose end rounding has moved.
+
+    The point was computed twice, with roots whose squares were not split off, and no union was found.
+    """
+    document = ezdxf.new()
+    model = document.modelspace()
+    model.add_arc((136, 15), 5, 270, 0)
+    for x in (63.99999999999999, -74):
+        model.add_line((x, 10), (135.9999973026017, 10))
+    path = tmp_path / "walls.dxf"
+    document.saveas(path)
+    scene = load(path, start=(0, 60), thicken="1.1")
+    (obstacle,) = scene.obstacles
+    area = 1.1 * (135.9999973 + 74) + 1.1 * 5 * np.pi / 2 + np.pi * 0.55**2
+    assert float(obstacle.area) == pytest.approx(area, rel=1e-6)

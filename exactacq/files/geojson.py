@@ -15,7 +15,7 @@ from typing import Any
 from flint import fmpq
 
 from exactacq.errors import FormatError, about, shown
-from exactacq.files.loops.areas import Areas
+from exactacq.files.loops.areas import Areas, is_rounded
 from exactacq.files.loops.contents import Contents
 from exactacq.files.scene_json import MAX_COMMAS, parse_json
 from exactacq.files.source import MAX_EDGES, read_bytes
@@ -107,7 +107,7 @@ class _GeoReader:
 
     def _line(self, line: Any, kind: str, told: Mapping[str, Any]) -> None:
         places = self._ring(line)
-        if places[0] == places[-1]:
+        if places[0] == places[-1] or is_rounded([(x, y, fmpq(0)) for x, y in places]):
             self._polygon([line], told)
         else:
             self.areas.leave_out(f"open {kind}")

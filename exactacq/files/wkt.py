@@ -16,7 +16,7 @@ from typing import NoReturn
 from flint import fmpq
 
 from exactacq.errors import FormatError
-from exactacq.files.loops.areas import Areas, Row
+from exactacq.files.loops.areas import Areas, Row, is_rounded
 from exactacq.files.loops.contents import Contents
 from exactacq.files.source import MAX_EDGES, one_line, read_text
 from exactacq.numbers.rationals import rational
@@ -121,7 +121,7 @@ class _WktReader:
                 self.areas.add(self._curve("LINESTRING"), name)
         elif kind in _STRAIGHT or kind in _ROUND:
             rows = self._curve(kind)
-            if rows[0][:2] == rows[-1][:2]:
+            if rows[0][:2] == rows[-1][:2] or is_rounded(rows):
                 self.count += 1
                 self.areas.add(rows, f"loop {self.count}")
             else:

@@ -13,9 +13,8 @@ from exactacq.cached import cached_property
 from exactacq.errors import FormatError, InvalidScene, Undecided
 from exactacq.files.checking.flaws import Judged, frame, judged
 from exactacq.files.checking.starts import rounded_up
-from exactacq.files.loops.assembly import default_tolerance
+from exactacq.files.loops.assembly import default_tolerance, in_full
 from exactacq.files.loops.contents import AS_TOLD, Contents
-from exactacq.files.repairs.gaps import Closing, best_tolerance
 from exactacq.geometry.strokes import Floats
 from exactacq.numbers.rationals import nearest_float, plain
 from exactacq.scene.shapes import Circle, Shape
@@ -23,8 +22,10 @@ from exactacq.scene.validation import COUNTED, LIMIT, Violation
 
 MOST_EDGES = 10_000
 """Edges beyond which nothing is tried: a trial takes as long as the check itself, some seconds there."""
-LAYER_TRIALS, TOLERANCE_TRIALS = 2, 2
-"""Most layers that are left out in turn, and most tolerances, if one is no cure for all chains."""
+THICK_EDGES = 4000
+"""Edges of walls around lines and of loops beyond which these are not tried: all are merged."""
+LAYER_TRIALS = 2
+"""Most layers that are left out in turn."""
 LONGEST = 80
 """Most characters of layers that are named to be read."""
 COARSER = (10, 1000)
@@ -39,10 +40,7 @@ Options = Mapping[str, object]
 
 @dataclass(frozen=True)
 class Trial:
-    """What becomes of a file with further options.
-
-    A wall around lines meets what they meet, and is merged with it, so that of violations nothing is said.
-    """
+    """What becomes of a file with further options."""
 
     options: Options
     contents: Contents
@@ -68,6 +66,17 @@ class Trial:
         fewer = len(self.judged.violations) < len(before.violations)
         return fewer or len(self.contents.open_chains) < len(contents.open_chains)
 
+    def is_sound(self, contents: Contents) -> bool:
+        """Whether no loop is gone by a tolerance, and walls around lines are merged with all that they meet.
+
+        A large tolerance makes nothing of small loops.
+        """
+        known, left = ({loop.name for loop in told.loops} for told in (contents, self.contents))
+        faulty = {self.judged.loops[k].name for v in self.judged.violations for k in v.loops}
+        return ("tolerance" not in self.options or known <= left) and (
+            "thicken" not in self.options or faulty <= known
+        )
+
 
 def words(options: Options) -> str:
     """Options as on a command line."""
@@ -78,7 +87,7 @@ def _word(name: str, value: object) -> str:
     if value is True:
         return f"--{name}"
     if isinstance(value, fmpq):
-        text = plain(value)
+        text = in_full(value) if value > 0 else plain(value)
     else:
         text = value if isinstance(value, str) else ",".join(map(str, value))  # type: ignore[call-overload]
     return f"--{name}={shlex.quote(text)}" if text.startswith("-") else f"--{name} {shlex.quote(text)}"
@@ -87,7 +96,6 @@ def _word(name: str, value: object) -> str:
 def trials(
     contents: Contents,
     found: Judged,
-    closing: Sequence[Closing],
     allowed: Sequence[str],
     read: Callable[[Options], Contents],
 ) -> Iterator[Trial]:
@@ -99,27 +107,31 @@ def trials(
     lines = sum(piece.edges for path in contents.open_chains for piece in path)
     if contents.edges + lines > MOST_EDGES or len(found.violations) >= COUNTED:
         return
-    for more in _proposals(contents, found, closing):
+    for more in _proposals(contents, found):
         if not set(more) <= set(allowed):
             continue
         try:
             own = {"outer", "union"}
             tried = replace(contents, **more) if set(more) <= own else read(more)  # type: ignore[arg-type]
-            yield Trial(more, tried, found if "thicken" in more else judged(tried))
+            if tried.walls and tried.edges > THICK_EDGES:
+                continue
+            trial = Trial(more, tried, judged(tried))
         except (FormatError, InvalidScene, Undecided):
             continue
+        if trial.is_sound(contents):
+            yield trial
 
 
 def cured(trial: Trial, violation: Violation, before: Judged, size: float) -> bool:
     """Whether a violation is gone in a trial, and not only because what it speaks of is gone.
 
     It is gone if no violation is left near its places. With fewer layers one of two loops that met has to be
-    there still, with a tolerance both: a large one makes nothing of small loops.
+    there still.
     """
     if not trial.judged.loops or "thicken" in trial.options:
         return False
     names, left = {before.loops[k].name for k in violation.loops}, {loop.name for loop in trial.judged.loops}
-    if ("layers" in trial.options and not names & left) or ("tolerance" in trial.options and names - left):
+    if "layers" in trial.options and not names & left:
         return False
     if not violation.places:
         return violation.text not in {other.text for other in trial.judged.violations}
@@ -129,7 +141,7 @@ def cured(trial: Trial, violation: Violation, before: Judged, size: float) -> bo
     return all(not len(others) or np.hypot(*(others - p.xy).T).min() > reach for p in violation.places)
 
 
-def _proposals(contents: Contents, found: Judged, closing: Sequence[Closing]) -> Iterator[Options]:
+def _proposals(contents: Contents, found: Judged) -> Iterator[Options]:
     meeting = [v for v in found.violations if len(v.loops) == 2]
     if meeting and contents.outer == "wall" and _meets_the_frame(found, meeting):
         yield {"outer": "drop"}
@@ -138,24 +150,16 @@ def _proposals(contents: Contents, found: Judged, closing: Sequence[Closing]) ->
     size = size_of(contents)
     if contents.outer == AS_TOLD or not 0 < size < LIMIT:
         return
-    yield from ({"tolerance": t} for t in _tolerances(closing))
+    closing = [contents.gaps.least(k) for k in range(len(contents.open_chains))]
+    yield from ({"tolerance": tolerance} for tolerance in sorted({t for t in closing if t is not None}))
     if any(len(v.loops) == 1 for v in found.violations):
         yield from ({"tolerance": many * default_tolerance(size)} for many in COARSER)
     if meeting:
         yield from _fewer_layers(contents, found, meeting)
-    if contents.open_chains:
+    if None in closing:
         yield {"thicken": rounded_up(nearest_float(size) / THIN)}
     if any("--flatten" in note for note in contents.notes):
         yield {"flatten": rounded_up(nearest_float(size) / NEAR)}
-
-
-def _tolerances(closing: Sequence[Closing]) -> list[fmpq]:
-    """The one that closes most chains, and some of those for the others."""
-    best = best_tolerance(closing)
-    if best is None:
-        return []
-    others = sorted({c.tolerance for c in closing if c.tolerance is not None and c.tolerance > best[0]})
-    return [best[0], *others[: TOLERANCE_TRIALS - 1]]
 
 
 def _meets_the_frame(found: Judged, meeting: Sequence[Violation]) -> bool:

@@ -10,6 +10,7 @@ from networkx.utils import UnionFind
 
 from exactacq.errors import FormatError, InvalidScene
 from exactacq.files.checking.sketch import Sketch
+from exactacq.files.counting import count
 from exactacq.files.loops.contents import AS_TOLD, Contents
 from exactacq.files.loops.nesting import Loops
 from exactacq.files.loops.union import unite
@@ -46,7 +47,8 @@ def judged(contents: Contents) -> Judged:
         try:
             obstacles, wall, notes = contents.arranged()
         except (FormatError, InvalidScene) as error:
-            plain = judged(replace(contents, union=False)) if contents.union else _all_loops(contents)
+            is_plain = contents.union and not contents.walls
+            plain = judged(replace(contents, union=False)) if is_plain else _all_loops(contents)
             told = getattr(error, "violations", (str(error),))
             return Judged(plain.loops, (*map(Violation, told), *plain.violations), plain.notes)
         loops = _numbered(obstacles, wall)
@@ -72,10 +74,10 @@ def _all_loops(contents: Contents) -> Judged:
     shapes = list(contents.loops)
     if contents.outer == "drop" and (outermost := frame(shapes)) is not None:
         del shapes[outermost]
-    count, notes = len(shapes), contents.notes
+    before, notes = len(shapes), contents.notes
     if contents.union:
         shapes = list(_united(shapes))
-        notes = *notes, f"merged {count} loops into {len(shapes)}"
+        notes = *notes, f"merged {count(before, 'loop')} into {len(shapes)}"
     loops = _numbered(shapes, contents.wall)
     return Judged(loops, tuple(violations(loops, nested=True)), notes)
 

@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import islice
 from shlex import quote
 from typing import Any
 
@@ -20,7 +19,6 @@ from exactacq.files.checking.lines import OpenChain, open_chains
 from exactacq.files.checking.sketch import Sketch, places_of
 from exactacq.files.checking.starts import Beginning, beginning
 from exactacq.files.loops.contents import Contents
-from exactacq.files.repairs.gaps import closings
 from exactacq.files.rereading import rereading
 from exactacq.files.sources import NamedSource
 from exactacq.geometry.intersections import ContactKind
@@ -36,8 +34,6 @@ STEPS = 4
 """Reading, violations, cures, and a start."""
 BEST = 2
 """How many of the single options a start is looked for with."""
-THICK_EDGES = 4000
-"""Edges of walls around lines and of loops beyond which no start is looked for among them: all are merged."""
 TOGETHER = {"tolerance", "union", "flatten"}
 """Options that are also tried all together."""
 
@@ -176,10 +172,9 @@ class _Inquiry:
     ) -> None:
         self.source, self.start, self.options = source, start, options
         self.contents, self.before = contents, before
-        self.closing = closings(contents.open_chains)
         self.tried: list[Trial] = []
         if before.violations or contents.open_chains or contents.lacking:
-            self.tried = list(trials(contents, before, self.closing, self._allowed, self._read))
+            self.tried = list(trials(contents, before, self._allowed, self._read))
 
     @property
     def _allowed(self) -> tuple[str, ...]:
@@ -195,7 +190,7 @@ class _Inquiry:
         counted = zip(
             self.before.loops, around.sum(axis=1).tolist(), around.sum(axis=0).tolist(), strict=True
         )
-        chains = open_chains(self.contents, self.closing, self.tried)
+        chains = open_chains(self.contents, self.tried)
         size = nearest_float(min(size_of(self.contents), LIMIT))
         found = Inspection(
             name=name,
@@ -255,11 +250,16 @@ class _Inquiry:
     def _ways(self) -> Iterator[tuple[Options, Contents]]:
         """Contents to start in: as they are, with what leaves the fewest violations, and with all of that."""
         yield {}, self.contents
+        # Lines become walls only if nothing else does as well: often they are no walls.
         order = sorted(
-            self.tried, key=lambda trial: (len(trial.judged.violations), len(trial.contents.open_chains))
+            self.tried,
+            key=lambda trial: (
+                len(trial.judged.violations),
+                "thicken" in trial.options,
+                len(trial.contents.open_chains),
+            ),
         )
-        light = (t for t in order if "thicken" not in t.options or t.contents.edges <= THICK_EDGES)
-        yield from ((trial.options, trial.contents) for trial in islice(light, BEST))
+        yield from ((trial.options, trial.contents) for trial in order[:BEST])
         every: dict[str, object] = {}
         for trial in order:
             if TOGETHER.issuperset(trial.options) and trial.helps(self.before, self.contents):

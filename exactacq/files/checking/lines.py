@@ -12,14 +12,13 @@ from exactacq.files.checking.cures import Trial
 from exactacq.files.loops.chains import Chain, Corner, bend_of, distance_above
 from exactacq.files.loops.contents import Contents
 from exactacq.files.loops.nesting import Loops
-from exactacq.files.repairs.gaps import Closing
 from exactacq.geometry.points import Point
 from exactacq.numbers.rationals import nearest_float
 from exactacq.scene.shapes import Outline, Shape, shape_edges
 from exactacq.scene.validation import LIMIT
 
-CLOSING = ("tolerance", "flatten", "thicken")
-"""The options that may close chains, or make them walls."""
+CURVES = ("flatten", "thicken")
+"""The options that may close chains with curves that were left out, or make walls of them."""
 MOST_CHAINS = 400
 """The longest chains, for which it is asked what they enclose."""
 Place = tuple[fmpq, fmpq]
@@ -32,7 +31,8 @@ class OpenChain:
     *length* is a float. *gap* is the width of the widest gap that keeps it open, between ends that are
     nearest to each other, and *across* are the ends there; if its ends have no such mates this is None, and
     the gap is the one between them. *encloses* says whether, closed, it would have other loops within.
-    *cures* are options that close it, or if none does, one that makes it a wall; each is tried.
+    *cures* are options that close it, of tolerances the least one, or if none does, one that makes it a wall;
+    each is tried.
     """
 
     pieces: tuple[str, ...]
@@ -45,12 +45,10 @@ class OpenChain:
     cures: tuple[str, ...] = ()
 
 
-def open_chains(
-    contents: Contents, closing: Sequence[Closing], tried: Sequence[Trial]
-) -> tuple[OpenChain, ...]:
+def open_chains(contents: Contents, tried: Sequence[Trial]) -> tuple[OpenChain, ...]:
     """All open chains of a file, the longest first."""
+    closing = contents.gaps.closings
     gaps = {k: max(c.gaps, key=lambda gap: gap.width) for c in closing for k in c.chains}
-    groups = {k: _labels(contents, c.chains) for c in closing for k in c.chains}
     walks = [walked(path) for path in contents.open_chains]
     lengths = [sum(map(_length, walk, walk[1:])) for walk in walks]
     order = sorted(range(len(walks)), key=lambda k: -lengths[k])
@@ -72,7 +70,7 @@ def open_chains(
             gaps[k].width if k in gaps else distance_above(walks[k][0], walks[k][-1]),
             gaps[k].places if k in gaps else None,
             around[k],
-            _cures(contents.open_chains[k], groups.get(k, set()), tried),
+            _cures(contents, k, tried),
         )
         for k in order
     )
@@ -112,19 +110,19 @@ def _labels(contents: Contents, chains: Iterable[int]) -> set[str]:
     return {piece.label for k in chains for piece in contents.open_chains[k]}
 
 
-def _cures(path: Sequence[Chain], group: set[str], tried: Sequence[Trial]) -> tuple[str, ...]:
-    """The options after which a chain is not open any more; a tolerance makes a loop of its *group*, too.
-
-    Without that last it may have become a piece that is drawn twice, or a loop without area.
-    """
-    found = {}
-    for trial in tried:
-        for name in trial.options:
-            is_loop = name != "tolerance" or bool(group & _started(trial.contents))
-            if name in CLOSING and is_loop and not any(piece.label in trial.still_open for piece in path):
-                found[trial.words] = name
-    closed = tuple(words for words, name in found.items() if name != "thicken")
-    return closed or tuple(found)
+def _cures(contents: Contents, k: int, tried: Sequence[Trial]) -> tuple[str, ...]:
+    """The options after which a chain is not open any more; of tolerances the least one."""
+    labels = {piece.label for piece in contents.open_chains[k]}
+    least = contents.gaps.least(k)
+    closed = [
+        trial
+        for trial in tried
+        for name in trial.options
+        if (name in CURVES and labels.isdisjoint(trial.still_open))
+        or (name == "tolerance" and trial.options[name] == least)
+    ]
+    lines = [trial for trial in closed if "thicken" not in trial.options]
+    return tuple(trial.words for trial in lines or closed)
 
 
 def _enclosing(walks: Sequence[list[Corner]], loops: Sequence[Shape]) -> list[bool]:
@@ -151,11 +149,6 @@ def _holders(closed: Contents, before: Contents) -> set[str]:
     for point in places if new else ():
         inside |= {k for k in lines.around(point) if not _passes(new[k], point)}
     return {_first_piece(new[k]) for k in inside}
-
-
-def _started(contents: Contents) -> set[str]:
-    """The names of the first pieces of all loops."""
-    return set(map(_first_piece, contents.loops))
 
 
 def _first_piece(shape: Shape) -> str:

@@ -184,6 +184,9 @@ def _obstacles(contents: Contents, sketch: Sketch, around: Bools) -> int | None:
         walls = np.zeros(sketch.count, dtype=bool)
         walls[len(contents.loops) :] = True
         return int(sketch.count) if (around == walls).all() else None
+    loops = len(contents.loops)
+    if around[loops - contents.walls : loops].any():
+        return None
     if (contents.outer in ("wall", "drop") and depth > 1) or contents.free not in (None, depth % 2):
         return None
     if contents.outer == "drop":

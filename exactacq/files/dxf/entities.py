@@ -22,6 +22,7 @@ from ezdxf.enums import InsertUnits
 from flint import fmpq
 
 from exactacq.errors import FormatError
+from exactacq.files.counting import count
 from exactacq.files.loops.chains import ZERO, Chain, Corner
 from exactacq.files.loops.drawing import Drawing, LayerChoice
 from exactacq.files.loops.rational_arcs import arc_corners
@@ -58,16 +59,16 @@ def read_drawing(path: Path, layers: Iterable[str] | None, flattening: Flattenin
     drawing = Drawing()
     document = _open(path, drawing)
     selected = LayerChoice(layers)
-    count = 0
+    order = 0
     try:
         for entity, layer in _entities(document.modelspace(), drawing):
-            count += 1
-            if count > MAX_ENTITIES:
+            order += 1
+            if order > MAX_ENTITIES:
                 raise FormatError(f"its blocks expand to more than {MAX_ENTITIES} entities; export one part")
             drawing.layers[layer] += 1
-            drawing.homes[count] = layer
+            drawing.homes[order] = layer
             if selected.take(layer):
-                _Reader(drawing, count, flattening).read(entity)
+                _Reader(drawing, order, flattening).read(entity)
     except FormatError:
         raise
     except Exception as error:  # ezdxf reads lazily: a damaged entity shows only here, in many ways
@@ -76,9 +77,7 @@ def read_drawing(path: Path, layers: Iterable[str] | None, flattening: Flattenin
     if flattening is not None:
         drawing.notes += flattening.notes()
     elif drawing.dropped["ELLIPSE"] or drawing.dropped["SPLINE"]:
-        drawing.notes.append(
-            "ellipses and splines are read with --flatten LENGTH, by arcs within that length"
-        )
+        drawing.readable = "ellipses and splines are read with --flatten LENGTH, by arcs within that length"
     if drawing.layers:
         drawing.unit = _unit(document)
         said = f"the file's unit: {drawing.unit}" if drawing.unit else "the file names no unit"
@@ -129,7 +128,7 @@ def _parsed(path: Path, is_bare: bool) -> tuple[Any, list[str]]:
     except ezdxf.DXFStructureError:
         document, auditor = recover.readfile(path)
         mended, left = len(auditor.fixes), len(auditor.errors)
-        return document, [f"the file is damaged: {mended} flaws were mended on reading, {left} were not"]
+        return document, [f"the file is damaged: {count(mended, 'flaw')} mended on reading, {left} not"]
 
 
 def _bare(path: Path) -> Any:
@@ -141,8 +140,8 @@ def _bare(path: Path) -> Any:
     data = read_bytes(path)
     is_old = b"AcDbEntity" not in data
     version = "AC1009" if is_old else "AC1015"
-    data, count = _VERSION.subn(rb"\g<1>" + version.encode(), data, count=1)
-    header = "" if count else f"0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\n{version}\n0\nENDSEC\n"
+    data, named = _VERSION.subn(rb"\g<1>" + version.encode(), data, count=1)
+    header = "" if named else f"0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\n{version}\n0\nENDSEC\n"
     lines = data.decode("utf-8-sig", errors="surrogateescape").splitlines()
     return ezdxf.read(StringIO(header + "\n".join(_heavy(lines) if is_old else lines) + "\n"))
 
@@ -195,7 +194,7 @@ def _entities(layout: Iterable[Any], drawing: Drawing) -> Iterator[tuple[Any, st
             stack.append((content, layer, depth + 1))
     if expanded:
         drawing.notes.append(
-            f"expanded {expanded} block references; their content is placed in double precision"
+            f"expanded {count(expanded, 'block reference')}; their content is placed in double precision"
         )
 
 

@@ -8,9 +8,9 @@ import numpy as np
 from flint import fmpq
 
 from exactacq.errors import FormatError, shown
+from exactacq.files.counting import count
 from exactacq.files.grids.outlines import JOIN, STEPS, Cells, outlines
 from exactacq.files.loops.areas import Areas
-from exactacq.files.loops.arrangement import count
 from exactacq.files.loops.chains import scientific_above
 from exactacq.files.loops.contents import Contents
 from exactacq.files.repairs.simplify import check_tolerance, simplify

@@ -15,13 +15,18 @@ from typing import Any
 from flint import fmpq
 
 from exactacq.errors import FormatError
-from exactacq.files.loops.arrangement import count
+from exactacq.files.counting import count
+from exactacq.files.loops.chains import ZERO, root_above, scientific_above
 from exactacq.files.loops.contents import Contents
 from exactacq.files.source import check_edges
 from exactacq.numbers.atoms import rational_sqrt
+from exactacq.numbers.rationals import rational
 from exactacq.scene.bends import Via
 from exactacq.scene.shapes import Circle, Outline, Polygon, Shape, Terrain
 
+ROUNDING = fmpq(1, 2**50)
+"""The first vertex of a ring may be written once more with other last digits, for a double that was computed:
+nearer than this part of the largest coordinate, a few units in the last place, the two are one."""
 Row = tuple[fmpq, fmpq, Any]
 """x, y, and what tells how the edge that follows bends: see `Outline`."""
 
@@ -39,17 +44,20 @@ class Areas:
     """Rings of fewer than three straight edges."""
     opened: int = 0
     """Rings whose last vertex was not the first."""
+    rounded: int = 0
+    """Rings whose last vertex was the first one but for rounding."""
+    largest: fmpq = ZERO
+    """Upper bound of the distance of such a vertex from the first one."""
     flattened: bool = False
     """Whether points had heights or measures."""
     left_out: dict[str, int] = field(default_factory=dict)
     """How often what else was left out."""
 
     def add(self, rows: Sequence[Row], name: str | None) -> None:
-        """A ring by its vertices, of which the last one is the first again."""
+        """A ring by its vertices, of which the last one is the first again; `ROUNDING` tells how closely."""
         self.edges += len(rows)
         check_edges(self.edges)
         closed = len(rows) > 1 and rows[-1][:2] == rows[0][:2]
-        self.opened += not closed
         kept: list[Row] = []
         for row in rows[:-1] if closed else rows:
             if kept and kept[-1][:2] == row[:2] and not kept[-1][2]:
@@ -59,6 +67,11 @@ class Areas:
         while len(kept) > 1 and kept[-1][:2] == kept[0][:2] and not kept[-1][2]:
             kept.pop()
             self.repeated += 1
+        if rounded := is_rounded(kept):
+            (x, y, _), (u, v, _) = kept[0], kept.pop()
+            self.rounded += 1
+            self.largest = max(self.largest, root_above((x - u) ** 2 + (y - v) ** 2))
+        self.opened += not (closed or rounded)
         bent = any(told for _, _, told in kept)
         if len(kept) < 3 and not bent:
             self.flat += 1
@@ -107,11 +120,37 @@ class Areas:
             notes.append(f"left out {count(self.flat, 'ring')} without area")
         if self.opened:
             notes.append(f"closed {count(self.opened, 'ring')} whose last vertex was not the first")
+        if self.rounded:
+            notes.append(
+                f"left out the last vertex of {count(self.rounded, 'ring')}, the first one but for rounding: "
+                f"at most {scientific_above(self.largest)} from it"
+            )
         if self.flattened:
             notes.append("left out the heights and measures of points")
         if self.left_out:
-            notes.append("left out " + ", ".join(f"{n} {what}" for what, n in self.left_out.items()))
+            notes.append("left out " + ", ".join(count(n, what) for what, n in self.left_out.items()))
         return notes
+
+
+def is_rounded(rows: Sequence[Row]) -> bool:
+    """Whether the last vertex is another one than the first only by rounding, with straight edges beside it.
+
+    Their numbers are then such as programs write, which compute with doubles: exact ones are taken as told.
+    """
+    if len(rows) < 4 or rows[-1][2] or rows[-2][2]:
+        return False
+    (x, y, _), (u, v, _) = rows[0], rows[-1]
+    near = ROUNDING * max(max(abs(row[0]), abs(row[1])) for row in rows)
+    return bool(max(abs(x - u), abs(y - v)) <= near) and all(map(_is_double, (x, y, u, v)))
+
+
+def _is_double(value: fmpq) -> bool:
+    """Whether a number is a double, or a decimal that is written for one."""
+    try:
+        double = float(value)
+    except OverflowError:
+        return False
+    return value in (rational(double), rational(repr(double)), rational(f"{double:.17g}"))
 
 
 def _shape(rows: list[Row], bent: bool, name: str | None) -> Shape:

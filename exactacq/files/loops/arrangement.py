@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from exactacq.files.counting import count
 from exactacq.files.loops.nesting import Loops, nest
 from exactacq.files.loops.union import unite
 from exactacq.files.source import one_line
@@ -47,8 +48,3 @@ def _named(what: str, shapes: Sequence[Shape], members: list[int]) -> list[str]:
     names = ", ".join(one_line(shapes[i].name or f"loop {i + 1}") for i in members[:NAMED])
     more = f" and {len(members) - NAMED} more" if len(members) > NAMED else ""
     return [f"{count(len(members), 'loop')} {what}: {names}{more}"]
-
-
-def count(n: int, noun: str, plural: str = "") -> str:
-    """``1 end``, ``2 ends``; the *plural* is that of nouns that have another."""
-    return f"{n} {noun}" if n == 1 else f"{n} {plural or noun + 's'}"

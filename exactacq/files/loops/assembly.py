@@ -8,21 +8,24 @@ from collections.abc import Sequence
 from flint import fmpq
 
 from exactacq.errors import FormatError, shown
-from exactacq.files.loops.arrangement import count
+from exactacq.files.counting import count
 from exactacq.files.loops.chains import Chain, scientific_above
 from exactacq.files.loops.contents import Contents, Layers
 from exactacq.files.loops.cusps import open_cusps
 from exactacq.files.loops.drawing import Drawing
 from exactacq.files.loops.stitching import Stitched, stitch
-from exactacq.files.repairs.gaps import best_tolerance, closings
+from exactacq.files.repairs.gaps import MOST_EDGES, ChainGaps, copied, gaps_of
 from exactacq.files.repairs.thicken import thicken
 from exactacq.files.source import check_edges
+from exactacq.numbers.rationals import plain, rational
 from exactacq.numbers.real import Real
 from exactacq.scene.shapes import Loop, Shape
 
 TOLERANCE = fmpq(1, 10**6)
 """Default tolerance over the drawing's size. Real parts differ at joints by 1e-15 to 1e-7 of their size
 (doubles, or six decimals), and their shortest edges are 1e-5 to 1e-3 of it: 1e-6 lies between."""
+SCIENTIFIC = 12
+"""Numbers of at most so many digits are written with an exponent where that is short."""
 
 
 def drawing_contents(
@@ -47,11 +50,13 @@ def drawing_contents(
     """
     if tolerance is not None and tolerance < 0:
         raise FormatError(f"the tolerance is a length of at least 0, not {shown(tolerance)}")
-    check_edges(sum(chain.edges for chain in drawing.chains) + len(drawing.circles))
-    notes = [*drawing.notes, *_left_out(drawing.dropped)]
+    edges = sum(chain.edges for chain in drawing.chains)
+    check_edges(edges + len(drawing.circles))
+    notes = [*drawing.notes, *([drawing.readable] if drawing.readable else []), *_left_out(drawing.dropped)]
     other = f"select other layers of {drawing.layer_list()}" if drawing.layers else "export another drawing"
     if not drawing.chains and not drawing.circles:
-        raise FormatError(f"nothing to read{_because(_left_out(drawing.dropped))}; {other}")
+        way = drawing.readable or other
+        raise FormatError(f"nothing to read{_because(_left_out(drawing.dropped))}; {way}")
     (x0, y0), (x1, y1) = drawing.extent()
     startless = (
         f"a drawing has no start: give one with --start X,Y (start=(x, y) in Python), such as the "
@@ -59,22 +64,29 @@ def drawing_contents(
         f"this one spans x {short(x0)} to {short(x1)}, y {short(y0)} to {short(y1)}"
     )
     reach = default_tolerance(max(x1 - x0, y1 - y0)) if tolerance is None else tolerance
+    pieces = copied(drawing.chains) if thickness is None and edges <= MOST_EDGES else []
     stitched = stitch(drawing.chains, reach)
+    gaps = gaps_of(stitched, pieces) if thickness is None else ChainGaps()
     cusps = sum(open_cusps(loop, reach) for loop in stitched.loops)
     shapes = _shapes(drawing, stitched)
     notes += _report(stitched, reach, cusps, thickness)
-    hint = "" if thickness else _what_closes(stitched)
+    walls: list[Shape] = []
     if thickness is not None:
         thick = thicken([piece for path in stitched.open_chains for piece in path], thickness)
-        check_edges(sum(len(s.vertices) if isinstance(s, Loop) else 2 for s in thick.shapes))
-        union = union or bool(thick.shapes)
-        shapes += [(0, shape) for shape in thick.shapes]
+        walls = thick.shapes
+        check_edges(sum(len(s.vertices) if isinstance(s, Loop) else 2 for s in walls))
+        union = union or bool(walls)
+        shapes += [(0, shape) for shape in walls]
         if thick.off:
             notes.append(f"no outline of these walls is off by more than {scientific_above(thick.off)}")
-    lacking = (
-        f"no closed loop{_because(notes)}; give {hint or 'a larger --tolerance'}, --thicken LENGTH for "
-        f"walls along the lines, or {other}"
-    )
+    hint = _what_closes(gaps, len(stitched.open_chains))
+    ways = [hint] if hint else []
+    if stitched.open_chains:
+        ways.append("--thicken LENGTH for walls along the lines")
+    elif stitched.short_edges:
+        ways.append("a smaller --tolerance")
+    give = f"give {', '.join(ways)}, or " if ways else ""
+    lacking = f"no closed loop{_because(notes)}; {give}{other}"
     if hint:
         notes.append(f"open chains close with {hint}")
     return Contents(
@@ -88,6 +100,8 @@ def drawing_contents(
         startless=startless,
         lacking="" if shapes else lacking,
         open_chains=() if thickness else tuple(map(tuple, stitched.open_chains)),
+        gaps=gaps,
+        walls=len(walls),
         layers=Layers(drawing.layers, drawing.chosen, _homes(drawing, shapes)),
         unit=drawing.unit,
     )
@@ -166,26 +180,25 @@ def _report(stitched: Stitched, tolerance: fmpq, cusps: int, thickness: fmpq | N
     return notes
 
 
-def _what_closes(stitched: Stitched) -> str:
-    """The tolerance that closes most open chains, and where its first gap is; empty if none does."""
-    found = closings(stitched.open_chains)
-    best = best_tolerance(found)
-    if best is None:
+def _what_closes(gaps: ChainGaps, chains: int) -> str:
+    """The least tolerance that closes open chains, where the gap is, and the one that closes most of them."""
+    if not gaps.tried:
         return ""
-    tolerance, most = best
-    closing = next(c for c in found if c.tolerance == tolerance)
-    gap = max(closing.gaps, key=lambda gap: gap.width)
+    least = gaps.tried[0]
+    gap = max(least.closing.gaps, key=lambda gap: gap.width)
     x, y = (short(c) for c in gap.places[0])
     mate = "its other end" if gap.pieces[0] == gap.pieces[1] else gap.pieces[1]
+    most = max(gaps.tried, key=lambda tried: len(tried.chains))
+    more = f"; --tolerance {in_full(most.tolerance)} closes {len(most.chains)}" if most is not least else ""
     return (
-        f"--tolerance {scientific_above(tolerance)}, which closes {most} of "
-        f"{count(len(stitched.open_chains), 'open chain')}: {gap.pieces[0]} ends at ({x}, {y}), "
-        f"{scientific_above(gap.width)} from {mate}"
+        f"--tolerance {in_full(least.tolerance)}, which closes {len(least.chains)} of "
+        f"{count(chains, 'open chain')}: {gap.pieces[0]} ends at ({x}, {y}), "
+        f"{scientific_above(gap.width)} from {mate}{more}"
     )
 
 
 def _left_out(dropped: Counter[str]) -> list[str]:
-    named = ", ".join(f"{n} {reason}" for reason, n in dropped.most_common())
+    named = ", ".join(count(n, reason) for reason, n in dropped.most_common())
     return [f"left out {named}"] if named else []
 
 
@@ -195,6 +208,12 @@ def _because(notes: list[str]) -> str:
 
 def _place(chain: Chain) -> tuple[str, str]:
     return short(chain.corners[0].x), short(chain.corners[0].y)
+
+
+def in_full(value: fmpq) -> str:
+    """A positive number without loss, for the command line: ``8.8e-11`` rather than many zeros."""
+    text = scientific_above(value, SCIENTIFIC)
+    return text if rational(text) == value else plain(value)
 
 
 def short(value: fmpq) -> str:

@@ -123,13 +123,14 @@ def root_above(square: fmpq) -> fmpq:
     return fmpq(isqrt((p * q) << (2 * scale)) + 1, q << scale)
 
 
-def scientific_above(value: fmpq) -> str:
-    """A bound as a short decimal, two digits, rounded up: ``2.7e-13``; "0" for 0."""
+def scientific_above(value: fmpq, places: int = 2) -> str:
+    """A bound as a short decimal, of two digits or so many, rounded up: ``2.7e-13``; "0" for 0."""
     if value == 0:
         return "0"
     bits = int(value.p).bit_length() - int(value.q).bit_length()
-    power = bits * 30103 // 100_000 - 3  # log 2 = 0.30103: at least 100 times less than the value
+    # log 2 = 0.30103: with two places at least 100 times less than the value
+    power = bits * 30103 // 100_000 - places - 1
     digits = int((value / fmpq(10) ** power).ceil())
-    while digits >= 100:
+    while digits >= 10**places:
         digits, power = -(-digits // 10), power + 1
-    return f"{float(digits * Fraction(10) ** power):.2g}" if abs(power) < 300 else f"{digits}e{power}"
+    return f"{float(digits * Fraction(10) ** power):.{places}g}" if abs(power) < 300 else f"{digits}e{power}"

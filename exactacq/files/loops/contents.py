@@ -15,10 +15,12 @@ from exactacq.errors import FormatError, InvalidScene
 from exactacq.files.loops.arrangement import arranged
 from exactacq.files.loops.chains import Chain
 from exactacq.files.loops.nesting import Loops
+from exactacq.files.repairs.gaps import ChainGaps
+from exactacq.files.source import one_line
 from exactacq.geometry.points import Point
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle, Shape, Terrain
-from exactacq.scene.validation import DISJOINT, SIMPLE, WITHIN
+from exactacq.scene.validation import DISJOINT, SIMPLE, WITHIN, place_text
 
 AS_TOLD = "as told"
 """The file itself says which loop is the wall; all others are obstacles."""
@@ -67,6 +69,10 @@ class Contents:
     free: int | None = None
     open_chains: tuple[tuple[Chain, ...], ...] = ()
     """Lines that do not close and are left out, each as its pieces in order."""
+    gaps: ChainGaps = field(default_factory=ChainGaps)
+    """What would close these."""
+    walls: int = 0
+    """So many of the last loops are walls around lines: nothing within them is free."""
     layers: Layers = field(default_factory=Layers)
     unit: str = ""
     """What the file says of its unit of length."""
@@ -95,7 +101,8 @@ class Contents:
     def arranged(self) -> tuple[list[Shape], Shape | None, list[str]]:
         """The obstacles, the wall, and the notes; the scene may still refuse them.
 
-        Raises `FormatError` for a start in a blocked cell, and as `exactacq.files.loops.union.unite`.
+        Raises `FormatError` for a start in a blocked cell or in a wall around a line, and as
+        `exactacq.files.loops.union.unite`.
         """
         notes = list(self.notes)
         if self.outer == AS_TOLD:
@@ -105,6 +112,14 @@ class Contents:
             around = len(Loops(self.loops).around(place))
             if around % 2 != self.free:
                 raise FormatError(f"the start {place} lies in a blocked cell; choose one in a free cell")
+        if self.walls and place is not None:
+            walls = self.loops[-self.walls :]
+            if hit := Loops(walls).around(place):
+                line = one_line(repr(walls[hit[0]].name))
+                raise FormatError(
+                    f"the start {place_text(place)} lies inside an obstacle, the wall along {line}: it must "
+                    "lie in free space; give another, such as the one that `exactacq check` proposes"
+                )
         obstacles, wall = arranged(list(self.loops), place, self.outer, self.union, notes)
         return obstacles, wall, notes
 

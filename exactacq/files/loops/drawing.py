@@ -30,6 +30,8 @@ class Drawing:
     """The layers of entities by their places in the file, where the reader tells."""
     unit: str = ""
     """What the file says of its unit of length."""
+    readable: str = ""
+    """With which option some of what was left out is read."""
 
     def extent(self) -> tuple[tuple[fmpq, fmpq], tuple[fmpq, fmpq]]:
         """The box of all vertices and circles (arcs may reach beyond it)."""

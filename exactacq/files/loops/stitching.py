@@ -34,11 +34,13 @@ class Stitched:
     duplicates: int = 0
     """Pieces or loops equal to an earlier one, taken out."""
     flat: int = 0
-    """Loops of fewer than three straight edges, taken out: they enclose nothing."""
+    """Loops that enclose nothing, taken out: see `_is_flat`."""
     open_chains: list[list[Chain]] = field(default_factory=list)
     """Paths that do not close, as their pieces."""
     branches: list[tuple[fmpq, fmpq]] = field(default_factory=list)
     """Points where three or more ends meet."""
+    inside: set[str] = field(default_factory=set)
+    """The names of the pieces that loops are made of."""
 
     def joint(self, corner: Corner, target: Corner) -> None:
         """Move a corner onto another one, and keep count."""
@@ -53,6 +55,7 @@ def stitch(chains: Iterable[Chain], tolerance: fmpq) -> Stitched:
     done = Stitched()
     pieces: list[Chain] = []
     loops: dict[int, Chain] = {}
+    members: dict[int, list[str]] = {}
     for chain in chains:
         _drop_short_edges(chain, tolerance, done)
         if chain.edges > 0:
@@ -62,7 +65,7 @@ def stitch(chains: Iterable[Chain], tolerance: fmpq) -> Stitched:
     at_node: defaultdict[int, list[tuple[int, int]]] = defaultdict(list)
     for i, piece in enumerate(pieces):
         if piece.closed:
-            loops[i] = piece
+            loops[i], members[i] = piece, [piece.label]
         else:
             for side in (0, 1):
                 at_node[nodes[id(piece), side]].append((i, side))
@@ -74,16 +77,42 @@ def stitch(chains: Iterable[Chain], tolerance: fmpq) -> Stitched:
         path, closed = _trace(pieces, nodes, at_node, i)
         used.update(j for j, _ in path)
         if closed:
-            loops[i] = _merge(pieces, path)
+            loops[i], members[i] = _merge(pieces, path), [pieces[j].label for j, _ in path]
         else:
             done.open_chains.append([pieces[j] for j, _ in path])
     found = [loops[i] for i in sorted(loops)]
     for loop in found:
         _drop_short_edges(loop, fmpq(0), done)
-    solid = [loop for loop in found if len(loop.corners) > 2 - any(c.bulge for c in loop.corners)]
+    solid = [loop for loop in found if not _is_flat(loop)]
     done.flat = len(found) - len(solid)
     done.loops = _without_duplicates(solid, done)
+    kept = set(map(id, done.loops))
+    done.inside = {label for i, loop in loops.items() if id(loop) in kept for label in members[i]}
     return done
+
+
+def _is_flat(loop: Chain) -> bool:
+    """Whether a loop encloses nothing, for it has fewer than three edges, all straight, or only goes back.
+
+    It goes back if nothing is left when edges that are walked there and at once back again are taken out.
+    """
+    corners = loop.corners
+    if len(corners) < 3 - any(corner.bulge for corner in corners):
+        return True
+    left: list[tuple[Corner, Corner]] = []
+    for start, end in zip(corners, [*corners[1:], corners[0]], strict=True):
+        if left and _goes_back(left[-1], start, end):
+            left.pop()
+        else:
+            left.append((start, end))
+    return not left
+
+
+def _goes_back(before: tuple[Corner, Corner], start: Corner, end: Corner) -> bool:
+    """Whether an edge runs along the one before it, the other way."""
+    first, _ = before
+    is_same_curve = first.bulge == -start.bulge and first.center == start.center
+    return is_same_curve and first.x == end.x and first.y == end.y
 
 
 def _drop_short_edges(chain: Chain, tolerance: fmpq, done: Stitched) -> None:

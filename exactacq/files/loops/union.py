@@ -13,6 +13,7 @@ from flint import fmpq
 from networkx.utils import UnionFind
 
 from exactacq.errors import FormatError
+from exactacq.files.counting import count
 from exactacq.files.loops.chains import ZERO, scientific_above
 from exactacq.files.loops.nesting import Loops
 from exactacq.files.repairs.overlay import Ring, overlay
@@ -48,7 +49,8 @@ class Merged:
         kind = "union" if self.moved else "exact union"
         told = [f"merged {names} into their {kind}" for names in self.groups[:LISTED_GROUPS]]
         if len(self.groups) > LISTED_GROUPS:
-            told.append(f"merged {len(self.groups) - LISTED_GROUPS} more groups of loops that overlap")
+            more = count(len(self.groups) - LISTED_GROUPS, "more group")
+            told.append(f"merged {more} of loops that overlap")
         if self.moved:
             far = scientific_above(self.moved)
             told.append(
@@ -102,7 +104,10 @@ def _merge(members: list[Shape], walled: bool, start: Point | None, merged: Merg
         merged.obstacles += [solid for solid in solids if _inside(room, shape_edges(solid)[0].start)]
     closed = len(rooms) - (room is not None)
     if closed:
-        merged.closed.append(f"left out {closed} free places closed in by {name} (the robot cannot see them)")
+        them = "it" if closed == 1 else "them"
+        merged.closed.append(
+            f"left out {count(closed, 'free place')} closed in by {name} (the robot cannot see {them})"
+        )
 
 
 def _overlaid(members: list[Shape], walled: bool) -> list[Ring]:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from flint import fmpq
 
 from exactacq.errors import FormatError, shown
+from exactacq.files.counting import count
 from exactacq.files.loops.chains import ZERO, Corner, root_above, scientific_above
 from exactacq.files.loops.rational_arcs import arc_corners, nearly_pi
 from exactacq.files.repairs.bezier import ONE, BezierPiece, Pair, arc_pieces
@@ -56,8 +57,8 @@ class Flattening:
         self.curves[kind] += 1
         self.arcs += chain.arcs
         self.segments += len(chain.edges) - chain.arcs
-        for count, most in ((self.arcs + self.segments, MAX_EDGES), (self.made, MAX_MADE)):
-            if count > most:
+        for number, most in ((self.arcs + self.segments, MAX_EDGES), (self.made, MAX_MADE)):
+            if number > most:
                 raise FormatError(f"flatten: more than {most} arcs; give a larger length, or one part")
         if chain.end is None:
             return []
@@ -77,10 +78,10 @@ class Flattening:
         """What to tell of it, with the bound."""
         if not self.curves:
             return []
-        named = ", ".join(f"{n} {kind}" for kind, n in self.curves.most_common())
+        named = ", ".join(count(n, kind) for kind, n in self.curves.most_common())
         far = scientific_above(self.tolerance)
         return [
-            f"flattened {named} into {self.arcs} arcs and {self.segments} segments: "
+            f"flattened {named} into {count(self.arcs, 'arc')} and {count(self.segments, 'segment')}: "
             f"no point of either is farther than {far} from the other"
         ]
 

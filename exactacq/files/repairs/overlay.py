@@ -21,6 +21,7 @@ from math import atan2, pi
 
 import numpy as np
 from flint import fmpq
+from networkx.utils import UnionFind
 
 from exactacq.errors import FormatError
 from exactacq.files.loops.chains import Chain, Corner
@@ -205,17 +206,19 @@ def _same_way(one: Curve, other: Curve, place: Point) -> bool:
 
 def _walks(parts: Sequence[Curve]) -> list[list[Curve]]:
     """The closed walks of the pieces; where several go on, the one that turns left most."""
+    nodes = _nodes(parts)
     leaving: defaultdict[object, list[Curve]] = defaultdict(list)
     for part in parts:
-        leaving[_place(part.start)].append(part)
+        leaving[nodes[_place(part.start)]].append(part)
     walks = []
     for first in parts:
-        if first not in leaving[_place(first.start)]:
+        beginning = nodes[_place(first.start)]
+        if first not in leaving[beginning]:
             continue
         walk = [first]
-        leaving[_place(first.start)].remove(first)
-        while _place(walk[-1].end) != _place(first.start):
-            here = leaving[_place(walk[-1].end)]
+        leaving[beginning].remove(first)
+        while (node := nodes[_place(walk[-1].end)]) != beginning:
+            here = leaving[node]
             if not here:
                 raise FormatError("no union: parts of arcs meet in irrational points; edit the drawing")
             back = _angle(walk[-1], walk[-1].end) + pi
@@ -224,6 +227,21 @@ def _walks(parts: Sequence[Curve]) -> list[list[Curve]]:
             walk.append(following)
         walks.append(walk)
     return walks
+
+
+def _nodes(parts: Sequence[Curve]) -> dict[object, object]:
+    """One name for each place where pieces end, by all its names.
+
+    Where an arc meets two loops in one point, that may have been computed in two forms.
+    """
+    ends = {_place(end): end for part in parts for end in (part.start, part.end)}
+    names, points = list(ends), list(ends.values())
+    same = UnionFind(names)
+    for first, second in BoxIndex(bounds([Segment(point, point) for point in points])).pairs():
+        for i, j in zip(first.tolist(), second.tolist(), strict=True):
+            if points[i] == points[j]:
+                same.union(names[i], names[j])
+    return {name: same[name] for name in names}
 
 
 def _angle(curve: Curve, point: Point) -> float:

@@ -17,7 +17,7 @@ from pathlib import Path
 from flint import fmpq
 
 from exactacq.errors import FormatError, about
-from exactacq.files.loops.arrangement import count
+from exactacq.files.counting import count
 from exactacq.files.loops.assembly import drawing_contents
 from exactacq.files.loops.chains import Chain, Corner, root_above, scientific_above
 from exactacq.files.loops.contents import Contents

@@ -71,7 +71,7 @@ def oval_arc(start: Corner, end: Corner) -> DrawnCurve:
     """
     a, b = (start.x, start.y), (end.x, end.y)
     chord = root_above((a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2)
-    return DrawnCurve("elliptical arcs", arc_pieces(a, b, start.bulge), chord * start.bulge_shift / 2)
+    return DrawnCurve("elliptical arc", arc_pieces(a, b, start.bulge), chord * start.bulge_shift / 2)
 
 
 def subpaths(data: str, curved: bool = False) -> list[Subpath]:
@@ -146,7 +146,7 @@ class _PathReader:
         if kind in "ST":
             last = before[1] if before is not None and before[0] == degree else here
             points = [(2 * here[0] - last[0], 2 * here[1] - last[1]), *points]
-        self.found[-1].curve(DrawnCurve("Bézier curves", [polynomial([here, *points])]), points[-1])
+        self.found[-1].curve(DrawnCurve("Bézier curve", [polynomial([here, *points])]), points[-1])
         self.control = degree, points[-2]
 
     def _elliptical(self, end: Pair, given: list[fmpq]) -> None:

@@ -140,7 +140,7 @@ def _found(hunt: Search, method: Method, seconds: float | None, steps: int | Non
 
 def _report(target: Goal, referee: Referee, found: Ruling | None, out: str | None) -> None:
     """What was found, exactly; how many candidates there were; how to see it again."""
-    from exactacq.files.loops.arrangement import count
+    from exactacq.files.counting import count
     from exactacq.output.report import console
     from exactacq.study.claims.model import Outcome
 
