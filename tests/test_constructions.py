@@ -43,6 +43,7 @@ from exactacq.sensing.path import Piece
 from exactacq.strategies.seed_spreader.prediction.decide import _way
 from exactacq.strategies.seed_spreader.prediction.pieces import Pieces
 from exactacq.strategies.seed_spreader.prediction.sight import Sights
+from exactacq.study.families.scenes import family_scene
 from exactacq.study.random_scenes import Subject, arc_scene
 from exactacq.visibility import line_families, place_facts
 
@@ -442,6 +443,37 @@ def test_robots_that_decide_anew_where_something_happens(seed: int) -> None:
     except xa.Undecided:
         pytest.skip("places found from places have longer and longer numbers")
     xa.audit(run)
+
+
+@pytest.mark.parametrize(
+    ("scene", "first"),
+    [
+        (lambda: family_scene("gears", 20, 1, "sightseer"), 12),
+        (lambda: arc_scene(Subject.SIGHTSEER, 6), 62),
+    ],
+    ids=["gears", "arcs"],
+)
+def test_robots_that_are_stopped_on_the_way_to_short_places(scene: Callable[[], Scene], first: int) -> None:
+    """They halt by boundaries whose numbers get longer, but for the corners and lines of sight by them.
+
+    Both were `Undecided`: a way to a corner behind the wall that it leads into, and a line that a robot has
+    halted on.
+    """
+
+    def own(robot: xa.Robot) -> None:
+        for n in range(14):
+            ends = robot.frontier
+            if not ends:
+                return
+            x, y = ends[(7 * n + first) % len(ends)][1].xy
+            here, goal = robot.position, Point(fmpq(round(x * 1024), 1024), fmpq(round(y * 1024), 1024))
+            halt = robot.go_to(goal, until="lose")
+            way = goal - here
+            share = float((halt.place - here).dot(way)) / float(way.norm_sq()) if halt.kind == "event" else 1
+            if share < 1:
+                robot.go_to(here + way * fmpq(int(share * 4096) + 1, 4096))
+
+    assert len(xa.explore(scene(), own).path) > 6
 
 
 def test_what_a_halt_tells_to_be_at_the_range_is(monkeypatch: pytest.MonkeyPatch) -> None:

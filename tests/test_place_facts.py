@@ -24,7 +24,7 @@ from exactacq.sensing.sensor import Ahead, Sensor
 from exactacq.strategies.run import Run
 from exactacq.study.random_scenes import Subject, arc_scene
 from exactacq.visibility.front_faces import FrontFaces
-from exactacq.visibility.place_facts import NOTHING_KNOWN, Alignment, PlaceFacts
+from exactacq.visibility.place_facts import NOTHING_KNOWN, Alignment, PlaceFacts, along_edge
 from exactacq.visibility.range_clip import Disc, within
 from exactacq.visibility.sensor_range import Range
 from exactacq.visibility.visible_boundary import BoundaryView
@@ -241,3 +241,44 @@ def test_a_place_whose_numbers_do_not_tell_that_two_arcs_are_in_line() -> None:
     event = run.events[212]
     assert event.kind == "regain" and event.obstacle == 0
     assert run.map_at(event).known(0)
+
+
+def test_where_the_line_of_an_edge_leads_from_a_place_on_it() -> None:
+    """Each corner and circle that it touches, and no other, is on one of the two rays, on the right side."""
+    found = Counter[str]()
+    for seed in range(12):
+        table = EdgeTable(arc_scene(Subject.SIGHTSEER, seed).obstacles)
+        for e, edge in enumerate(table.curves):
+            if not isinstance(edge, Segment):
+                continue
+            place, along = edge.point("2/7"), edge.direction
+            rays = {ray.sense: ray for ray in along_edge(table, place, e, range(len(table.curves)))}
+            for ray in rays.values():
+                check_ray(ray, table, place)
+            touched = {(ray.sense, feature) for ray in rays.values() for feature, _ in ray.touched}
+            expected = set()
+            for other, curve in enumerate(table.curves):
+                corner, circle = table.line_numbers.feature(other, False), None
+                way = curve.start - place
+                if not (isinstance(curve, Arc) and curve.full) and way.cross(along) == 0:
+                    expected.add((way.dot(along).sign(), corner))
+                if isinstance(curve, Arc):
+                    way, circle = curve.center - place, table.line_numbers.feature(other, True)
+                    if way.cross(along) ** 2 == along.norm_sq() * curve.radius_sq:
+                        expected.add((way.dot(along).sign(), circle))
+                        found["circles"] += 1
+            assert touched == expected
+            found["corners"] += len(expected) > 2
+    assert found["circles"] > 5 and found["corners"] > 5
+
+
+def test_an_arc_that_an_edge_runs_into_is_touched_in_their_joint() -> None:
+    """From a place on the edge with nested numbers that took a quarter of a minute."""
+    bracket = Outline([(0, 5, 0), (-1, 5, 0), (-1, 0, 0), (2, 0, 0), (2, 1, 1), (0, 1, 0)])
+    table = EdgeTable(Scene([bracket], start=(5, 5), radius=9).obstacles)
+    height = Real(2).sqrt()
+    for k in (3, 5, 7, 11, 13):
+        height = (height + Real(k).sqrt() + 1).sqrt() + Real(k + 1).sqrt()
+    seen = BoundaryView(table, Point(0, height / 4 + 1), Range(fmpq(9))).seen()
+    ((_, joint),) = seen[4]
+    assert joint is table.curves[5].start and [*seen] == [4, 5]

@@ -12,7 +12,7 @@ from typing import TypeAlias
 from exactacq.cached import cached_property
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.intersections import line_contacts
-from exactacq.geometry.late import Pin, balls, from_to, late_point
+from exactacq.geometry.late import Balls, Pin, balls, from_to, late_point
 from exactacq.geometry.points import Point
 from exactacq.kernel.extents import Extent
 from exactacq.kernel.family_images import FamilyImage
@@ -117,6 +117,8 @@ class WayViews:
         names: Sequence[int] = single.keys
         found = self._clearly_crossed(near, tail, tip, single.place)
         if found is None:
+            found = self._known_crossed(names, near, from_to(balls(tail), balls(tip)), single.place)
+        if found is None:
             back = tip - tail
             limit = _share(single.place, near, back)
             places = line_contacts(near, back, self.way.piece)
@@ -145,11 +147,31 @@ class WayViews:
             return None
         return [late_point(spot, _met, near, tail, tip, piece)] if after > 0 and before > 0 else []
 
+    def _known_crossed(
+        self, names: Sequence[int], near: Point, along: Balls, place: Point
+    ) -> list[Point] | None:
+        """Where the way is crossed between two places of a line, if its names tell; None if that is open.
+
+        A robot that has halted on the line sets out from there.
+        """
+        known = self._named(names)
+        if known is None:
+            return None
+        (x, y), (u, v) = from_to(balls(near), balls(known[0])), from_to(balls(known[0]), balls(place))
+        after, before = (ball_sign(a * along[0] + b * along[1]) for a, b in ((x, y), (u, v)))
+        if not (after and before):
+            return None
+        return [known[0]] if after > 0 and before > 0 else []
+
+    def _named(self, names: Sequence[int]) -> Pin | None:
+        """Where a line is known to cross the way, by its names."""
+        pins, number = self.way.clipper.views.pins, self.way.number
+        return next((pin for name in names if (pin := pins.get((name, number, 0))) is not None), None)
+
     def _pin(self, names: Sequence[int], point: Point) -> Pin:
         """Where a line crosses the way: the same point as of families that its names tell of."""
         pins, number = self.way.clipper.views.pins, self.way.number
-        known = next((pin for name in names if (pin := pins.get((name, number, 0))) is not None), None)
-        pin = (point, self.way.rail.parameter(point)) if known is None else known
+        pin = self._named(names) or (point, self.way.rail.parameter(point))
         for name in names:
             pins.put((name, number, 0), pin)
         return pin

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from exactacq.cached import cached_property
+from exactacq.geometry.constructions import is_past_corner
 from exactacq.geometry.curve_images import held_point
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import line_contacts
@@ -56,13 +57,14 @@ class OwnLine:
 
     def _touched(self) -> Iterator[tuple[int, Point]]:
         """The corners and the tangent points of wanted edges on the way's line, named or not."""
-        table, start, touches = self.table, self.line.start, self.way.touches
+        table, start, end, touches = self.table, self.line.start, self.line.end, self.way.touches
         numbers = table.line_numbers
-        along = self.line.end - start
+        along = end - start
         for e in self._near:
             curve = table.curves[e]
             for number, corner in ((e, curve.start), (table.following[e], curve.end)):
-                if numbers.feature(number, False) in touches or along.cross(corner - start).sign() == 0:
+                named = numbers.feature(number, False) in touches or is_past_corner(start, end, corner)
+                if named or along.cross(corner - start).sign() == 0:
                     yield e, corner
             if isinstance(curve, Arc):
                 named = numbers.feature(e, True) in touches

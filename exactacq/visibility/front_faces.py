@@ -46,7 +46,7 @@ from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.features import is_spike
 from exactacq.visibility.line_balls import LONG, long_vector
 from exactacq.visibility.line_families import BITS, held
-from exactacq.visibility.place_facts import NOTHING_KNOWN, Alignment, PlaceFacts, Touched
+from exactacq.visibility.place_facts import NOTHING_KNOWN, Alignment, PlaceFacts, Touched, along_edge
 from exactacq.visibility.sensor_range import Range
 
 NOWHERE = -1
@@ -211,6 +211,9 @@ class FrontFaces:
             own = self._edges_at_point(open_, round_)
         self.own = own
         faces.own = list(own)
+        if len(own) == 1 and point.rational is None and isinstance(table.curves[own[0]], Segment):
+            rays = along_edge(table, point, own[0], near)
+            self._rays |= {touched: ray for ray in rays for touched in ray.touched}
         if open_:
             self._decide(open_)
         arcs: list[tuple[int, int, int]] = []

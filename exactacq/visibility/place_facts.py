@@ -7,7 +7,7 @@ was found does, and a line through features has simpler numbers than the way fro
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TypeAlias
@@ -22,7 +22,7 @@ from exactacq.geometry.constructions import (
     put_past_corner,
     touch_on_tangent,
 )
-from exactacq.geometry.coordinates import Vector, cross, dot, raw
+from exactacq.geometry.coordinates import Vector, cross, dot, minus, raw
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.late import BITS, Balls, balls, from_to
 from exactacq.geometry.points import Point
@@ -194,6 +194,26 @@ def along_way(
         convex = (e for e in table.edges_at(there) if table.kinds[e] != CONCAVE)
         known = {**(met if ray.sense > 0 else {}), **dict.fromkeys(convex, there)}
         yield replace(ray, met=known, feet=feet)
+
+
+def along_edge(table: EdgeTable, place: Point, e: int, near: Iterable[int]) -> Iterator[Alignment]:
+    """The two rays from a place inside a straight edge along it, by what its line touches of some edges."""
+    edge, numbers = table.curves[e], table.line_numbers
+    start, along = raw(edge.start), minus(table.vertices[table.following[e]], table.vertices[e])
+    features: dict[int, None] = {}
+    for other in near:
+        curve = table.curves[other]
+        if isinstance(curve, Arc):
+            height = cross(along, minus(raw(curve.center), start))
+            if height * height == dot(along, along) * curve.radius_sq:
+                features[numbers.feature(other, True)] = None
+            if curve.full:
+                continue
+        for vertex in (other, table.following[other]):
+            if not cross(along, minus(table.vertices[vertex], start)):
+                features[vertex] = None
+    way = Point(*along)
+    yield from _alignments(table, balls(place), balls(way), lambda: (edge.start, way), [*features], None)
 
 
 def _alignments(
