@@ -26,7 +26,9 @@ from exactacq.geometry.constructions import (
     corners_passed,
     is_normal,
     is_past_corner,
+    is_put_around,
     is_put_on,
+    is_tangent,
     put_around,
     put_on,
     put_on_line,
@@ -423,9 +425,36 @@ def test_a_way_is_told_of_lines_that_it_was_made_on() -> None:
         assert not is_past_corner(a, b, Point(1, 4))
     assert not is_normal(start, Point(*end), UNIT.carrier)
     assert not is_normal(start, end, Arc.circle(Point(0, 0), fmpq(2)).carrier)
+    other, touch, goal = Point(ROOT3, 7), Point(*end), Point(7, ROOT3)
+    put_on_tangent(other, goal, UNIT.carrier, touch)
+    for first in (goal, touch):
+        assert is_tangent(other, first, UNIT.carrier) and is_tangent(first, other, UNIT.carrier)
+    assert not is_tangent(other, end, UNIT.carrier) and not is_tangent(goal, touch, UNIT.carrier)
     put_on_line(place, start, end)
     assert is_normal(start, place, UNIT.carrier) and is_past_corner(start, place, corner)
     assert [point is end for point in corners_passed(start, place)] == [True, False]
+
+
+def test_two_places_on_a_circle_are_where_their_line_meets_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Both are known: neither is looked for, nor compared with what is found."""
+    places = []
+    for k in (2, 5):
+        x = (xa.Real(k).sqrt() + xa.Real(3).sqrt() + 1).sqrt() / 9
+        places.append(Point(x, (1 - x * x).sqrt()))
+        put_on(places[-1], UNIT.carrier)
+    with work_in_fields(monkeypatch) as spent:
+        found = contacts(Segment(*places), UNIT)
+    assert [contact.start is place for contact, place in zip(found, places, strict=True)] == [True, True]
+    assert not spent
+
+
+def test_a_place_at_a_distance_from_a_corner_knows_it_by_its_coordinates() -> None:
+    place = Point(1, ROOT3)
+    put_around(place, Point(0, 0), fmpq(4))
+    assert is_put_around(place, Point(0, 0), fmpq(4)) and is_put_around(Point(0, 0), place, fmpq(4))
+    assert not is_put_around(place, Point(0, 1), fmpq(4)) and not is_put_around(place, Point(0, 0), fmpq(5))
+    put_around(place, Point(ROOT3, 0), fmpq(9))
+    assert not is_put_around(place, Point(ROOT3, 0), fmpq(9))
 
 
 def look_again(robot: xa.Robot) -> None:

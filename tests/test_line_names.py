@@ -93,15 +93,17 @@ def test_a_number_is_one_line(seed: int) -> None:
     Lines with different numbers that touch the same two features are different lines, unless these two touch.
     """
     sweeper = random_sweeper(seed)
-    numbers, lines = sweeper.table.line_numbers, dict[int, Line]()
+    numbers, lines, normals = sweeper.table.line_numbers, dict[int, Line](), 0
     for family, (contact, along), names, keys in named_lines(sweeper):
         if not names:
             assert len(keys) == 1 and keys[0] < 0
             continue
-        assert keys == [key for key, _ in names] and min(keys) >= 0
+        is_normal = family.anchor is None
+        assert is_normal or (keys == [key for key, _ in names] and min(keys) >= 0)
         for key, sense in names:
             pair, line = numbers.features(key), (contact, along * sense)
-            assert family.anchor in pair
+            assert is_normal or family.anchor in pair
+            normals += is_normal
             assert all(touches(sweeper.table, line, feature) for feature in pair)
             known = lines.setdefault(key, line)
             assert same(known, line) and known[1].dot(line[1]).sign() > 0
@@ -111,7 +113,29 @@ def test_a_number_is_one_line(seed: int) -> None:
     for pair, some in by_pair.items():
         if not touch_each_other(sweeper.table, pair):
             assert not any(same(a, b) for a, b in combinations(some, 2))
-    assert lines
+    assert lines and (normals or not seed % 2)
+
+
+def test_the_normal_at_a_right_angle_is_the_line_of_the_edge_beside() -> None:
+    sweeper = sweeper_of(xa.Scene([xa.Polygon([(0, 0), (2, 0), (2, 1), (0, 3)])]))
+    numbers, table = sweeper.table.line_numbers, sweeper.table
+    found = {
+        (e, float(t)): names
+        for e in range(4)
+        for image in sweeper.normals(e).images
+        for t, names in zip(
+            (family_of(image).low, family_of(image).high), family_of(image).names, strict=True
+        )
+    }
+    corner = {e: table.curves[e].start.xy for e in range(4)}
+    assert [corner[e] for e in range(4)] == [(0, 0), (2, 0), (2, 1), (0, 3)]
+    # Senses: from the corner with the lower number, and normals lead away from the square.
+    assert found[0, 0.0] == ((numbers.corners(0, 3), -1),) and found[0, 1.0] == ((numbers.corners(1, 2), -1),)
+    assert found[1, 0.0] == ((numbers.corners(0, 1), 1),) and found[1, 1.0] == ()
+    assert (
+        found[3, 1.0] == ((numbers.corners(0, 1), -1),)
+        and found[2, 0.0] == found[2, 1.0] == found[3, 0.0] == ()
+    )
 
 
 def test_what_a_number_says() -> None:

@@ -82,8 +82,8 @@ def is_put_around(point: Point, other: Point, square: fmpq) -> bool:
 
 
 def _is_around(point: Point, center: Point, square: fmpq) -> bool:
-    found = (fact for fact in _facts(point) if isinstance(fact, _CircleAbout) and fact.center is center)
-    return any(fact.square == square for fact in found)
+    found = (fact for fact in _facts(point) if isinstance(fact, _CircleAbout) and fact.square == square)
+    return any(_is_one(fact.center, center) for fact in found)
 
 
 # -- lines through two points ----------------------------------------------------------------------
@@ -131,7 +131,7 @@ def put_past_corner(point: Point, origin: Point, corner: Point) -> None:
 
 def is_past_corner(start: Point, end: Point, corner: Point) -> bool:
     """Whether the line of two points is known to pass a corner; *corner* is rational."""
-    return any(corner is other or _is_equal(corner, other) for other in corners_passed(start, end))
+    return any(_is_one(corner, other) for other in corners_passed(start, end))
 
 
 def corners_passed(start: Point, end: Point) -> list[Point]:
@@ -139,9 +139,11 @@ def corners_passed(start: Point, end: Point) -> list[Point]:
     return [line.corner for line in _lines(start, end) if isinstance(line, _CornerLine)]
 
 
-def _is_equal(corner: Point, other: Point) -> bool:
-    """Whether a rational point is seen to equal another one: nothing late is made."""
-    return not other.is_late and other.rational is not None and corner.rational == other.rational
+def _is_one(point: Point, other: Point) -> bool:
+    """Whether two points are one object, or seen to be one rational point: nothing late is made."""
+    if point is other:
+        return True
+    return not (point.is_late or other.is_late) and None is not point.rational == other.rational
 
 
 def put_on_line(point: Point, start: Point, end: Point) -> None:
@@ -165,10 +167,23 @@ def _tangent(start: Point, end: Point, carrier: Carrier | None) -> _CircleTangen
 
 
 def _lines(start: Point, end: Point) -> Iterator[_Line]:
-    for point, origin in ((end, start), (start, end)):
-        for fact in _facts(point):
-            if isinstance(fact, _CircleTangent | _CircleNormal | _CornerLine) and fact.origin is origin:
-                yield fact
+    """What is known of the line of two points: by lines through one of them on which the other one lies."""
+    for point, other in ((end, start), (start, end)):
+        lines = [
+            fact for fact in _facts(point) if isinstance(fact, _CircleTangent | _CircleNormal | _CornerLine)
+        ]
+        origins = [line.origin for line in lines if any(_is_one(place, other) for place in _places(line))]
+        yield from (line for line in lines if any(line.origin is origin for origin in origins))
+
+
+def _places(line: _Line) -> tuple[Point, ...]:
+    """The points, besides that which knows it, that a line was made through."""
+    match line:
+        case _CircleTangent(origin, _, touch) if touch is not None:
+            return origin, touch
+        case _CornerLine(origin, corner):
+            return origin, corner
+    return (line.origin,)
 
 
 def _put(point: Point, fact: _Fact) -> None:

@@ -169,7 +169,8 @@ def _line_arc(origin: Vector, direction: Vector, arc: Arc, on: Touched) -> list[
     if _touches(on, arc):
         count = 1
     elif made:
-        count = 2 if sign(dot(minus(raw(made[0]), raw(arc.center)), direction)) else 1
+        is_chord = _other(made, made[0]) is not None
+        count = 2 if is_chord or sign(dot(minus(raw(made[0]), raw(arc.center)), direction)) else 1
     else:
         count = sign(discriminant) + 1
     if count == 0:
@@ -179,21 +180,26 @@ def _line_arc(origin: Vector, direction: Vector, arc: Arc, on: Touched) -> list[
     on_line = [(p, v) for p, v in ends if _side(p, cross(direction, v), on) == 0]
     if len(on_line) == 2 and count == 2:
         return [_LineHit(ratio(v, direction), p) for p, v in on_line]
-    if on_line:
-        p, v = on_line[0]
-        first = _LineHit(ratio(v, direction), p, tangent=count == 1)
-        again = next((q for q in made if not may_be_one(balls(p), balls(q))), None)
-        other = 2 * middle - first.parameter if again is None else ratio(minus(raw(again), origin), direction)
-        is_met = count == 2 and _spans_at(arc, w, direction, other)
-        return [first, _LineHit(other, again)] if is_met else [first]
-    if made:
-        first = _LineHit(ratio(minus(raw(made[0]), origin), direction), made[0], tangent=count == 1)
-        roots = [first, _LineHit(2 * middle - first.parameter)][:count]
-        return [hit for hit in roots if _spans_at(arc, w, direction, hit.parameter)]
+    if on_line or made:
+        known = on_line[0][0] if on_line else made[0]
+        first = _LineHit(ratio(minus(raw(known), origin), direction), known, tangent=count == 1)
+        hits = [first] if on_line or _spans_at(arc, w, direction, first.parameter) else []
+        if count == 2:
+            again = _other(made, known)
+            other = (
+                2 * middle - first.parameter if again is None else ratio(minus(raw(again), origin), direction)
+            )
+            hits += [_LineHit(other, again)] if _spans_at(arc, w, direction, other) else []
+        return hits
     if count == 1:
         return [_LineHit(middle, tangent=True)] if _spans_at(arc, w, direction, middle) else []
     half = Real(discriminant).sqrt() / square
     return [_LineHit(root) for root in (middle - half, middle + half) if _spans_at(arc, w, direction, root)]
+
+
+def _other(points: Sequence[Point], point: Point) -> Point | None:
+    """One of some points that surely is another one."""
+    return next((q for q in points if not may_be_one(balls(point), balls(q))), None)
 
 
 def _is_known_on(arc: Arc, point: Point) -> bool:

@@ -10,7 +10,7 @@ import atexit
 from abc import ABC, abstractmethod
 from collections.abc import Hashable, Mapping
 from functools import lru_cache
-from math import gcd, log2
+from math import log2
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeAlias
 from weakref import WeakValueDictionary
 
@@ -257,7 +257,7 @@ WHOLLY_FACTORED = 62
 
 SEARCHED = 2048
 """Bits up to which a radicand's factors are searched for: the time grows faster than its square."""
-SMALL_PRIMES = int(fmpz.primorial_ui(4096))
+SMALL_PRIMES = fmpz.primorial_ui(4096)
 """The product of the primes by which longer ones are divided."""
 
 
@@ -271,12 +271,14 @@ def square_free(n: int) -> tuple[int, int]:
                 side *= int(prime) ** (exponent // 2)
         return (side, n // (side * side)) if side > 1 else (1, n)
     if n.bit_length() > SEARCHED:
-        small, rest = gcd(n % SMALL_PRIMES, SMALL_PRIMES), n
-        for prime, _ in fmpz(small).factor() if small > 1 else ():
-            rest, exponent = without(rest, int(prime))
-            side *= int(prime) ** (exponent // 2)
-        side *= int(fmpz(rest).isqrt()) if fmpz(rest).is_square() else 1
-        return side, n // (side * side)
+        # Python's own integers take time that grows with the square of their length.
+        rest = fmpz(n)
+        small, root = (rest % SMALL_PRIMES).gcd(SMALL_PRIMES), fmpz(1)
+        for prime, _ in small.factor() if small > 1 else ():
+            rest, exponent = without(rest, fmpz(prime))
+            root *= fmpz(prime) ** (exponent // 2)
+        root *= rest.isqrt() if rest.is_square() else 1
+        return int(root), int(fmpz(n) // (root * root))
     for factor, exponent in fmpz(n).factor_smooth(12):
         base = fmpz(factor)
         # The last factor may be composite, and a square.

@@ -212,10 +212,10 @@ def coprime_base(numbers: Iterable[int]) -> list[int]:
 
 def valuation(number: int, base: int) -> int:
     """How often a number other than 0 can be divided by *base*."""
-    return without(number, base)[1]
+    return without(fmpz(number), fmpz(base))[1]
 
 
-def without(number: int, base: int) -> tuple[int, int]:
+def without(number: fmpz, base: fmpz) -> tuple[fmpz, int]:
     """A number other than 0 without a factor, and how often it held that, by a few divisions a bit."""
     if number % base:
         return number, 0

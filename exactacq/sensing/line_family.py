@@ -27,7 +27,7 @@ from exactacq.sensing.line_images import LineImages
 from exactacq.sensing.line_points import Role, Side
 from exactacq.sensing.view_families import FreeViews, ViewFamily
 from exactacq.visibility.features import Feature
-from exactacq.visibility.line_families import Sector
+from exactacq.visibility.line_families import Sector, Sliding
 from exactacq.visibility.line_names import Namer, Names
 from exactacq.visibility.rotational_sweep import Passed, Pencil
 
@@ -141,12 +141,10 @@ class PencilFamilies:
         cell, feature, corner = self.lines.cell(self.lines.rows[image.number]), self._feature, self._corner
         behind = None if cell.behind is None or not self.goes_back else self._side(image, Role.BEHIND)
         ahead = None if cell.ahead is None else self._side(image, Role.AHEAD)
+        bounds = zip((cell.low, cell.high), cell.bounds, strict=True)
         names: tuple[Names, Names] = (), ()
-        if feature is not None:
-            first, last = (
-                self._namer.names(feature, self.lines.sector, t, passed)
-                for t, passed in zip((cell.low, cell.high), cell.bounds, strict=True)
-            )
+        if feature is not None or isinstance(self.lines.sector, Sliding):
+            first, last = (self._names(t, passed) for t, passed in bounds)
             names = first, last
         return LineFamily(
             self.lines.sector,
@@ -160,6 +158,13 @@ class PencilFamilies:
             names,
             cell.bounds,
         )
+
+    def _names(self, t: Real, passed: Passed) -> Names:
+        """The names of a line that bounds a family."""
+        sector, feature = self.lines.sector, self._feature
+        if feature is None:
+            return self._namer.names_of_normal(self.contact.edge, sector, t, passed)
+        return self._namer.names(feature, sector, t, passed)
 
     def _side(self, image: FamilyImage, role: Role) -> Side:
         return Side(image.edge(role), role, start=start_of(image, role, self.lines.table))

@@ -11,8 +11,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TypeAlias
 
-from exactacq.geometry.coordinates import minus, raw
-from exactacq.geometry.curves import Arc
+from exactacq.geometry.coordinates import dot, minus, raw
+from exactacq.geometry.curves import Arc, Segment
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.features import Feature
@@ -42,11 +42,30 @@ class Namer:
         senses = (
             self._from_circle(feature, passed)
             if feature.round
-            else self._from_corner(feature, sector, t, passed)
+            else self._from_corner(feature.edges[1], sector, t, passed)
         )
         return tuple(zip(keys, senses, strict=True))
 
-    def _from_corner(self, feature: Feature, sector: Sector, t: Real, passed: Passed) -> Iterator[int]:
+    def names_of_normal(self, e: int, sector: Sector, t: Real, passed: Passed) -> Names:
+        """The names of a straight edge's normal at *t*, if it passes an end of the edge.
+
+        It has them from other corners that it passes, and at a right angle from the edge beside.
+        """
+        ends = e, self.table.following[e]
+        own = next((number for number, side, _ in passed if side == 0 and number in ends), None)
+        if own is None:
+            return ()
+        corners = {number: None for number, side, _ in passed if side == 0 and number != own}
+        beside = self.table.preceding[e] if own == e else own
+        one, other = self.table.curves[e], self.table.curves[beside]
+        assert isinstance(one, Segment), "arcs have their normals about the centre"
+        if isinstance(other, Segment) and dot(raw(one.direction), raw(other.direction)) == 0:
+            corners[beside if own == e else self.table.following[beside]] = None
+        passed = tuple((number, 0, 0) for number in corners)
+        keys = self.numbers.keys(own, [*passed])
+        return tuple(zip(keys, self._from_corner(own, sector, t, passed), strict=True))
+
+    def _from_corner(self, own: int, sector: Sector, t: Real, passed: Passed) -> Iterator[int]:
         """A float is enough to tell ahead from behind.
 
         What is passed is a vertex on the line or a circle, whose centre lies to the right of the way from the
@@ -55,7 +74,6 @@ class Namer:
         times the product of their lengths: its sign is beyond doubt. Only the one across remains where the
         corner lies on the circle.
         """
-        own = feature.edges[1]
         _, _, *along_it = line(sector, t.ball(BITS))
         x, y = (float(v) for v in along_it)
         for number, side, sign in passed:
