@@ -493,3 +493,30 @@ def test_moves_just_past_sightings_end_at_the_goal_and_at_corners_too() -> None:
     assert (halt.kind, halt.place) == ("hit", Point(2, 0))
     halt = robot.walk(until="acquire", just_past=True)
     assert halt.kind == "event" and halt.place == halt.sighting.place == Point(4, 1)
+
+
+@pytest.mark.parametrize("past", [False, True])
+def test_a_walk_is_round_though_something_happens_just_there(past: bool) -> None:
+    """The last of a disc is seen where the lap ends; there a second lap began, and so on for ever."""
+    robot = xa.Robot(xa.Scene([xa.Circle((5, 0), 2)], start=(3, 0), radius=20))
+    robot.go_to((3, 0))
+    kinds = [robot.walk(until="acquire", just_past=past).kind.value for _ in range(3)]
+    assert kinds == ["event", "round", "round"]
+    assert robot.length == xa.Length.turns(4) and robot.visited == (0,)
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_walks_all_around_end(seed: int) -> None:
+    """However often they are stopped, one lap is as long as the boundary."""
+    robot = xa.Robot(random_scene(Subject.SIGHTSEER, seed))
+    if not robot.seen:
+        return
+    halt = robot.go_to(robot.map.nearest(0, robot.position))
+    hand = "left" if seed % 2 else "right"
+    if halt.obstacle is not None:
+        way = robot.length
+        for _ in range(400):
+            if robot.walk(hand, until=SIGHTS, just_past=seed % 3 == 0).kind == "round":
+                break
+        perimeter = random_scene(Subject.SIGHTSEER, seed).obstacles[robot._numbers[halt.obstacle]].perimeter
+        assert robot.length - way == perimeter

@@ -158,10 +158,11 @@ class Robot(Observer):
     ) -> Halt:
         """Walk along the present boundary with a hand at it: all around, or to a point, or until an event.
 
-        A lap that was interrupted goes on if the hand is the same: the robot is round where it began. *to* is
-        a point of the boundary; if it is none, the robot finds that out by coming round. For *until* and
-        *just_past* see `go_to`. `MoveError` at no boundary and at one that a border cuts, ValueError for
-        another hand or other kinds.
+        A lap that was interrupted goes on if the hand is the same: the robot is round where it began. If it
+        is stopped just there, the next call makes no way and says that it is round. *to* is a point of the
+        boundary; if it is none, the robot finds that out by coming round. For *until* and *just_past* see
+        `go_to`. `MoveError` at no boundary and at one that a border cuts, ValueError for another hand or
+        other kinds.
 
         >>> import exactacq as xa
         >>> robot = xa.Robot(xa.load("squares"))
@@ -183,19 +184,22 @@ class Robot(Observer):
             )
         if target is not None and target == here:
             return Halt(HaltKind.ARRIVED, target, self.at)
-        self._explain(self._decided(reason))
-        lap = self._lap
+        lap, self._lap = self._lap, None
         if lap is None or lap.forward is not (hand == "left"):
-            lap = self._lap = Lap(walker.boundary(), here, hand == "left")
+            lap = Lap(walker.boundary(), here, hand == "left")
+        elif not lap.rest:
+            return Halt(HaltKind.ROUND, here, self.at)
+        self._lap = lap
+        self._explain(self._decided(reason))
         while lap.rest:
             ends_here, curve = lap.next(target)
             sighting = self._walk_along(Piece("boundary", obstacle, curve), awaited)
             lap.walked(walker.position)
             if not lap.rest:
-                self._lap = None
                 walker.visit()
             if sighting is not None:
                 return Halt(HaltKind.EVENT, walker.position, self.at, sighting)
+            self._lap = lap if lap.rest else None
             self._on_edge()
             if ends_here:
                 return Halt(HaltKind.ARRIVED, walker.position, self.at)
