@@ -516,3 +516,11 @@ def test_when_all_is_known_paths_are_those_in_the_terrain(seed: int) -> None:
         if whole is not None and known:
             assert (partly.length, partly.count) == (whole.length, whole.count)
         assert whole is None or partly.length <= whole.length
+
+
+def test_a_path_along_a_row_of_walls_is_chosen_at_once() -> None:
+    """Each wall has pegs on both sides: by these there are 4^16 ways along the row, all of them one path."""
+    row = [xa.Polygon([(k, 0), (k + 1, 0), (k + 1, 1), (k, 1)]) for k in range(1, 33, 2)]
+    robot = xa.Robot(xa.Scene(row, start=(0, 0), radius=100))
+    path = robot.path_to((34, 0))
+    assert (path.length, path.count, len(path.path)) == (34, 1, 1)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator
 from dataclasses import dataclass, field
 from functools import cmp_to_key
 from typing import TypeAlias
@@ -183,20 +183,28 @@ class _Equals:
         spots: list[_Spot] = [(self._start, None, 0)]
         last: Curve | None = None
         while spots[0][0] is not self.goal or spots[0][1] is not None:
-            ends = [found for spot in spots for found in self._onward(spot, None, last)]
+            reached: set[Hashable] = set()
+            ends = [found for spot in spots for found in self._onward(spot, None, last, reached)]
             ends.sort(key=cmp_to_key(_order))
             last, _ = ends[0]
             spots = [spot for piece, spot in ends if piece is last or _order((piece, spot), ends[0]) == 0]
             yield last
 
     def _onward(
-        self, spot: _Spot, piece: Curve | None, last: Curve | None = None
+        self, spot: _Spot, piece: Curve | None, last: Curve | None, reached: set[Hashable]
     ) -> Iterator[tuple[Curve, _Spot]]:
         """The longest pieces that begin at a spot or go on with a *piece*, and where they end.
 
-        Those that go on with the *last* piece are other paths, in which it is longer.
+        Those that go on with the *last* piece are other paths, in which it is longer. Along a row of walls
+        there are ever more ways to the same spot: what it leads to is told once, and it is *reached*.
         """
         label, link, done = spot
+        # All begin in one place: those on one line or circle that end in one place are one piece.
+        kind = None if piece is None else (_kind(piece), piece.center.key if isinstance(piece, Arc) else ())
+        key = id(label), None if link is None else id(link[0]), done, kind
+        if key in reached:
+            return
+        reached.add(key)
         if label is self.goal and link is None:
             assert piece is not None
             yield piece, spot
@@ -204,14 +212,14 @@ class _Equals:
         has_ended = False
         for way, target in self.links[id(label)] if link is None else (link,):
             if done == len(way.pieces):
-                yield from self._onward((target, None, 0), piece, last)
+                yield from self._onward((target, None, 0), piece, last, reached)
                 continue
             following, _ = way.pieces[done]
             longer = following if piece is None else _joined(piece, following)
             if piece is None and last is not None and _joined(last, following) is not None:
                 continue
             if longer is not None:
-                yield from self._onward((label, (way, target), done + 1), longer)
+                yield from self._onward((label, (way, target), done + 1), longer, None, reached)
             elif piece is not None and not has_ended:
                 has_ended = True
                 yield piece, spot
