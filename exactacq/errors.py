@@ -78,8 +78,8 @@ class Undecided(ExactacqError, ArithmeticError):
     which it is. All three are None elsewhere.
 
     >>> import exactacq as xa
-    >>> circle = xa.Length.turns(1)
-    >>> circle / xa.Length(3) == circle * 2 / xa.Length(6)
+    >>> circle, double = xa.Length.turns(1), xa.Length.turns(2)
+    >>> (circle + 1) / circle == (double + 2) / double
     Traceback (most recent call last):
     exactacq.errors.Undecided: two quotients of irrational lengths that may be equal
     """

@@ -73,7 +73,7 @@ CONTACT_FAULTS = [
         "the second point of a line through an arc's end is forgotten",
         LINES,
         (AXIS, bow((0, 0), (1, 0), (0, -1))),
-        Fault(intersections, "_line_arc", "count == 2 and _spans_at(arc, w, direction, other)", "False"),
+        Fault(intersections, "_line_arc", "if _spans_at(arc, w, direction, other) else", "if False else"),
     ),
     Planted(
         "a line through both ends of an arc meets it once",

@@ -127,7 +127,7 @@ NUMBER_FAULTS = [
         "between two numbers lies the smaller",
         TIES,
         tied(sqrt(2), sqrt(2), HAIR),
-        Fault(between, "_short_between", "(low + high) / 2", "low"),
+        Fault(between, "_dyadic_between", "(low + high) / 2", "low"),
     ),
     Planted(
         "equal numbers are not at most each other",

@@ -168,8 +168,8 @@ class TestRuns:
     def test_that_compare_what_is_undecided_are_given_up(self) -> None:
         def go(robot: xa.Robot) -> None:
             robot.go_to((0, 2))
-            circle = xa.Length.turns(1)
-            assert circle / xa.Length(3) == circle * 2 / xa.Length(6)
+            circle, double = xa.Length.turns(1), xa.Length.turns(2)
+            assert (circle + 1) / circle == (double + 2) / double
 
         with pytest.raises(xa.Undecided, match="undecided after 2 of the path") as caught:
             xa.explore(CIRCLES, go)

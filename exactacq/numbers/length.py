@@ -171,7 +171,7 @@ class Length(Exact):
     @property
     def rational(self) -> fmpq | None:  # type: ignore[override]
         """The value if it is rational and has no angles, or None."""
-        return self._algebraic.rational if self._is_algebraic else None
+        return self._algebraic.rational if self.is_algebraic else None
 
     @property
     def numbers(self) -> tuple[Real, ...]:
@@ -192,7 +192,12 @@ class Length(Exact):
         return self._angular.direction(radius)
 
     @property
-    def _is_algebraic(self) -> bool:
+    def is_algebraic(self) -> bool:
+        """Whether it has no pi and no angles.
+
+        >>> Length(2).is_algebraic, Length.turns(1).is_algebraic
+        (True, False)
+        """
         return self._angular.is_zero
 
     # -- arithmetic --------------------------------------------------------------------------
@@ -253,7 +258,7 @@ class Length(Exact):
         return self._sign
 
     def _decide_sign(self) -> int:
-        if self._is_algebraic:
+        if self.is_algebraic:
             return self._algebraic.sign()
         for bits in FILTER_BITS:
             if sign := ball_sign(self.ball(bits)):
@@ -292,7 +297,7 @@ class Length(Exact):
         return _coerce(other)
 
     def _against(self, right: Length) -> int:
-        if self._is_algebraic and right._is_algebraic:
+        if self.is_algebraic and right.is_algebraic:
             return self._algebraic.compare(right._algebraic)
         left_ball, right_ball = self.ball(64), right.ball(64)
         if left_ball < right_ball:
@@ -325,13 +330,13 @@ class Length(Exact):
         >>> low < Length.turns(1) < high, high - low < fmpq(1, 2**100)
         (True, True)
         """
-        if self._is_algebraic:
+        if self.is_algebraic:
             return self._algebraic.enclosure(bits)
         return enclose(self.ball, bits)
 
     def __float__(self) -> float:
         """The nearest float, ties to even; OverflowError beyond the largest float."""
-        if self._is_algebraic:
+        if self.is_algebraic:
             return float(self._algebraic)
         return round_to_float(self.ball, lambda middle: self.compare(middle) == 0) + 0.0  # never -0.0
 
@@ -358,7 +363,7 @@ class Length(Exact):
         return Add(self._algebraic.sympy(), turn.sympy() * pi, *angles)
 
     def __repr__(self) -> str:
-        if self._is_algebraic and self._algebraic.rational is not None:
+        if self.is_algebraic and self._algebraic.rational is not None:
             return f"Length({str(self)!r})"
         return f"<Length {self.ball(64).str(15, radius=False)}>"
 

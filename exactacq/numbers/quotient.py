@@ -9,17 +9,18 @@ from flint import arb, fmpq
 from exactacq.errors import FormatError, Undecided
 from exactacq.numbers.exact import Exact
 from exactacq.numbers.precision import workprec
-from exactacq.numbers.rationals import decimal_string, enclose, rational, round_to_float
+from exactacq.numbers.rationals import ball_sign, decimal_string, enclose, rational, round_to_float
 
-PRECISIONS = (64, 256, 1024, 4096)
-"""Working bits of the balls that tell two irrational quotients apart."""
+EARLY, LATE = (64, 256), (1024, 4096)
+"""Working bits of balls that tell two irrational quotients apart, before and after these are multiplied."""
 
 
 class Quotient(Exact):
     """How many times one length goes into another, which is not 0.
 
-    Comparisons with rational numbers are exact: a / b < q where a < q b. They raise `Undecided` where that
-    does.
+    Comparisons with rational numbers are exact: a / b < q where a < q b. So are those of two quotients whose
+    tops or bottoms are equal, or without angles: a / b < c / d where a d < c b, if b and d are positive. Of
+    others balls tell all but equality. They raise `Undecided` where that does.
 
     >>> from exactacq.numbers.length import Length
     >>> half = Length("3/2") / Length(3)
@@ -69,17 +70,34 @@ class Quotient(Exact):
 
     def _against(self, right: Quotient | fmpq) -> int:
         number = right.rational if isinstance(right, Quotient) else right
-        if number is None:
-            return self._apart(right)
+        if isinstance(right, Quotient) and number is None:
+            return self._ordered(right)
         return int((self.top - self.bottom * number).sign() * self._sign)
 
-    def _apart(self, other: Any) -> int:
-        """The order of two irrational quotients, if their balls tell; that two are equal is not proved."""
-        for bits in PRECISIONS:
-            one, two = self.ball(bits), other.ball(bits)
-            if one < two or one > two:
-                return -1 if one < two else 1
+    def _ordered(self, other: Quotient) -> int:
+        """The order of two irrational quotients."""
+        for bits in EARLY:
+            if order := ball_sign(self.ball(bits) - other.ball(bits)):
+                return order
+        difference = self._multiplied(other)
+        if difference is not None:
+            return int(difference.sign() * self._sign * other._sign)
+        for bits in LATE:
+            if order := ball_sign(self.ball(bits) - other.ball(bits)):
+                return order
         raise Undecided("two quotients of irrational lengths that may be equal")
+
+    def _multiplied(self, other: Quotient) -> Any:
+        """The difference of two quotients times both bottoms, or None if that is no length."""
+        (a, b), (c, d) = (self.top, self.bottom), (other.top, other.bottom)
+        if b.is_algebraic and d.is_algebraic:
+            return a * d.algebraic - c * b.algebraic
+        if a.is_algebraic and c.is_algebraic:
+            return d * a.algebraic - b * c.algebraic
+        if b == d:
+            # Times one bottom only, and its sign.
+            return (a - c) * b.sign()
+        return (d - b) * a.sign() if a == c else None
 
     def __float__(self) -> float:
         """The nearest float."""
