@@ -175,6 +175,18 @@ class TestRuns:
             xa.explore(CIRCLES, go)
         assert caught.value.run.ending is Ending.UNDECIDED
 
+    def test_that_are_generators_or_coroutines_do_not_run(self) -> None:
+        def steps(robot: xa.Robot) -> Iterator[None]:
+            robot.go_to((0, 2))
+            yield
+
+        async def later(robot: xa.Robot) -> None:
+            robot.go_to((0, 2))
+
+        for rules in (steps, later):
+            with pytest.raises(xa.StrategyError, match="has not run: it is called, not iterated or awaited"):
+                xa.explore(CIRCLES, rules)
+
     def test_report_progress(self) -> None:
         told: list[tuple[int, int]] = []
         room = xa.Scene(

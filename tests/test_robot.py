@@ -397,7 +397,7 @@ class TestErrors:
         with pytest.raises(xa.InvalidScene, match="lies inside obstacle"):
             xa.Robot(SQUARES, start=(3, 0))
         crossing = xa.Scene([[(-1, 1), (1, 1), (1, 2)]], start=(3, 3), terrain=xa.Terrain(5, 5), radius=2)
-        with pytest.raises(xa.InvalidScene, match="only the Seed Spreader"):
+        with pytest.raises(xa.InvalidScene, match="only robots that are confined"):
             xa.Robot(crossing)
 
     def test_undecided_is_for_good(self, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -520,3 +520,51 @@ def test_walks_all_around_end(seed: int) -> None:
                 break
         perimeter = random_scene(Subject.SIGHTSEER, seed).obstacles[robot._numbers[halt.obstacle]].perimeter
         assert robot.length - way == perimeter
+
+
+FAR = 10**200
+
+
+@pytest.mark.parametrize(
+    ("ask", "error", "text"),
+    [
+        (lambda r: r.go_to((0, FAR)), xa.MoveError, "too far away: coordinates lie within 10^100"),
+        (lambda r: r.lay([(0, 0), (-1e308, 0)]), xa.MoveError, "too far away"),
+        (lambda r: r.path_to((0, FAR)), xa.MoveError, "too far away"),
+        (lambda r: r.go_to((0, 1), until=None), ValueError, "looks out for sight, .* not for None"),
+        (lambda r: r.go_to((0, 1), until=5), ValueError, "not for 5"),
+        (
+            lambda r: r.follow(r.lay([(0, 0), (0, 5)]), watch=lambda _: True),
+            xa.MoveError,
+            "answers with a point",
+        ),
+        (lambda r: r.follow(r.lay([(0, 0), (0, 5)]), watch=lambda _: (7, 7)), xa.MoveError, "not on the way"),
+        (
+            lambda r: r.take_up(r.lay([(0, 0), (3, 0)]), None),
+            xa.MoveError,
+            "an exit is what robot.exits gives",
+        ),
+        (lambda r: r.map.known([0]), ValueError, r"no obstacle \[0\] was seen"),
+        (lambda r: r.map.known(0.0), ValueError, "no obstacle 0.0 was seen"),
+        (lambda r: r.map.known_in((0, 0)), ValueError, "a box is"),
+    ],
+)
+def test_slips_are_told_in_words(
+    ask: Callable[[xa.Robot], object], error: type[Exception], text: str
+) -> None:
+    robot = xa.Robot(SQUARES)
+    with pytest.raises(error, match=text.replace("^", r"\^")):
+        ask(robot)
+
+
+def test_a_watch_may_answer_with_coordinates() -> None:
+    robot = xa.Robot(SQUARES)
+    assert robot.follow(robot.lay([(0, 0), (0, 5)]), watch=lambda _: (0, 2)).place == Point(0, 2)
+
+
+def test_no_path_leads_into_an_obstacle_whatever_its_number_is() -> None:
+    robot = xa.Robot(xa.Scene([xa.Circle((5, 0), 2), xa.Circle((0, 9), 2)], start=(0, 0), radius=20))
+    robot.go_to((0, 9))
+    robot.circle()
+    with pytest.raises(xa.MoveError, match=r"^no path: \(0, 9\) lies inside an obstacle$"):
+        robot.path_to((0, 9))

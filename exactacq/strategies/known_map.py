@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence, Set
 from dataclasses import dataclass
+from operator import index
 from typing import NamedTuple
 
 from exactacq.cached import cached_property
+from exactacq.errors import shown
 from exactacq.geometry.curves import Curve
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
@@ -131,22 +133,24 @@ class KnownMap:
         >>> [str(part.length) for part in xa.Robot(xa.load("circles")).map.known(0)]
         ['2*acos(-17/25)']
         """
-        if i not in self._parts:
-            chart, k = self._of(i)
-            self._parts[i] = _parts(chart, k, i)
-        return self._parts[i]
+        chart, k = self._of(i)
+        if k not in self._parts:
+            self._parts[k] = _parts(chart, k, i)
+        return self._parts[k]
 
     def known_in(self, box: Sequence[float], *, but: Collection[int] = ()) -> tuple[KnownPart, ...]:
         """The known parts whose boxes meet a box (west, south, east, north), but for those of some obstacles.
 
-        Of an arc the box around its circle counts. The order of obstacles is fixed for the scene. Linear in
-        the known parts of the obstacles about there.
+        Of an arc the box around its circle counts. The order of obstacles is fixed for the scene. ValueError
+        for what is no box. Linear in the known parts of the obstacles about there.
 
         >>> import exactacq as xa
         >>> known = xa.Robot(xa.load("squares")).map
         >>> len(known.known_in((0, 0, 9, 9))), len(known.known_in((0, 0, 1, 1)))
         (1, 0)
         """
+        if len(box) != 4:
+            raise ValueError(f"a box is (west, south, east, north), not {shown(box)}")
         own, count = self._numbers.own, self._count
         some = [k for k in self._numbers.meeting(box) if own.get(k, count) < count and own[k] not in but]
         chart = self._chart(set(some))
@@ -249,9 +253,13 @@ class KnownMap:
         return self._charts[k], k
 
     def _number(self, i: int) -> int:
-        if i not in range(self._count):
-            raise ValueError(f"no obstacle {i!r} was seen yet")
-        return self._numbers.order[i]
+        try:
+            number = index(i)
+        except TypeError:
+            number = -1
+        if number not in range(self._count):
+            raise ValueError(f"no obstacle {shown(i)} was seen yet")
+        return self._numbers.order[number]
 
 
 def _parts(chart: Map, k: int, i: int) -> tuple[KnownPart, ...]:

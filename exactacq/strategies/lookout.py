@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Set
 
-from exactacq.errors import MoveError
+from exactacq.errors import FormatError, MoveError, shown
+from exactacq.geometry.coordinates import cross
 from exactacq.geometry.curves import Segment
+from exactacq.geometry.late import balls, from_to
 from exactacq.geometry.points import Point
+from exactacq.numbers.rationals import ball_sign
 from exactacq.sensing.map import Map
 from exactacq.sensing.path import Piece
 from exactacq.sensing.sensor import Ahead, Notice
@@ -26,6 +29,8 @@ class Lookout:
     def __init__(self, way: Segment, watch: Watch, walker: Walker, numbers: Numbering) -> None:
         self._watch, self._walker, self._numbers = watch, walker, numbers
         along = way.direction
+        self._start = balls(way.start)
+        self._along = from_to(self._start, balls(way.end))
         self._upright = along.y.sign() != 0
         self._sense = along.y.sign() if self._upright else along.x.sign()
         now = walker.memory.now
@@ -49,9 +54,18 @@ class Lookout:
         return (a.y.compare(b.y) if self._upright else a.x.compare(b.x)) * self._sense
 
     def _ask(self, passage: Passage) -> None:
-        stop = self._watch(passage)
-        if stop is not None and stop is not self._stop and self._order(stop, passage.place) < 0:
-            raise MoveError(f"the robot has passed {stop}, and cannot halt there")
+        answer = self._watch(passage)
+        try:
+            stop = None if answer is None else Point.of(answer)
+        except FormatError:
+            text = f"what watches a way answers with a point of it or with None, not {shown(answer)}"
+            raise MoveError(text) from None
+        if stop is not None and stop is not self._stop:
+            # Balls are enough here: of a place that is reached it is asked exactly.
+            if ball_sign(cross(self._along, from_to(self._start, balls(stop)))):
+                raise MoveError(f"{stop} is not on the way")
+            if self._order(stop, passage.place) < 0:
+                raise MoveError(f"the robot has passed {stop}, and cannot halt there")
         self._stop = stop
 
     def _pass(self, ahead: Ahead, notice: Notice) -> None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import NamedTuple, TypeAlias
 
+from exactacq.errors import shown
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.sensing.event import SENSED, EventKind
@@ -153,8 +154,10 @@ class EnoughMoves(BaseException):
 
 def kinds_of(until: EventKind | Collection[EventKind]) -> frozenset[EventKind]:
     """Kinds of sightings that were given as one or several."""
+    words = f"a robot looks out for {', '.join(SENSED)}, not for"
+    if not isinstance(until, Collection):
+        raise ValueError(f"{words} {shown(until)}")
     kinds = frozenset([until] if isinstance(until, str) else until)
     if others := kinds - set(SENSED):
-        words = ", ".join(SENSED)
-        raise ValueError(f"a robot looks out for {words}, not for {', '.join(sorted(map(str, others)))}")
+        raise ValueError(f"{words} {', '.join(sorted(map(str, others)))}")
     return frozenset(map(EventKind, kinds))

@@ -24,7 +24,7 @@ from exactacq.scene.edge_table import EdgeTable, Floats
 from exactacq.scene.scene import Scene, radius_of, start_of
 from exactacq.scene.shapes import Terrain
 from exactacq.scene.terrain_components import Ground, ground_of
-from exactacq.scene.validation import place_text
+from exactacq.scene.validation import LIMIT, LIMIT_TEXT, place_text
 from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Path, Piece
 from exactacq.strategies.first_hit import first_hit, obstacle_at
@@ -68,7 +68,7 @@ class Observer:
         ground = ground_of(scene) if confined else None
         place = start_of(scene, start) if ground is None else ground.terrain.south_west
         if ground is None and (border := scene.meets_border()):
-            rule = "meets the terrain's border: only the Seed Spreader takes such obstacles"
+            rule = "meets the terrain's border: only robots that are confined to it take such obstacles"
             raise InvalidScene([f"obstacle {scene.obstacles[k].label} {rule}" for k in border])
         reach = radius_of(scene, radius, place)
         if flaws := list(_start_flaws(scene, start, place, confined)):
@@ -288,8 +288,7 @@ class Observer:
         places, here = [Point.of(point) for point in points], self.position
         if not places or (places[0] is not here and places[0] != here):
             raise MoveError("a route begins where the robot is: let its first point be robot.position")
-        for place in places[1:]:
-            self._check_border(place)
+        places[1:] = map(self._goal, places[1:])
         pieces = [Segment(p, q) for p, q in pairwise([here, *places[1:]]) if p != q]
         end_on = self._told[1] if self._told is not None and self._told[0] is places[-1] else None
         return Route(pieces, self._walker, here, self._blocking.crossings(pieces, end_on))
@@ -400,12 +399,11 @@ class Observer:
         >>> print(robot.path_to((8, 0)).length.decimal(6), robot.path_to((7, 0)).length)
         6.83712 2*pi
         """
-        goal = Point.of(point)
-        self._check_border(goal)
+        goal = self._goal(point)
         try:
             found = self._paths.to(goal)
-        except InvalidScene as error:
-            raise MoveError(f"no path: {error.violations[0]}") from None
+        except InvalidScene:
+            raise MoveError(f"no path: {place_text(goal)} lies inside an obstacle") from None
         if found is None:
             raise MoveError(f"no path: border and known boundaries part the robot from {goal}")
         return found
@@ -471,6 +469,14 @@ class Observer:
                 )
                 return gap.component.index, gap.begin.point
             return None
+
+    def _goal(self, point: Point | Sequence[object]) -> Point:
+        """A point to go to, if it is not too far away, and not beyond a border."""
+        goal = Point.of(point)
+        if any(c.compare(LIMIT) > 0 or c.compare(-LIMIT) < 0 for c in goal):
+            raise MoveError(f"{place_text(goal)} is too far away: coordinates lie within {LIMIT_TEXT}")
+        self._check_border(goal)
+        return goal
 
     def _check_border(self, point: Point) -> None:
         if self._ground is None:

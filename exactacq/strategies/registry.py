@@ -64,6 +64,8 @@ def strategy(
         raise StrategyError(f"{name} is a strategy of exactacq: choose another name")
     if callable(name):
         raise StrategyError('a strategy is registered under a name: write @xa.strategy("NAME")')
+    if bounds is not None and not callable(bounds):
+        raise StrategyError(f"bounds are what a function of the run gives, not {shown(bounds)}")
     if not is_name(name):
         raise StrategyError(f'a strategy has a name of letters, digits, "-" and "_", not {shown(name)}')
 

@@ -120,10 +120,9 @@ class Robot(Observer):
         >>> print(halt.place, halt.sighting.place)
         (0, -40217/8192) (0, -2*sqrt(6))
         """
-        target, walker = Point.of(point), self._walker
+        target, walker = self._goal(point), self._walker
         here = walker.position
         awaited = Awaited(kinds_of(until), here, just_past)
-        self._check_border(target)
         hit = self._hit_on(Segment(here, target)) if target != here else None
         end = target if hit is None else hit[1]
         kind, sighting, moves = (HaltKind.ARRIVED if hit is None else HaltKind.HIT), None, end != here
@@ -288,8 +287,11 @@ class Robot(Observer):
         >>> robot.position, robot.visited
         (Point(20, 0), (0, 1))
         """
+        self._check_owner(route)
+        if not isinstance(place, Exit):
+            raise MoveError(f"an exit is what robot.exits gives, not {shown(place)}")
         crossing = place._crossing
-        if route._of is not self._walker or place._of is not route:
+        if place._of is not route:
             raise MoveError("the place is not one of this route, or of this robot")
         if crossing.component.index != self._walker.at or crossing.number < route._next:
             raise MoveError("the place is not ahead at the obstacle where the robot is")
