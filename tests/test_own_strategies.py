@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import pickle
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Awaitable, Callable, Iterator
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -183,9 +183,16 @@ class TestRuns:
         async def later(robot: xa.Robot) -> None:
             robot.go_to((0, 2))
 
-        for rules in (steps, later):
+        started = []
+
+        def awaited(robot: xa.Robot) -> Awaitable[None]:
+            started.append(later(robot))
+            return started[-1]
+
+        for rules in (steps, awaited):
             with pytest.raises(xa.StrategyError, match="has not run: it is called, not iterated or awaited"):
                 xa.explore(CIRCLES, rules)
+        started[0].close()
 
     def test_report_progress(self) -> None:
         told: list[tuple[int, int]] = []

@@ -6,6 +6,7 @@ obstacles that it has not seen. Equal scenes give equal numbers.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from enum import Enum
 from functools import cmp_to_key, partial
@@ -402,8 +403,10 @@ class Observer:
         goal = self._goal(point)
         try:
             found = self._paths.to(goal)
-        except InvalidScene:
-            raise MoveError(f"no path: {place_text(goal)} lies inside an obstacle") from None
+        except InvalidScene as error:
+            # What is known is a scene of its own, with other numbers of obstacles.
+            flaw = re.sub(r"\bobstacle O\d+", "an obstacle", error.violations[0])
+            raise MoveError(f"no path: {flaw.removeprefix('end: ')}") from None
         if found is None:
             raise MoveError(f"no path: border and known boundaries part the robot from {goal}")
         return found
