@@ -76,6 +76,8 @@ class TestStraightMoves:
         assert robot.go_to((0, 0)).kind == "arrived" and robot.at is None and len(robot.path) == 0
         beside = xa.Robot(SQUARES, start=(2, 0))
         assert beside.at is None
+        with pytest.raises(xa.MoveError, match=r"it only touches one; go_to\(robot.position\) puts it there"):
+            beside.walk()
         assert beside.go_to((2, 0)).obstacle == 0 and beside.walk().kind == "round"
 
     def test_from_a_boundary_into_its_obstacle(self) -> None:

@@ -529,7 +529,10 @@ class Observer:
     def _at_boundary(self) -> int:
         """The scene's number of the obstacle where the robot is."""
         if self._walker.at == START:
-            raise MoveError("the robot is at no boundary: go to one first")
+            way = "go to one first"
+            if obstacle_at(self._table, self.position) is not None:
+                way = "it only touches one; go_to(robot.position) puts it there"
+            raise MoveError(f"the robot is at no boundary: {way}")
         return int(self._walker.at)
 
     def _walker_on_known_boundary(self) -> Walker:

@@ -103,6 +103,7 @@ def random_scene(subject: Subject, seed: int) -> Scene:
     In half of its scenes obstacles lie over the border; a sixth are long and narrow with many diversions, and
     the slowest. ValueError for a negative seed. Cost: about ten milliseconds.
 
+    >>> from exactacq.study.random_scenes import Subject, random_scene
     >>> random_scene(Subject.SIGHTSEER, 1)
     <Scene 'sightseer-1': 5 obstacles>
     """

@@ -44,6 +44,7 @@ def family_scene(name: str, n: int, seed: int, strategy: str) -> Scene:
     ValueError for an unknown family or strategy, a size outside `SIZES`, or a negative seed. Near linear in
     *n*: 10 milliseconds for each ten.
 
+    >>> from exactacq.study.families.scenes import family_scene
     >>> family_scene("plates", 12, 1, "seed-spreader")
     <Scene 'plates-12-seed-spreader-1': 12 obstacles>
     """
