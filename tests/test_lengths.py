@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import itertools
 import pickle
 import random
 import time
@@ -594,28 +593,3 @@ def test_a_share_of_pi_is_found_whatever_cancels() -> None:
     cosine = ((Real(5).sqrt() + 1) / 4 + little) ** 2
     cosine = cosine.sqrt() - little
     assert Length.arc(1, cosine, (1 - cosine**2).sqrt()) == Length.turns(1, "1/10")
-
-
-@given(st.lists(st.integers(-3, 3), min_size=8, max_size=8))
-def test_quotients_are_ordered_as_their_values(rows: list[int]) -> None:
-    """Ties too, where both divisors or both dividends have no angles, or are equal."""
-    roots = [Real(0), Real(1), Real(5).sqrt(), Real("1/3")]
-    lengths = [
-        Length(roots[abs(k)]) * k + Length.turns(fmpq(m, 2)) for k, m in zip(rows[:4], rows[4:], strict=True)
-    ]
-    for a, b, c, d in itertools.permutations(lengths):
-        if not (b.sign() and d.sign()):
-            continue
-        first, second = a / b, c / d
-        with mpmath.workdps(60):
-            x, y = (value(q.top) / value(q.bottom) for q in (first, second))
-            expected = 0 if abs(x - y) < mpmath.mpf(10) ** -50 else 1 if x > y else -1
-        try:
-            assert first.compare(second) == expected
-        except Undecided:
-            tells = (a.is_algebraic and c.is_algebraic) or (b.is_algebraic and d.is_algebraic)
-            assert expected == 0 and not tells and a != c and b != d
-
-
-def value(length: Length) -> mpmath.mpf:
-    return mpmath.mpf(length.decimal(60))

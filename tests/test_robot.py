@@ -297,7 +297,7 @@ class TestPeeking:
 
     def test_every_public_name_was_thought_of(self) -> None:
         names = {name for name in dir(xa.Robot) if not name.startswith("_")}
-        moves = {"go_to", "walk", "walk_to", "circle", "follow", "take_up", "take", "go_back"}
+        moves = {"go_to", "go_along", "walk", "walk_to", "circle", "follow", "take_up", "take", "go_back"}
         asks = {
             "radius", "start", "position", "at", "path", "length", "seen", "visited", "map", "frontier",
             "sightings", "look", "links", "nearest_unvisited", "knows_unvisited", "unvisited", "way_to",
@@ -463,110 +463,3 @@ def test_a_straight_way_halts_at_a_corner_that_it_touches() -> None:
     halt = robot.go_to((8, 0), until="lose")
     assert (halt.kind.value, halt.place) == ("event", xa.Point(2, 0))
     assert robot.go_to((8, 0), until="regain").kind == "event"
-
-
-@pytest.mark.parametrize("seed", range(40))
-def test_just_past_a_sighting_nothing_else_has_happened_and_numbers_are_short(seed: int) -> None:
-    scene = random_scene(Subject.SIGHTSEER, seed)
-    rng = Random(seed)
-    goal, kinds, hand = (
-        (rng.randint(-9, 9), rng.randint(-9, 9)),
-        SIGHTS[seed % 4],
-        rng.choice(["left", "right"]),
-    )
-    exact, past = xa.Robot(scene), xa.Robot(scene)
-    at = exact.go_to(goal, until=kinds)
-    short = past.go_to(goal, until=kinds, just_past=True)
-    if at.kind == "hit":
-        at, short = exact.walk(hand, until=kinds), past.walk(hand, until=kinds, just_past=True)
-    assert (short.kind, short.obstacle, short.sighting) == (at.kind, at.obstacle, at.sighting)
-    # What is in sight up to the very place of the sighting is lost beyond it.
-    told = len(exact.sightings)
-    assert past.sightings[:told] == exact.sightings
-    assert all(later.kind == "lose" and later.place == at.place for later in past.sightings[told:])
-    if at.kind == "event" and at.place.rational is None:
-        assert short.place.rational is not None
-        assert exact.length.compare(past.length) < 0
-
-
-def test_moves_just_past_sightings_end_at_the_goal_and_at_corners_too() -> None:
-    robot = xa.Robot(SQUARES)
-    halt = robot.go_to((20, 0), until="sight", just_past=True)
-    assert (halt.kind, halt.place) == ("hit", Point(2, 0))
-    halt = robot.walk(until="acquire", just_past=True)
-    assert halt.kind == "event" and halt.place == halt.sighting.place == Point(4, 1)
-
-
-@pytest.mark.parametrize("past", [False, True])
-def test_a_walk_is_round_though_something_happens_just_there(past: bool) -> None:
-    """The last of a disc is seen where the lap ends; there a second lap began, and so on for ever."""
-    robot = xa.Robot(xa.Scene([xa.Circle((5, 0), 2)], start=(3, 0), radius=20))
-    robot.go_to((3, 0))
-    kinds = [robot.walk(until="acquire", just_past=past).kind.value for _ in range(3)]
-    assert kinds == ["event", "round", "round"]
-    assert robot.length == xa.Length.turns(4) and robot.visited == (0,)
-
-
-@pytest.mark.parametrize("seed", range(30))
-def test_walks_all_around_end(seed: int) -> None:
-    """However often they are stopped, one lap is as long as the boundary."""
-    robot = xa.Robot(random_scene(Subject.SIGHTSEER, seed))
-    if not robot.seen:
-        return
-    halt = robot.go_to(robot.map.nearest(0, robot.position))
-    hand = "left" if seed % 2 else "right"
-    if halt.obstacle is not None:
-        way = robot.length
-        for _ in range(400):
-            if robot.walk(hand, until=SIGHTS, just_past=seed % 3 == 0).kind == "round":
-                break
-        perimeter = random_scene(Subject.SIGHTSEER, seed).obstacles[robot._numbers[halt.obstacle]].perimeter
-        assert robot.length - way == perimeter
-
-
-FAR = 10**200
-
-
-@pytest.mark.parametrize(
-    ("ask", "error", "text"),
-    [
-        (lambda r: r.go_to((0, FAR)), xa.MoveError, "too far away: coordinates lie within 10^100"),
-        (lambda r: r.lay([(0, 0), (-1e308, 0)]), xa.MoveError, "too far away"),
-        (lambda r: r.path_to((0, FAR)), xa.MoveError, "too far away"),
-        (lambda r: r.go_to((0, 1), until=None), ValueError, "looks out for sight, .* not for None"),
-        (lambda r: r.go_to((0, 1), until=5), ValueError, "not for 5"),
-        (
-            lambda r: r.follow(r.lay([(0, 0), (0, 5)]), watch=lambda _: True),
-            xa.MoveError,
-            "answers with a point",
-        ),
-        (lambda r: r.follow(r.lay([(0, 0), (0, 5)]), watch=lambda _: (7, 7)), xa.MoveError, "not on the way"),
-        (
-            lambda r: r.take_up(r.lay([(0, 0), (3, 0)]), None),
-            xa.MoveError,
-            "an exit is what robot.exits gives",
-        ),
-        (lambda r: r.map.known([0]), ValueError, r"no obstacle \[0\] was seen"),
-        (lambda r: r.map.known(0.0), ValueError, "no obstacle 0.0 was seen"),
-        (lambda r: r.map.known_in((0, 0)), ValueError, "a box is"),
-    ],
-)
-def test_slips_are_told_in_words(
-    ask: Callable[[xa.Robot], object], error: type[Exception], text: str
-) -> None:
-    robot = xa.Robot(SQUARES)
-    with pytest.raises(error, match=text.replace("^", r"\^")):
-        ask(robot)
-
-
-def test_a_watch_may_answer_with_coordinates() -> None:
-    robot = xa.Robot(SQUARES)
-    assert robot.follow(robot.lay([(0, 0), (0, 5)]), watch=lambda _: (0, 2)).place == Point(0, 2)
-
-
-def test_no_path_leads_into_an_obstacle_whatever_its_number_is() -> None:
-    robot = xa.Robot(xa.Scene([xa.Circle((5, 0), 2), xa.Circle((0, 9), 2)], start=(0, 0), radius=20))
-    robot.go_to((0, 9))
-    robot.circle()
-    with pytest.raises(xa.MoveError, match=r"^no path: the point \(0, 9\) lies inside an obstacle"):
-        robot.path_to((0, 9))

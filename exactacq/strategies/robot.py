@@ -12,7 +12,7 @@ from functools import cmp_to_key, partial, wraps
 from typing import Concatenate, ParamSpec, TypeAlias, TypeVar
 
 from exactacq.errors import MoveError, Undecided, shown
-from exactacq.geometry.curves import Curve, Segment
+from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.sensing.decision import Decision
@@ -27,6 +27,7 @@ from exactacq.strategies.observer import Observer, not_there
 from exactacq.strategies.routes import Exit, Route
 from exactacq.strategies.sightings import Sightings
 from exactacq.visibility.links import START, Link, Node, lexicographic
+from exactacq.visibility.shortest_path import ShortestPath
 
 Decided: TypeAlias = "Decision | Callable[[], Decision]"
 Why: TypeAlias = "str | Decision | Callable[[], str | Decision]"
@@ -59,8 +60,9 @@ class Robot(Observer):
     """A point robot in free space, or on a boundary, with a vision sensor of limited *radius*.
 
     *start* and *radius* default to the scene's own; both are rational. The robot sees all the way as it
-    moves: grazing does not block its sight. What it may do are the methods that move it, `go_to`, `walk`,
-    `walk_to`, `circle`, `follow`, `take_up`, `take` and `go_back`; all else are questions, which cost no way.
+    moves: grazing does not block its sight. What it may do are the methods that move it, `go_to`, `go_along`,
+    `walk`, `walk_to`, `circle`, `follow`, `take_up`, `take` and `go_back`; all else are questions, which cost
+    no way.
     It never tells anything of the scene but what it has seen, of a boundary all around which it has walked
     the links that begin there, and at a known point of a boundary whether a route crosses it. A terrain's
     border is no wall, and is not seen. Moves take a *reason*, a text or a `Decision` with the robot's numbers
@@ -219,6 +221,44 @@ class Robot(Observer):
             self._walk_to(Point.of(point), reason)
         except ValueError as error:
             raise not_there(error) from None
+
+    def go_along(
+        self,
+        path: ShortestPath,
+        *,
+        until: EventKind | Collection[EventKind] = (),
+        just_past: bool = False,
+        reason: Why = "",
+    ) -> Halt:
+        """Go along a path from where the robot is (see `path_to`), piece by piece by `go_to` and `walk`.
+
+        It ends where the path does, or at the first place where an obstacle is in the way or what *until*
+        says happens; the halt is that of the last piece. `MoveError` for a path that begins elsewhere; what
+        the moves raise besides. Each piece counts as a move.
+
+        >>> import exactacq as xa
+        >>> robot = xa.Robot(xa.load("circles"))
+        >>> _ = robot.take(robot.nearest_unvisited()), robot.circle()
+        >>> halt = robot.go_along(robot.path_to((7, 1)))
+        >>> print(halt.kind, halt.place, robot.length.decimal(6))
+        arrived (7, 1) 20.9950
+        """
+        if not isinstance(path, ShortestPath):
+            raise MoveError(f"a path is what robot.path_to gives, not {shown(path)}")
+        if path.start is not self.position and path.start != self.position:
+            raise MoveError("the path begins elsewhere")
+        halt = Halt(HaltKind.ARRIVED, self.position, self.at)
+        for piece in path.path:
+            if isinstance(piece, Arc):
+                # A path that turns left has the obstacle on its left.
+                hand = "left" if piece.ccw else "right"
+                halt = self.walk(hand, to=piece.end, until=until, just_past=just_past, reason=reason)
+            else:
+                halt = self.go_to(piece.end, until=until, just_past=just_past, reason=reason)
+            if halt.kind is not HaltKind.ARRIVED:
+                break
+            reason = ""
+        return halt
 
     @_move
     def circle(self, *, reason: Why = "") -> None:
