@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import math
 from collections.abc import Callable
 from fractions import Fraction
@@ -418,7 +419,12 @@ def asked(path: Callable[[], xa.ShortestPath | None]) -> object:
     try:
         way = path()
     except (xa.MoveError, xa.InvalidScene) as error:
-        return str(error).removeprefix("no path: ")
+        # What a robot knows is a scene of its own: it numbers obstacles in another way.
+        return (
+            re.sub(r"obstacle O\d+", "an obstacle", str(error))
+            .removeprefix("no path: ")
+            .removeprefix("end: ")
+        )
     return None if way is None else (way.length, way.count, way.points)
 
 

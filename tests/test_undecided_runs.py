@@ -141,5 +141,5 @@ def test_what_is_decided_is_told_in_words() -> None:
 
 def test_a_strategy_of_ones_own_is_told_what_helps(monkeypatch: pytest.MonkeyPatch) -> None:
     undecided_after(monkeypatch, 2)
-    with pytest.raises(xa.Undecided, match="going on from a corner"):
+    with pytest.raises(xa.Undecided, match="halt with `just_past=True`, and ways to corners"):
         xa.explore(xa.load("circles"), lambda robot: [robot.go_to((x, 0)) for x in (1, 2, 3)])
