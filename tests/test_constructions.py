@@ -457,6 +457,17 @@ def test_a_place_at_a_distance_from_a_corner_knows_it_by_its_coordinates() -> No
     assert not is_put_around(place, Point(ROOT3, 0), fmpq(9))
 
 
+def test_lines_of_two_origins_are_not_mixed() -> None:
+    """What is known of the line to one is not told of the line to the other."""
+    place, first, second, corner = Point(0, 0), Point(-3, 0), Point(-3, -4), Point(3, 4)
+    carrier = Arc.circle(Point(5, 1), fmpq(1)).carrier
+    put_on_tangent(place, first, carrier)
+    put_past_corner(place, second, corner)
+    assert is_tangent(place, first, carrier) and is_past_corner(place, second, corner)
+    assert not is_tangent(place, second, carrier) and not is_tangent(place, corner, carrier)
+    assert not is_past_corner(place, first, corner)
+
+
 def look_again(robot: xa.Robot) -> None:
     """To one end of what is known after another; where something happens on the way it decides anew."""
     for n in range(5):

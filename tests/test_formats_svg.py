@@ -384,3 +384,9 @@ def test_uses_of_uses_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
     monkeypatch.setattr("exactacq.files.svg.load.MAX_ELEMENTS", 4000)
     with pytest.raises(xa.FormatError, match="more than 4000 elements are drawn; export only one part"):
         read(tmp_path, f"<defs><g id='g0'/>{groups}</defs><use href='#g19'/>")
+
+
+@pytest.mark.parametrize("width", ["1.5e308", "5e309", "3.1e310"])
+def test_gaps_beyond_the_largest_float_are_told(tmp_path: Path, width: str) -> None:
+    with pytest.raises(xa.FormatError):
+        read(tmp_path, f'<path d="M0 0L1e312 0L1e312 1e312L0 1e312L0 {width}"/>')

@@ -78,6 +78,7 @@ def test_walks_all_around_end(seed: int) -> None:
 
 
 FAR = 10**200
+BOXES = ((0, 0), None, "abcd", (0, 0, float("nan"), 1), (1, 0, 0, 1))
 
 
 @pytest.mark.parametrize(
@@ -101,7 +102,8 @@ FAR = 10**200
         ),
         (lambda r: r.map.known([0]), ValueError, r"no obstacle \[0\] was seen"),
         (lambda r: r.map.known(0.0), ValueError, "no obstacle 0.0 was seen"),
-        (lambda r: r.map.known_in((0, 0)), ValueError, "a box is"),
+        (lambda r: r.go_to((0, 1), until=[[1]]), ValueError, r"not for \[1\]"),
+        *((lambda r, b=box: r.map.known_in(b), ValueError, "a box is") for box in BOXES),
     ],
 )
 def test_slips_are_told_in_words(
@@ -123,6 +125,22 @@ def test_no_path_leads_into_an_obstacle_whatever_its_number_is() -> None:
     robot.circle()
     with pytest.raises(xa.MoveError, match=r"^no path: the point \(0, 9\) lies inside an obstacle"):
         robot.path_to((0, 9))
+
+
+def test_after_a_lap_the_next_one_begins() -> None:
+    """Whether it was stopped just where it ended or not; and a walk to a place leads there."""
+    robot = xa.Robot(SQUARES)
+    robot.go_to((2, 0))
+    assert [robot.walk().kind.value for _ in range(3)] == ["round"] * 3 and robot.length == 2 + 3 * 8
+    again = xa.Robot(xa.Scene([xa.Circle((5, 0), 2)], start=(3, 0), radius=20))
+    again.go_to((3, 0))
+    assert again.walk(until="acquire").kind == "event"
+    assert again.walk(to=(7, 0)).kind == "arrived" and again.position == Point(7, 0)
+
+
+def test_parts_have_the_numbers_of_their_obstacles_however_these_are_asked_for() -> None:
+    known = xa.Robot(SQUARES).map
+    assert known.known(False)[0].obstacle is not False and type(known.known(0)[0].obstacle) is int
 
 
 class TestPaths:

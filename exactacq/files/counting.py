@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-_JOINT = re.compile(r"( of | in | \()")
+_JOINT = re.compile(r"( of | in | without | \()")
 """What follows a noun begins so."""
 
 

@@ -77,7 +77,7 @@ def put_around(point: Point, center: Point, square: fmpq) -> None:
 
 
 def is_put_around(point: Point, other: Point, square: fmpq) -> bool:
-    """Whether one of two points was made at a squared distance from the other, that very object."""
+    """Whether one of two points was made at a squared distance from the other."""
     return _is_around(point, other, square) or _is_around(other, point, square)
 
 
@@ -88,8 +88,9 @@ def _is_around(point: Point, center: Point, square: fmpq) -> bool:
 
 # -- lines through two points ----------------------------------------------------------------------
 #
-# What is known of the line of two points was noted at one of them, as that was made on the line from the
-# other one, that very object. Of the other forms of a fact the first counts.
+# What is known of the line of two points was noted at one of them, as that was made on a line from another
+# point, its origin. The other one is that origin, or a place that the line was made through: the very object,
+# or an equal rational point. Of several forms of a fact the first counts.
 
 
 def put_on_tangent(point: Point, origin: Point, carrier: Carrier | None, touch: Point | None = None) -> None:

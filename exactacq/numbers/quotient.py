@@ -18,9 +18,9 @@ EARLY, LATE = (64, 256), (1024, 4096)
 class Quotient(Exact):
     """How many times one length goes into another, which is not 0.
 
-    Comparisons with rational numbers are exact: a / b < q where a < q b. So are those of two quotients whose
-    tops or bottoms are equal, or without angles: a / b < c / d where a d < c b, if b and d are positive. Of
-    others balls tell all but equality. They raise `Undecided` where that does.
+    Comparisons with rational numbers are exact: a / b < q where a < q b. So are those of two quotients with
+    one bottom, and of those whose bottoms, or whose tops, have no angles: a / b < c / d where a d < c b, if b
+    and d are positive. Of others balls tell all but equality. They raise `Undecided` where that does.
 
     >>> from exactacq.numbers.length import Length
     >>> half = Length("3/2") / Length(3)
@@ -94,10 +94,8 @@ class Quotient(Exact):
             return a * d.algebraic - c * b.algebraic
         if a.is_algebraic and c.is_algebraic:
             return d * a.algebraic - b * c.algebraic
-        if b == d:
-            # Times one bottom only, and its sign.
-            return (a - c) * b.sign()
-        return (d - b) * a.sign() if a == c else None
+        # Times one bottom only, and its sign.
+        return (a - c) * b.sign() if b == d else None
 
     def __float__(self) -> float:
         """The nearest float."""

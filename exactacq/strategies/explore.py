@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from inspect import isasyncgen, isawaitable, isgenerator, signature
+from inspect import isasyncgen, isawaitable, iscoroutine, isgenerator, signature
 
 from exactacq.errors import FormatError, InvalidScene, MoveError, StrategyError, Undecided, shown
 from exactacq.gc_pause import uncollected
@@ -98,6 +98,8 @@ def _explored(own: OwnStrategy, robot: Robot, scene: Scene, most: int, progress:
     try:
         answer = own.rules(robot)
         if isgenerator(answer) or isawaitable(answer) or isasyncgen(answer):
+            if iscoroutine(answer):
+                answer.close()
             raise StrategyError(f"the strategy {own.name} has not run: it is called, not iterated or awaited")
         if walker.stuck is not None:
             # The strategy went on without moving: what it has learned is not all that its path shows.

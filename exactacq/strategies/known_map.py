@@ -135,7 +135,7 @@ class KnownMap:
         """
         chart, k = self._of(i)
         if k not in self._parts:
-            self._parts[k] = _parts(chart, k, i)
+            self._parts[k] = _parts(chart, k, self._numbers.own[k])
         return self._parts[k]
 
     def known_in(self, box: Sequence[float], *, but: Collection[int] = ()) -> tuple[KnownPart, ...]:
@@ -149,8 +149,13 @@ class KnownMap:
         >>> len(known.known_in((0, 0, 9, 9))), len(known.known_in((0, 0, 1, 1)))
         (1, 0)
         """
-        if len(box) != 4:
+        try:
+            west, south, east, north = map(float, box)
+        except (TypeError, ValueError):
+            west, south, east, north = 1.0, 1.0, 0.0, 0.0
+        if not (west <= east and south <= north):
             raise ValueError(f"a box is (west, south, east, north), not {shown(box)}")
+        box = west, south, east, north
         own, count = self._numbers.own, self._count
         some = [k for k in self._numbers.meeting(box) if own.get(k, count) < count and own[k] not in but]
         chart = self._chart(set(some))

@@ -157,7 +157,7 @@ def kinds_of(until: EventKind | Collection[EventKind]) -> frozenset[EventKind]:
     words = f"a robot looks out for {', '.join(SENSED)}, not for"
     if not isinstance(until, Collection):
         raise ValueError(f"{words} {shown(until)}")
-    kinds = frozenset([until] if isinstance(until, str) else until)
-    if others := kinds - set(SENSED):
+    kinds = [until] if isinstance(until, str) else [*until]
+    if others := [kind for kind in kinds if kind not in SENSED]:
         raise ValueError(f"{words} {', '.join(sorted(map(str, others)))}")
     return frozenset(map(EventKind, kinds))

@@ -106,9 +106,9 @@ class Robot(Observer):
         just where it sets out do not count. Touching boundaries does not stop it.
 
         The place of a sighting often has long numbers, and those of a place that is found from there are
-        longer. *just_past* the sighting it halts at one with short numbers, if the way has any: within the
-        first 64th of the way to whatever happens next, or at the end of the edge or way if it happens there.
-        The sighting has its own place.
+        longer. *just_past* the sighting it halts at one with short numbers, if the way has any: early on the
+        way to whatever happens next, or at the end of the edge or way if it happens there. The sighting has
+        its own place.
 
         ValueError for kinds that no sensor reports, `MoveError` for a point beyond a border that confines the
         robot.
@@ -160,7 +160,7 @@ class Robot(Observer):
         """Walk along the present boundary with a hand at it: all around, or to a point, or until an event.
 
         A lap that was interrupted goes on if the hand is the same: the robot is round where it began. If it
-        is stopped just there, the next call makes no way and says that it is round. *to* is a point of the
+        is stopped just there, the next call without *to* says so and makes no way. *to* is a point of the
         boundary; if it is none, the robot finds that out by coming round. For *until* and *just_past* see
         `go_to`. `MoveError` at no boundary and at one that a border cuts, ValueError for another hand or
         other kinds.
@@ -189,7 +189,9 @@ class Robot(Observer):
         if lap is None or lap.forward is not (hand == "left"):
             lap = Lap(walker.boundary(), here, hand == "left")
         elif not lap.rest:
-            return Halt(HaltKind.ROUND, here, self.at)
+            if target is None:
+                return Halt(HaltKind.ROUND, here, self.at)
+            lap = Lap(walker.boundary(), here, lap.forward)
         self._lap = lap
         self._explain(self._decided(reason))
         while lap.rest:

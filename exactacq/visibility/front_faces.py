@@ -213,7 +213,8 @@ class FrontFaces:
         faces.own = list(own)
         if len(own) == 1 and point.rational is None and isinstance(table.curves[own[0]], Segment):
             rays = along_edge(table, point, own[0], near)
-            self._rays |= {touched: ray for ray in rays for touched in ray.touched}
+            # Those that were known tell more.
+            self._rays = {touched: ray for ray in rays for touched in ray.touched} | self._rays
         if open_:
             self._decide(open_)
         arcs: list[tuple[int, int, int]] = []

@@ -195,8 +195,9 @@ class _Equals:
     ) -> Iterator[tuple[Curve, _Spot]]:
         """The longest pieces that begin at a spot or go on with a *piece*, and where they end.
 
-        Those that go on with the *last* piece are other paths, in which it is longer. Along a row of walls
-        there are ever more ways to the same spot: what it leads to is told once, and it is *reached*.
+        Pieces that go on with the *last* one are left out: they belong to other paths, in which that is
+        longer. Along a row of walls there are ever more ways to the same spot: what it leads to is told once,
+        and it is *reached*.
         """
         label, link, done = spot
         # All begin in one place: those on one line or circle that end in one place are one piece.

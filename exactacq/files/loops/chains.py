@@ -133,4 +133,8 @@ def scientific_above(value: fmpq, places: int = 2) -> str:
     digits = int((value / fmpq(10) ** power).ceil())
     while digits >= 10**places:
         digits, power = -(-digits // 10), power + 1
-    return f"{float(digits * Fraction(10) ** power):.{places}g}" if abs(power) < 300 else f"{digits}e{power}"
+    return (
+        f"{float(digits * Fraction(10) ** power):.{places}g}"
+        if -300 < power < 300 - places
+        else f"{digits}e{power}"
+    )

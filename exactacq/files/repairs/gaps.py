@@ -82,7 +82,7 @@ class ChainGaps:
     tried: tuple[TriedTolerance, ...] = ()
 
     def least(self, chain: int) -> fmpq | None:
-        """The least tolerance that closes a chain, unless it is `WIDER` times as wide as the widest gap."""
+        """The least tolerance that closes a chain, unless it is more than `WIDER` times its widest gap."""
         own = next((closing for closing in self.closings if chain in closing.chains), None)
         if own is None:
             return None
