@@ -468,6 +468,16 @@ def test_lines_of_two_origins_are_not_mixed() -> None:
     assert not is_past_corner(place, first, corner)
 
 
+def test_of_a_line_through_two_points_that_are_one_nothing_is_noted() -> None:
+    """There are many such lines, and what is known of one of them does not hold for another."""
+    place, same, corner = Point(0, 0), Point(ROOT3 - ROOT3, 0), Point(3, 4)
+    put_past_corner(place, same, corner)
+    put_on_tangent(place, same, Arc.circle(Point(5, 1), fmpq(1)).carrier)
+    put_on_normal(place, same, UNIT.carrier)
+    assert not is_tangent(place, corner, Arc.circle(Point(5, 1), fmpq(1)).carrier)
+    assert not is_past_corner(place, corner, corner) and not is_normal(place, corner, UNIT.carrier)
+
+
 def look_again(robot: xa.Robot) -> None:
     """To one end of what is known after another; where something happens on the way it decides anew."""
     for n in range(5):

@@ -15,6 +15,7 @@ from typing import NamedTuple, TypeAlias
 
 from flint import fmpq
 
+from exactacq.geometry.late import balls, may_be_one
 from exactacq.geometry.points import Point
 
 
@@ -188,7 +189,10 @@ def _places(line: _Line) -> tuple[Point, ...]:
 
 
 def _put(point: Point, fact: _Fact) -> None:
-    point._facts = (*_facts(point), fact)
+    # Through two points that are one there are many lines: none is noted.
+    origin = None if isinstance(fact, Carrier | _CircleAbout) else fact.origin
+    if origin is None or not may_be_one(balls(point), balls(origin)):
+        point._facts = (*_facts(point), fact)
 
 
 def _facts(point: Point) -> tuple[_Fact, ...]:

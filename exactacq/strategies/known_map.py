@@ -151,11 +151,11 @@ class KnownMap:
         """
         try:
             west, south, east, north = map(float, box)
+            is_box = west <= east and south <= north
         except (TypeError, ValueError):
-            west, south, east, north = 1.0, 1.0, 0.0, 0.0
-        if not (west <= east and south <= north):
+            is_box = False
+        if not is_box:
             raise ValueError(f"a box is (west, south, east, north), not {shown(box)}")
-        box = west, south, east, north
         own, count = self._numbers.own, self._count
         some = [k for k in self._numbers.meeting(box) if own.get(k, count) < count and own[k] not in but]
         chart = self._chart(set(some))
