@@ -139,7 +139,7 @@ NUMBER_FAULTS = [
         "a root that the field holds may be the negative one",
         FIELDS,
         ((17, 5, -1), (HAIR, Fraction(1), Fraction(1), Fraction(-2)), (Fraction(1),) * 4, Fraction(0)),
-        Fault(tower, "Tower._radical", "_scaled(root, self._sign(root))", "root"),
+        Fault(tower, "Tower._radical", "self._scaled(root, self._sign(root))", "root"),
     ),
     Planted(
         "a quadratic has one root",

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from fractions import Fraction
 from itertools import product
-from math import isqrt
+from math import isqrt, sqrt
 
 import pytest
 from flint import fmpq
 
 from exactacq import Length, Outline, Scene, sightseer
 from exactacq.geometry.points import Point
-from exactacq.numbers.atoms import square_free
+from exactacq.numbers.atoms import Node, square_free
 from exactacq.numbers.exact import LONGEST
+from exactacq.numbers.linear_forms import CONTENT_BITS
 from exactacq.numbers.rationals import plain
+from exactacq.numbers.real import Real
 from exactacq.scene.validation import place_text
 
 PRIME = 2**2203 - 1
@@ -64,3 +66,27 @@ def test_what_would_take_minutes_to_write_is_told_by_digits() -> None:
     assert long and all(len(text) < 40 for text in long)
     assert any("sqrt" in text for text in texts) and max(map(len, texts)) <= LONGEST
     assert str(Length.arc(1, "3/5", "4/5") + 1) == "2*atan(1/2) + 1"
+
+
+def test_numbers_made_of_one_another_stay_short() -> None:
+    """The content of a long form, as many bits as all of it, was taken out and multiplied at each step.
+
+    A robot that halted at 14 places, each made of the one before, had coefficients of four million bits.
+    """
+    x, rough = Real(2).sqrt(), sqrt(2)
+    for n in range(40):
+        x = (x * x / 7 + x / (n + 3) + Real(1) / 3).sqrt() * (1 + x / (n + 5))
+        rough = sqrt(rough * rough / 7 + rough / (n + 3) + 1 / 3) * (1 + rough / (n + 5))
+    assert 256 < _longest_coefficient(x) < 2 * CONTENT_BITS
+    assert float(x) == pytest.approx(rough, rel=1e-9)
+
+
+def _longest_coefficient(value: Real) -> int:
+    longest, ahead, seen = 0, [value], set()
+    while ahead:
+        for atom, c in ahead.pop().terms.items():
+            longest = max(longest, int(c.height_bits()))
+            if isinstance(atom, Node) and atom not in seen:
+                seen.add(atom)
+                ahead.extend(atom.args)
+    return longest

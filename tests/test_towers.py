@@ -5,14 +5,20 @@ Ties are planted: a number is taken apart and put together in another way, and t
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from fractions import Fraction
+from math import gcd
+
 import mpmath
 import pytest
-from flint import arb, fmpq, fmpq_poly
+from flint import arb, fmpq, fmpq_poly, fmpz
 from hypothesis import given
 from hypothesis import strategies as st
 
 from exactacq.geometry.points import Point
-from exactacq.numbers import number_field, sign
+from exactacq.numbers import number_field, sign, tower
+from exactacq.numbers.atoms import Root
+from exactacq.numbers.fields import RationalFunctions, Rationals
 from exactacq.numbers.function_zeros import roots
 from exactacq.numbers.number_field import NumberField
 from exactacq.numbers.real import Real
@@ -51,9 +57,9 @@ def test_the_root_of_a_square_is_found(parts: list[tuple[int, int]], base: int) 
     for a, b in parts:
         x = a + b * (x * x + 1).sqrt()
     root = (x * x).sqrt()
-    tower = Tower(root - abs(x))
-    assert not tower.element(root - abs(x))
-    assert len(tower.squares) <= 1 + len(parts)
+    field = Tower((root - abs(x)).generators())
+    assert not field.element(root - abs(x))
+    assert len(field.squares) <= 1 + len(parts)
 
 
 @given(st.tuples(SMALL, SMALL, SMALL), st.tuples(SMALL, SMALL))
@@ -69,10 +75,10 @@ def test_radicands_that_depend_on_each_other() -> None:
     values = [Real(d).sqrt() + (Real(d).sqrt() + 7).sqrt() for d in (6, 10, 15)]
     total = (values[0] * values[1] * values[2]).sqrt()
     again = (values[2] * values[0]).sqrt() * values[1].sqrt()
-    tower = Tower(total - again + Real(30).sqrt())
+    field = Tower((total - again + Real(30).sqrt()).generators())
     assert is_tie(total, again)
-    tower.element(total - again + Real(30).sqrt())
-    assert len([s for s in tower.radicals if isinstance(s, int)]) <= 3
+    field.element(total - again + Real(30).sqrt())
+    assert len([s for s, _ in field.radicals if isinstance(s, int)]) <= 3
 
 
 @pytest.mark.parametrize("d", [5, 6, 7])
@@ -129,6 +135,73 @@ def test_nested_roots_over_the_field_of_a_root(coefficients: tuple[int, ...]) ->
     assert is_tie(y, again)
     assert is_tie(1 / (x + y), (x - y) / (x * x - y * y))
     assert is_tie(1 / (y + again), 1 / (2 * y))
+
+
+# -- towers kept, and elements over a common denominator ---------------------------------------------
+
+
+@pytest.fixture
+def spent(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[float]]:
+    """The work of all towers made meanwhile, none of which was kept before."""
+    work: list[float] = []
+    plain = Tower._spend
+    monkeypatch.setattr(tower, "_kept", {})
+    monkeypatch.setattr(Tower, "_spend", lambda self, cost: work.append(cost) or plain(self, cost))  # type: ignore[func-returns-value]
+    yield work
+
+
+def tie(n: int) -> Real:
+    """0: what is n times a nested root, in two forms of the same radicals."""
+    x = (3 + Real(2).sqrt() + (5 + Real(7).sqrt()).sqrt()).sqrt()
+    return n * (1 / (x + 1)) - n * (x - 1) / (x * x - 1)
+
+
+def test_ties_of_the_same_radicals_share_a_tower(spent: list[float]) -> None:
+    assert vanishes(tie(1)) is True
+    first = sum(spent)
+    assert vanishes(tie(2)) is True
+    assert sum(spent) - first < first / 4
+    assert vanishes(tie(3) + HAIR) is False
+
+
+def test_a_tower_that_did_its_work_is_made_anew(spent: list[float], monkeypatch: pytest.MonkeyPatch) -> None:
+    assert vanishes(tie(1)) is True
+    monkeypatch.setattr(Tower, "most_terms", sum(spent))
+    x = (3 + Real(2).sqrt() + (5 + Real(7).sqrt()).sqrt()).sqrt()
+    assert vanishes((x + 1) * (x - 1) - x * x + 1) is True, "more than what is left of the first tower's"
+    monkeypatch.setattr(Tower, "most_terms", 1)
+    assert vanishes(tie(4)) is None
+    assert not tower._kept, "none that gave up is kept"
+
+
+def test_few_towers_are_kept(spent: list[float]) -> None:
+    for n in range(2, 3 * tower.TOWERS_KEPT):
+        x = (Real(n) + Real(n + 1).sqrt()).sqrt()
+        assert vanishes(1 / (x + 1) - (x - 1) / (x * x - 1)) is True
+    assert len(tower._kept) == tower.TOWERS_KEPT
+
+
+@given(st.lists(st.integers(-50, 50).filter(bool), min_size=1, max_size=4), st.integers(1, 500))
+def test_common_denominators_are_in_lowest_terms(tops: list[int], under: int) -> None:
+    parts, below = Rationals().lowest({k: fmpz(top) for k, top in enumerate(tops)}, fmpz(under))
+    assert [Fraction(int(parts[k]), int(below)) for k in range(len(tops))] == [
+        Fraction(t, under) for t in tops
+    ]
+    assert gcd(int(below), *map(int, parts.values())) == 1
+
+
+@given(st.lists(st.tuples(SMALL, SMALL), min_size=2, max_size=3), SMALL)
+def test_common_denominators_of_functions_are_in_lowest_terms(
+    pairs: list[tuple[int, int]], root: int
+) -> None:
+    """What polynomials and their denominator share is told by how they are made: (tau - root) and no more."""
+    field = RationalFunctions([(HIGH, 1)])
+    tau = field.of_atom(Root.make(HIGH, 1, 1))
+    assert tau is not None
+    parts = {k: (tau - root) * (a * tau * tau + b * tau + 1) for k, (a, b) in enumerate(pairs)}
+    lowest, below = field.lowest(parts, (tau - root) * (tau * tau * tau + 101))
+    assert below == tau * tau * tau + 101
+    assert [lowest[k] * (tau - root) for k in lowest] == list(parts.values())
 
 
 # -- limits ----------------------------------------------------------------------------------------
@@ -221,7 +294,7 @@ def anything() -> Real:
 def is_identity(value: Real) -> bool:
     tau = generic_in(value)
     assert tau is not None
-    return vanishes_about(value, [tau])
+    return vanishes_about(value)
 
 
 @given(SMALL, SMALL, st.integers(1, 9), st.tuples(SMALL, SMALL))
@@ -254,13 +327,11 @@ def test_identities_are_those_that_trials_tell(parts: list[tuple[int, int]], kin
 def test_what_vanishes_by_chance_is_no_identity() -> None:
     """The zero of a function may satisfy an equation of which its name says nothing."""
     tau = transcendental(Real, lambda bits: arb(2).sqrt())
-    node = generic_in(tau)
-    assert node is not None
-    assert not vanishes_about(tau * tau - 2, [node])
-    assert not vanishes_about((tau * tau + 7).sqrt() - 3, [node])
-    assert vanishes_about((tau * tau).sqrt() - tau, [node])
-    assert not vanishes_about((tau * tau).sqrt() + tau, [node])
-    assert vanishes_about(((1 - tau) * (1 - tau)).sqrt() + 1 - tau, [node]), "1 - tau is negative"
+    assert not vanishes_about(tau * tau - 2)
+    assert not vanishes_about((tau * tau + 7).sqrt() - 3)
+    assert vanishes_about((tau * tau).sqrt() - tau)
+    assert not vanishes_about((tau * tau).sqrt() + tau)
+    assert vanishes_about(((1 - tau) * (1 - tau)).sqrt() + 1 - tau), "1 - tau is negative"
 
 
 def test_functions_of_two_numbers() -> None:

@@ -16,9 +16,9 @@ from weakref import WeakValueDictionary
 
 from flint import arb, fmpq, fmpz
 
+from exactacq.numbers.isolation import refined
 from exactacq.numbers.precision import LOCK, workprec
 from exactacq.numbers.rationals import without
-from exactacq.numbers.root_isolation import refined
 
 if TYPE_CHECKING:
     import sympy

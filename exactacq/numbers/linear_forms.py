@@ -12,13 +12,15 @@ from typing import TypeAlias
 from flint import fmpq, fmpq_poly, fmpz, fmpz_poly
 
 from exactacq.numbers.atoms import Atom, Root, rational_sqrt, square_free
-from exactacq.numbers.root_isolation import isolated_roots
+from exactacq.numbers.isolation import isolated_roots
 
 Terms: TypeAlias = Mapping[Atom, fmpq]
 """A linear form; no coefficient is 0."""
 Field: TypeAlias = tuple[tuple[int, ...], int]
 """Ascending coefficients of an irreducible polynomial, and the index of the root that generates the field."""
 
+CONTENT_BITS = 1 << 11
+"""How many bits the coefficients of a form may have together for their content to be taken out."""
 ZERO, ONE = fmpq(0), fmpq(1)
 
 
@@ -35,8 +37,14 @@ def add_to(terms: dict[Atom, fmpq], other: Terms, factor: fmpq = ONE) -> dict[At
     return terms
 
 
-def content(terms: Terms) -> fmpq:
-    """The largest rational of which all coefficients are integer multiples."""
+def short_content(terms: Terms) -> fmpq:
+    """The largest rational of which all coefficients are integer multiples; 1 if they are long.
+
+    It may have as many bits as all coefficients together. Where numbers are made of one another, by products
+    and roots, they would become three times as long at every step.
+    """
+    if sum(c.height_bits() for c in terms.values()) > CONTENT_BITS:
+        return ONE
     numerator, denominator = fmpz(0), fmpz(1)
     for c in terms.values():
         numerator, denominator = numerator.gcd(c.p), denominator.lcm(c.q)

@@ -1,25 +1,23 @@
-"""First fields of towers of square roots: those of one and of two roots of polynomials, and of any number.
+"""Fields of one and of two roots of polynomials, as first fields of towers of square roots.
 
-Elements of the field of a root of an irreducible integer polynomial are polynomials in the root; the
-rationals are the field of the root 0 of x. Two roots are polynomials in one number, a sum of them. The
-elements of the field of any number are its rational functions: what is equal there is equal whatever number
-it is, which itself comes in only where its ball tells which of two square roots is meant.
+Elements of the field of a root of an irreducible integer polynomial are polynomials in the root. Two roots
+are polynomials in one number, a sum of them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection
 from functools import lru_cache
 from itertools import count, product
-from typing import TypeAlias
 
-from flint import Ordering, acb, arb, fmpq, fmpq_mat, fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly, fmpz, fmpz_poly
+from flint import acb, arb, fmpq, fmpq_mat, fmpq_poly, fmpz, fmpz_poly
 
 from exactacq.cached import cached_property
-from exactacq.numbers.atoms import Atom, Node, Root
+from exactacq.numbers.atoms import Atom, Root
+from exactacq.numbers.fields import RootKey, product_cost
+from exactacq.numbers.isolation import isolated_roots
 from exactacq.numbers.linear_forms import Terms, polynomial
 from exactacq.numbers.precision import workprec
-from exactacq.numbers.root_isolation import isolated_roots
 
 MOST_DEGREE = 8
 """Square roots are not looked for in fields of a higher degree: signs of all conjugates are tried."""
@@ -30,11 +28,10 @@ ROOT_BITS = 256
 MOST_WORK = 1 << 26
 """Bits of an element (see `NumberField.size`) times the square of its field's degree up to which a minimal
 polynomial is looked for. The element is taken as it is once it was multiplied by all powers of the root."""
+INVERSE = 3500
+"""An inverse costs the field's degree squared times the words of the element to the power 1.5, over this."""
 WIDE = 0.25
 """Balls with a smaller radius hold at most one integer."""
-
-RootKey: TypeAlias = "tuple[tuple[int, ...], int]"
-"""Ascending coefficients of an irreducible integer polynomial, and which of its real roots is meant."""
 
 
 class NumberField:
@@ -42,19 +39,21 @@ class NumberField:
 
     >>> cubic = NumberField((-2, 0, 0, 1), 0)
     >>> cubic.inverse(fmpq_poly([0, 1]))
-    1/2*x^2
+    (1/2*x^2, 1)
     >>> cubic.square_root(fmpq_poly([1, 2, 1])), cubic.square_root(fmpq_poly([2]))
     (x + 1, None)
     """
 
-    def __init__(self, coefficients: tuple[int, ...] = (0, 1), index: int = 0) -> None:
+    one = fmpz(1)
+
+    def __init__(self, coefficients: tuple[int, ...], index: int = 0) -> None:
         self.polynomial = fmpz_poly(list(coefficients))
         self.modulus = fmpq_poly(self.polynomial)
         self.degree = self.polynomial.degree()
         self._index = index
 
-    def constant(self, value: fmpq | int) -> fmpq_poly:
-        """A rational as an element."""
+    def constant(self, value: int) -> fmpq_poly:
+        """An integer as an element."""
         return fmpq_poly([value])
 
     def of_atom(self, atom: Atom) -> fmpq_poly | None:
@@ -67,14 +66,26 @@ class NumberField:
 
     def times(self, a: fmpq_poly, b: fmpq_poly) -> fmpq_poly:
         """The product of two elements."""
-        return a * b if self.degree == 1 else a * b % self.modulus
+        return a * b % self.modulus
 
-    def inverse(self, c: fmpq_poly) -> fmpq_poly:
-        """1 over an element that is not 0."""
+    def lowest(self, parts: dict[int, fmpq_poly], under: fmpz) -> tuple[dict[int, fmpq_poly], fmpz]:
+        """Elements over a common denominator, as elements over 1."""
+        return (parts, under) if under == 1 else ({m: c / under for m, c in parts.items()}, fmpz(1))
+
+    def cost(self, a: Collection[fmpq_poly], b: fmpq_poly) -> float:
+        """What it costs to multiply elements by one, in products of short integers."""
+        return product_cost(a, b, self.size) + float(len(a) * (self.degree**2 - 1))
+
+    def inverse_cost(self, a: fmpq_poly) -> float:
+        """What an inverse costs, in products of short integers."""
+        return float(self.degree**2 * (self.size(a) >> 6) ** 1.5 / INVERSE)
+
+    def inverse(self, c: fmpq_poly) -> tuple[fmpq_poly, fmpz]:
+        """1 over an element that is not 0, as an element and its denominator, which is 1."""
         if c.degree() == 0:
-            return fmpq_poly([1 / c[0]])
+            return fmpq_poly([1 / c[0]]), fmpz(1)
         common, inverse, _ = c.xgcd(self.modulus)
-        return inverse / common[0]
+        return inverse / common[0], fmpz(1)
 
     def square_root(self, c: fmpq_poly) -> fmpq_poly | None:
         """A square root of an element if the field holds one, else None (beyond `MOST_DEGREE` always).
@@ -85,7 +96,7 @@ class NumberField:
         """
         if c.degree() <= 0 and c[0] >= 0 and (c[0].p * c[0].q).is_square():
             return fmpq_poly([(c[0].p * c[0].q).isqrt()]) / c[0].q
-        if not 1 < self.degree <= MOST_DEGREE:
+        if self.degree > MOST_DEGREE:
             return None
         lead = self.polynomial.leading_coefficient()
         # The norm of a square is a square.
@@ -102,7 +113,7 @@ class NumberField:
 
     @cached_property
     def _inverse_slope(self) -> fmpq_poly:
-        return self.inverse(self.modulus.derivative())
+        return self.inverse(self.modulus.derivative())[0]
 
     def _traces(self, c: fmpz_poly) -> list[list[fmpz]]:
         """Integers that may be the traces of s d_i with s^2 = c: all that balls leave over."""
@@ -270,118 +281,11 @@ def _next(polynomial: fmpq_poly, i: int) -> list[tuple[int, fmpq]]:
     return [(i + 1, fmpq(1))] if i + 1 < degree else [(m, -polynomial[m] / lead) for m in range(degree)]
 
 
-class RationalFunction:
-    """A rational function over Q, of one or more variables."""
-
-    __slots__ = ("bottom", "top")
-
-    def __init__(self, top: fmpq_mpoly, bottom: fmpq_mpoly) -> None:
-        # In lowest terms, monic below: equal ones are equal term by term.
-        if not bottom.is_constant():
-            common = top.gcd(bottom)
-            if not common.is_constant():
-                top, bottom = top // common, bottom // common
-        lead = bottom.leading_coefficient()
-        self.top, self.bottom = (top, bottom) if lead == 1 else (top / lead, bottom / lead)
-
-    def __bool__(self) -> bool:
-        return not self.top.is_zero()
-
-    def __neg__(self) -> RationalFunction:
-        return RationalFunction(-self.top, self.bottom)
-
-    def __add__(self, other: RationalFunction) -> RationalFunction:
-        if self.bottom == other.bottom:
-            return RationalFunction(self.top + other.top, self.bottom)
-        return RationalFunction(self.top * other.bottom + other.top * self.bottom, self.bottom * other.bottom)
-
-    def __mul__(self, other: RationalFunction | fmpq | int) -> RationalFunction:
-        if isinstance(other, RationalFunction):
-            return RationalFunction(self.top * other.top, self.bottom * other.bottom)
-        return RationalFunction(self.top * other, self.bottom)
-
-    __rmul__ = __mul__
-
-
-class RationalFunctions:
-    """The field over Q of some numbers, of which nothing is known but balls: *numbers* are nodes, or roots.
-
-    >>> from exactacq.numbers.atoms import Root
-    >>> atom = Root.make((-2, 0, 0, 1), 0, 1)
-    >>> field = RationalFunctions([((-2, 0, 0, 1), 0)])
-    >>> tau = field.of_atom(atom)
-    >>> field.square_root(tau * tau + 2 * tau + field.constant(1)).top, field.square_root(tau)
-    (x0 + 1, None)
-    """
-
-    degree = 1
-
-    def __init__(self, numbers: Sequence[Node | RootKey]) -> None:
-        names = tuple(f"x{k}" for k in range(len(numbers)))
-        self._ring = fmpq_mpoly_ctx.get(names, Ordering.degrevlex)
-        self._numbers = [one if isinstance(one, Node) else Root.make(one[0], one[1], 1) for one in numbers]
-        self._variables = dict(zip(self._numbers, self._ring.gens(), strict=True))
-
-    def _whole(self, top: fmpq_mpoly) -> RationalFunction:
-        return RationalFunction(top, self._ring.constant(1))
-
-    def constant(self, value: fmpq | int) -> RationalFunction:
-        """A rational as an element."""
-        return self._whole(self._ring.constant(value))
-
-    def of_atom(self, atom: Atom) -> RationalFunction | None:
-        """A number or a power of a root; None for others, which are not in the field."""
-        if isinstance(atom, Root):
-            coefficients, index, power = atom.args
-            variable = self._variables.get(Root.make(coefficients, index, 1))
-            return None if variable is None else self._whole(variable**power)
-        own = self._variables.get(atom) if isinstance(atom, Node) else None
-        return None if own is None else self._whole(own)
-
-    def times(self, a: RationalFunction, b: RationalFunction) -> RationalFunction:
-        """The product of two elements."""
-        return a * b
-
-    def inverse(self, a: RationalFunction) -> RationalFunction:
-        """1 over an element that is not 0."""
-        return RationalFunction(a.bottom, a.top)
-
-    def square_root(self, a: RationalFunction) -> RationalFunction | None:
-        """A square root of an element if the field holds one, else None."""
-        content, factors = (a.top * a.bottom).factor()
-        content = fmpq(content)
-        if content < 0 or not (content.p * content.q).is_square() or any(e % 2 for _, e in factors):
-            return None
-        root = self._ring.constant(fmpq((content.p * content.q).isqrt(), content.q))
-        for factor, exponent in factors:
-            root *= factor ** (int(exponent) // 2)
-        return RationalFunction(root, a.bottom)
-
-    def size(self, a: RationalFunction) -> int:
-        """Bits of an element, roughly."""
-        return sum(int(c.height_bits()) for part in (a.top, a.bottom) for c in part.coeffs())
-
-    def ball(self, a: RationalFunction, bits: int) -> arb:
-        """An enclosure of an element, with *bits* working bits that the caller has set."""
-        places = [number.ball(bits) for number in self._numbers]
-        return _at_places(a.top, places) / _at_places(a.bottom, places)
-
-
 def _at(polynomial: fmpq_poly, place: arb) -> arb:
     total = arb(0)
     for coefficient in reversed(polynomial.numer().coeffs()):
         total = total * place + coefficient
     return total / polynomial.denom()
-
-
-def _at_places(polynomial: fmpq_mpoly, places: Sequence[arb]) -> arb:
-    total = arb(0)
-    for exponents, coefficient in polynomial.terms():
-        term = arb(coefficient)
-        for place, exponent in zip(places, exponents, strict=True):
-            term *= place ** int(exponent)
-        total += term
-    return total
 
 
 def vanishes_in_parts(terms: Terms) -> bool | None:

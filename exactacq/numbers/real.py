@@ -45,12 +45,12 @@ from exactacq.numbers.exact import Exact
 from exactacq.numbers.linear_forms import (
     Terms,
     add_to,
-    content,
     denested,
     field_element,
     field_of,
     is_surd,
     polynomial,
+    short_content,
     square_root,
 )
 from exactacq.numbers.precision import LOCK, workprec
@@ -582,8 +582,8 @@ def _node_product(a: Real, b: Real) -> Real:
 
 
 def _primitive(x: Real) -> tuple[fmpq, Real]:
-    """(c, y) with x = c y, the same y for all rational multiples of x."""
-    divisor = content(x.terms)
+    """(c, y) with x = c y, the same y for all rational multiples of x unless these are long."""
+    divisor = short_content(x.terms)
     if x.terms[min(x.terms, key=hash)] < 0:
         divisor = -divisor
     return divisor, x._scaled(1 / divisor)
@@ -591,7 +591,7 @@ def _primitive(x: Real) -> tuple[fmpq, Real]:
 
 def _sqrt_node(x: Real) -> Real:
     """sqrt of a form, its rational content taken out as far as it is a square."""
-    divisor = content(x.terms)
+    divisor = short_content(x.terms)
     ((radicand, factor),) = square_root(divisor).items()
     assert isinstance(radicand, int)
     return Real.of_atom(Sqrt.make(x._scaled(fmpq(radicand) / divisor)))._scaled(factor)

@@ -38,7 +38,7 @@ def decided_sign(value: Any) -> int:
         if len(fewer) < len(terms):
             return int(type(value)._form(fewer).sign())
     elif (tau := generic_in(value)) is not None:
-        return 0 if vanishes_about(value, _numbers_in(value)) else sign_at(value, tau)
+        return 0 if vanishes_about(value) else sign_at(value, tau)
     elif field_of(terms) is None:
         limit = _separation_bits(value)
         zero = None
@@ -82,23 +82,17 @@ def _shown_sign(value: Any) -> int:
     return 0
 
 
-def _numbers_in(value: Any) -> list[Any]:
-    """The numbers that a real is made of by arithmetic and square roots."""
-    return [key for key, _ in value.generators() if not isinstance(key, int | Sqrt)]
-
-
 def _is_known_zero(value: Any) -> bool:
     """Whether a real that is made of zeros of functions (see `function_zeros`) surely is 0.
 
     It is if it vanishes whatever numbers it is made of, and if it does so with the value of such a function
     at its zero added or subtracted, which is 0 by definition.
     """
-    zeros = [number for number in _numbers_in(value) if isinstance(number, Node)]
+    zeros = [key for key, _ in value.generators() if isinstance(key, Node) and not isinstance(key, Sqrt)]
     if not zeros:
         return False
     known = [number.args[0](type(value).of_atom(number)) for number in zeros]
-    changed = [value, *(value + sign * own for own in known for sign in (-1, 1))]
-    return any(vanishes_about(form, _numbers_in(form)) for form in changed)
+    return vanishes_about(value, *(value + sign * own for own in known for sign in (-1, 1)))
 
 
 def _zeros(ball: arb) -> int:

@@ -9,43 +9,38 @@ terms, and is 0 only if it has no terms. Degrees and sizes are those of the numb
 expression that made it, which are all that the height bound knows. Over roots of a high degree no square
 roots are looked for: there an element with terms may be 0, and its norm tells.
 
+Coefficients have one denominator for all of an element, and radicals are taken times what leaves none in
+their squares: so products are made of integers, and reduced once.
+
 The root of A + B t is x + y t only if the norm A^2 - B^2 t^2 is a square n^2 and x^2 = (A + n) / 2 or
 (A - n) / 2; where B = 0, if A or A t^2 is a square: questions in the field below.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Hashable
 from math import inf, prod
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 from flint import arb, fmpq
 
-from exactacq.numbers.atoms import Atom, Form, Inverse, Node, Product, Sqrt, atom_ball
-from exactacq.numbers.number_field import (
-    NumberField,
-    RationalFunctions,
-    RootKey,
-    joined_roots,
-    vanishes_in_parts,
-)
-from exactacq.numbers.precision import workprec
+from exactacq.numbers.atoms import Atom, Form, Generators, Inverse, Product, Sqrt, atom_ball
+from exactacq.numbers.fields import RationalFunctions, Rationals, RootKey
+from exactacq.numbers.number_field import NumberField, joined_roots, vanishes_in_parts
+from exactacq.numbers.precision import LOCK, workprec
 from exactacq.numbers.rationals import ball_sign
-
-Element: TypeAlias = "dict[int, Any]"
-"""Coefficients in the first field, none of them 0, by monomial: bit i of the key stands for radical i."""
 
 MOST_DEGREE = 36
 """Highest degree of the field of two roots."""
 MOST_RADICALS = 12
-MOST_TERMS = 1 << 18
+MOST_TERMS = 1 << 19
 """Products of terms after which a test gives up: a few seconds of work at most."""
-WORDS = 512
-"""Machine words of a factor that take as long as one product of short terms."""
-INVERSE = 3500
-"""An inverse in the first field costs its degree squared times its words to the power 1.5, over this: so one
-that takes more than ten seconds is not begun."""
 BITS = 256
+HALF = fmpq(1, 2)
+TOWERS_KEPT = 16
+_kept: dict[tuple[type[Tower], Generators], Tower] = {}
+"""Towers of the last tests by what their numbers are made of: ties come in groups that share their radicals.
+All tests of one tower together may take as long as one test; then it is made anew."""
 
 
 class _TooLong(Exception):
@@ -56,19 +51,82 @@ def vanishes(value: Form) -> bool | None:
     """Whether a real is 0; None if it holds more than two roots of polynomials, or would take too long."""
     if (told := vanishes_in_parts(value.terms)) is not None:
         return told
+    return _asked(Tower, value.generators(), lambda tower: tower.is_zero(tower.element(value)))
+
+
+def vanishes_about(*values: Form) -> bool:
+    """Whether one of some reals is surely 0 whatever the numbers are, near theirs, that they are made of.
+
+    Then it is 0. Numbers are all that is made neither by arithmetic nor by square roots.
+    """
+    generators = frozenset[tuple[Hashable, int]]().union(*(value.generators() for value in values))
+    return bool(_asked(FormalTower, generators, lambda tower: not all(map(tower.element, values))))
+
+
+def _asked(kind: type[Tower], generators: Generators, ask: Callable[[Tower], bool]) -> bool | None:
+    """What is asked of a tower, one that is kept or a new one; None if it would take too long."""
+    with LOCK:
+        tower = _kept.pop((kind, generators), None)
+    told = None if tower is None else _told(tower, ask)
+    if told is None:
+        try:
+            tower = kind(generators)
+        except _TooLong:
+            return None
+        told = _told(tower, ask)
+    if tower is not None and told is not None:
+        with LOCK:
+            _kept[kind, generators] = tower
+            if len(_kept) > TOWERS_KEPT:
+                del _kept[next(iter(_kept))]
+    return told
+
+
+def _told(tower: Tower, ask: Callable[[Tower], bool]) -> bool | None:
     try:
-        tower = Tower(value)
-        return tower.is_zero(tower.element(value))
+        return ask(tower)
     except _TooLong:
         return None
 
 
-def vanishes_about(value: Form, numbers: Sequence[Node | RootKey]) -> bool:
-    """Whether a real that is made of some numbers is surely 0 whatever they are, near these; then it is 0."""
-    try:
-        return not FormalTower(value, numbers).element(value)
-    except _TooLong:
-        return False
+Parts: TypeAlias = "dict[int, Any]"
+"""Coefficients in the first field, none of them 0, by products of radicals: bit i of a key is radical i."""
+
+
+class TowerElement(NamedTuple):
+    """A sum of products of radicals over a common denominator."""
+
+    parts: Parts
+    under: Any
+
+    def __bool__(self) -> bool:
+        """Whether there are terms."""
+        return bool(self.parts)
+
+    def split(self, radical: int) -> tuple[TowerElement, TowerElement]:
+        """A and B of A + B t."""
+        low, high = _split(self.parts, 1 << radical)
+        return TowerElement(low, self.under), TowerElement(high, self.under)
+
+    def conjugate(self, radical: int) -> TowerElement:
+        """A - B t of A + B t."""
+        return TowerElement({m: -c if m >> radical & 1 else c for m, c in self.parts.items()}, self.under)
+
+
+def _split(parts: Parts, bit: int) -> tuple[Parts, Parts]:
+    return {m: c for m, c in parts.items() if not m & bit}, {m ^ bit: c for m, c in parts.items() if m & bit}
+
+
+def _added(a: Parts, b: Parts, factor: Any = 1) -> Parts:
+    """a + factor * b, without terms that are 0."""
+    parts = dict(a)
+    for m, c in b.items():
+        total = parts[m] + c * factor if m in parts else c * factor
+        if total:
+            parts[m] = total
+        else:
+            del parts[m]
+    return parts
 
 
 class Tower:
@@ -76,26 +134,30 @@ class Tower:
 
     most_terms, most_bits = MOST_TERMS, inf
 
-    def __init__(self, value: Form, field: NumberField | RationalFunctions | None = None) -> None:
-        self.field: Any = _first_field(value) if field is None else field
-        self.squares: list[Element] = []
-        self.radicals: list[Atom] = []
-        self.known: dict[Atom, Element] = {1: {0: self.field.constant(1)}}
+    def __init__(self, generators: Generators) -> None:
+        self.field = self._first_field(_numbers(generators))
+        self.zero = TowerElement({}, self.field.one)
+        self.radicals: list[tuple[Atom, Any]] = []
+        self.squares: list[Parts] = []
+        self.known: dict[Atom, TowerElement] = {1: self._constant(1)}
         self.work = 0.0
 
-    def element(self, value: Form) -> Element:
+    def element(self, value: Form) -> TowerElement:
         """The element that a real is."""
-        total: Element = {}
+        total = self.zero
         for atom, c in value.terms.items():
             if max(c.p.bit_length(), c.q.bit_length()) > self.most_bits:
                 raise _TooLong
-            total = _sum(total, self._of_atom(atom), c)
+            total = self._sum(total, self._of_atom(atom), c)
         return total
 
-    def _of_atom(self, atom: Atom) -> Element:
+    def _constant(self, value: int) -> TowerElement:
+        return TowerElement({0: self.field.constant(value)}, self.field.one)
+
+    def _of_atom(self, atom: Atom) -> TowerElement:
         if atom not in self.known:
             if isinstance(atom, int):
-                self.known[atom] = self._radical(atom, {0: self.field.constant(atom)})
+                self.known[atom] = self._radical(atom, self._constant(atom))
             elif isinstance(atom, Sqrt):
                 self.known[atom] = self._radical(atom, self.element(atom.args[0]))
             elif isinstance(atom, Product):
@@ -103,41 +165,78 @@ class Tower:
             elif isinstance(atom, Inverse):
                 self.known[atom] = self.inverse(self.element(atom.args[0]))
             elif (own := self.field.of_atom(atom)) is not None:
-                self.known[atom] = {0: own}
+                self.known[atom] = TowerElement({0: own}, self.field.one)
             else:
                 raise _TooLong
         return self.known[atom]
 
-    def _radical(self, atom: Atom, square: Element) -> Element:
+    def _radical(self, atom: Atom, square: TowerElement) -> TowerElement:
         """The positive square root that an atom stands for: in the field so far, or a new radical of it."""
         root = self.square_root(square, len(self.squares))
         if root is not None:
-            return _scaled(root, self._sign(root))
+            return self._scaled(root, self._sign(root))
         if len(self.squares) == MOST_RADICALS:
             raise _TooLong
-        self.squares.append(square)
-        self.radicals.append(atom)
-        return {1 << (len(self.squares) - 1): self.field.constant(1)}
+        # The radical is a multiple of the root whose square has no denominator: products then need none.
+        self.squares.append({m: c * square.under for m, c in square.parts.items()})
+        self.radicals.append((atom, square.under))
+        return TowerElement({1 << (len(self.squares) - 1): self.field.constant(1)}, square.under)
+
+    def _first_field(self, numbers: list[Any]) -> Any:
+        """The field of the roots of higher degree, two at most; else the rationals."""
+        if len(numbers) > 2 or not all(isinstance(number, tuple) for number in numbers):
+            raise _TooLong
+        keys: list[RootKey] = sorted(numbers)
+        if len(keys) < 2:
+            return NumberField(*keys[0]) if keys else Rationals()
+        if prod(len(coefficients) - 1 for coefficients, _ in keys) > MOST_DEGREE:
+            raise _TooLong
+        return joined_roots(*keys)
 
     # -- arithmetic --------------------------------------------------------------------------------
 
-    def times(self, a: Element, b: Element) -> Element:
+    def times(self, a: TowerElement, b: TowerElement) -> TowerElement:
         """The product, with squares of radicals replaced."""
-        self._spend(len(a) * len(b) * self.field.degree**2)
-        self._spend((len(b) * self._words(a) + len(a) * self._words(b)) // WORDS)
-        plain: dict[int, Element] = {}
-        for m, p in a.items():
-            for n, q in b.items():
-                rest, product = plain.setdefault(m & n, {}), self.field.times(p, q)
-                rest[m ^ n] = rest[m ^ n] + product if m ^ n in rest else product
-        result: Element = {}
-        for twice, rest in plain.items():
-            part = {m: c for m, c in rest.items() if c}
-            for i in range(twice.bit_length()):
-                if twice >> i & 1:
-                    part = self.times(part, self.squares[i])
-            result = _sum(result, part)
-        return result
+        return self._lowest(self._product(a.parts, b.parts), a.under * b.under)
+
+    def _product(self, a: Parts, b: Parts) -> Parts:
+        """(A + B t) (C + D t) = A C + B D t^2 + ((A + B) (C + D) - A C - B D) t, without denominators."""
+        if not a or not b:
+            return {}
+        if max(a) < max(b):
+            a, b = b, a
+        if max(b) == 0:
+            self._spend(self.field.cost(a.values(), b[0]))
+            return {m: self.field.times(c, b[0]) for m, c in a.items()}
+        last = max(a).bit_length() - 1
+        bit = 1 << last
+        (low, high), (other_low, other_high) = _split(a, bit), _split(b, bit)
+        plain, twice = self._product(low, other_low), self._product(high, other_high)
+        both = self._product(_added(low, high), _added(other_low, other_high))
+        mixed = _added(_added(both, plain, -1), twice, -1)
+        result = _added(plain, self._product(twice, self.squares[last]))
+        return result | {m | bit: c for m, c in mixed.items()}
+
+    def _norm(self, a: TowerElement, radical: int) -> TowerElement:
+        """A^2 - B^2 t^2 of A + B t."""
+        low, high = (part.parts for part in a.split(radical))
+        square = self._product(self._product(high, high), self.squares[radical])
+        return self._lowest(_added(self._product(low, low), square, -1), a.under * a.under)
+
+    def _sum(self, a: TowerElement, b: TowerElement, factor: fmpq | int = 1) -> TowerElement:
+        """a + factor * b."""
+        factor = fmpq(factor)
+        below = b.under * factor.q
+        common = a.under.gcd(below)
+        first, second = below // common, a.under // common * factor.p
+        parts = {m: c * first for m, c in a.parts.items()}
+        return self._lowest(_added(parts, b.parts, second), a.under * first)
+
+    def _scaled(self, a: TowerElement, factor: fmpq | int) -> TowerElement:
+        return self._sum(self.zero, a, factor)
+
+    def _lowest(self, parts: Parts, under: Any) -> TowerElement:
+        return TowerElement(*self.field.lowest(parts, under)) if parts else self.zero
 
     def _spend(self, work: float) -> None:
         """Count some work, and give up where it is too much."""
@@ -145,78 +244,75 @@ class Tower:
         if self.work > self.most_terms:
             raise _TooLong
 
-    def _words(self, a: Element) -> int:
-        """Machine words of all coefficients."""
-        words: int = sum(map(self.field.size, a.values())) >> 6
-        return words
-
-    def inverse(self, a: Element) -> Element:
+    def inverse(self, a: TowerElement) -> TowerElement:
         """1 over an element that is not 0: (A - B t) / (A^2 - B^2 t^2) for A + B t."""
-        if set(a) == {0}:
-            self._spend(self.field.degree**2 * self._words(a) ** 1.5 / INVERSE)
-            return {0: self.field.inverse(a[0])}
-        last = max(a).bit_length() - 1
-        conjugate = {m: -c if m >> last & 1 else c for m, c in a.items()}
-        norm = self.times(a, conjugate)
+        if set(a.parts) == {0}:
+            self._spend(self.field.inverse_cost(a.parts[0]))
+            over, under = self.field.inverse(a.parts[0])
+            return self._lowest({0: over * a.under}, under)
+        last = max(a.parts).bit_length() - 1
+        norm = self._norm(a, last)
         if self.is_zero(norm):
-            return self.inverse({m: 2 * c for m, c in a.items() if not m >> last & 1})
-        return self.times(conjugate, self.inverse(norm))
+            return self.inverse(self._scaled(a.split(last)[0], 2))
+        return self.times(a.conjugate(last), self.inverse(norm))
 
     # -- zero --------------------------------------------------------------------------------------
 
-    def is_zero(self, a: Element) -> bool:
+    def is_zero(self, a: TowerElement) -> bool:
         """Whether the number that an element stands for is 0.
 
         An element with terms is so only where a root was not looked for: then A + B t or A - B t is.
         """
-        if set(a) <= {0} or ball_sign(self._ball(a, BITS)):
+        if set(a.parts) <= {0} or ball_sign(self._ball(a, BITS)):
             return not a
-        last = max(a).bit_length() - 1
-        conjugate = {m: -c if m >> last & 1 else c for m, c in a.items()}
-        if not self.is_zero(self.times(a, conjugate)):
+        last = max(a.parts).bit_length() - 1
+        if not self.is_zero(self._norm(a, last)):
             return False
-        if self.is_zero({m: c for m, c in a.items() if m >> last & 1}):
+        if self.is_zero(a.split(last)[1]):
             return True
         bits = BITS
         while True:
             # B is not 0: so of the two exactly one is 0.
             if ball_sign(self._ball(a, bits)):
                 return False
-            if ball_sign(self._ball(conjugate, bits)):
+            if ball_sign(self._ball(a.conjugate(last), bits)):
                 return True
             bits *= 2
 
     # -- square roots ------------------------------------------------------------------------------
 
-    def square_root(self, a: Element, count: int) -> Element | None:
+    def square_root(self, a: TowerElement, count: int) -> TowerElement | None:
         """A square root in the field of the first *count* radicals, which holds the element, or None."""
         if not a:
             return a
         if count == 0:
-            root = self.field.square_root(a[0])
-            return None if root is None else {0: root}
+            root = self.field.square_root(a.parts[0] * a.under)
+            return None if root is None else self._lowest({0: root}, a.under)
         last = count - 1
-        t, square = 1 << last, self.squares[last]
-        low, high = {m: c for m, c in a.items() if not m & t}, {m ^ t: c for m, c in a.items() if m & t}
+        one = self.field.one
+        t, square = (
+            TowerElement({1 << last: self.field.constant(1)}, one),
+            TowerElement(self.squares[last], one),
+        )
+        low, high = a.split(last)
         if not high:
             x = self.square_root(low, last)
             if x is None and (y := self.square_root(self.times(low, square), last)) is not None:
-                x = self.times(self.times(y, self.inverse(square)), {t: self.field.constant(1)})
+                x = self.times(self.times(y, self.inverse(square)), t)
             return x
-        norm = _sum(self.times(low, low), self.times(self.times(high, high), square), -1)
-        n = self.square_root(norm, last)
+        n = self.square_root(self._norm(a, last), last)
         if n is None:
             return None
         for sign in (1, -1):
-            x = self.square_root(_scaled(_sum(low, n, sign), fmpq(1, 2)), last)
+            x = self.square_root(self._scaled(self._sum(low, n, sign), HALF), last)
             if x:
-                y = self.times(high, self.inverse(_scaled(x, 2)))
-                return x | {m | t: c for m, c in y.items()}
+                y = self.times(high, self.inverse(self._scaled(x, 2)))
+                return self._sum(x, self.times(y, t))
         return None
 
     # -- signs of roots ----------------------------------------------------------------------------
 
-    def _sign(self, a: Element) -> int:
+    def _sign(self, a: TowerElement) -> int:
         """The sign of a number that is not 0."""
         bits = BITS
         while not (sign := ball_sign(self._ball(a, bits))):
@@ -225,16 +321,19 @@ class Tower:
                 raise _TooLong
         return sign
 
-    def _ball(self, a: Element, bits: int) -> arb:
+    def _ball(self, a: TowerElement, bits: int) -> arb:
         with workprec(bits):
             total = arb(0)
-            for mask, c in a.items():
+            for mask, c in a.parts.items():
                 term = self.field.ball(c, bits)
-                for i, atom in enumerate(self.radicals):
+                for i, (atom, multiple) in enumerate(self.radicals):
                     if mask >> i & 1:
-                        term *= atom_ball(atom, bits)
+                        term *= atom_ball(atom, bits) * self._under_ball(multiple, bits)
                 total += term
-            return total
+            return total / self._under_ball(a.under, bits)
+
+    def _under_ball(self, under: Any, bits: int) -> arb:
+        return arb(1) if under == 1 else self.field.ball(under, bits)
 
 
 class FormalTower(Tower):
@@ -243,40 +342,16 @@ class FormalTower(Tower):
     One with terms may be 0 as well, by chance. Nothing is asked of it but the signs of square roots.
     """
 
-    most_terms, most_bits = 1 << 12, 1 << 14
+    most_terms, most_bits = 1 << 23, 1 << 14
 
-    def __init__(self, value: Form, numbers: Sequence[Node | RootKey]) -> None:
-        super().__init__(value, RationalFunctions(numbers))
+    def _first_field(self, numbers: list[Any]) -> Any:
+        return RationalFunctions(numbers)
 
-    def is_zero(self, a: Element) -> bool:
+    def is_zero(self, a: TowerElement) -> bool:
         """Whether an element has no terms."""
         return not a
 
 
-def _scaled(a: Element, factor: fmpq | int) -> Element:
-    return {m: c * factor for m, c in a.items()}
-
-
-def _sum(a: Element, b: Element, factor: fmpq | int = 1) -> Element:
-    """a + factor * b, without terms that are 0."""
-    result = dict(a)
-    for m, c in b.items():
-        total = result[m] + c * factor if m in result else c * factor
-        if total:
-            result[m] = total
-        else:
-            result.pop(m, None)
-    return result
-
-
-def _first_field(value: Form) -> NumberField:
-    """The field of the roots of higher degree, two at most, that a real is made of; else the rationals."""
-    generators = [(key, degree) for key, degree in value.generators() if not isinstance(key, int | Sqrt)]
-    keys: list[RootKey] = sorted(key for key, _ in generators if isinstance(key, tuple))
-    if len(keys) < len(generators) or len(keys) > 2:
-        raise _TooLong
-    if len(keys) < 2:
-        return NumberField(*keys[0]) if keys else NumberField()
-    if prod(degree for _, degree in generators) > MOST_DEGREE:
-        raise _TooLong
-    return joined_roots(*keys)
+def _numbers(generators: Generators) -> list[Any]:
+    """What is made neither by arithmetic nor by square roots: nodes, and roots of polynomials."""
+    return [key for key, _ in generators if not isinstance(key, int | Sqrt)]
