@@ -19,6 +19,10 @@ WORDS = 512
 """Machine words of a factor that take as long as one product of short integers."""
 POLYNOMIAL_BITS = 512
 """Bits of a polynomial that take as long as one product of short integers."""
+DIVISION = 4
+"""How many products a division takes, of numbers of the same lengths."""
+SEVERAL = 4
+"""How many times longer that of polynomials in several numbers takes."""
 RootKey: TypeAlias = "tuple[tuple[int, ...], int]"
 """Ascending coefficients of an irreducible integer polynomial, and which of its real roots is meant."""
 
@@ -49,6 +53,10 @@ class Rationals:
     def cost(self, a: Collection[fmpz], b: fmpz) -> float:
         """What it costs to multiply elements by one, in products of short integers."""
         return product_cost(a, b, fmpz.bit_length)
+
+    def lowest_cost(self, parts: dict[int, fmpz], under: fmpz) -> float:
+        """What `lowest` costs."""
+        return DIVISION * self.cost(parts.values(), under)
 
     def inverse_cost(self, a: fmpz) -> float:
         """What an inverse costs: nothing."""
@@ -121,10 +129,16 @@ class RationalFunctions:
 
     def cost(self, a: Collection[fmpz_mpoly], b: fmpz_mpoly) -> float:
         """What it costs to multiply elements by one, in products of short integers."""
-        return len(a) + (len(a) * self._bits(b) + sum(map(self._bits, a))) // POLYNOMIAL_BITS
+        products = len(a) + (len(a) * self._bits(b) + sum(map(self._bits, a))) // POLYNOMIAL_BITS
+        return products if len(self._numbers) < 2 else SEVERAL * products
 
     def _bits(self, a: fmpz_mpoly) -> int:
-        return len(a) * int(a.leading_coefficient().bit_length()) if a else 0
+        # Those in the middle are the longest.
+        return len(a) * int(a.coefficient(len(a) // 2).bit_length()) if a else 0
+
+    def lowest_cost(self, parts: dict[int, fmpz_mpoly], under: fmpz_mpoly) -> float:
+        """What `lowest` costs."""
+        return DIVISION * self.cost(parts.values(), under)
 
     def inverse_cost(self, a: fmpz_mpoly) -> float:
         """What an inverse costs: nothing."""

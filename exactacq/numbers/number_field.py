@@ -76,6 +76,10 @@ class NumberField:
         """What it costs to multiply elements by one, in products of short integers."""
         return product_cost(a, b, self.size) + float(len(a) * (self.degree**2 - 1))
 
+    def lowest_cost(self, parts: dict[int, fmpq_poly], under: fmpz) -> float:
+        """What `lowest` costs."""
+        return len(parts)
+
     def inverse_cost(self, a: fmpq_poly) -> float:
         """What an inverse costs, in products of short integers."""
         return float(self.degree**2 * (self.size(a) >> 6) ** 1.5 / INVERSE)

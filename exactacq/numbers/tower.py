@@ -236,7 +236,10 @@ class Tower:
         return self._sum(self.zero, a, factor)
 
     def _lowest(self, parts: Parts, under: Any) -> TowerElement:
-        return TowerElement(*self.field.lowest(parts, under)) if parts else self.zero
+        if not parts or under == 1:
+            return TowerElement(parts, under) if parts else self.zero
+        self._spend(self.field.lowest_cost(parts, under))
+        return TowerElement(*self.field.lowest(parts, under))
 
     def _spend(self, work: float) -> None:
         """Count some work, and give up where it is too much."""
@@ -342,7 +345,7 @@ class FormalTower(Tower):
     One with terms may be 0 as well, by chance. Nothing is asked of it but the signs of square roots.
     """
 
-    most_terms, most_bits = 1 << 23, 1 << 14
+    most_terms, most_bits = 3 << 23, 1 << 14
 
     def _first_field(self, numbers: list[Any]) -> Any:
         return RationalFunctions(numbers)
