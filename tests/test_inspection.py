@@ -29,7 +29,11 @@ from exactacq.files.checking.sketch import Sketch
 from exactacq.files.checking.starts import rounded, rounded_up, widest_gap
 from exactacq.files.dxf import entities
 from exactacq.files.formats import options
+from exactacq.geometry.box_index import box as around
+from exactacq.geometry.curves import Arc
+from exactacq.geometry.loops import winding
 from exactacq.scene import validation
+from exactacq.scene.shapes import shape_edges
 
 DATA = Path(__file__).parent / "data"
 FILES = sorted(
@@ -223,6 +227,64 @@ def test_places_in_loops_are_told_as_shapely_does() -> None:
 
 
 # -- cases ----------------------------------------------------------------------------------------------
+
+
+def test_places_beside_arcs_are_told_as_winding_numbers_do() -> None:
+    """Chords of 7.5 degrees lie up to a five hundredth of the radius inside: loops there were outside."""
+    dice = Random(7)
+    outline = xa.Outline([(100, 0, 1), (-100, 0, fmpq(-1, 3)), (0, 40, "0.8")])
+    edges = shape_edges(outline)
+    places = []
+    for edge in edges:
+        stroke = edge.stroke()
+        for _ in range(80):
+            x, y = stroke.at(dice.random())
+            places.append([round(c + dice.uniform(-0.3, 0.3), 3) for c in (x, y)])
+    inside = Sketch([outline]).around(np.array(places))[:, 0]
+    exact = [winding(edges, xa.Point(*(fmpq(round(1000 * c), 1000) for c in place))) for place in places]
+    assert inside.tolist() == [bool(w) for w in exact]
+    assert 80 < inside.sum() < 160
+
+
+@pytest.mark.parametrize("seed", some(range(40), 10))
+def test_arcs_reach_as_far_as_they_do(seed: int) -> None:
+    dice = Random(seed)
+    (a, b), (c, d) = ((dice.randint(-9, 9), dice.randint(-9, 9)) for _ in "ab")
+    if (a, b) != (c, d):
+        arc = Arc.from_bulge(xa.Point(a, b), xa.Point(c, d), fmpq(dice.choice((-30, -7, 3, 10, 25)), 10))
+        found = np.array(arc.stroke().extremes())
+        assert (*found.min(axis=0), *found.max(axis=0)) == pytest.approx(around(arc), abs=1e-9)
+
+
+def test_a_hole_close_to_the_arc_around_it(tmp_path: Path) -> None:
+    document = ezdxf.new()
+    for angle in (0.0, 1.1, 2.0, 3.2, 4.5):
+        document.modelspace().add_circle((9.98 * np.cos(angle), 9.98 * np.sin(angle)), 0.01)
+    document.modelspace().add_circle((0, 0), 10)
+    document.saveas(tmp_path / "rim.dxf")
+    found = xa.inspect(tmp_path / "rim.dxf")
+    assert [loop.role for loop in found.loops].count("hole") == 5
+    assert np.array(found.extent) == pytest.approx(np.array(((-10, -10), (10, 10))))
+
+
+def test_a_plate_in_a_frame_is_explored_from_within(tmp_path: Path) -> None:
+    """Around the plate there are two boundaries; its holes would be left out without a word."""
+    plate = [box(1, 1, 98, 98), *(box(10 * k, 10, 4, 40) for k in range(1, 8))]
+    path = drawing(tmp_path / "frame.dxf", box(0, 0, 100, 100), *plate)
+    found = xa.inspect(path)
+    assert found.scene is not None
+    assert (found.options["outer"], len(found.scene.obstacles)) == ("room", 8)
+    check_start(found)
+    few = drawing(tmp_path / "few.dxf", box(0, 0, 100, 100), *plate[:2])
+    assert "outer" not in xa.inspect(few).options, "two boundaries and one loop in the plate"
+
+
+def test_a_start_in_a_hole_is_cured_by_a_room(tmp_path: Path) -> None:
+    path = drawing(tmp_path / "hole.dxf", box(0, 0, 100, 100), box(10, 10, 80, 80), box(30, 30, 20, 20))
+    found = xa.inspect(path, start=(20, 20))
+    assert [flaw.cures for flaw in found.violations] == [("--outer room",)]
+    assert found.scene is not None
+    assert len(found.scene.obstacles) == 2
 
 
 def test_an_outline_with_a_gap_around_holes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -57,6 +57,22 @@ class Stroke:
         count = count or self.steps(SAMPLE)
         return np.array([self.at(k / count) for k in range(count + 1)])
 
+    def extremes(self) -> list[tuple[float, float]]:
+        """The ends, and what an arc has of the westernmost, southernmost and such points of its circle.
+
+        >>> half = Stroke((1.0, 0.0), (-1.0, 0.0), math.pi, (0.0, 0.0), 1.0, 0.0, math.pi)
+        >>> half.extremes()
+        [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0)]
+        """
+        found = [self.start, self.end]
+        if self.center is not None:
+            x, y = self.center
+            for k, (u, v) in enumerate(((1, 0), (0, 1), (-1, 0), (0, -1))):
+                turned = (k * math.pi / 2 - self.angle) * math.copysign(1, self.sweep)
+                if turned % (2 * math.pi) < abs(self.sweep):
+                    found.append((x + u * self.radius, y + v * self.radius))
+        return found
+
     def covers(self, points: Floats, headings: Floats, tolerance: float) -> Any:
         """Which of the points lie on this stroke and run along it, in either sense."""
         if self.center is None:

@@ -15,6 +15,7 @@ from exactacq.files.checking.flaws import Judged, frame, judged
 from exactacq.files.checking.starts import rounded_up
 from exactacq.files.loops.assembly import default_tolerance, in_full
 from exactacq.files.loops.contents import AS_TOLD, Contents
+from exactacq.geometry.points import Point
 from exactacq.geometry.strokes import Floats
 from exactacq.numbers.rationals import nearest_float, plain
 from exactacq.scene.shapes import Circle, Shape
@@ -145,6 +146,10 @@ def _proposals(contents: Contents, found: Judged) -> Iterator[Options]:
     meeting = [v for v in found.violations if len(v.loops) == 2]
     if meeting and contents.outer == "wall" and _meets_the_frame(found, meeting):
         yield {"outer": "drop"}
+    if contents.outer == "wall" and contents.start is not None:
+        place = Point(*contents.start)
+        if any(place in violation.places for violation in found.violations):
+            yield {"outer": "room"}
     if meeting and not contents.union:
         yield {"union": True}
     size = size_of(contents)

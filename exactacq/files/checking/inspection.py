@@ -233,7 +233,8 @@ class _Inquiry:
     def _begun(self, is_open: bool) -> tuple[Options, Beginning] | None:
         """The options and the start with which there are most boundaries, and of such the fewest options.
 
-        Without further options if the first choice of a start does then, and no chain has to be closed.
+        Without further options if the first choice of a start does then, no chain has to be closed, and not
+        most of the loops are left out.
         """
         best: tuple[tuple[int, int], Options, Beginning] | None = None
         for options, contents in self._ways():
@@ -243,13 +244,22 @@ class _Inquiry:
             rank = len(begun.scene.obstacles), -len(options)
             if best is None or rank > best[0]:
                 best = rank, options, begun
-            if begun.is_first and not is_open:
+            if begun.is_first and not is_open and not self._leaves_most(begun):
                 break
         return None if best is None else best[1:]
 
+    def _leaves_most(self, begun: Beginning) -> bool:
+        """Whether more loops are left out, as they lie inside of an obstacle, than there are boundaries."""
+        return 2 * len(begun.scene.obstacles) < len(self.contents.loops)
+
     def _ways(self) -> Iterator[tuple[Options, Contents]]:
-        """Contents to start in: as they are, with what leaves the fewest violations, and with all of that."""
+        """Contents to start in: as they are, with what leaves the fewest violations, and with all of that.
+
+        Without anything to cure, as they are, and in a room.
+        """
         yield {}, self.contents
+        if not self.tried and self.contents.outer == "wall" and "outer" in self._allowed:
+            yield {"outer": "room"}, replace(self.contents, outer="room")
         # Lines become walls only if nothing else does as well: often they are no walls.
         order = sorted(
             self.tried,

@@ -1,4 +1,4 @@
-"""Loops in floats, arcs as chords: how they lie in each other and how far places are from them.
+"""Loops in floats: how they lie in each other, and how far places are from their chords.
 
 Only proposals and descriptions are made of it; what is proposed is verified exactly elsewhere.
 """
@@ -31,7 +31,8 @@ class Sketch:
     """The chords of closed loops; edges without length or of absurd size are left out."""
 
     def __init__(self, shapes: Sequence[Shape]) -> None:
-        rows = [points_of(shape_edges(shape)) for shape in shapes]
+        strokes = [strokes_of(shape_edges(shape)) for shape in shapes]
+        rows = [[stroke.points() for stroke in row] for row in strokes]
         self.count = len(rows)
         self.lines = [np.concatenate(row) if row else np.zeros((0, 2)) for row in rows]
         """Of each loop the points along it, from its first vertex on."""
@@ -40,6 +41,13 @@ class Sketch:
         self.ends = np.concatenate([np.zeros((0, 2)), *(end for _, end in parts)])
         sizes = [sum(len(row) - 1 for row in points) for points in rows]
         self.begin = np.cumsum([0, *sizes])
+        curves = [stroke for row in strokes for stroke in row]
+        counts = [len(start) for start, _ in parts]
+        centers = [stroke.start if stroke.center is None else stroke.center for stroke in curves]
+        self.centers = np.repeat(np.array(centers, dtype=float).reshape(-1, 2), counts, axis=0)
+        self.radii = np.repeat(np.array([stroke.radius for stroke in curves], dtype=float), counts)
+        """Of the circle that bulges beyond each chord; 0 of straight ones."""
+        self._extremes = [place for stroke in curves for place in stroke.extremes()]
 
     @property
     def is_empty(self) -> bool:
@@ -49,7 +57,8 @@ class Sketch:
     @property
     def box(self) -> tuple[Floats, Floats]:
         """The lower left and the upper right corner of everything."""
-        return self.starts.min(axis=0), self.starts.max(axis=0)
+        places = np.array(self._extremes)
+        return places.min(axis=0), places.max(axis=0)
 
     def around(self, places: Floats) -> Bools:
         """Which loops lie around which places: a row for each place."""
@@ -62,11 +71,15 @@ class Sketch:
         """Which places lie in a loop."""
         found = np.zeros(len(places), dtype=bool)
         start, end = self._chords(k)
+        part = slice(self.begin[k], self.begin[k + 1])
+        center, radius = self.centers[part], self.radii[part]
         if len(start):
-            low, high = start.min(axis=0), start.max(axis=0)
+            bulge = np.hypot(*(end - start).T).max()
+            low, high = start.min(axis=0) - bulge, start.max(axis=0) + bulge
             near = np.flatnonzero(((places >= low) & (places <= high)).all(axis=1))
             for some in _steps(near, len(start)):
-                found[some] = _is_inside(places[some], start, end)
+                at = places[some]
+                found[some] = _crossed(at, start, end) ^ _bulged(at, start, end, center, radius)
         return found
 
     def clearance(self, places: Floats) -> Floats:
@@ -138,11 +151,23 @@ def _steps(members: NDArray[np.intp], width: int) -> list[NDArray[np.intp]]:
     return np.array_split(members, max(1, -(-len(members) * width // AT_ONCE))) if len(members) else []
 
 
-def _is_inside(places: Floats, starts: Floats, ends: Floats) -> Bools:
-    """By the number of chords that the ray to the east crosses."""
+def _crossed(places: Floats, starts: Floats, ends: Floats) -> Bools:
+    """Which places are inside of the chords, by the number of these that the ray to the east crosses."""
     x, y = places[:, :1], places[:, 1:]
     across = (starts[:, 1] > y) != (ends[:, 1] > y)
     rise = np.where(starts[:, 1] == ends[:, 1], 1.0, ends[:, 1] - starts[:, 1])
     crossing = starts[:, 0] + (y - starts[:, 1]) * (ends[:, 0] - starts[:, 0]) / rise
     inside: Bools = ((across & (x < crossing)).sum(axis=1) % 2).astype(bool)
+    return inside
+
+
+def _bulged(places: Floats, starts: Floats, ends: Floats, centers: Floats, radii: Floats) -> Bools:
+    """Which places lie between chords and their arcs, of an odd number of them."""
+    arcs = radii > 0
+    (ax, ay), (cx, cy), (ux, uy) = starts[arcs].T, centers[arcs].T, (ends - starts)[arcs].T
+    x, y = places[:, :1], places[:, 1:]
+    beyond = ux * (y - ay) - uy * (x - ax)
+    side = ux * (cy - ay) - uy * (cx - ax)
+    between = (beyond * side < 0) & (np.hypot(x - cx, y - cy) < radii[arcs])
+    inside: Bools = (between.sum(axis=1) % 2).astype(bool)
     return inside
