@@ -5,7 +5,7 @@ Ties are planted: a number is taken apart and put together in another way, and t
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 from math import gcd
 
@@ -22,7 +22,8 @@ from exactacq.numbers.fields import RationalFunctions, Rationals
 from exactacq.numbers.function_zeros import roots
 from exactacq.numbers.number_field import NumberField
 from exactacq.numbers.real import Real
-from exactacq.numbers.tower import Tower, vanishes, vanishes_about
+from exactacq.numbers.tower import FormalTower, Tower, vanishes, vanishes_about
+from exactacq.numbers.tower import _TooLong as TooLong
 from exactacq.numbers.transcendental import generic_in, sign_at, transcendental
 
 HAIR = Real(fmpq(1, 10**400))
@@ -202,6 +203,53 @@ def test_common_denominators_of_functions_are_in_lowest_terms(
     lowest, below = field.lowest(parts, (tau - root) * (tau * tau * tau + 101))
     assert below == tau * tau * tau + 101
     assert [lowest[k] * (tau - root) for k in lowest] == list(parts.values())
+
+
+def test_radicands_with_denominators() -> None:
+    """In its field 1 / (1 + n) is (n - 1) / (2 + sqrt(2)), a sum over 2, and 1 / (a b) is 1 / 9."""
+    n = (3 + Real(2).sqrt()).sqrt()
+    c = 1 / (1 + n)
+    r = (c + 1).sqrt()
+    assert is_tie((r + c) * (r - c), c + 1 - c * c)
+    a, b = (3 + Real(2).sqrt()).sqrt(), (81 * (3 - Real(2).sqrt()) / 7).sqrt()
+    assert is_tie((1 / (a * b)).sqrt(), Real(fmpq(1, 3)))
+
+
+STEPS = st.lists(st.tuples(st.sampled_from("+-*/r"), st.integers(0, 9), st.integers(0, 9)), max_size=7)
+LEAVES = {
+    "rationals": lambda: [Real(2).sqrt(), Real(fmpq(5, 3)), Real(7).sqrt()],
+    "a root": lambda: [first_root((-2, 0, 0, 1)), Real(3).sqrt(), Real(fmpq(1, 6))],
+    "two roots": lambda: [first_root((-2, 0, 0, 1)), first_root((-5, 1, 0, 1)), Real(3).sqrt()],
+    "any number": lambda: [anything(), Real(3).sqrt(), Real(fmpq(1, 6))],
+    "two numbers": lambda: [anything(), first_root(HIGH), Real(3).sqrt()],
+}
+
+
+@pytest.mark.parametrize("leaves", LEAVES.values(), ids=LEAVES)
+@given(STEPS)
+def test_an_element_is_the_number_that_it_stands_for(
+    leaves: Callable[[], list[Real]], steps: list[tuple[str, int, int]]
+) -> None:
+    """Told by balls of 700 bits: of a number, and of the sum of radicals over a denominator made of it."""
+    values = leaves()
+    for step, i, j in steps:
+        a, b = values[i % len(values)], values[j % len(values)]
+        if step == "r":
+            values.append((a * a + b * b + 1).sqrt())
+        elif step == "/":
+            values.append(a / (1 + b * b))
+        else:
+            values.append(a + b if step == "+" else a - b if step == "-" else a * b)
+    value = values[-1]
+    kind = FormalTower if generic_in(value) is not None else Tower
+    field = kind(value.generators())
+    try:
+        element = field.element(value)
+    except TooLong:
+        return
+    own, other = field._ball(element, 700), value.ball(700)
+    assert own.overlaps(other)
+    assert max(own.rad(), other.rad()) < arb(2) ** -400 * (1 + abs(other))
 
 
 # -- limits ----------------------------------------------------------------------------------------
