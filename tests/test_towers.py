@@ -206,13 +206,13 @@ def test_common_denominators_of_functions_are_in_lowest_terms(
 
 
 def test_radicands_with_denominators() -> None:
-    """In its field 1 / (1 + n) is (n - 1) / (2 + sqrt(2)), a sum over 2, and 1 / (a b) is 1 / 9."""
+    """In its field 1 / (1 + n) is (n - 1) / (2 + sqrt(2)), a sum over 2, and 1 / (a b c + 2) is 1 / 9."""
     n = (3 + Real(2).sqrt()).sqrt()
     c = 1 / (1 + n)
     r = (c + 1).sqrt()
     assert is_tie((r + c) * (r - c), c + 1 - c * c)
-    a, b = (3 + Real(2).sqrt()).sqrt(), (81 * (3 - Real(2).sqrt()) / 7).sqrt()
-    assert is_tie((1 / (a * b)).sqrt(), Real(fmpq(1, 3)))
+    a, b, c = (3 + Real(2).sqrt()).sqrt(), (3 - Real(2).sqrt()).sqrt(), Real(7).sqrt()
+    assert is_tie((1 / (a * b * c + 2)).sqrt(), Real(fmpq(1, 3)))
 
 
 STEPS = st.lists(st.tuples(st.sampled_from("+-*/r"), st.integers(0, 9), st.integers(0, 9)), max_size=7)
