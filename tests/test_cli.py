@@ -127,6 +127,17 @@ def test_a_sweep_that_cannot_start_says_where_it_would(capsys: pytest.CaptureFix
     assert "a sweep takes a rectangle" in refused(capsys, "explore", "plate", *sweep, "--terrain", "bbox:1")
 
 
+def test_a_sweep_beyond_an_enclosure_is_told_what_to_do(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    sweep = ("--strategy", "seed-spreader", "--radius", "3")
+    room = scene(tmp_path, circle(3, -3, 1), enclosure=[[-9, -9], [9, -9], [9, 9], [-9, 9]])
+    assert "without a terrain the enclosure is swept" in refused(
+        capsys, "explore", room, *sweep, "--terrain", "bbox:1"
+    )
+    assert "length" in answered(capsys, "explore", room, *sweep)
+
+
 def test_numbers_are_exact(capsys: pytest.CaptureFixture[str]) -> None:
     out = answered(capsys, "explore", "circles", "--radius", "61/3", "--start", "0.1,-1/3")
     assert "S = (0.1, -1/3), R = 61/3" in out

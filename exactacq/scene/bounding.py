@@ -76,6 +76,8 @@ def at_corner(scene: Scene) -> Scene:
         return scene if terrain is None else scene.replace(start=terrain.south_west)
     except InvalidScene as error:
         cure = "a sweep starts in the SW corner of its terrain"
+        if scene.terrain is not None and rectangular_room(scene) is not None:
+            cure += "; without a terrain the enclosure is swept"
         raise InvalidScene(error.violations, error.cure or cure) from None
 
 
