@@ -37,10 +37,11 @@ MOST_TERMS = 1 << 19
 """Products of terms after which a test gives up: a few seconds of work at most."""
 BITS = 256
 HALF = fmpq(1, 2)
-TOWERS_KEPT = 16
+TOWERS_KEPT = 8
 _kept: dict[tuple[type[Tower], Generators], Tower] = {}
 """Towers of the last tests by what their numbers are made of: ties come in groups that share their radicals.
-All tests of one tower together may take as long as one test; then it is made anew."""
+All tests of one tower together may take as long as one test; then it is made anew. The largest that was seen
+held 20 MB."""
 
 
 class _TooLong(Exception):
