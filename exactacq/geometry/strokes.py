@@ -69,7 +69,7 @@ class Stroke:
             x, y = self.center
             for k, (u, v) in enumerate(((1, 0), (0, 1), (-1, 0), (0, -1))):
                 turned = (k * math.pi / 2 - self.angle) * math.copysign(1, self.sweep)
-                if turned % (2 * math.pi) < abs(self.sweep):
+                if 0 < turned % (2 * math.pi) < abs(self.sweep):
                     found.append((x + u * self.radius, y + v * self.radius))
         return found
 
