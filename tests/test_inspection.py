@@ -25,15 +25,10 @@ import exactacq as xa
 from exactacq import cli
 from exactacq.cli.options import read_from_text
 from exactacq.files.checking import cures
-from exactacq.files.checking.sketch import Sketch
 from exactacq.files.checking.starts import rounded, rounded_up, widest_gap
 from exactacq.files.dxf import entities
 from exactacq.files.formats import options
-from exactacq.geometry.box_index import box as around
-from exactacq.geometry.curves import Arc
-from exactacq.geometry.loops import winding
 from exactacq.scene import validation
-from exactacq.scene.shapes import shape_edges
 
 DATA = Path(__file__).parent / "data"
 FILES = sorted(
@@ -209,51 +204,7 @@ def test_rounding_stays_within_the_clearance() -> None:
         assert value <= float(xa.Real(up)) * (1 + 1e-15) and float(xa.Real(up)) <= value * 1.1 + 1e-25
 
 
-def test_places_in_loops_are_told_as_shapely_does() -> None:
-    random = Random(8)
-    rings = [[(random.random(), random.random()) for _ in range(7)] for _ in range(20)]
-    circle = xa.Circle((fmpq(1, 2), fmpq(1, 2)), fmpq(1, 4))
-    sketch = Sketch([*(xa.Polygon(ring) for ring in rings), circle])
-    areas = [shapely.make_valid(shapely.Polygon(ring)) for ring in rings]
-    areas.append(shapely.geometry.shape(circle.__geo_interface__))
-    places = np.array([(random.random(), random.random()) for _ in range(300)])
-    around, clear = sketch.around(places), sketch.clearance(places)
-    lines = [shapely.LinearRing(ring) for ring in rings] + [areas[-1].boundary]
-    for k, place in enumerate(map(shapely.Point, places)):
-        distance = min(line.distance(place) for line in lines)
-        assert clear[k] == pytest.approx(distance, abs=1e-3)
-        if distance > 1e-3:
-            assert around[k].tolist() == [area.contains(place) for area in areas]
-
-
 # -- cases ----------------------------------------------------------------------------------------------
-
-
-def test_places_beside_arcs_are_told_as_winding_numbers_do() -> None:
-    """Chords of 7.5 degrees lie up to a five hundredth of the radius inside: loops there were outside."""
-    dice = Random(7)
-    outline = xa.Outline([(100, 0, 1), (-100, 0, fmpq(-1, 3)), (0, 40, "0.8")])
-    edges = shape_edges(outline)
-    places = []
-    for edge in edges:
-        stroke = edge.stroke()
-        for _ in range(80):
-            x, y = stroke.at(dice.random())
-            places.append([round(c + dice.uniform(-0.3, 0.3), 3) for c in (x, y)])
-    inside = Sketch([outline]).around(np.array(places))[:, 0]
-    exact = [winding(edges, xa.Point(*(fmpq(round(1000 * c), 1000) for c in place))) for place in places]
-    assert inside.tolist() == [bool(w) for w in exact]
-    assert 80 < inside.sum() < 160
-
-
-@pytest.mark.parametrize("seed", some(range(40), 10))
-def test_arcs_reach_as_far_as_they_do(seed: int) -> None:
-    dice = Random(seed)
-    (a, b), (c, d) = ((dice.randint(-9, 9), dice.randint(-9, 9)) for _ in "ab")
-    if (a, b) != (c, d):
-        arc = Arc.from_bulge(xa.Point(a, b), xa.Point(c, d), fmpq(dice.choice((-30, -7, 3, 10, 25)), 10))
-        found = np.array(arc.stroke().extremes())
-        assert (*found.min(axis=0), *found.max(axis=0)) == pytest.approx(around(arc), abs=1e-9)
 
 
 def test_a_hole_close_to_the_arc_around_it(tmp_path: Path) -> None:

@@ -382,6 +382,15 @@ def test_what_vanishes_by_chance_is_no_identity() -> None:
     assert vanishes_about(((1 - tau) * (1 - tau)).sqrt() + 1 - tau), "1 - tau is negative"
 
 
+def test_a_long_number_does_not_hide_another() -> None:
+    """Once the first of several was too long, none of the others was looked at."""
+    tau = anything()
+    zero = (tau * tau).sqrt() - tau
+    long = 2**17000 * tau + Real(2).sqrt()
+    assert vanishes_about(long, zero) and vanishes_about(zero, long)
+    assert not vanishes_about(long)
+
+
 def test_functions_of_two_numbers() -> None:
     """A place inside an arc that begins in the root of a polynomial: what vanishes for all numbers is 0."""
     tau, root = anything(), first_root(HIGH)

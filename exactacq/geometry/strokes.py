@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 SAMPLE = math.pi / 24
 """Angle between the points of an arc that show where it runs."""
+FLAT = 1e6
+"""Radius over length of arcs that are straight for floats: these round the centre by more than it bulges."""
 Floats: TypeAlias = "NDArray[np.float64]"
 
 
@@ -65,7 +67,7 @@ class Stroke:
         [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0)]
         """
         found = [self.start, self.end]
-        if self.center is not None:
+        if self.center is not None and self.radius < FLAT * self.length:
             x, y = self.center
             for k, (u, v) in enumerate(((1, 0), (0, 1), (-1, 0), (0, -1))):
                 turned = (k * math.pi / 2 - self.angle) * math.copysign(1, self.sweep)

@@ -41,7 +41,8 @@ def short_content(terms: Terms) -> fmpq:
     """The largest rational of which all coefficients are integer multiples; 1 if they are long.
 
     It may have as many bits as all coefficients together. Where numbers are made of one another, by products
-    and roots, they would become three times as long at every step.
+    and roots, they would become three times as long at every step. That roots of multiples of a long form are
+    multiples of each other is then told by their fields, not by their forms.
     """
     if sum(c.height_bits() for c in terms.values()) > CONTENT_BITS:
         return ONE

@@ -28,6 +28,8 @@ ROOT_BITS = 256
 MOST_WORK = 1 << 26
 """Bits of an element (see `NumberField.size`) times the square of its field's degree up to which a minimal
 polynomial is looked for. The element is taken as it is once it was multiplied by all powers of the root."""
+SUMS = 4
+"""Products are added up, and each sum is reduced: together that takes so many times longer."""
 INVERSE = 3500
 """An inverse costs the field's degree squared times the words of the element to the power 1.5, over this."""
 WIDE = 0.25
@@ -74,7 +76,7 @@ class NumberField:
 
     def cost(self, a: Collection[fmpq_poly], b: fmpq_poly) -> float:
         """What it costs to multiply elements by one, in products of short integers."""
-        return product_cost(a, b, self.size) + float(len(a) * (self.degree**2 - 1))
+        return SUMS * (product_cost(a, b, self.size) + float(len(a) * (self.degree**2 - 1)))
 
     def lowest_cost(self, parts: dict[int, fmpq_poly], under: fmpz) -> float:
         """What `lowest` costs."""

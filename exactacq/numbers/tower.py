@@ -18,7 +18,7 @@ The root of A + B t is x + y t only if the norm A^2 - B^2 t^2 is a square n^2 an
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Sequence
 from math import inf, prod
 from typing import Any, NamedTuple, TypeAlias
 
@@ -35,6 +35,8 @@ MOST_DEGREE = 36
 MOST_RADICALS = 12
 MOST_TERMS = 1 << 19
 """Products of terms after which a test gives up: a few seconds of work at most."""
+ROOT = 8
+"""How many products a square root of a coefficient takes."""
 BITS = 256
 HALF = fmpq(1, 2)
 TOWERS_KEPT = 8
@@ -61,7 +63,19 @@ def vanishes_about(*values: Form) -> bool:
     Then it is 0. Numbers are all that is made neither by arithmetic nor by square roots.
     """
     generators = frozenset[tuple[Hashable, int]]().union(*(value.generators() for value in values))
-    return bool(_asked(FormalTower, generators, lambda tower: not all(map(tower.element, values))))
+    return bool(_asked(FormalTower, generators, lambda tower: _any_zero(tower, values)))
+
+
+def _any_zero(tower: Tower, values: Sequence[Form]) -> bool:
+    """Whether one of some elements is 0, though others may be too long to tell."""
+    told = []
+    for value in values:
+        told.append(_told(tower, lambda tower, value=value: not tower.element(value)))  # type: ignore[misc]
+        if told[-1]:
+            return True
+    if None in told:
+        raise _TooLong
+    return False
 
 
 def _asked(kind: type[Tower], generators: Generators, ask: Callable[[Tower], bool]) -> bool | None:
@@ -290,7 +304,9 @@ class Tower:
         if not a:
             return a
         if count == 0:
-            root = self.field.square_root(a.parts[0] * a.under)
+            radicand = a.parts[0] * a.under
+            self._spend(ROOT * self.field.cost([radicand], radicand))
+            root = self.field.square_root(radicand)
             return None if root is None else self._lowest({0: root}, a.under)
         last = count - 1
         one = self.field.one

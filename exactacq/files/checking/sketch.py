@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from exactacq.cached import cached_property
 from exactacq.geometry.curves import Curve, Segment
-from exactacq.geometry.strokes import Floats, Stroke
+from exactacq.geometry.strokes import FLAT, Floats, Stroke
 from exactacq.numbers.rationals import nearest_float
 from exactacq.numbers.real import Real
 from exactacq.scene.shapes import Shape, shape_edges
@@ -163,7 +163,7 @@ def _crossed(places: Floats, starts: Floats, ends: Floats) -> Bools:
 
 def _bulged(places: Floats, starts: Floats, ends: Floats, centers: Floats, radii: Floats) -> Bools:
     """Which places lie between chords and their arcs, of an odd number of them."""
-    arcs = radii > 0
+    arcs = (radii > 0) & (radii < FLAT * np.hypot(*(ends - starts).T))
     (ax, ay), (cx, cy), (ux, uy) = starts[arcs].T, centers[arcs].T, (ends - starts)[arcs].T
     x, y = places[:, :1], places[:, 1:]
     beyond = ux * (y - ay) - uy * (x - ax)
