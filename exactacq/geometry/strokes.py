@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 SAMPLE = math.pi / 24
 """Angle between the points of an arc that show where it runs."""
 FLAT = 1e6
-"""Radius over length of arcs that are straight for floats: these round the centre by more than it bulges."""
+"""An arc whose radius is so many lengths counts as straight: its centre is rounded by more than it bulges."""
 Floats: TypeAlias = "NDArray[np.float64]"
 
 

@@ -7,6 +7,7 @@ in only where their balls tell which of two square roots is meant. Fields of roo
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection, Sequence
 from typing import Any, TypeAlias
 
@@ -27,11 +28,43 @@ RootKey: TypeAlias = "tuple[tuple[int, ...], int]"
 """Ascending coefficients of an irreducible integer polynomial, and which of its real roots is meant."""
 
 
-class Rationals:
-    """The rationals as a first field.
+class FractionField(ABC):
+    """A field of fractions: its elements are of a ring, over the common denominator of a sum."""
 
-    Its elements are integers over the common denominator of a sum, so that not every product is reduced.
-    """
+    def times(self, a: Any, b: Any) -> Any:
+        """The product of two elements."""
+        return a * b
+
+    @abstractmethod
+    def cost(self, a: Collection[Any], b: Any) -> float:
+        """What it costs to multiply elements by one, in products of short integers."""
+
+    def lowest(self, parts: dict[int, Any], under: Any) -> tuple[dict[int, Any], Any]:
+        """Elements over a common denominator, in lowest terms."""
+        if under == 1:
+            return parts, under
+        # What a sum of multiples shares with the denominator, all of them mostly share.
+        total = sum((k * c for k, c in enumerate(parts.values(), 1)), 0 * under)
+        common = under.gcd(total)
+        while common != 1:
+            divided = {m: divmod(c, common) for m, c in parts.items()}
+            rest = next((rest for _, rest in divided.values() if rest), None)
+            if rest is None:
+                return {m: c for m, (c, _) in divided.items()}, under // common
+            common = common.gcd(rest)
+        return parts, under
+
+    def lowest_cost(self, parts: dict[int, Any], under: Any) -> float:
+        """What `lowest` costs."""
+        return DIVISION * self.cost(parts.values(), under)
+
+    def inverse_cost(self, a: Any) -> float:
+        """What an inverse costs: nothing."""
+        return 0
+
+
+class Rationals(FractionField):
+    """The rationals as a first field: its elements are integers."""
 
     one = fmpz(1)
 
@@ -42,25 +75,9 @@ class Rationals:
     def of_atom(self, atom: Atom) -> None:
         """None: no atom but 1 is rational."""
 
-    def times(self, a: fmpz, b: fmpz) -> fmpz:
-        """The product of two elements."""
-        return a * b
-
-    def lowest(self, parts: dict[int, fmpz], under: fmpz) -> tuple[dict[int, fmpz], fmpz]:
-        """Elements over a common denominator, in lowest terms."""
-        return _lowest(parts, under)
-
     def cost(self, a: Collection[fmpz], b: fmpz) -> float:
         """What it costs to multiply elements by one, in products of short integers."""
         return product_cost(a, b, fmpz.bit_length)
-
-    def lowest_cost(self, parts: dict[int, fmpz], under: fmpz) -> float:
-        """What `lowest` costs."""
-        return DIVISION * self.cost(parts.values(), under)
-
-    def inverse_cost(self, a: fmpz) -> float:
-        """What an inverse costs: nothing."""
-        return 0
 
     def inverse(self, a: fmpz) -> tuple[fmpz, fmpz]:
         """1 over an element that is not 0, as an element and its denominator."""
@@ -75,7 +92,7 @@ class Rationals:
         return arb(a)
 
 
-class RationalFunctions:
+class RationalFunctions(FractionField):
     """The field over Q of some numbers, of which nothing is known but balls: *numbers* are nodes, or roots.
 
     Its elements are integer polynomials in these, over the common denominator of a sum, a polynomial too.
@@ -106,16 +123,6 @@ class RationalFunctions:
             return None if variable is None else variable**power
         return self._variables.get(atom) if isinstance(atom, Node) else None
 
-    def times(self, a: fmpz_mpoly, b: fmpz_mpoly) -> fmpz_mpoly:
-        """The product of two elements."""
-        return a * b
-
-    def lowest(
-        self, parts: dict[int, fmpz_mpoly], under: fmpz_mpoly
-    ) -> tuple[dict[int, fmpz_mpoly], fmpz_mpoly]:
-        """Elements over a common denominator, in lowest terms."""
-        return _lowest(parts, under)
-
     def inverse(self, a: fmpz_mpoly) -> tuple[fmpz_mpoly, fmpz_mpoly]:
         """1 over an element that is not 0, as an element and its denominator."""
         return self.one, a
@@ -136,14 +143,6 @@ class RationalFunctions:
         # Those in the middle are the longest.
         return len(a) * int(a.coefficient(len(a) // 2).bit_length()) if a else 0
 
-    def lowest_cost(self, parts: dict[int, fmpz_mpoly], under: fmpz_mpoly) -> float:
-        """What `lowest` costs."""
-        return DIVISION * self.cost(parts.values(), under)
-
-    def inverse_cost(self, a: fmpz_mpoly) -> float:
-        """What an inverse costs: nothing."""
-        return 0
-
     def ball(self, a: fmpz_mpoly, bits: int) -> arb:
         """An enclosure of an element, with *bits* working bits that the caller has set."""
         total = arb(0)
@@ -158,19 +157,3 @@ class RationalFunctions:
 def product_cost(a: Collection[Any], b: Any, bits: Callable[[Any], int]) -> float:
     """How long products take, as each takes the longer the more words it multiplies."""
     return len(a) + (len(a) * (bits(b) >> 6) + (sum(map(bits, a)) >> 6)) // WORDS
-
-
-def _lowest(parts: dict[int, Any], under: Any) -> tuple[dict[int, Any], Any]:
-    """Elements over a common denominator, in lowest terms."""
-    if under == 1:
-        return parts, under
-    # What a sum of multiples shares with the denominator, all of them mostly share.
-    total = sum((k * c for k, c in enumerate(parts.values(), 1)), 0 * under)
-    common = under.gcd(total)
-    while common != 1:
-        divided = {m: divmod(c, common) for m, c in parts.items()}
-        rest = next((rest for _, rest in divided.values() if rest), None)
-        if rest is None:
-            return {m: c for m, (c, _) in divided.items()}, under // common
-        common = common.gcd(rest)
-    return parts, under

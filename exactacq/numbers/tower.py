@@ -68,12 +68,14 @@ def vanishes_about(*values: Form) -> bool:
 
 def _any_zero(tower: Tower, values: Sequence[Form]) -> bool:
     """Whether one of some elements is 0, though others may be too long to tell."""
-    told = []
+    is_open = False
     for value in values:
-        told.append(_told(tower, lambda tower, value=value: not tower.element(value)))  # type: ignore[misc]
-        if told[-1]:
-            return True
-    if None in told:
+        try:
+            if not tower.element(value):
+                return True
+        except _TooLong:
+            is_open = True
+    if is_open:
         raise _TooLong
     return False
 
@@ -309,16 +311,12 @@ class Tower:
             root = self.field.square_root(radicand)
             return None if root is None else self._lowest({0: root}, a.under)
         last = count - 1
-        one = self.field.one
-        t, square = (
-            TowerElement({1 << last: self.field.constant(1)}, one),
-            TowerElement(self.squares[last], one),
-        )
+        square = TowerElement(self.squares[last], self.field.one)
         low, high = a.split(last)
         if not high:
             x = self.square_root(low, last)
             if x is None and (y := self.square_root(self.times(low, square), last)) is not None:
-                x = self.times(self.times(y, self.inverse(square)), t)
+                x = self._with_radical(self.times(y, self.inverse(square)), last)
             return x
         n = self.square_root(self._norm(a, last), last)
         if n is None:
@@ -327,8 +325,12 @@ class Tower:
             x = self.square_root(self._scaled(self._sum(low, n, sign), HALF), last)
             if x:
                 y = self.times(high, self.inverse(self._scaled(x, 2)))
-                return self._sum(x, self.times(y, t))
+                return self._sum(x, self._with_radical(y, last))
         return None
+
+    def _with_radical(self, a: TowerElement, radical: int) -> TowerElement:
+        """A t, for an A without t."""
+        return TowerElement({m | 1 << radical: c for m, c in a.parts.items()}, a.under)
 
     # -- signs of roots ----------------------------------------------------------------------------
 

@@ -71,10 +71,9 @@ class Sketch:
         """Which places lie in a loop."""
         found = np.zeros(len(places), dtype=bool)
         start, end = self._chords(k)
-        part = slice(self.begin[k], self.begin[k + 1])
-        center, radius = self.centers[part], self.radii[part]
+        center, radius = self.centers[self._part(k)], self.radii[self._part(k)]
         if len(start):
-            bulge = np.hypot(*(end - start).T).max()
+            bulge = np.hypot(*(end - start)[radius > 0].T).max(initial=0.0)
             low, high = start.min(axis=0) - bulge, start.max(axis=0) + bulge
             near = np.flatnonzero(((places >= low) & (places <= high)).all(axis=1))
             for some in _steps(near, len(start)):
@@ -106,8 +105,10 @@ class Sketch:
         return found
 
     def _chords(self, loop: int) -> tuple[Floats, Floats]:
-        part = slice(self.begin[loop], self.begin[loop + 1])
-        return self.starts[part], self.ends[part]
+        return self.starts[self._part(loop)], self.ends[self._part(loop)]
+
+    def _part(self, loop: int) -> slice:
+        return slice(self.begin[loop], self.begin[loop + 1])
 
 
 def _least(places: Floats, starts: Floats, ends: Floats) -> Floats:
