@@ -57,7 +57,14 @@ def test_points_lie_where_all_edges_say(name: str) -> None:
     assert found == set(Location)
 
 
+def pad(x: int, bulge: str) -> xa.Outline:
+    """A pad with round corners, as files have it: rounded, so that arcs and sides are not quite tangent."""
+    rows = [(-8, -3, 0), (8, -3, bulge), (10, -1, 0), (10, 1, bulge), (8, 3, 0), (-8, 3, bulge), (-10, 1, 0)]
+    return xa.Outline([(x + fmpq(u, 10), fmpq(v, 10), b) for u, v, b in [*rows, (-10, -1, bulge)]])
+
+
 GRIDS = {
+    "pads": xa.Scene([pad(4 * k, f"0.4142135623730{950 + k % 2}") for k in range(4)]),
     "squares": build(square_grid(3, 3)),
     "discs": build(circle_grid(3, 2)),
     "comb": SCENES["comb"],

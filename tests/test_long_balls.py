@@ -110,6 +110,14 @@ def test_long_balls_part_what_is_not_equal(monkeypatch: pytest.MonkeyPatch) -> N
     assert len(groups) - groups.count(1) < 2 * len(SECTORS)
 
 
+@pytest.mark.parametrize(("bulge", "coarse"), [("1/2", True), ("0.414213562373095", False)])
+def test_where_lines_that_look_the_same_are_the_same(bulge: str, coarse: bool) -> None:
+    """Corners on a lattice are not enough: of a row of pads with rounded bulges floats part no tangents."""
+    corners = [(1, 0, 0), (3, 0, bulge), (4, 1, 0), (4, 2, bulge), (3, 3, 0), (1, 3, bulge), (0, 2, 0)]
+    row = [xa.Outline([(x + 9 * k, y, b) for x, y, b in [*corners, (0, 1, bulge)]]) for k in range(3)]
+    assert EdgeTable(xa.Scene(row).obstacles).is_coarse is coarse
+
+
 @examples(60)
 @given(st.sampled_from(SECTORS), st.integers(0, len(TABLE.curves) - 1), st.sampled_from([-1, 1]), st.data())
 def test_an_event_lies_in_its_ball(

@@ -14,7 +14,7 @@ from exactacq import kernel
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.points import Location, Point
 from exactacq.kernel.box_tree import box_tree
-from exactacq.kernel.shadows import lit, shadows
+from exactacq.kernel.shadows import Shadows, lit
 from exactacq.scene import edge_table
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.free_segment import is_free
@@ -37,6 +37,7 @@ def always(monkeypatch: pytest.MonkeyPatch) -> None:
     """What hides is looked for everywhere."""
     monkeypatch.setattr(edge_table, "MANY", 0)
     monkeypatch.setattr(edge_table, "CLOSE", 1.0)
+    monkeypatch.setattr(edge_table, "HIDING", 1.0)
 
 
 @pytest.mark.usefixtures("always")
@@ -74,7 +75,7 @@ def test_runs_are_the_same_where_nothing_is_left_out(name: str, monkeypatch: pyt
     found = []
     for many, close in ((0, 1.0), (10**9, 0.2)):
         monkeypatch.setattr(edge_table, "MANY", many)
-        monkeypatch.setattr(edge_table, "CLOSE", close)
+        monkeypatch.setattr(edge_table, "HIDING", close)
         run = xa.sightseer(scene, 8, start=start)
         found.append([(e.kind, e.obstacle, str(e.point), str(e.path)) for e in run.events])
     assert found[0] == found[1]
@@ -84,8 +85,8 @@ def test_runs_are_the_same_where_nothing_is_left_out(name: str, monkeypatch: pyt
 def hidden(place: tuple[float, float], box: tuple[float, float, float, float], slack: float = 0.0) -> bool:
     """Whether the square from (1, -1) to (3, 1) hides a box from a place."""
     table = EdgeTable(xa.Scene([xa.Polygon([(1, -1), (3, -1), (3, 1), (1, 1)])]).obstacles)
-    hiding = shadows(table.images, [0, 1, 2, 3], (place,), slack)
-    return lit(box_tree([box]), (*place, *place), 100.0, hiding, slack) == []
+    hiding = Shadows(table.images, [0, 1, 2, 3], (place,), slack)
+    return lit(box_tree([box]), (*place, *place), 100.0, hiding) == []
 
 
 def test_a_square_by_hand() -> None:
@@ -100,7 +101,8 @@ def test_a_square_by_hand() -> None:
     assert not hidden((0.0, 0.0), (1.0, -0.5, 2.0, 0.5))
     # Nothing is hidden from a place on the side.
     table = EdgeTable(xa.Scene([xa.Polygon([(1, -1), (3, -1), (3, 1), (1, 1)])]).obstacles)
-    assert shadows(table.images, [3], ((1.0, 0.0),), 0.0) == []
+    on_it = Shadows(table.images, [3], ((1.0, 0.0),), 0.0)
+    assert lit(box_tree([(4.0, -1.0, 5.0, 1.0)]), (1.0, 0.0, 1.0, 0.0), 100.0, on_it) == [0]
     # From several places only what is hidden from all of them; from both sides of a line nothing.
     both = (0.0, -0.5), (0.0, 0.5)
     for places, box, expected in (
@@ -108,27 +110,30 @@ def test_a_square_by_hand() -> None:
         (both, (2.0, -1.5, 2.5, 1.5), [0]),
         (((0.0, 0.0), (2.0, 0.0)), (4.0, 0.0, 5.0, 0.1), [0]),
     ):
-        hiding = shadows(table.images, [3], places, 0.0)
-        assert lit(box_tree([box]), (0.0, -0.5, 0.0, 0.5), 100.0, hiding, 0.0) == expected
+        hiding = Shadows(table.images, [3], places, 0.0)
+        assert lit(box_tree([box]), (0.0, -0.5, 0.0, 0.5), 100.0, hiding) == expected
 
 
 def test_a_disc_by_hand() -> None:
     """A disc about (3, 0) with radius 1 hides what is behind its diameter across the view."""
     table = EdgeTable(xa.Scene([xa.Circle((3, 0), 1)]).obstacles)
-    hiding = shadows(table.images, [0], ((0.0, 0.0),), 0.0)
+    hiding = Shadows(table.images, [0], ((0.0, 0.0),), 0.0)
+    behind = box_tree([(6.0, -1.0, 7.0, 1.0)])
     for box, expected in (
         ((6.0, -1.0, 7.0, 1.0), []),
         ((6.0, 1.0, 7.0, 2.1), [0]),
         ((2.5, 0.0, 2.9, 0.0), [0]),
     ):
-        assert lit(box_tree([box]), (0.0, 0.0, 0.0, 0.0), 100.0, hiding, 0.0) == expected
-    assert shadows(table.images, [0], ((3.0, 0.5),), 0.0) == []
+        assert lit(box_tree([box]), (0.0, 0.0, 0.0, 0.0), 100.0, hiding) == expected
+    within = Shadows(table.images, [0], ((3.0, 0.5),), 0.0)
+    assert lit(behind, (3.0, 0.5, 3.0, 0.5), 100.0, within) == [0]
     # Of parts of circles nothing is told: a lens is much smaller than its circles, a room is outside.
     lens = xa.Outline([(3, -1, fmpq(1, 8)), (3, 1, fmpq(1, 8))])
     room = xa.Scene([xa.Circle((3, 0), 1)], enclosure=xa.Circle((3, 0), 9))
     for scene, arcs in ((xa.Scene([lens]), [0, 1]), (room, [1])):
         images = EdgeTable(scene.obstacles).images
-        assert shadows(images, arcs, ((0.0, 0.0),), 0.0) == []
+        hiding = Shadows(images, arcs, ((0.0, 0.0),), 0.0)
+        assert lit(behind, (0.0, 0.0, 0.0, 0.0), 100.0, hiding) == [0]
 
 
 @pytest.mark.usefixtures("always")

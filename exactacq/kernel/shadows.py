@@ -17,13 +17,13 @@ from exactacq.kernel.bounded import UNIT
 from exactacq.kernel.box_tree import NUMBER, Box, BoxNode
 from exactacq.kernel.images import CONVEX, STRAIGHT, EdgeImage
 
-MOST: Final = 16
-"""So many segments are looked at: those that hide most."""
+DIRECTIONS: Final = 256
+"""So many directions divide a full turn."""
+MOST: Final = 4
+"""So many segments are kept in each direction: those that hide most."""
 
 Spot = tuple[float, float]
 """A place in floats."""
-Ends = tuple[float, float, float, float]
-"""Both ends of a segment."""
 
 
 @mypyc_attr(acyclic=True)
@@ -39,10 +39,14 @@ class HalfPlane:
 @mypyc_attr(acyclic=True)
 @final
 class Shadow:
-    """What one segment hides: the points that lie in all of some half-planes."""
+    """What one segment hides: the points that lie in all of some half-planes.
 
-    def __init__(self, sides: list[HalfPlane]) -> None:
-        self._sides = sides
+    ``size`` grows with the angle at which the segment appears.
+    """
+
+    def __init__(self, ax: float, ay: float, bx: float, by: float, size: float) -> None:
+        self.ax, self.ay, self.bx, self.by, self.size = ax, ay, bx, by, size
+        self.sides: list[HalfPlane] = []
 
     def hides(self, node: BoxNode, slack: float) -> bool:
         """Whether all of a box certainly lies in the shadow, if all coordinates are held with *slack*.
@@ -50,7 +54,7 @@ class Shadow:
         A product of an offset o and a normal n, both differences, is off by at most 2 s (|o| + |n|) + 4 s^2
         for the data, | | being the sum of the components' sizes, and its roundings are below 8 UNIT |o| |n|.
         """
-        for side in self._sides:
+        for side in self.sides:
             nx, ny, size = side.nx, side.ny, side.size
             x = (node.x0 if nx > 0.0 else node.x1) - side.x
             y = (node.y0 if ny > 0.0 else node.y1) - side.y
@@ -60,101 +64,132 @@ class Shadow:
         return True
 
 
-def shadows(
-    images: list[EdgeImage], edges: list[int], places: tuple[Spot, ...], slack: float
-) -> list[Shadow]:
-    """Of what hides most from the middle of some places the shadows: of straight edges and whole discs."""
-    mx = my = 0.0
-    for x, y in places:
-        mx, my = mx + x / len(places), my + y / len(places)
-    # The largest so far, in falling order.
-    sizes: list[float] = []
-    found: list[Ends] = []
-    for e in edges:
-        edge = images[e]
-        if edge.kind == STRAIGHT:
-            following = images[edge.following]
-            ends = edge.x, edge.y, following.x, following.y
-        elif edge.kind == CONVEX and edge.full:
-            ends = _across(edge.cx, edge.cy, edge.radius, mx, my)
-        else:
-            continue
-        ax, ay, bx, by = ends[0] - mx, ends[1] - my, ends[2] - mx, ends[3] - my
-        below = hypot(ax, ay) * hypot(bx, by)
-        if below > 0.0:
-            # Grows with the angle at which the segment appears, up to a half turn.
-            sine, cosine = abs(ax * by - ay * bx) / below, (ax * bx + ay * by) / below
-            size = sine if cosine > 0.0 else 2.0 - sine
-            if len(sizes) == MOST:
-                if size <= sizes[MOST - 1]:
-                    continue
-                sizes.pop()
-                found.pop()
-            at = len(sizes)
-            while at > 0 and sizes[at - 1] < size:
+@mypyc_attr(acyclic=True)
+@final
+class Shadows:
+    """What straight edges and whole discs hide from some places.
+
+    In each direction from the middle of the places those segments are kept that appear largest: a box is
+    looked for in the shadows of its own direction.
+    """
+
+    def __init__(
+        self, images: list[EdgeImage], edges: list[int], places: tuple[Spot, ...], slack: float
+    ) -> None:
+        self._places, self._slack = places, slack
+        mx = my = 0.0
+        for x, y in places:
+            mx, my = mx + x / len(places), my + y / len(places)
+        self._x, self._y = mx, my
+        self._rows: list[list[Shadow]] = [[] for _ in range(DIRECTIONS)]
+        for e in edges:
+            edge = images[e]
+            if edge.kind == STRAIGHT:
+                following = images[edge.following]
+                self._add(edge.x, edge.y, following.x, following.y)
+            elif edge.kind == CONVEX and edge.full:
+                # The diameter that is seen broadside; a little within.
+                dx, dy = edge.cx - mx, edge.cy - my
+                far = hypot(dx, dy)
+                if far > edge.radius:
+                    part = edge.radius * (1.0 - 1e-9) / far
+                    x, y = -dy * part, dx * part
+                    self._add(edge.cx + x, edge.cy + y, edge.cx - x, edge.cy - y)
+
+    def hide(self, node: BoxNode) -> bool:
+        """Whether one segment certainly hides all of a box."""
+        at = _direction((node.x0 + node.x1) / 2.0 - self._x, (node.y0 + node.y1) / 2.0 - self._y)
+        for shadow in self._rows[int(at) % DIRECTIONS]:  # noqa: SIM110  # A generator is slow when compiled.
+            if shadow.hides(node, self._slack):
+                return True
+        return False
+
+    def _add(self, ax: float, ay: float, bx: float, by: float) -> None:
+        """Keep a segment in the directions in which it is among the largest."""
+        ux, uy, vx, vy = ax - self._x, ay - self._y, bx - self._x, by - self._y
+        sine, cosine = ux * vy - uy * vx, ux * vx + uy * vy
+        if sine < 0.0:
+            ax, ay, bx, by = bx, by, ax, ay
+            ux, uy, vx, vy, sine = vx, vy, ux, uy, -sine
+        first, last = _direction(ux, uy), _direction(vx, vy)
+        if last < first:
+            last += DIRECTIONS
+        # Directions are looked for by their middles.
+        low, high = int(first + 0.5), int(last + 0.5)
+        below = hypot(ux, uy) * hypot(vx, vy) if low < high else 0.0
+        if not below > 0.0:
+            return
+        # Grows with the angle, up to a half turn.
+        part = sine / below
+        shadow = Shadow(ax, ay, bx, by, part if cosine > 0.0 else 2.0 - part)
+        for k in range(low, high):
+            row = self._rows[k % DIRECTIONS]
+            if len(row) == MOST and shadow.size <= row[MOST - 1].size:
+                continue
+            if not shadow.sides:
+                shadow.sides = _sides(self._places, shadow, self._slack)
+                if not shadow.sides:
+                    return
+            at = len(row)
+            if at == MOST:
+                row.pop()
                 at -= 1
-            sizes.insert(at, size)
-            found.insert(at, ends)
-    made: list[Shadow] = []
-    for ends in found:
-        sides = _sides(places, ends, slack)
-        if sides:
-            made.append(Shadow(sides))
-    return made
+            while at > 0 and row[at - 1].size < shadow.size:
+                at -= 1
+            row.insert(at, shadow)
 
 
-def lit(tree: BoxNode, window: Box, reach: float, hiding: list[Shadow], slack: float) -> list[int]:
+def lit(tree: BoxNode, window: Box, reach: float, hiding: Shadows) -> list[int]:
     """The numbers of the boxes at most as far as *reach* from a window that no shadow contains, ascending."""
     runs: list[BoxNode] = []
-    _search(tree, window, reach * reach, hiding, slack, runs)
+    _search(tree, window, reach * reach, hiding, runs)
     runs.sort(key=NUMBER)
     found: list[object] = []
     for run in runs:
         for box in run.group or [run]:
-            if _is_lit(box, window, reach * reach, hiding, slack):
+            if _is_lit(box, window, reach * reach, hiding):
                 found.append(box.label)
     return cast(list[int], found)
 
 
-def _search(
-    around: BoxNode, window: Box, square: float, hiding: list[Shadow], slack: float, runs: list[BoxNode]
-) -> None:
+def _search(around: BoxNode, window: Box, square: float, hiding: Shadows, runs: list[BoxNode]) -> None:
     for node in around.group:
-        if not _is_lit(node, window, square, hiding, slack):
+        if not _is_lit(node, window, square, hiding):
             continue
         if node.number >= 0:
             runs.append(node)
         else:
-            _search(node, window, square, hiding, slack, runs)
+            _search(node, window, square, hiding, runs)
 
 
-def _is_lit(node: BoxNode, window: Box, square: float, hiding: list[Shadow], slack: float) -> bool:
+def _is_lit(node: BoxNode, window: Box, square: float, hiding: Shadows) -> bool:
     """Whether a box comes near the window, and no shadow contains it."""
     x0, y0, x1, y1 = window
-    if node.square_from(x0, y0, x1, y1) > square:
-        return False
-    for shadow in hiding:  # noqa: SIM110  # A generator is slow when it is compiled.
-        if shadow.hides(node, slack):
-            return False
-    return True
+    return node.square_from(x0, y0, x1, y1) <= square and not hiding.hide(node)
 
 
-def _across(cx: float, cy: float, radius: float, x: float, y: float) -> Ends:
-    """The ends of the diameter of a disc that is seen broadside from a place; a little within."""
-    dx, dy = cx - x, cy - y
-    far = hypot(dx, dy)
-    if not far > radius:
-        return cx, cy, cx, cy
-    part = radius * (1.0 - 1e-9) / far
-    return cx - dy * part, cy + dx * part, cx + dy * part, cy - dx * part
+def _direction(x: float, y: float) -> float:
+    """How far from the east a vector is turned, counterclockwise, in numbers of directions; 0 for none.
+
+    The sum of both components stands for the length: so directions are not all of one width.
+    """
+    size = abs(x) + abs(y)
+    if not size > 0.0:
+        return 0.0
+    turn = y / size
+    if x < 0.0:
+        turn = 2.0 - turn
+    elif turn < 0.0:
+        turn += 4.0
+    return turn * (DIRECTIONS / 4.0)
 
 
-def _sides(places: tuple[Spot, ...], ends: Ends, slack: float) -> list[HalfPlane]:
-    """The half-planes of a segment's shadow from some places; none if it may have some on both sides."""
-    ax, ay, bx, by = ends
-    px, py = places[0]
-    if (ax - px) * (by - py) - (ay - py) * (bx - px) < 0.0:
-        ax, ay, bx, by = bx, by, ax, ay
+def _sides(places: tuple[Spot, ...], shadow: Shadow, slack: float) -> list[HalfPlane]:
+    """The half-planes of a segment's shadow from some places; none if it may have some on both sides.
+
+    From the middle of the places the segment turns to the left.
+    """
+    ax, ay, bx, by = shadow.ax, shadow.ay, shadow.bx, shadow.by
     sides = [HalfPlane(ax, ay, by - ay, ax - bx)]
     size = abs(bx - ax) + abs(by - ay)
     for x, y in places:

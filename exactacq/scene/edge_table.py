@@ -27,7 +27,7 @@ from exactacq.kernel.images import EdgeImage
 from exactacq.kernel.lattice import Lattice
 from exactacq.kernel.line_keys import LineNumbers
 from exactacq.kernel.lines import Line
-from exactacq.kernel.shadows import Spot, lit, shadows
+from exactacq.kernel.shadows import Shadows, Spot, lit
 from exactacq.numbers.float_bounds import margin
 from exactacq.recent import Recent
 from exactacq.scene.scene import Obstacle
@@ -42,10 +42,12 @@ LATTICE_BITS = 64
 """Up to this size of the common denominator vertices are looked at as integers."""
 COARSE_BITS = 32
 """Up to this size of the common denominator coordinates are not rounded: those that should be equal are."""
+HIDING = 0.4
+"""Within this part of the reach is looked for what hides others,"""
 CLOSE = 0.2
-"""Within this part of the reach what hides much is looked for,"""
+"""if within this part of it"""
 MANY = 24
-"""if there are so many edges: among fewer ones that takes as long as is spared."""
+"""there are so many edges: among fewer ones that takes as long as is spared."""
 SAMPLES = 16
 """If it is so at none of so many edges, it is looked for nowhere."""
 BITS = 64
@@ -165,10 +167,14 @@ class EdgeTable:
         xs, ys = ([int((v[k] * common).p) for v in self.vertices] for k in (0, 1))
         return common, Lattice(xs, ys)
 
-    @property
+    @cached_property
     def is_coarse(self) -> bool:
-        """Whether all vertices are on a coarse lattice: what looks the same there in floats mostly is."""
-        return self.lattice is not None and self.lattice[0].height_bits() <= COARSE_BITS
+        """Whether vertices are on a coarse lattice, and arcs have few digits: what looks equal mostly is."""
+        return (
+            self.lattice is not None
+            and self.lattice[0].height_bits() <= COARSE_BITS
+            and all(_is_short(curve) for curve in self.curves if isinstance(curve, Arc))
+        )
 
     @cached_property
     def curve_images(self) -> list[CurveImage]:
@@ -245,10 +251,10 @@ class EdgeTable:
             xs, ys = zip(*places, strict=True)
             low, high = (min(xs), min(ys)), (max(xs), max(ys))
         if self._is_dense(reach):
-            close, slack = self.around(low, high, reach * CLOSE), 8 * self.roundoff_at(low, high)
+            close, slack = self.around(low, high, reach * HIDING), 8 * self.roundoff_at(low, high)
             if len(close) >= MANY and slack < inf:
-                hiding = shadows(self.images, close, places, slack)
-                return lit(self.tree, (*low, *high), reach + 8 * self._error(low, high), hiding, slack)
+                hiding = Shadows(self.images, close, places, slack)
+                return lit(self.tree, (*low, *high), reach + 8 * self._error(low, high), hiding)
         return self.around(low, high, reach)
 
     def _is_dense(self, reach: float) -> bool:
@@ -289,6 +295,12 @@ class EdgeTable:
         bound = np.where(self.kind[edges] == STRAIGHT, straight, curved)
         bounds: Floats = np.maximum(bound * (1 - 1e-14) - 8 * self.roundoff, 0.0)
         return bounds
+
+
+def _is_short(arc: Arc) -> bool:
+    """Whether an arc's centre and radius have few digits, as those drawn on a coarse lattice have."""
+    centre = max(c.q.height_bits() for c in _pair(arc.center))
+    return bool(centre <= COARSE_BITS and arc.radius_sq.q.height_bits() <= 2 * COARSE_BITS)
 
 
 def _passes(curve: Curve, point: Point) -> bool:

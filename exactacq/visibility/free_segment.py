@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from math import hypot, inf
+from math import hypot
 from operator import itemgetter
 
 from flint import fmpq
@@ -19,10 +19,9 @@ from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.points import Location, Point
 from exactacq.kernel.clearance import crossed, met
-from exactacq.kernel.lines import line_at, meets
-from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.real import Real, rational
 from exactacq.scene.edge_table import EdgeTable
+from exactacq.visibility.line_balls import first_meetings
 from exactacq.visibility.line_families import Sector
 
 HALF = fmpq(1, 2)
@@ -113,32 +112,13 @@ def _as_far_as_walls(
 ) -> tuple[list[int], set[int]]:
     """Those of some edges that a line may meet up to where it surely is blocked, and those that block it.
 
-    It is where it crosses a straight edge between its ends: the contact, where it begins, is not inside.
+    It is where long balls tell that it crosses an edge: the contact, where it begins, is not inside, so if it
+    leaves an obstacle there it was blocked before.
     """
-    if not sector.is_rational:
-        return edges, set()
-    walls: set[int] = set()
-    at = line_at(sector.image, *float_ball(t))
-    met: list[tuple[float, float]] = []
-    behind, ahead = -inf, inf
-    for e in edges:
-        curve = table.curve_images[e]
-        far, bound, u, error, *_ = meets(at, curve, 1)
-        low, high = far - bound, far + bound
-        if curve.sense:
-            other, bound, *_ = meets(at, curve, -1)
-            low, high = min(low, other - bound), max(high, other + bound)
-        elif error < u < 1 - error:
-            if low > 0:
-                ahead = min(ahead, high)
-                walls.add(e)
-            elif high < 0:
-                behind = max(behind, low)
-                walls.add(e)
-        met.append((low, high))
-    # Where nothing is known the interval is infinite, so such an edge stays.
-    kept = [e for e, (low, high) in zip(edges, met, strict=True) if high >= behind and low <= ahead]
-    return kept, walls
+    first, left = first_meetings(table, sector, t, edges)
+    walls = {e for *_, e in first.values()}
+    kept = walls.union(left)
+    return [e for e in edges if e in kept], walls
 
 
 def _as_far(hits: list[tuple[Real, int]], begun: set[int], far: float) -> list[tuple[Real, int]]:

@@ -31,6 +31,8 @@ Line: TypeAlias = "tuple[arb, arb, arb, arb]"
 """Contact and direction."""
 Meeting: TypeAlias = "tuple[arb, int]"
 """How far ahead a line meets an edge, and 1 if it enters the obstacle there, going ahead, -1 if it leaves."""
+FirstMeeting: TypeAlias = "tuple[arb, int, int]"
+"""How far ahead a line meets an edge, the sense in which it enters the obstacle there, and the edge."""
 Sighted: TypeAlias = "tuple[arb, arb, arb, int]"
 """The vector from a line's contact to a place, its product with the line's direction, and that one's sign."""
 LONG = 256
@@ -166,36 +168,35 @@ def long_frame(sector: Sector) -> Line:
     return _held(Point(*sector.center)) + _held(Point(*sector.base))
 
 
-def entered(first: dict[int, tuple[int, int]]) -> tuple[int, int]:
+def entered(first: dict[int, FirstMeeting]) -> tuple[int, int]:
     """At which of the edges that it meets first, behind its contact and ahead, a line enters an obstacle.
 
     `NOTHING` if there is none, or if it is met from its blocked side.
     """
-    (behind, back), (ahead, forth) = (first.get(side, (NOTHING, side)) for side in (-1, 1))
+    (_, back, behind), (_, forth, ahead) = (first.get(side, (None, side, NOTHING)) for side in (-1, 1))
     return behind if back < 0 else NOTHING, ahead if forth > 0 else NOTHING
 
 
 def first_meetings(
-    table: EdgeTable, sector: Sector, t: fmpq, edges: Iterable[int], own: Collection[int]
-) -> tuple[dict[int, tuple[int, int]], list[int]]:
+    table: EdgeTable, sector: Sector, t: fmpq | Real, edges: Iterable[int], own: Collection[int] = ()
+) -> tuple[dict[int, FirstMeeting], list[int]]:
     """The edge that a line meets first on each side, 1 ahead of its contact and -1 behind, if there is one.
 
-    With the sense, 1 or -1, in which the line enters an obstacle there; and a list of the edges of which
-    balls leave open whether they are met nearer. The contact lies on the edges *own*, along which the line
-    does not run; there it does not meet them.
+    And a list of the edges of which balls leave open whether they are met nearer. The contact lies on the
+    edges *own*, along which the line does not run; there it does not meet them.
     """
-    nearest: dict[int, tuple[arb, int, int]] = {}
+    nearest: dict[int, FirstMeeting] = {}
     left: list[int] = []
     curves, following = table.curves, table.following
     # Two edges meet at a vertex, which is looked at once.
     sighted: dict[int, Sighted] = {}
     with workprec(LONG):
-        at = line(sector, arb(t), long_frame(sector))
+        at = line(sector, t.working_ball(LONG) if isinstance(t, Real) else arb(t), long_frame(sector))
         for e in edges:
             curve = curves[e]
             met: list[Meeting] | None = []
             if isinstance(curve, Arc):
-                met = _met_round(at, curve, e in own)
+                met = _met_round(at, curve, e in own, nearest)
             elif e not in own:
                 for v in (e, following[e]):
                     if v not in sighted:
@@ -211,12 +212,29 @@ def first_meetings(
                 if side == 0 or nearer == 0:
                     left.append(e)
                 elif nearer > 0:
-                    nearest[side] = tau, e, sense
-    return {side: (e, sense) for side, (_, e, sense) in nearest.items()}, left
+                    nearest[side] = tau, sense, e
+        return nearest, [e for e in left if not _is_beyond(_span(at, curves[e]), nearest)]
 
 
-def _met_round(at: Line, curve: Arc, is_own: bool) -> list[Meeting] | None:
-    """Where a line crosses an arc, inside it; None if balls leave open whether it does."""
+def _span(at: Line, curve: Curve) -> tuple[arb, arb]:
+    """Between which places along a line a curve lies, as multiples of the line's direction."""
+    x, y, dx, dy = at
+    size = dx * dx + dy * dy
+    if isinstance(curve, Segment):
+        (ax, ay), (bx, by) = _held(curve.start), _held(curve.end)
+        return ((ax - x) * dx + (ay - y) * dy) / size, ((bx - x) * dx + (by - y) * dy) / size
+    cx, cy = _held(curve.center)
+    middle, half = ((cx - x) * dx + (cy - y) * dy) / size, (arb(curve.radius_sq) / size).sqrt()
+    return middle - half, middle + half
+
+
+def _is_beyond(places: Iterable[arb], nearest: dict[int, FirstMeeting]) -> bool:
+    """Whether all of some places along a line surely are farther on one side than what is met first there."""
+    return any(all(ball_sign(p - tau) == side for p in places) for side, (tau, *_) in nearest.items())
+
+
+def _met_round(at: Line, curve: Arc, is_own: bool, nearest: dict[int, FirstMeeting]) -> list[Meeting] | None:
+    """Where a line crosses an arc, inside it, nearer than another edge; None if balls leave that open."""
     x, y, dx, dy = at
     cx, cy = _held(curve.center)
     ox, oy, size = cx - x, cy - y, dx * dx + dy * dy
@@ -232,6 +250,8 @@ def _met_round(at: Line, curve: Arc, is_own: bool) -> list[Meeting] | None:
             return []
         root = square.sqrt()
         roots = [((along - root) / size, -1), ((along + root) / size, 1)]
+        if nearest and _is_beyond([tau for tau, _ in roots], nearest):
+            return []
     found: list[Meeting] = []
     for tau, side in roots:
         # A convex arc lies to the right of its chord.

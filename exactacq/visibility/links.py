@@ -320,8 +320,7 @@ class Links:
                         if ends[0] != ends[1]:
                             groups.setdefault(ends, []).append((sweep, cell))
                 self._pinched[k] += [
-                    PinchedLine.of(self.table, feature, sector, t, passed, self.reach)
-                    for t, passed in sweep.pinches
+                    PinchedLine.of(sweep, feature, t, passed, self.reach) for t, passed in sweep.pinches
                 ]
             self._pencils[k] = groups
         return self._pencils[k]

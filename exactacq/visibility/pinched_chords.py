@@ -17,7 +17,7 @@ from exactacq.visibility.features import Feature
 from exactacq.visibility.free_segment import walk_line
 from exactacq.visibility.line_families import Sector
 from exactacq.visibility.pinched_lines import walked
-from exactacq.visibility.rotational_sweep import Passed
+from exactacq.visibility.rotational_sweep import Passed, Pencil
 
 Place: TypeAlias = "MetEdge | Real"
 """Where a line meets an edge: by name, or by its own parameter."""
@@ -35,11 +35,11 @@ class PinchedLine:
     ahead: Mapping[int, Place]
 
     @classmethod
-    def of(
-        cls, table: EdgeTable, feature: Feature, sector: Sector, t: Real, passed: Passed, reach: float
-    ) -> PinchedLine:
-        """The line of a sector at a parameter, with all that it passes, as far as it is free within reach."""
-        walk = walked(table, feature, sector, t, passed, reach)
+    def of(cls, sweep: Pencil, feature: Feature, t: Real, passed: Passed, reach: float) -> PinchedLine:
+        """The line of a swept sector at a parameter, with all that it passes, as far as it is free within
+        reach."""
+        table, sector = sweep.table, sweep.sector
+        walk = walked(table, feature, sector, t, passed, reach, sweep.edges)
         if walk is not None:
             named = [
                 first_met(table, ((met.edge, met) for met in side)) for side in (walk.behind, walk.ahead)

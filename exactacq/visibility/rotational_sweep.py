@@ -73,10 +73,20 @@ class Pencil:
     """
 
     def __init__(
-        self, table: EdgeTable, sector: Sector, rows: list[LineCells], pinched: list[BoundLine]
+        self,
+        table: EdgeTable,
+        sector: Sector,
+        edges: list[int],
+        rows: list[LineCells],
+        pinched: list[BoundLine],
     ) -> None:
-        self.table, self.sector = table, sector
+        self.table, self.sector, self._edges = table, sector, edges
         self.rows, self._pinched = rows, pinched
+
+    @cached_property
+    def edges(self) -> frozenset[int]:
+        """The edges among which the sector was swept."""
+        return frozenset(self._edges)
 
     @cached_property
     def cells(self) -> tuple[Cell, ...]:
@@ -204,8 +214,8 @@ def swept(
     if sweep.stage != DONE:
         _Decisions(table, sector, own, through, sweep).make()
     if not breaks:
-        return Pencil(table, sector, sweep.rows, sweep.pinched)
-    return Pencil(table, sector, sweep.rows, [b for b in sweep.bounds if _is_pinched(b, broken)])
+        return Pencil(table, sector, edges, sweep.rows, sweep.pinched)
+    return Pencil(table, sector, edges, sweep.rows, [b for b in sweep.bounds if _is_pinched(b, broken)])
 
 
 def _is_pinched(bound: BoundLine, broken: Sequence[BoundLine]) -> bool:
@@ -435,7 +445,7 @@ class _Decisions:
             return entered(first)
         # All these lines pass the centre, where edges *through* it are: balls tell these from it in no case.
         left += [e for e in edges if e in self.through]
-        return self._exact_meet(middle, [*left, *(e for e, _ in first.values())])
+        return self._exact_meet(middle, [*left, *(e for *_, e in first.values())])
 
     def _exact_meet(self, middle: fmpq, edges: Iterable[int]) -> tuple[int, int]:
         contact, direction = self.sector.touch(Real(middle))
