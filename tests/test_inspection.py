@@ -501,6 +501,25 @@ def test_the_figure_marks_what_is_wrong(tmp_path: Path) -> None:
     assert {"O1", "O2"} <= {text.get_text() for text in page.axes[0].texts}
 
 
+def test_the_figure_fills_what_is_in_the_way(tmp_path: Path) -> None:
+    """In a plate with an opening, in which pads lie, the robot starts in the opening: that is no obstacle."""
+    from exactacq.output.figures.drawing_figure import drawing as draw
+
+    pads = [box(8 + 4 * k, 8, 2, 2) for k in range(4)]
+    page = draw(found := xa.inspect(drawing(tmp_path / "d.dxf", box(0, 0, 30, 18), box(4, 4, 22, 10), *pads)))
+    assert found.options == {"outer": "room"} and found.start is not None
+    page.canvas.draw()
+    pixels = np.asarray(page.canvas.buffer_rgba())
+
+    def colour(x: float, y: float) -> list[int]:
+        column, row = page.axes[0].transData.transform((x, y)).astype(int)
+        return pixels[len(pixels) - 1 - row, column, :3].tolist()
+
+    wall, room, pad, outside = (colour(*at) for at in ((2, 16), (6, 12.5), (8.3, 8.3), (-0.7, 9)))
+    assert wall == pad == outside != room
+    assert {"O2", "O6"} <= {text.get_text() for text in page.axes[0].texts}
+
+
 def test_json_holds_the_same(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = drawing(tmp_path / "d.dxf", box(0, 0, 10, 10), box(5, 5, 10, 10), [(30, 0), (38, 0)])
     assert cli.main(["check", str(path), "--json"]) == 2

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from itertools import pairwise
 from typing import Any
 
@@ -29,6 +30,7 @@ from exactacq.output.figures.draw import rendered
 from exactacq.output.figures.layout import dress
 from exactacq.output.regions import closed
 from exactacq.output.vocabulary import AWAY, EDGE, FILL, GROUND, HIT, INK, MISSED, PAPER, SOFT, VIEW
+from exactacq.scene.scene import Obstacle
 from exactacq.scene.shapes import edge
 
 OPEN, GAP = MISSED, AWAY
@@ -82,6 +84,11 @@ def _points_of(path: Any) -> Floats:
     return np.concatenate(rows) if rows else np.zeros((0, 2))
 
 
+def _outlines(obstacles: Iterable[Obstacle]) -> list[Outline]:
+    """The outlines of those obstacles that can be drawn."""
+    return [closed(strokes) for obstacle in obstacles if (strokes := strokes_of(obstacle.edges))]
+
+
 class _Page:
     """One figure in the making: axes in the unit of the drawing, which has inches enough around."""
 
@@ -104,15 +111,25 @@ class _Page:
         self.axes.set_facecolor(GROUND)
 
     def loops(self) -> None:
-        """Filled where an odd number of loops is around, as far as it can be told."""
-        outlines = [
-            closed(strokes) for loop in self.found.loops if (strokes := strokes_of(loop.obstacle.edges))
-        ]
+        """All loops, and filled what is in the robot's way in the proposed scene.
+
+        Without a scene, where an odd number of loops is around, as far as it can be told.
+        """
+        outlines = _outlines(loop.obstacle for loop in self.found.loops)
         if not outlines:
             return
-        outline = Outline.make_compound_path(*outlines)
-        look: dict[str, Any] = {"facecolors": FILL, "edgecolors": EDGE, "linewidths": 0.8}
-        self.axes.add_collection(PathCollection([outline], **look, zorder=1), autolim=False)
+        scene = self.found.scene
+        filled = outlines if scene is None else _outlines(scene.obstacles)
+        if scene is not None and scene.enclosure is not None:
+            (x0, y0), (x1, y1) = self.low, self.high
+            filled.append(Outline([(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)], closed=True))
+        for some, look in (
+            (filled, {"facecolors": FILL, "edgecolors": "none"}),
+            (outlines, {"facecolors": "none", "edgecolors": EDGE, "linewidths": 0.8}),
+        ):
+            if some:
+                page = Outline.make_compound_path(*some)
+                self.axes.add_collection(PathCollection([page], **look, zorder=1), autolim=False)
         wrong = {k for flaw in self.found.violations for k in flaw.loops}
         marked = [strokes_of(self.found.loops[k].obstacle.edges) for k in sorted(wrong)]
         if bad := [closed(strokes) for strokes in marked if strokes]:
@@ -158,9 +175,13 @@ class _Page:
         self._marks("start S", [(x, y)], "s", ms=6, mfc=INK, mec=PAPER, mew=0.6)
 
     def labels(self, sketch: Sketch) -> None:
-        """The numbers of loops, at their first vertex; in a crowd those that break a rule only."""
+        """The numbers of loops, in their middle; in a crowd those that break a rule only.
+
+        Loops with others within come last: their middle may be in one of these.
+        """
         wrong = {k for flaw in self.found.violations for k in flaw.loops}
         named = range(len(self.found.loops)) if len(self.found.loops) <= CROWD else sorted(wrong)[:CROWD]
+        named = sorted(named, key=lambda k: self.found.loops[k].holds)
         start = self.found.start
         taken = [] if start is None else [(nearest_float(start[0]), nearest_float(start[1]))]
         reach = 0.16 / self.scale
