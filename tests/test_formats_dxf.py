@@ -253,8 +253,9 @@ def test_layers_are_selected_by_name_in_any_case(tmp_path: Path) -> None:
     path = drawing(tmp_path, draw)
     assert len(load(path, start=FAR).shapes) == 2
     assert len(load(path, start=FAR, layers=["WALLS"]).shapes) == 1
-    with pytest.raises(FormatError, match=r"no layer 'Doors'; it has 'Walls' \(4\), 'Posts' \(4\)"):
-        load(path, start=FAR, layers=["Walls", "Doors"])
+    assert len(load(path, start=FAR, layers=["w*", "?osts"]).shapes) == 2
+    with pytest.raises(FormatError, match=r"no layer 'Door\*'; it has 'Walls' \(4\), 'Posts' \(4\)"):
+        load(path, start=FAR, layers=["Walls", "Door*"])
 
 
 # -- stitching -------------------------------------------------------------------------------------

@@ -170,7 +170,9 @@ def _names(option: FileOption, value: object) -> list[str]:
     return names
 
 
-LAYERS = FileOption("layers", "names", "Layers to read, as A,B; default: all.")
+LAYERS = FileOption(
+    "layers", "names", "Layers to read, as A,B; * stands for any text, ? for a character; default: all."
+)
 OUTER = FileOption(
     "outer",
     "choice",

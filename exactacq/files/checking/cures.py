@@ -15,6 +15,7 @@ from exactacq.files.checking.flaws import Judged, frame, judged
 from exactacq.files.checking.starts import rounded_up
 from exactacq.files.loops.assembly import default_tolerance, in_full
 from exactacq.files.loops.contents import AS_TOLD, Contents
+from exactacq.files.loops.drawing import is_named
 from exactacq.geometry.points import Point
 from exactacq.geometry.strokes import Floats
 from exactacq.numbers.rationals import nearest_float, plain
@@ -26,7 +27,7 @@ MOST_EDGES = 10_000
 THICK_EDGES = 4000
 """Edges of walls around lines and of loops beyond which these are not tried: all are merged."""
 LAYER_TRIALS = 2
-"""Most layers that are left out in turn."""
+"""Most layers that are left out, or read alone, in turn."""
 LONGEST = 80
 """Most characters of layers that are named to be read."""
 COARSER = (10, 1000)
@@ -161,8 +162,10 @@ def _proposals(contents: Contents, found: Judged) -> Iterator[Options]:
         yield from ({"tolerance": many * default_tolerance(size)} for many in COARSER)
     if meeting:
         yield from _fewer_layers(contents, found, meeting)
-    if None in closing:
-        yield {"thicken": rounded_up(nearest_float(size) / THIN)}
+    thick = {"thicken": rounded_up(nearest_float(size) / THIN)} if None in closing else {}
+    if thick:
+        yield thick
+    yield from ({"layers": [layer], **thick} for layer in _wall_layers(contents))
     if any("--flatten" in note for note in contents.notes):
         yield {"flatten": rounded_up(nearest_float(size) / NEAR)}
 
@@ -185,6 +188,15 @@ def _fewer_layers(contents: Contents, found: Judged, meeting: Sequence[Violation
         others = [name for name in counts if name != layer and contents.layers.read(name)]
         if not any("," in name for name in others) and sum(map(len, others)) <= LONGEST:
             yield {"layers": others}
+
+
+def _wall_layers(contents: Contents) -> list[str]:
+    """Of the layers of a plan those of walls, by their names, as "A-WALL"; the fullest first."""
+    layers = contents.layers
+    if layers.chosen is not None or len(layers.counts) < 2:
+        return []
+    named = [name for name, _ in layers.counts.most_common() if is_named(name, "*wall*")]
+    return [name for name in named if "," not in name and len(name) <= LONGEST][:LAYER_TRIALS]
 
 
 def size_of(contents: Contents) -> fmpq:

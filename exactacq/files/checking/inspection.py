@@ -260,12 +260,13 @@ class _Inquiry:
         yield {}, self.contents
         if not self.tried and self.contents.outer == "wall" and "outer" in self._allowed:
             yield {"outer": "room"}, replace(self.contents, outer="room")
-        # Lines become walls only if nothing else does as well: often they are no walls.
+        # Lines become walls only if nothing else does as well: often they are no walls, but for those on
+        # layers of walls.
         order = sorted(
             self.tried,
             key=lambda trial: (
                 len(trial.judged.violations),
-                "thicken" in trial.options,
+                "thicken" in trial.options and "layers" not in trial.options,
                 len(trial.contents.open_chains),
             ),
         )

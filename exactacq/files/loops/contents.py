@@ -14,6 +14,7 @@ from flint import fmpq
 from exactacq.errors import FormatError, InvalidScene
 from exactacq.files.loops.arrangement import arranged
 from exactacq.files.loops.chains import Chain
+from exactacq.files.loops.drawing import is_named
 from exactacq.files.loops.nesting import Loops
 from exactacq.files.repairs.gaps import ChainGaps
 from exactacq.files.source import one_line
@@ -40,8 +41,8 @@ class Layers:
     """The layers of loops, by the names of the loops, where these are known."""
 
     def read(self, layer: str) -> bool:
-        """Whether a layer is read; upper and lower case are one."""
-        return self.chosen is None or layer.casefold() in map(str.casefold, self.chosen)
+        """Whether a layer is read."""
+        return self.chosen is None or any(is_named(layer, name) for name in self.chosen)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from fnmatch import fnmatchcase
 
 from flint import fmpq
 
@@ -48,22 +49,37 @@ class Drawing:
         return ", ".join(named) + (" and others" if len(self.layers) > 12 else "")
 
 
+def is_named(layer: str, name: str) -> bool:
+    """Whether a layer has a name: in it * stands for any text and ? for any character, as "*A-WALL".
+
+    Upper and lower case are one, as in DXF.
+
+    >>> is_named("house$0$A-Wall", "*a-wall"), is_named("Wall [2]", "wall [2]"), is_named("Walls", "wall")
+    (True, True, False)
+    """
+    return fnmatchcase(layer.casefold(), name.casefold().replace("[", "[[]"))
+
+
 class LayerChoice:
-    """The layers that are read, all if *names* is None; upper and lower case are one, as in DXF."""
+    """The layers that are read, by names as `is_named` takes them; all if *names* is None."""
 
     def __init__(self, names: Iterable[str] | None) -> None:
-        self.names = None if names is None else {name.casefold(): name for name in names}
-        self.seen: set[str] = set()
+        self.names = None if names is None else tuple(names)
+        self._named: dict[str, list[str]] = {}
 
     def take(self, *layers: str) -> bool:
         """Whether something on these layers is read."""
-        keys = {layer.casefold() for layer in layers}
-        self.seen |= keys
-        return self.names is None or not keys.isdisjoint(self.names)
+        if self.names is None:
+            return True
+        for layer in layers:
+            if layer not in self._named:
+                self._named[layer] = [name for name in self.names if is_named(layer, name)]
+        return any(self._named[layer] for layer in layers)
 
     def check(self, drawing: Drawing) -> None:
         """Tell the drawing what was read of it; `FormatError` if a layer that was asked for is not there."""
-        drawing.chosen = None if self.names is None else tuple(self.names.values())
-        missing = [name for key, name in (self.names or {}).items() if key not in self.seen]
+        drawing.chosen = self.names
+        there = {name for names in self._named.values() for name in names}
+        missing = [name for name in self.names or () if name not in there]
         if missing and drawing.layers:
             raise FormatError(f"no layer {one_line(repr(missing[0]))}; it has {drawing.layer_list()}")
