@@ -294,6 +294,19 @@ def test_scenes_alone_are_drawn_with_names() -> None:
     ET.fromstring(svg(scene))
 
 
+def test_long_names_that_begin_alike_are_numbers() -> None:
+    """As those of walls that were merged: what is left of them when they are cut tells them apart no more."""
+    names = [
+        "union of 'LINE 16', 'LINE 17'",
+        "union of 'LINE 16', 'LINE 18'",
+        "a long name of its own",
+        "B",
+        "B",
+    ]
+    scene = Scene([Circle((20 * k, 0), 9, name=name) for k, name in enumerate(names)])
+    assert sorted(texts(scene)) == ["B", "B", "O1", "O2", "a long name of it…"]
+
+
 # -- sweeps ----------------------------------------------------------------------------------------
 
 

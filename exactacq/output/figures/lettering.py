@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import Any
@@ -123,14 +124,19 @@ class Lettering:
     # -- obstacles ---------------------------------------------------------------------------------
 
     def _texts(self) -> Iterator[tuple[int, list[str]]]:
-        """The lines of each obstacle's label: name and order of its visit."""
+        """The lines of each obstacle's label: name and order of its visit.
+
+        Of names that begin alike and are cut none is told, but the obstacle's number.
+        """
         canvas = self.canvas
         visits = {} if canvas.run is None else {k: n for n, k in enumerate(canvas.run.visits, 1)}
-        for index, body in enumerate(canvas.scene.obstacles if canvas.run is None else canvas.run.obstacles):
+        bodies = canvas.scene.obstacles if canvas.run is None else canvas.run.obstacles
+        names = [_shortened(body.label) for body in bodies]
+        many = Counter(names)
+        for index, name in enumerate(names):
             lines = []
             if self.labels is not Labels.NUMBERS and not (self._is_wall(index) and index not in visits):
-                name = body.label
-                lines.append(name if len(name) <= LONGEST else name[: LONGEST - 1] + "…")
+                lines.append(name if many[name] == 1 or name == bodies[index].label else f"O{index + 1}")
             if self.labels is not Labels.NAMES and index in visits:
                 lines.append(ordinal(visits[index]))
             if lines:
@@ -257,3 +263,8 @@ class Lettering:
             ha="center", va="center_baseline", parse_math=False, clip_on=True, zorder=6,
             path_effects=[withStroke(linewidth=min(2.2, 0.22 * size), foreground=PAPER)],
         )  # fmt: skip
+
+
+def _shortened(name: str) -> str:
+    """A name, cut where it is long."""
+    return name if len(name) <= LONGEST else name[: LONGEST - 1] + "…"
