@@ -86,7 +86,9 @@ def _merge(members: list[Shape], walled: bool, start: Point | None, merged: Merg
     named = list(dict.fromkeys(repr(member.name) for member in members))
     names = ", ".join(named[:NAMED]) + (f" and {len(named) - NAMED} more" if len(named) > NAMED else "")
     rings = _overlaid(members, walled)
-    name = f"union of {names}"
+    # One loop is enough to find it in the file; all are told once, in the notes.
+    first = members[0].name or "a loop"
+    name = first if len(named) == 1 else f"{first} and {len(named) - 1} more"
     shapes = [ring.shape(name) for ring in rings]
     rooms = [shape for ring, shape in zip(rings, shapes, strict=True) if ring.outer == walled]
     solids = [shape for ring, shape in zip(rings, shapes, strict=True) if ring.outer != walled]
