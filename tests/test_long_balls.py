@@ -12,14 +12,16 @@ from random import Random
 
 import pytest
 from flint import arb, fmpq
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from nightly import examples
 
 import exactacq as xa
-from exactacq.auditing.rays import clear_tangents, tangent_directions
+from exactacq.auditing.rays import clear_tangents, surely_crosses, tangent_directions
+from exactacq.geometry.intersections import ContactKind, contacts
 from exactacq.numbers.precision import workprec
 from exactacq.numbers.real import Real
+from exactacq.scene import shapes
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.complex_edges import normals
 from exactacq.sensing.way_crossings import WayCrossings
@@ -263,3 +265,20 @@ def test_rays_that_balls_leave_open() -> None:
     assert clear_tangents(xa.Point(3, "5/2"), round_, 0.0) == []
     assert clear_tangents(xa.Point(4, 2), round_, 0.0) is None
     assert clear_tangents(xa.Point(7, 1), round_, 0.0) is None
+
+
+@examples(300)
+@given(
+    st.sampled_from([fmpq(k, 4) for k in (-4, -3, 0, 1, 4)]),
+    *(st.integers(-4, 4) for _ in range(6)),
+    st.sampled_from([fmpq(0), fmpq(1, 10**30), fmpq(1, 3)]),
+)
+def test_balls_tell_crossings_that_exact_numbers_tell(
+    bulge: fmpq, x: int, y: int, dx: int, dy: int, ux: int, uy: int, off: fmpq
+) -> None:
+    """All that cross an edge, between the ends of both, are told; none that touch it, or are beside it."""
+    assume((dx or dy) and (ux or uy))
+    edge = shapes.edge(xa.Point(x + off, y), xa.Point(x + off + ux, y + uy), bulge)
+    origin, way = xa.Point(0, 0), xa.Point(dx, dy)
+    kinds = [contact.kind for contact in contacts(xa.Segment(origin, way), edge)]
+    assert surely_crosses(origin, way, Real(1), edge) is (ContactKind.CROSSING in kinds)

@@ -13,7 +13,7 @@ from math import atan2, cos, hypot, pi, sin
 from flint import arb, fmpq
 
 from exactacq.errors import Undecided
-from exactacq.geometry.curves import Arc
+from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import nearest_float, rational
@@ -107,6 +107,36 @@ def clear_tangents(q: Point, arc: Arc, far: float) -> list[Direction] | None:
 def _tangent_direction(q: Point, arc: Arc, k: int) -> Point:
     """The first or the second of the directions from q that touch the circle."""
     return tangent_directions(q, arc)[k]
+
+
+def surely_crosses(origin: Point, direction: Point, upto: Real, edge: Curve) -> bool:
+    """Whether balls tell that a way to ``origin + upto direction`` crosses an edge, both between their ends.
+
+    There an obstacle is on one side of the edge, so the way is blocked. False where balls leave it open.
+    """
+    with workprec(TIE_BITS):
+        x, y, dx, dy, end = (c.working_ball(TIE_BITS) for c in (*origin, *direction, upto))
+        ax, ay, bx, by = (c.working_ball(TIE_BITS) for c in (*edge.start, *edge.end))
+        ax, ay, wx, wy = ax - x, ay - y, bx - ax, by - ay
+        if isinstance(edge, Segment):
+            first, across = dx * ay - dy * ax, dx * wy - dy * wx
+            if not first * (first + across) < 0:
+                return False
+            t = (ax * wy - ay * wx) / across
+            return bool(t > 0 and t < end)
+        cx, cy = (c.working_ball(TIE_BITS) for c in edge.center)
+        cx, cy, size = cx - x, cy - y, dx * dx + dy * dy
+        along, height = cx * dx + cy * dy, cx * dy - cy * dx
+        square = size * arb(edge.radius_sq) - height * height
+        if not square > 0:
+            return False
+        root, outward = square.sqrt(), 1 if edge.ccw else -1
+        for t in ((along - root) / size, (along + root) / size):
+            # Seen from the chord, an arc is on the side away from its obstacle.
+            beside = wx * (dy * t - ay) - wy * (dx * t - ax)
+            if t > 0 and t < end and (edge.full or beside * outward < 0):
+                return True
+    return False
 
 
 def with_cells(critical: Iterable[Direction]) -> list[Direction]:

@@ -39,6 +39,7 @@ from exactacq.auditing.rays import (
     clear_tangents,
     ray_along,
     rounded,
+    surely_crosses,
     tangent_directions,
     unit_vector,
     with_cells,
@@ -564,10 +565,13 @@ class _View:
             return False
         edges = self._possible_edges
         met = np.unique(edges.curve[edges.low[ray] < np.inf])
-        numbers = {self.edge_numbers[e] for e in met} | set(self.own)
+        others, world = {self.edge_numbers[e] for e in met} - set(self.own), self.lookout.world
+        # Where a ray grazes one after the other, as in a row of pins, long balls tell what floats do not.
+        if any(surely_crosses(self.q, direction, nearest, world.edges[e]) for e in others):
+            return False
+        numbers = others | set(self.own)
         if nearest.rational != 1:
             ending = set()
-        world = self.lookout.world
         return world.blocker(self.q, direction, nearest, sorted(numbers), self.own, ending) is None
 
 
