@@ -313,6 +313,21 @@ def test_boxes_contain_their_curves_closely(seed):
         assert y0 >= min(ys) - slack and y1 <= max(ys) + slack
 
 
+@pytest.mark.parametrize("off", [0, 10**6])
+@pytest.mark.parametrize("size", [1, Fraction(1, 10**6)])
+@pytest.mark.parametrize("digits", [4, 9, 16, 40, 90])
+def test_boxes_of_arcs_that_bend_little(digits, size, off):
+    """They were as coarse as sums with the radius are: by thousands of times the chord."""
+    for bulge in (Fraction(1, 10**digits), -Fraction(3, 10**digits)):
+        for (u, v), k in (((size, 0), 1 if bulge > 0 else 3), ((0, size), 2 if bulge > 0 else 0)):
+            arc = Arc.from_bulge(Point(off, off), Point(off + u, off + v), rational(bulge))
+            # Its middle is its only extreme point.
+            middle, found = arc.point(rational(Fraction(1, 2))), bounds([arc])[0]
+            assert found[0] <= middle.x <= found[2] and found[1] <= middle.y <= found[3]
+            extreme = float((middle.x, middle.y)[k % 2])
+            assert abs(found[k] - extreme) <= 5 * float(np.spacing(extreme)) + 1e-3 * abs(bulge) * size
+
+
 def test_boxes_of_huge_and_tiny_numbers():
     huge = shape_edges(Polygon([("1e400", 0), (0, "-1e400"), ("1e-400", 1)]))
     assert bounds(huge)[0].tolist()[2] == inf and bounds(huge)[1].tolist()[1] == -inf

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterator, Sequence
-from math import inf, nextafter
+from math import hypot, inf, nextafter
 
 import numpy as np
 from flint import arb
@@ -34,6 +34,8 @@ CHUNK = 1 << 20
 
 SCANNED = 1 << 13
 """Up to so many boxes a window is compared with all of them: that takes less than looking up cells."""
+FLAT = 1000
+"""An arc whose radius is so many times its chord has one extreme point at most, or nearly all of them."""
 TINY = 1e-290
 """Added to margins: covers what underflow loses."""
 LIMIT = 1e300
@@ -49,10 +51,19 @@ def box(curve: Curve) -> tuple[float, float, float, float]:
     sides = [_down(min(ax, bx)), _down(min(ay, by)), _up(max(ax, bx)), _up(max(ay, by))]
     if isinstance(curve, Arc):
         center = _nearest(curve.center.x, curve.center.y)
-        radius = _up(_nearest(curve.radius)[0])
-        for k in _extremes(curve):
+        radius, extremes = _up(_nearest(curve.radius)[0]), list(_extremes(curve))
+        chord = hypot(*_nearest(curve.end.x - curve.start.x, curve.end.y - curve.start.y))
+        # Less than half a circle rises above its chord c by c^2 / (4 r + 4 sqrt(r^2 - c^2 / 4)). Sums with a
+        # large radius are coarser.
+        rise = inf
+        if len(extremes) == 1 and FLAT * chord < radius < inf:
+            rise = chord * (chord / radius) * (1 + 1 / FLAT) / 8 + TINY
+        for k in extremes:
             middle = center[k % 2]
-            sides[k] = _down(_down(middle) - radius) if k < 2 else _up(_up(middle) + radius)
+            if k < 2:
+                sides[k] = max(_down(_down(middle) - radius), _down(sides[k] - rise))
+            else:
+                sides[k] = min(_up(_up(middle) + radius), _up(sides[k] + rise))
     return sides[0], sides[1], sides[2], sides[3]
 
 
