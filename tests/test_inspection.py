@@ -399,28 +399,6 @@ def test_roles_of_loops(tmp_path: Path) -> None:
     assert not inside.contents.layers.read("side") and inside.ok and inside.start == (5, 5)
 
 
-def test_of_a_plan_the_walls_are_proposed(tmp_path: Path) -> None:
-    """With tables that overlap and lines that measure all, there is no other scene of as many boundaries."""
-    walls: list[list[tuple[float, float]]] = [
-        [(0, 0), (4, 0)], [(6, 0), (10, 0), (10, 8), (6, 8)], [(4, 8), (0, 8), (0, 0)], [(5, 2), (5, 6)],
-    ]  # fmt: skip
-    tables = [box(1, 6, 3, 1.5), box(3, 6.5, 3, 3)]
-    across = [[(-1, y), (11, y)] for y in range(-1, 10, 2)]
-    layers = dict.fromkeys(range(len(walls)), "house$0$A-WALL")
-    found = xa.inspect(drawing(tmp_path / "d.dxf", *walls, *tables, *across, layers=layers))
-    assert found.options is not None and found.options["layers"] == ["house$0$A-WALL"]
-    # Of what was merged the name of one line is enough to find it.
-    assert found.scene is not None
-    ends = [obstacle.label.partition(" and ")[2] for obstacle in found.scene.obstacles]
-    assert ends == ["1 more", "", ""]
-    assert "--layers 'house$0$A-WALL' --thicken" in found.command
-    # Who names layers has chosen, and what needs no cure is read as it is.
-    named = xa.inspect(tmp_path / "d.dxf", layers=["*"])
-    assert named.options == {"layers": ["*"], "union": True}
-    whole = xa.inspect(drawing(tmp_path / "e.dxf", box(0, 0, 9, 9), box(2, 2, 1, 1), layers={0: "WALL"}))
-    assert whole.options == {}
-
-
 def test_layers_that_cross_are_told_by_layers(tmp_path: Path) -> None:
     lines = (box(0, 0, 10, 10), box(5, 5, 10, 10), box(30, 0, 5, 5))
     found = xa.inspect(drawing(tmp_path / "d.dxf", *lines, layers={0: "part", 1: "frame", 2: "part"}))

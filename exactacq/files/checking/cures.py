@@ -5,6 +5,7 @@ from __future__ import annotations
 import shlex
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 from flint import fmpq
@@ -15,7 +16,7 @@ from exactacq.files.checking.flaws import Judged, frame, judged
 from exactacq.files.checking.starts import rounded_up
 from exactacq.files.loops.assembly import default_tolerance, in_full
 from exactacq.files.loops.contents import AS_TOLD, Contents
-from exactacq.files.loops.drawing import is_named
+from exactacq.files.loops.drawing import is_named, main_box
 from exactacq.geometry.points import Point
 from exactacq.geometry.strokes import Floats
 from exactacq.numbers.rationals import nearest_float, plain
@@ -28,6 +29,8 @@ THICK_EDGES = 4000
 """Edges of walls around lines and of loops beyond which these are not tried: all are merged."""
 LAYER_TRIALS = 2
 """Most layers that are left out, or read alone, in turn."""
+LAYERS_READ = 12
+"""Most layers that are read one by one, those with the most entities."""
 LONGEST = 80
 """Most characters of layers that are named to be read."""
 COARSER = (10, 1000)
@@ -38,6 +41,8 @@ SAME = 1e-9
 """Violations this near each other, as a part of the drawing's size, are taken for the same one."""
 
 Options = Mapping[str, object]
+WHOLE: tuple[Options, ...] = ({}, {"union": True})
+"""Ways to read layers whose lines are closed."""
 
 
 @dataclass(frozen=True)
@@ -109,7 +114,8 @@ def trials(
     lines = sum(piece.edges for path in contents.open_chains for piece in path)
     if contents.edges + lines > MOST_EDGES or len(found.violations) >= COUNTED:
         return
-    for more in _proposals(contents, found):
+    apart = _layers_apart(contents, read) if "layers" in allowed else ()
+    for more in chain(_proposals(contents, found), apart):
         if not set(more) <= set(allowed):
             continue
         try:
@@ -162,10 +168,8 @@ def _proposals(contents: Contents, found: Judged) -> Iterator[Options]:
         yield from ({"tolerance": many * default_tolerance(size)} for many in COARSER)
     if meeting:
         yield from _fewer_layers(contents, found, meeting)
-    thick = {"thicken": rounded_up(nearest_float(size) / THIN)} if None in closing else {}
-    if thick:
-        yield thick
-    yield from ({"layers": [layer], **thick} for layer in _wall_layers(contents))
+    if None in closing:
+        yield _walls_of(contents)
     if any("--flatten" in note for note in contents.notes):
         yield {"flatten": rounded_up(nearest_float(size) / NEAR)}
 
@@ -190,21 +194,50 @@ def _fewer_layers(contents: Contents, found: Judged, meeting: Sequence[Violation
             yield {"layers": others}
 
 
-def _wall_layers(contents: Contents) -> list[str]:
-    """Of the layers of a plan those of walls, by their names, as "A-WALL"; the fullest first."""
+def _layers_apart(contents: Contents, read: Callable[[Options], Contents]) -> Iterator[Options]:
+    """Of the layers of a plan those that have loops alone, together, and those of walls.
+
+    Lines that end at the corners of another layer, as those of doors do, open its loops. Walls are told by
+    names, as "A-WALL", and made thick if their lines stay open.
+    """
     layers = contents.layers
-    if layers.chosen is not None or len(layers.counts) < 2:
-        return []
-    named = [name for name, _ in layers.counts.most_common() if is_named(name, "*wall*")]
-    return [name for name in named if "," not in name and len(name) <= LONGEST][:LAYER_TRIALS]
+    if layers.chosen is not None or len(layers.counts) < 2 or not contents.open_chains:
+        return
+    looped: list[str] = []
+    walls: dict[str, Contents] = {}
+    for name, _ in layers.counts.most_common(LAYERS_READ):
+        if "," in name:
+            continue
+        try:
+            alone = read({"layers": [name]})
+        except (FormatError, InvalidScene, Undecided):
+            continue
+        if alone.loops:
+            looped.append(name)
+        if is_named(name, "*wall*"):
+            walls[name] = alone
+    if 1 < len(looped) < len(layers.counts) and sum(map(len, looped)) <= LONGEST:
+        yield from ({"layers": looped, **more} for more in WHOLE)
+    # Not parts such as "A-WALL-PATT", which have hatches or what is to be torn down.
+    main = [name for name in walls if not any(name != other and name.startswith(other) for other in walls)]
+    for name in sorted(main, key=len)[:LAYER_TRIALS]:
+        ways = (_walls_of(contents),) if walls[name].open_chains else WHOLE
+        yield from ({"layers": [name], **more} for more in ways)
+
+
+def _walls_of(contents: Contents) -> Options:
+    """The option that makes walls of lines."""
+    return {"thicken": rounded_up(nearest_float(size_of(contents)) / THIN)}
 
 
 def size_of(contents: Contents) -> fmpq:
-    """The larger side of the box of all vertices of loops and open chains."""
+    """The larger side of the box of all vertices of loops and open chains, but for what is far off."""
     pairs = [place for shape in contents.loops for place in _corners(shape)]
     pairs += [(c.x, c.y) for path in contents.open_chains for piece in path for c in piece.corners]
-    sides = [max(values) - min(values) for values in zip(*pairs, strict=True)]
-    return max(sides, default=fmpq(0))
+    if not pairs:
+        return fmpq(0)
+    low, high = main_box(pairs)
+    return max(high[0] - low[0], high[1] - low[1])
 
 
 def _corners(shape: Shape) -> list[tuple[fmpq, fmpq]]:

@@ -32,8 +32,8 @@ from exactacq.scene.validation import LIMIT, Violation
 Place = tuple[fmpq, fmpq]
 STEPS = 4
 """Reading, violations, cures, and a start."""
-BEST = 2
-"""How many of the single options a start is looked for with."""
+BEST, BEST_PARTS = 2, 4
+"""How many of the trials a start is looked for with, and how many choices of layers besides."""
 TOGETHER = {"tolerance", "union", "flatten"}
 """Options that are also tried all together."""
 
@@ -234,32 +234,29 @@ class _Inquiry:
         """The options and the start with which there are most boundaries, and of such the fewest options.
 
         Without further options if the first choice of a start does then, no chain has to be closed, and not
-        most of the loops are left out.
+        most of the loops are left out; where they are, a start in a room is looked for too.
         """
-        best: tuple[tuple[int, int], Options, Beginning] | None = None
+        found: list[tuple[Options, Beginning]] = []
         for options, contents in self._ways():
-            begun = beginning(contents, partial(self._around, options, contents))
-            if begun is None:
-                continue
-            rank = len(begun.scene.obstacles), -len(options)
-            if best is None or rank > best[0]:
-                best = rank, options, begun
-            if begun.is_first and not is_open and not self._leaves_most(begun):
+            begun = self._beginning(options, contents)
+            leaves_most = begun is None or 2 * len(begun.scene.obstacles) < len(contents.loops)
+            if begun is not None:
+                found.append((options, begun))
+            if leaves_most and contents.outer == "wall" and "outer" in self._allowed:
+                room: Options = {**options, "outer": "room"}
+                within = self._beginning(room, replace(contents, outer="room"))
+                if within is not None:
+                    found.append((room, within))
+            if begun is not None and begun.is_first and not is_open and not leaves_most:
                 break
-        return None if best is None else best[1:]
+        return max(found, key=_rank, default=None)
 
-    def _leaves_most(self, begun: Beginning) -> bool:
-        """Whether more loops are left out, as they lie inside of an obstacle, than there are boundaries."""
-        return 2 * len(begun.scene.obstacles) < len(self.contents.loops)
+    def _beginning(self, options: Options, contents: Contents) -> Beginning | None:
+        return beginning(contents, partial(self._around, options, contents))
 
     def _ways(self) -> Iterator[tuple[Options, Contents]]:
-        """Contents to start in: as they are, with what leaves the fewest violations, and with all of that.
-
-        Without anything to cure, as they are, and in a room.
-        """
+        """Contents to start in: as they are, with what leaves the fewest violations, and with all of that."""
         yield {}, self.contents
-        if not self.tried and self.contents.outer == "wall" and "outer" in self._allowed:
-            yield {"outer": "room"}, replace(self.contents, outer="room")
         # Lines become walls only if nothing else does as well: often they are no walls, but for those on
         # layers of walls.
         order = sorted(
@@ -270,7 +267,8 @@ class _Inquiry:
                 len(trial.contents.open_chains),
             ),
         )
-        yield from ((trial.options, trial.contents) for trial in order[:BEST])
+        parts = [trial for trial in order[BEST:] if "layers" in trial.options]
+        yield from ((trial.options, trial.contents) for trial in [*order[:BEST], *parts[:BEST_PARTS]])
         every: dict[str, object] = {}
         for trial in order:
             if TOGETHER.issuperset(trial.options) and trial.helps(self.before, self.contents):
@@ -297,3 +295,9 @@ class _Inquiry:
         if told.radius is None:
             parts.append(words({"radius": begun.radius}))
         return " ".join(filter(None, parts))
+
+
+def _rank(found: tuple[Options, Beginning]) -> tuple[int, bool, int, bool]:
+    """The more boundaries, and the fewer options, the better; then lines are rather no walls."""
+    options, begun = found
+    return len(begun.scene.obstacles), begun.is_first, -len(options), "thicken" not in options

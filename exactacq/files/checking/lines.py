@@ -117,6 +117,7 @@ def _cures(contents: Contents, k: int, tried: Sequence[Trial]) -> tuple[str, ...
     closed = [
         trial
         for trial in tried
+        if "layers" not in trial.options
         for name in trial.options
         if (name in CURVES and labels.isdisjoint(trial.still_open))
         or (name == "tolerance" and trial.options[name] == least)

@@ -12,6 +12,7 @@ from flint import fmpq
 from numpy.typing import NDArray
 
 from exactacq.cached import cached_property
+from exactacq.files.loops.drawing import main_box
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.strokes import FLAT, Floats, Stroke
 from exactacq.numbers.rationals import nearest_float
@@ -47,6 +48,7 @@ class Sketch:
         self.centers = np.repeat(np.array(centers, dtype=float).reshape(-1, 2), counts, axis=0)
         self.radii = np.repeat(np.array([stroke.radius for stroke in curves], dtype=float), counts)
         """Of the circle that bulges beyond each chord; 0 of straight ones."""
+        self._corners = [stroke.start for stroke in curves]
         self._extremes = [place for stroke in curves for place in stroke.extremes()]
 
     @property
@@ -59,6 +61,14 @@ class Sketch:
         """The lower left and the upper right corner of everything."""
         places = np.array(self._extremes)
         return places.min(axis=0), places.max(axis=0)
+
+    @cached_property
+    def main_box(self) -> tuple[Floats, Floats]:
+        """The corners of a box around all but what is far from everything else."""
+        low, high = map(np.array, main_box(self._corners))
+        corners = np.array(self._corners)
+        is_whole = (low == corners.min(axis=0)).all() and (high == corners.max(axis=0)).all()
+        return self.box if is_whole else (low, high)
 
     def around(self, places: Floats) -> Bools:
         """Which loops lie around which places: a row for each place."""

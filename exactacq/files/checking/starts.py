@@ -34,6 +34,8 @@ BEYOND = 0.1
 """How far places are looked for around everything, as a part of its size."""
 OUTSIDE = 0.01
 """Such a part of the clearance counts beyond the box of all loops, where to start only if it is full."""
+WITHIN = 8
+"""Room within loops counts so many times."""
 NO_ROOM = 1e-9
 """Room below this part of the size is none."""
 REGIONS = 4
@@ -82,21 +84,23 @@ def starts(contents: Contents) -> Iterator[Place]:
         if contents.startless == "":
             yield fmpq(0), fmpq(0)
         return
-    size = float(max(sketch.box[1] - sketch.box[0])) or 1.0
-    low, high = sketch.box[0] - BEYOND * size, sketch.box[1] + BEYOND * size
+    box = sketch.main_box
+    size = float(max(box[1] - box[0])) or 1.0
+    low, high = box[0] - BEYOND * size, box[1] + BEYOND * size
     side = int(np.clip(np.sqrt(WORK / 2 / len(sketch.starts)), FEWEST, MOST))
     places, step = _grid(low, high, side)
     around, room = sketch.around(places), _room(sketch, places)
     groups: defaultdict[bytes, list[int]] = defaultdict(list)
     for i, row in enumerate(np.packbits(around, axis=1)):
         groups[row.tobytes()].append(i)
-    ranked = []
+    ranked: list[tuple[int, float, int]] = []
     for members in groups.values():
         best = max(members, key=lambda i: room[i])
         score = _obstacles(contents, sketch, around[best])
         if score is not None:
-            ranked.append((score, bool(around[best].any()), float(room[best]), best))
-    for _, _, _, best in sorted(ranked, reverse=True)[:REGIONS]:
+            # Within loops rather than beyond, but not within the walls of a plan, if it has rooms.
+            ranked.append((score, float(room[best]) * (WITHIN if around[best].any() else 1), best))
+    for *_, best in sorted(ranked, reverse=True)[:REGIONS]:
         place, room_there = _roomier(sketch, places[best], around[best], step)
         if room_there > NO_ROOM * size:
             yield rounded(place, room_there)
@@ -129,6 +133,8 @@ def rounded_up(value: float) -> fmpq:
 def widest_gap(scene: Scene) -> float:
     """The widest link of a shortest tree between the start and all obstacles, or a little more.
 
+    Those that are far from everything else do not count.
+
     It is sought between points of the boundaries, at most about `POINTS` of them, so it is never too small.
     Without obstacles it is 1.
     """
@@ -148,6 +154,9 @@ def widest_gap(scene: Scene) -> float:
         np.repeat(sketch.starts, counts, axis=0) * (1 - share)
         + np.repeat(sketch.ends, counts, axis=0) * share
     )
+    low, high = sketch.main_box
+    near = np.unique(owners[((low <= points) & (points <= high)).all(axis=1)])
+    points, owners = points[np.isin(owners, near)], owners[np.isin(owners, near)]
     if len(points) > 2 * POINTS:
         points, owners = _thinned(points, owners)
     return _tree(points, owners, np.array(scene.start.xy))
@@ -205,7 +214,7 @@ def _grid(low: Floats, high: Floats, side: int) -> tuple[Floats, Floats]:
 
 def _room(sketch: Sketch, places: Floats) -> Floats:
     """How good places are: their clearance, also from the border of the box of all loops."""
-    low, high = sketch.box
+    low, high = sketch.main_box
     clear, border = sketch.clearance(places), np.minimum(places - low, high - places).min(axis=1)
     return np.where(border > 0, np.minimum(clear, border), OUTSIDE * clear)
 

@@ -54,20 +54,26 @@ logging.getLogger("ezdxf").addHandler(logging.NullHandler())
 def read_drawing(path: Path, layers: Iterable[str] | None, flattening: Flattening | None = None) -> Drawing:
     """The model space of a DXF file, all layers or those named (in any case).
 
-    Raises `FormatError` for what is no complete DXF file, or has no such layer. Linear in the file.
+    What is hidden, alone or with its layer, is left out, unless layers are named. Raises `FormatError` for
+    what is no complete DXF file, or has no such layer. Linear in the file.
     """
     drawing = Drawing()
     document = _open(path, drawing)
     selected = LayerChoice(layers)
     order = 0
     try:
-        for entity, layer in _entities(document.modelspace(), drawing):
+        unseen = _Unseen(document)
+        for entity, layer, is_hidden in _entities(document.modelspace(), drawing, unseen):
             order += 1
             if order > MAX_ENTITIES:
                 raise FormatError(f"its blocks expand to more than {MAX_ENTITIES} entities; export one part")
             drawing.layers[layer] += 1
             drawing.homes[order] = layer
-            if selected.take(layer):
+            if not selected.take(layer):
+                continue
+            if is_hidden and selected.names is None:
+                drawing.dropped[f"hidden {entity.dxftype()}"] += 1
+            else:
                 _Reader(drawing, order, flattening).read(entity)
     except FormatError:
         raise
@@ -164,25 +170,45 @@ def _heavy(lines: list[str]) -> Iterator[str]:
             yield from (code, value)
 
 
-def _entities(layout: Iterable[Any], drawing: Drawing) -> Iterator[tuple[Any, str]]:
-    """(entity, layer), blocks expanded; layer "0" in a block is the layer of its reference."""
+class _Unseen:
+    """The layers of a document that are switched off or frozen."""
+
+    def __init__(self, document: Any) -> None:
+        layers = {layer.dxf.name.casefold(): layer for layer in document.layers}
+        self._frozen = {name for name, layer in layers.items() if layer.is_frozen()}
+        self._off = {name for name, layer in layers.items() if layer.is_off()}
+
+    def hides(self, entity: Any, layer: str) -> bool:
+        """Whether an entity on a layer is hidden; a reference to a block is not by a layer that is off."""
+        name = layer.casefold()
+        if entity.dxf.get("invisible", 0) or name in self._frozen:
+            return True
+        return name in self._off and entity.dxftype() != "INSERT"
+
+
+def _entities(layout: Iterable[Any], drawing: Drawing, unseen: _Unseen) -> Iterator[tuple[Any, str, bool]]:
+    """(entity, layer, whether it is hidden), blocks expanded.
+
+    Layer "0" in a block is the layer of its reference.
+    """
 
     def skip(entity: Any, reason: str) -> None:
         """Count an entity of a block that ezdxf cannot place."""
         drawing.dropped[f"{entity.dxftype()} in a block"] += 1
 
     expanded = 0
-    stack: list[tuple[Iterator[Any], str | None, int]] = [(iter(layout), None, 0)]
+    stack: list[tuple[Iterator[Any], str | None, int, bool]] = [(iter(layout), None, 0, False)]
     while stack:
-        entities, outer, depth = stack[-1]
+        entities, outer, depth, is_hidden = stack[-1]
         entity = next(entities, None)
         if entity is None:
             stack.pop()
             continue
         layer = str(entity.dxf.get("layer", "0"))
         layer = outer if outer is not None and layer == "0" else layer
+        is_hidden = is_hidden or unseen.hides(entity, layer)
         if entity.dxftype() != "INSERT":
-            yield entity, layer
+            yield entity, layer, is_hidden
         elif depth >= MAX_DEPTH:
             raise FormatError(f"blocks are nested more than {MAX_DEPTH} deep (one in itself?); explode them")
         else:
@@ -191,7 +217,7 @@ def _entities(layout: Iterable[Any], drawing: Drawing) -> Iterator[tuple[Any, st
                 raise FormatError(f"it refers to blocks more than {MAX_ENTITIES} times; export one part")
             copies = entity.multi_insert() if entity.mcount > 1 else [entity]
             content = chain.from_iterable(c.virtual_entities(skipped_entity_callback=skip) for c in copies)
-            stack.append((content, layer, depth + 1))
+            stack.append((content, layer, depth + 1, is_hidden))
     if expanded:
         drawing.notes.append(
             f"expanded {count(expanded, 'block reference')}; their content is placed in double precision"

@@ -12,7 +12,7 @@ from exactacq.files.counting import count
 from exactacq.files.loops.chains import Chain, scientific_above
 from exactacq.files.loops.contents import Contents, Layers
 from exactacq.files.loops.cusps import open_cusps
-from exactacq.files.loops.drawing import Drawing
+from exactacq.files.loops.drawing import Drawing, main_box
 from exactacq.files.loops.stitching import Stitched, stitch
 from exactacq.files.repairs.gaps import MOST_EDGES, ChainGaps, copied, gaps_of
 from exactacq.files.repairs.thicken import thicken
@@ -40,13 +40,12 @@ def drawing_contents(
 ) -> Contents:
     """What a drawing shows; a scene around a *start* only, for a drawing has none.
 
-    Ends and neighbouring vertices within *tolerance* (default
-    `TOLERANCE` times the larger side of the drawing) are joined. The outermost loop around the start is the
-    wall, or dropped (``outer="drop"``: all other loops then stay); with ``outer="room"`` the innermost one is
-    the wall. Loops outside the wall or inside an obstacle are left out. Loops that overlap or touch are
-    refused by the scene, or merged if *union* is set. With a *thickness* chains that stay open are walls so
-    thick, merged where they overlap and with what they meet. Raises `FormatError`
-    if there is nothing to read.
+    Ends and neighbouring vertices within *tolerance* are joined: by default `TOLERANCE` times the larger side
+    of the drawing, but for what is far off. The outermost loop around the start is the wall, or dropped
+    (``outer="drop"``: all other loops then stay); with ``outer="room"`` the innermost one is the wall. Loops
+    outside the wall or inside an obstacle are left out. Loops that overlap or touch are refused by the scene,
+    or merged if *union* is set. With a *thickness* chains that stay open are walls so thick, merged where
+    they overlap and with what they meet. Raises `FormatError` if there is nothing to read.
     """
     if tolerance is not None and tolerance < 0:
         raise FormatError(f"the tolerance is a length of at least 0, not {shown(tolerance)}")
@@ -57,13 +56,19 @@ def drawing_contents(
     if not drawing.chains and not drawing.circles:
         way = drawing.readable or other
         raise FormatError(f"nothing to read{_because(_left_out(drawing.dropped))}; {way}")
-    (x0, y0), (x1, y1) = drawing.extent()
+    corners = drawing.corners()
+    (x0, x1), (y0, y1) = ((min(values), max(values)) for values in zip(*corners, strict=True))
     startless = (
         f"a drawing has no start: give one with --start X,Y (start=(x, y) in Python), such as the "
         "one that `exactacq check` proposes; "
         f"this one spans x {short(x0)} to {short(x1)}, y {short(y0)} to {short(y1)}"
     )
-    reach = default_tolerance(max(x1 - x0, y1 - y0)) if tolerance is None else tolerance
+    low, high = main_box(corners)
+    reach = default_tolerance(max(high[0] - low[0], high[1] - low[1])) if tolerance is None else tolerance
+    far = (c for c in corners if not all(a <= value <= b for a, value, b in zip(low, c, high, strict=True)))
+    if (place := next(far, None)) is not None:
+        where = ", ".join(map(short, place))
+        notes.append(f"({where}) is far from nearly everything else: tolerance and start go by the rest")
     pieces = copied(drawing.chains) if thickness is None and edges <= MOST_EDGES else []
     stitched = stitch(drawing.chains, reach)
     gaps = gaps_of(stitched, pieces) if thickness is None else ChainGaps()

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
+from typing import Any
 
 from flint import fmpq
 
@@ -13,6 +14,11 @@ from exactacq.errors import FormatError
 from exactacq.files.loops.chains import Chain
 from exactacq.files.source import one_line
 from exactacq.scene.shapes import Circle
+
+FAR, FEW = 100, 10
+"""Far off is what is so many times farther than the size of the rest; few are less than one of so many."""
+SAMPLES = 4000
+"""So many places at most tell where most of them are."""
 
 
 @dataclass(slots=True)
@@ -34,19 +40,38 @@ class Drawing:
     readable: str = ""
     """With which option some of what was left out is read."""
 
-    def extent(self) -> tuple[tuple[fmpq, fmpq], tuple[fmpq, fmpq]]:
-        """The box of all vertices and circles (arcs may reach beyond it)."""
+    def corners(self) -> list[tuple[fmpq, fmpq]]:
+        """All vertices, and of circles the corners of their boxes (arcs may reach beyond these)."""
         corners = [(c.x, c.y) for chain in self.chains for c in chain.corners]
         for _, circle in self.circles:
             (x, y), r = circle.center, circle.radius
             corners += [(x - r, y - r), (x + r, y + r)]
-        xs, ys = [x for x, _ in corners], [y for _, y in corners]
-        return (min(xs), min(ys)), (max(xs), max(ys))
+        return corners
 
     def layer_list(self) -> str:
         """The layers with their counts of entities, the fullest first."""
         named = [f"{one_line(repr(name))} ({count})" for name, count in self.layers.most_common(12)]
         return ", ".join(named) + (" and others" if len(self.layers) > 12 else "")
+
+
+def main_box(places: Sequence[Sequence[Any]]) -> tuple[list[Any], list[Any]]:
+    """The lower left and the upper right corner of the box of some places, one at least.
+
+    Where a few of them are far from all others, as things that were left at the origin are from a plan in the
+    coordinates of its country, it is a box around these others: tolerances and starts go by its size.
+
+    >>> main_box([(0, 0), *((90000 + k, 90000) for k in range(40))])
+    ([89971, 89968], [90067, 90032])
+    """
+    low, high = ([end(place[k] for place in places) for k in (0, 1)] for end in (min, max))
+    some = places[:: len(places) // SAMPLES + 1]
+    ordered = [sorted(place[k] for place in some) for k in (0, 1)]
+    few = len(some) // FEW
+    inner = [(values[few], values[-1 - few]) for values in ordered]
+    size = max(b - a for a, b in inner)
+    if not 0 < size * FAR < max(b - a for a, b in zip(low, high, strict=True)):
+        return low, high
+    return [a - size for a, _ in inner], [b + size for _, b in inner]
 
 
 def is_named(layer: str, name: str) -> bool:
