@@ -29,6 +29,8 @@ THICK_EDGES = 4000
 """Edges of walls around lines and of loops beyond which these are not tried: all are merged."""
 LAYER_TRIALS = 2
 """Most layers that are left out, or read alone, in turn."""
+WALLS = "*wall*"
+"""What layers of walls are named like."""
 LAYERS_READ = 12
 """Most layers that are read one by one, those with the most entities."""
 LONGEST = 80
@@ -52,6 +54,8 @@ class Trial:
     options: Options
     contents: Contents
     judged: Judged
+    is_part: bool = False
+    """Whether it reads layers of a plan that belong together, and no others."""
 
     @property
     def words(self) -> str:
@@ -115,7 +119,8 @@ def trials(
     if contents.edges + lines > MOST_EDGES or len(found.violations) >= COUNTED:
         return
     apart = _layers_apart(contents, read) if "layers" in allowed else ()
-    for more in chain(_proposals(contents, found), apart):
+    whole = ((more, False) for more in _proposals(contents, found))
+    for more, is_part in chain(whole, ((more, True) for more in apart)):
         if not set(more) <= set(allowed):
             continue
         try:
@@ -123,7 +128,7 @@ def trials(
             tried = replace(contents, **more) if set(more) <= own else read(more)  # type: ignore[arg-type]
             if tried.walls and tried.edges > THICK_EDGES:
                 continue
-            trial = Trial(more, tried, judged(tried))
+            trial = Trial(more, tried, judged(tried), is_part)
         except (FormatError, InvalidScene, Undecided):
             continue
         if trial.is_sound(contents):
@@ -181,13 +186,13 @@ def _meets_the_frame(found: Judged, meeting: Sequence[Violation]) -> bool:
 
 
 def _fewer_layers(contents: Contents, found: Judged, meeting: Sequence[Violation]) -> Iterator[Options]:
-    """All layers but one, for layers whose loops meet those of another; the one with the fewest entities."""
+    """All layers but one, for layers whose loops meet those of another: no walls, and with few entities."""
     counts, homes = contents.layers.counts, contents.layers.homes
     less = set()
     for violation in meeting:
         layers = {homes.get(found.loops[k].name or "", "") for k in violation.loops}
         if len(layers) == 2 and "" not in layers:
-            less.add(min(layers, key=lambda layer: (counts[layer], layer)))
+            less.add(min(layers, key=lambda layer: (is_named(layer, WALLS), counts[layer], layer)))
     for layer in sorted(less, key=lambda layer: (counts[layer], layer))[:LAYER_TRIALS]:
         others = [name for name in counts if name != layer and contents.layers.read(name)]
         if not any("," in name for name in others) and sum(map(len, others)) <= LONGEST:
@@ -214,7 +219,7 @@ def _layers_apart(contents: Contents, read: Callable[[Options], Contents]) -> It
             continue
         if alone.loops:
             looped.append(name)
-        if is_named(name, "*wall*"):
+        if is_named(name, WALLS):
             walls[name] = alone
     if 1 < len(looped) < len(layers.counts) and sum(map(len, looped)) <= LONGEST:
         yield from ({"layers": looped, **more} for more in WHOLE)

@@ -33,7 +33,7 @@ Place = tuple[fmpq, fmpq]
 STEPS = 4
 """Reading, violations, cures, and a start."""
 BEST, BEST_PARTS = 2, 4
-"""How many of the trials a start is looked for with, and how many choices of layers."""
+"""How many of the trials a start is looked for with, and how many of those of a part of a plan."""
 TOGETHER = {"tolerance", "union", "flatten"}
 """Options that are also tried all together."""
 
@@ -247,7 +247,7 @@ class _Inquiry:
                 within = self._beginning(room, replace(contents, outer="room"))
                 if within is not None:
                     found.append((room, within))
-            if not options and begun is not None and begun.is_first and not is_open and not leaves_most:
+            if begun is not None and begun.is_first and not is_open and not leaves_most:
                 break
         return max(found, key=_rank, default=None)
 
@@ -263,12 +263,12 @@ class _Inquiry:
             self.tried,
             key=lambda trial: (
                 len(trial.judged.violations),
-                "thicken" in trial.options and "layers" not in trial.options,
+                "thicken" in trial.options and not trial.is_part,
                 len(trial.contents.open_chains),
             ),
         )
-        whole, parts = ([t for t in order if ("layers" in t.options) is part] for part in (False, True))
-        yield from ((trial.options, trial.contents) for trial in [*whole[:BEST], *parts[:BEST_PARTS]])
+        others, parts = ([trial for trial in order if trial.is_part is part] for part in (False, True))
+        yield from ((trial.options, trial.contents) for trial in [*others[:BEST], *parts[:BEST_PARTS]])
         every: dict[str, object] = {}
         for trial in order:
             if TOGETHER.issuperset(trial.options) and trial.helps(self.before, self.contents):
