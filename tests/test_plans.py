@@ -137,4 +137,11 @@ def test_what_is_hidden_is_left_out(tmp_path: Path) -> None:
     # A layer that is off leaves of its block what is on a layer of its own.
     found = xa.inspect(path)
     assert len(found.loops) == 2 and "left out 5 hidden CIRCLEs" in found.notes
+    assert "--layers reads what is hidden too, as on 'demo', 'wood', 'old', 'OLD', '0'" in found.notes
+    assert found.contents.layers.counts == {"0": 1, "wood": 1}
+    empty = plan(tmp_path / "e.dxf", {}, lambda space: space.add_circle((8, 3), 1, {"invisible": 1}))
+    with pytest.raises(
+        xa.FormatError, match=r"nothing to read .*; --layers reads what is hidden too, as on '0'"
+    ):
+        xa.inspect(empty)
     assert len(xa.inspect(path, layers=["demo"]).loops) == 1 and len(xa.inspect(path, layers="*").loops) == 7

@@ -37,6 +37,8 @@ MAX_ENTITIES = 2 * MAX_EDGES
 """Most entities and vertices of a file, counted before ezdxf starts: it takes about 2 KB for each."""
 MAX_LINES = 20 * MAX_EDGES
 """Most lines of a file, two for each value: ezdxf takes 7 microseconds and 100 bytes for each."""
+MOST_NAMED = 6
+"""So many layers with hidden entities are named at most."""
 MAX_DEPTH = 16
 """Deepest nesting of blocks that is followed; drawings have two or three levels, a loop has no end."""
 BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
@@ -62,28 +64,34 @@ def read_drawing(path: Path, layers: Iterable[str] | None, flattening: Flattenin
     selected = LayerChoice(layers)
     order = 0
     try:
-        unseen = _Unseen(document)
+        unseen, hidden = _Unseen(document), dict[str, None]()
         for entity, layer, is_hidden in _entities(document.modelspace(), drawing, unseen):
             order += 1
             if order > MAX_ENTITIES:
                 raise FormatError(f"its blocks expand to more than {MAX_ENTITIES} entities; export one part")
-            drawing.layers[layer] += 1
-            drawing.homes[order] = layer
-            if not selected.take(layer):
-                continue
+            is_taken = selected.take(layer)
             if is_hidden and selected.names is None:
                 drawing.dropped[f"hidden {entity.dxftype()}"] += 1
-            else:
+                hidden.setdefault(layer)
+                continue
+            drawing.layers[layer] += 1
+            drawing.homes[order] = layer
+            if is_taken:
                 _Reader(drawing, order, flattening).read(entity)
     except FormatError:
         raise
     except Exception as error:  # ezdxf reads lazily: a damaged entity shows only here, in many ways
         raise FormatError(f"a damaged entity ({one_line(error)}); save or export it again") from None
     selected.check(drawing)
+    ways = []
+    if hidden:
+        names = ", ".join(one_line(repr(name)) for name in [*hidden][:MOST_NAMED])
+        ways.append(f"--layers reads what is hidden too, as on {names}")
     if flattening is not None:
         drawing.notes += flattening.notes()
     elif drawing.dropped["ELLIPSE"] or drawing.dropped["SPLINE"]:
-        drawing.readable = "ellipses and splines are read with --flatten LENGTH, by arcs within that length"
+        ways.append("ellipses and splines are read with --flatten LENGTH, by arcs within that length")
+    drawing.readable = "; ".join(ways)
     if drawing.layers:
         drawing.unit = _unit(document)
         said = f"the file's unit: {drawing.unit}" if drawing.unit else "the file names no unit"
