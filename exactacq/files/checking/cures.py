@@ -195,7 +195,7 @@ def _fewer_layers(contents: Contents, found: Judged, meeting: Sequence[Violation
             less.add(min(layers, key=lambda layer: (is_named(layer, WALLS), counts[layer], layer)))
     for layer in sorted(less, key=lambda layer: (counts[layer], layer))[:LAYER_TRIALS]:
         others = [name for name in counts if name != layer and contents.layers.read(name)]
-        if not any("," in name for name in others) and sum(map(len, others)) <= LONGEST:
+        if all(map(_can_be_given, others)) and sum(map(len, others)) <= LONGEST:
             yield {"layers": others}
 
 
@@ -211,7 +211,7 @@ def _layers_apart(contents: Contents, read: Callable[[Options], Contents]) -> It
     looped: list[str] = []
     walls: dict[str, Contents] = {}
     for name, _ in layers.counts.most_common(LAYERS_READ):
-        if "," in name:
+        if not _can_be_given(name):
             continue
         try:
             alone = read({"layers": [name]})
@@ -228,6 +228,11 @@ def _layers_apart(contents: Contents, read: Callable[[Options], Contents]) -> It
     for name in sorted(main, key=len)[:LAYER_TRIALS]:
         ways = (_walls_of(contents),) if walls[name].open_chains else WHOLE
         yield from ({"layers": [name], **more} for more in ways)
+
+
+def _can_be_given(name: str) -> bool:
+    """Whether the name of a layer can be written in a list of names, whose ends are stripped."""
+    return bool(name) and "," not in name and name == name.strip()
 
 
 def _walls_of(contents: Contents) -> Options:

@@ -233,42 +233,56 @@ class _Inquiry:
     def _begun(self, is_open: bool) -> tuple[Options, Beginning] | None:
         """The options and the start with which there are most boundaries, and of such the fewest options.
 
-        Without further options if the first choice of a start does then, no chain has to be closed, and not
-        most of the loops are left out; where they are, a start in a room is looked for too.
+        The file as it is, or the first trial, if the first choice of a start does there, no chain has to be
+        closed and not most of the loops are left out; and the parts of a plan.
         """
         found: list[tuple[Options, Beginning]] = []
         for options, contents in self._ways():
-            begun = self._beginning(options, contents)
-            leaves_most = begun is None or 2 * len(begun.scene.obstacles) < len(contents.loops)
-            if begun is not None:
-                found.append((options, begun))
-            if leaves_most and contents.outer == "wall" and "outer" in self._allowed:
-                room: Options = {**options, "outer": "room"}
-                within = self._beginning(room, replace(contents, outer="room"))
-                if within is not None:
-                    found.append((room, within))
-            if begun is not None and begun.is_first and not is_open and not leaves_most:
+            is_enough = self._begin(options, contents, found)
+            if is_enough and not is_open:
                 break
+        for trial in self._order(is_part=True)[:BEST_PARTS]:
+            self._begin(trial.options, trial.contents, found)
         return max(found, key=_rank, default=None)
+
+    def _begin(self, options: Options, contents: Contents, found: list[tuple[Options, Beginning]]) -> bool:
+        """Add the start that is found with some options; whether it is good enough not to look further.
+
+        Where most of the loops are left out, a start in a room is looked for too.
+        """
+        begun = self._beginning(options, contents)
+        leaves_most = begun is None or 2 * len(begun.scene.obstacles) < len(contents.loops)
+        if begun is not None:
+            found.append((options, begun))
+        if leaves_most and contents.outer == "wall" and "outer" in self._allowed:
+            room: Options = {**options, "outer": "room"}
+            within = self._beginning(room, replace(contents, outer="room"))
+            if within is not None:
+                found.append((room, within))
+        return begun is not None and begun.is_first and not leaves_most
 
     def _beginning(self, options: Options, contents: Contents) -> Beginning | None:
         return beginning(contents, partial(self._around, options, contents))
 
-    def _ways(self) -> Iterator[tuple[Options, Contents]]:
-        """Contents to start in: as they are, with what leaves the fewest violations, and with all of that."""
-        yield {}, self.contents
-        # Lines become walls only if nothing else does as well: often they are no walls, but for those on
-        # layers of walls.
-        order = sorted(
-            self.tried,
+    def _order(self, *, is_part: bool) -> list[Trial]:
+        """The trials of parts of a plan, or of all of the file, the best first.
+
+        Lines of the whole become walls only if nothing else does as well: often they are no walls.
+        """
+        return sorted(
+            (trial for trial in self.tried if trial.is_part is is_part),
             key=lambda trial: (
                 len(trial.judged.violations),
-                "thicken" in trial.options and not trial.is_part,
+                "thicken" in trial.options and not is_part,
                 len(trial.contents.open_chains),
             ),
         )
-        others, parts = ([trial for trial in order if trial.is_part is part] for part in (False, True))
-        yield from ((trial.options, trial.contents) for trial in [*others[:BEST], *parts[:BEST_PARTS]])
+
+    def _ways(self) -> Iterator[tuple[Options, Contents]]:
+        """Contents to start in: as they are, with what leaves the fewest violations, and with all of that."""
+        yield {}, self.contents
+        order = self._order(is_part=False)
+        yield from ((trial.options, trial.contents) for trial in order[:BEST])
         every: dict[str, object] = {}
         for trial in order:
             if TOGETHER.issuperset(trial.options) and trial.helps(self.before, self.contents):

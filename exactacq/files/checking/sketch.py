@@ -67,8 +67,8 @@ class Sketch:
         """The corners of a box around all but what is far from everything else."""
         low, high = map(np.array, main_box(self._corners))
         corners = np.array(self._corners)
-        is_whole = (low == corners.min(axis=0)).all() and (high == corners.max(axis=0)).all()
-        return self.box if is_whole else (low, high)
+        inside = ((low <= corners) & (corners <= high)).all(axis=1)
+        return self.box if inside.all() else (low, high)
 
     def around(self, places: Floats) -> Bools:
         """Which loops lie around which places: a row for each place."""

@@ -131,9 +131,9 @@ def rounded_up(value: float) -> fmpq:
 
 
 def widest_gap(scene: Scene) -> float:
-    """The widest link of a shortest tree between the start and all obstacles, or a little more.
+    """The widest link of a shortest tree between the start and the obstacles, or a little more.
 
-    Those that are far from everything else do not count.
+    Those that are far from nearly everything else do not count (see `main_box`).
 
     It is sought between points of the boundaries, at most about `POINTS` of them, so it is never too small.
     Without obstacles it is 1.

@@ -63,12 +63,18 @@ def drawing_contents(
         "one that `exactacq check` proposes; "
         f"this one spans x {short(x0)} to {short(x1)}, y {short(y0)} to {short(y1)}"
     )
-    low, high = main_box(corners)
-    reach = default_tolerance(max(high[0] - low[0], high[1] - low[1])) if tolerance is None else tolerance
-    far = (c for c in corners if not all(a <= value <= b for a, value, b in zip(low, c, high, strict=True)))
-    if (place := next(far, None)) is not None:
-        where = ", ".join(map(short, place))
-        notes.append(f"({where}) is far from nearly everything else: tolerance and start go by the rest")
+    reach = tolerance
+    if reach is None:
+        low, high = main_box(corners)
+        reach = default_tolerance(max(high[0] - low[0], high[1] - low[1]))
+        far = (
+            c for c in corners if not all(a <= value <= b for a, value, b in zip(low, c, high, strict=True))
+        )
+        if (place := next(far, None)) is not None:
+            where = ", ".join(map(short, place))
+            notes.append(
+                f"what is about ({where}) is far from nearly everything else, by which the tolerance goes"
+            )
     pieces = copied(drawing.chains) if thickness is None and edges <= MOST_EDGES else []
     stitched = stitch(drawing.chains, reach)
     gaps = gaps_of(stitched, pieces) if thickness is None else ChainGaps()

@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
+from itertools import product
 from typing import Any
 
 from flint import fmpq
@@ -15,10 +16,10 @@ from exactacq.files.loops.chains import Chain
 from exactacq.files.source import one_line
 from exactacq.scene.shapes import Circle
 
-FAR, FEW = 100, 10
-"""Far off is what is so many times farther than the size of the rest; few are less than one of so many."""
-SAMPLES = 4000
-"""So many places at most tell where most of them are."""
+FAR = 100
+"""So many times farther from the rest than the rest extends is far off,"""
+FEW = 8
+"""if it is at most one of so many places."""
 
 
 @dataclass(slots=True)
@@ -57,21 +58,38 @@ class Drawing:
 def main_box(places: Sequence[Sequence[Any]]) -> tuple[list[Any], list[Any]]:
     """The lower left and the upper right corner of the box of some places, one at least.
 
-    Where a few of them are far from all others, as things that were left at the origin are from a plan in the
-    coordinates of its country, it is a box around these others: tolerances and starts go by its size.
+    A few that lie apart on one side, `FAR` times as far from all others as these extend, do not count: what
+    was left at the origin of a plan in the coordinates of its country. Near n log n for n places.
 
     >>> main_box([(0, 0), *((90000 + k, 90000) for k in range(40))])
-    ([89971, 89968], [90067, 90032])
+    ([90000, 90000], [90039, 90000])
+    >>> main_box([(0, 0), (90000, 90000), *((45000 + k, 45000) for k in range(40))])
+    ([0, 0], [90000, 90000])
     """
+    rest = list(places)
+    most = len(places) // FEW
+    while (kept := _without_far(rest, most - (len(places) - len(rest)))) is not None:
+        rest = kept
+    return _box(rest)
+
+
+def _without_far(places: list[Sequence[Any]], most: int) -> list[Sequence[Any]] | None:
+    """Without some on one side that are far from all others, *most* at most; None if there are none."""
+    for axis, sense in product((0, 1), (1, -1)):
+        order = sorted(places, key=lambda place: sense * place[axis])
+        for k in range(1, most + 1):
+            apart = sense * (order[k][axis] - order[k - 1][axis])
+            # Most gaps are too narrow for what the others extend along this axis.
+            if apart > FAR * sense * (order[-1][axis] - order[k][axis]):
+                low, high = _box(order[k:])
+                if 0 < FAR * max(high[0] - low[0], high[1] - low[1]) < apart:
+                    return order[k:]
+    return None
+
+
+def _box(places: Sequence[Sequence[Any]]) -> tuple[list[Any], list[Any]]:
     low, high = ([end(place[k] for place in places) for k in (0, 1)] for end in (min, max))
-    some = places[:: len(places) // SAMPLES + 1]
-    ordered = [sorted(place[k] for place in some) for k in (0, 1)]
-    few = len(some) // FEW
-    inner = [(values[few], values[-1 - few]) for values in ordered]
-    size = max(b - a for a, b in inner)
-    if not 0 < size * FAR < max(b - a for a, b in zip(low, high, strict=True)):
-        return low, high
-    return [a - size for a, _ in inner], [b + size for _, b in inner]
+    return low, high
 
 
 def is_named(layer: str, name: str) -> bool:
