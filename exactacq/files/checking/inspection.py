@@ -233,8 +233,8 @@ class _Inquiry:
     def _begun(self, is_open: bool) -> tuple[Options, Beginning] | None:
         """The options and the start with which there are most boundaries, and of such the fewest options.
 
-        The file as it is, or the first trial, if the first choice of a start does there, no chain has to be
-        closed and not most of the loops are left out; and the parts of a plan.
+        Of the ways to read all of the file those up to the first that is good enough are looked at, if no
+        chain has to be closed; and the parts of a plan.
         """
         found: list[tuple[Options, Beginning]] = []
         for options, contents in self._ways():
