@@ -112,7 +112,8 @@ class Shadows:
             ax, ay, bx, by = bx, by, ax, ay
             ux, uy, vx, vy, sine = vx, vy, ux, uy, -sine
         first, last = _direction(ux, uy), _direction(vx, vy)
-        if last < first:
+        if first - last > DIRECTIONS / 2.0:
+            # Beyond the east: opposite directions differ by half of all.
             last += DIRECTIONS
         # Directions are looked for by their middles.
         low, high = int(first + 0.5), int(last + 0.5)

@@ -69,14 +69,13 @@ def read_drawing(path: Path, layers: Iterable[str] | None, flattening: Flattenin
             order += 1
             if order > MAX_ENTITIES:
                 raise FormatError(f"its blocks expand to more than {MAX_ENTITIES} entities; export one part")
-            is_taken = selected.take(layer)
             if is_hidden and selected.names is None:
                 drawing.dropped[f"hidden {entity.dxftype()}"] += 1
                 hidden.setdefault(layer)
                 continue
             drawing.layers[layer] += 1
             drawing.homes[order] = layer
-            if is_taken:
+            if selected.take(layer):
                 _Reader(drawing, order, flattening).read(entity)
     except FormatError:
         raise
