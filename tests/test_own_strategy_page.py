@@ -16,14 +16,15 @@ from test_tutorial import FLAGS, commands
 import exactacq as xa
 from exactacq.cli import main
 from exactacq.files import gallery
+from exactacq.geometry.points import Location
 from exactacq.scene.terrain_components import ground_of
 from exactacq.strategies import registry
 from exactacq.study.random_scenes import Subject, random_scene
 
 DOCS = Path(__file__).parent.parent / "docs"
 PAGE = (DOCS / "own_strategy.md").read_text(encoding="utf-8")
-EXAMPLES = tuple(DOCS / "examples" / f"{name}.py" for name in ("straight_frontier", "lanes"))
-EXAMPLE, LANES = EXAMPLES
+EXAMPLES = tuple(DOCS / "examples" / f"{name}.py" for name in ("straight_frontier", "lanes", "bug2"))
+EXAMPLE, LANES, BUG_2 = EXAMPLES
 SLOW = ("plate",)
 """Scenes on which the example takes several seconds."""
 
@@ -49,13 +50,15 @@ def test_command_lines_print_what_the_page_says(
         copyfile(example, tmp_path / example.name)
     monkeypatch.chdir(tmp_path)
     told = list(commands(PAGE))
-    assert len(told) == 4
+    assert len(told) == 5
     for line, printed in told:
         program, *arguments = shlex.split(line)
         assert program == "exactacq" and main(arguments) == 0, line
         found = capsys.readouterr().out
         assert doctest.OutputChecker().check_output(printed, found, FLAGS), f"{line}\n{found}"
-    assert all((tmp_path / f"{name}.svg").stat().st_size > 0 for name in ("frontier", "lanes", "both"))
+    assert all(
+        (tmp_path / f"{name}.svg").stat().st_size > 0 for name in ("bug2", "frontier", "lanes", "both")
+    )
 
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
@@ -100,3 +103,16 @@ def test_lanes_keep_within_the_terrain(seed: int) -> None:
     sides = zip(scene.terrain.limits, (1, 1, -1, -1), "xyxy", strict=True)
     for limit, sign, axis in sides:
         assert all((getattr(piece.end, axis) - limit) * sign >= 0 for piece in run.path)
+
+
+@pytest.mark.parametrize("seed", some(range(40), 5))
+def test_bug_2_comes_to_its_goal_unless_that_is_inside_an_obstacle(seed: int) -> None:
+    rules = runpy.run_path(str(BUG_2))
+    scene = random_scene(Subject.SIGHTSEER, seed)
+    for goal in (xa.Point(7, 3), xa.Point(-5, 4), xa.Point(30, 1)):
+        rules["bug2"].__globals__["GOAL"] = goal
+        run = xa.explore(scene, "bug2", max_moves=200)
+        inside = any(obstacle.locate(goal) is Location.INSIDE for obstacle in scene.obstacles)
+        assert run.ending.value == "finished"
+        assert (run.path[-1].end == goal if run.path else scene.start == goal) is not inside
+        xa.audit(run, samples=4)

@@ -152,18 +152,20 @@ class Robot(Observer):
         self,
         hand: str = "left",
         *,
-        to: Point | Sequence[object] | None = None,
+        to: Point | Segment | Sequence[object] | None = None,
         until: EventKind | Collection[EventKind] = (),
         just_past: bool = False,
         reason: Why = "",
     ) -> Halt:
-        """Walk along the present boundary with a hand at it: all around, or to a point, or until an event.
+        """Walk along the present boundary with a hand at it: all around, or to a goal, or until an event.
 
         A lap that was interrupted goes on if the hand is the same: the robot is round where it began. If it
         is stopped just there, the next call without *to* says so and makes no way. *to* is a point of the
-        boundary; if it is none, the robot finds that out by coming round. For *until* and *just_past* see
-        `go_to`. `MoveError` at no boundary and at one that a border cuts, ValueError for another hand or
-        other kinds.
+        boundary; if it is none, the robot finds that out by coming round. Or it is a segment, as an M-line:
+        the robot halts where the boundary next meets it, touches it or not, and if an edge lies along it, at
+        both ends of what they have in common; but not where it sets out or where the lap ends. For *until*
+        and *just_past* see `go_to`. `MoveError` at no boundary and at one that a border cuts, ValueError for
+        another hand, other kinds or a segment without length.
 
         >>> import exactacq as xa
         >>> robot = xa.Robot(xa.load("squares"))
@@ -172,10 +174,14 @@ class Robot(Observer):
         (<HaltKind.ARRIVED: 'arrived'>, Point(2, 1))
         >>> robot.walk("right", until=["sight", "acquire"]).kind, robot.position
         (<HaltKind.EVENT: 'event'>, Point(4, -1))
+        >>> robot.walk("right", to=xa.Segment((0, 0), (20, 0))).kind, robot.position
+        (<HaltKind.ROUND: 'round'>, Point(2, 0))
         """
         if hand not in ("left", "right"):
             raise ValueError(f'a hand is "left" or "right", not {shown(hand)}')
-        target = None if to is None else Point.of(to)
+        target = None if to is None else to if isinstance(to, Segment) else Point.of(to)
+        if isinstance(target, Segment) and target.start == target.end:
+            raise ValueError("a segment to walk to has two distinct ends")
         walker, obstacle = self._walker, self._at_boundary()
         here = walker.position
         awaited = Awaited(kinds_of(until), here, just_past)
@@ -183,7 +189,7 @@ class Robot(Observer):
             raise MoveError(
                 "the border cuts this boundary, and no lap leads around it: use circle or walk_to"
             )
-        if target is not None and target == here:
+        if isinstance(target, Point) and target == here:
             return Halt(HaltKind.ARRIVED, target, self.at)
         lap, self._lap = self._lap, None
         if lap is None or lap.forward is not (hand == "left"):
