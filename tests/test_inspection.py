@@ -567,3 +567,16 @@ def test_a_drawing_is_parsed_once(monkeypatch: pytest.MonkeyPatch) -> None:
     again = xa.inspect(DATA / "mousebites.dxf")
     assert len(parsed) > 2
     assert (again.command, again.violations, again.notes) == (found.command, found.violations, found.notes)
+
+
+@pytest.mark.parametrize("scale", ["1", "0.001", "4000"])
+def test_curves_that_are_refused_are_read_by_arcs(tmp_path: Path, scale: str) -> None:
+    path = tmp_path / "oval.svg"
+    shapes = '<rect x="10" y="10" width="30" height="20"/><ellipse cx="80" cy="40" rx="20" ry="10"/>'
+    path.write_text(f'<svg viewBox="0 0 100 50"><g transform="scale({scale})">{shapes}</g></svg>')
+    with pytest.raises(xa.FormatError, match="--flatten LENGTH"):
+        xa.load(path)
+    found = xa.inspect(path)
+    assert found.ok and len(found.scene.obstacles) == 2
+    assert 0.08 < float(found.options["flatten"]) / float(scale) < 0.1
+    assert f"--flatten {float(found.options['flatten']):g} " in found.command

@@ -176,7 +176,7 @@ def _proposals(contents: Contents, found: Judged) -> Iterator[Options]:
     if None in closing:
         yield _walls_of(contents)
     if any("--flatten" in note for note in contents.notes):
-        yield {"flatten": rounded_up(nearest_float(size) / NEAR)}
+        yield {"flatten": near_enough(size)}
 
 
 def _meets_the_frame(found: Judged, meeting: Sequence[Violation]) -> bool:
@@ -238,6 +238,11 @@ def _can_be_given(name: str) -> bool:
 def _walls_of(contents: Contents) -> Options:
     """The option that makes walls of lines."""
     return {"thicken": rounded_up(nearest_float(size_of(contents)) / THIN)}
+
+
+def near_enough(size: fmpq) -> fmpq:
+    """The distance from curves within which arcs stand for them, of a drawing of that size."""
+    return rounded_up(nearest_float(size) / NEAR)
 
 
 def size_of(contents: Contents) -> fmpq:

@@ -13,7 +13,7 @@ from typing import Any
 from flint import fmpq
 
 from exactacq.errors import FormatError, InvalidScene, Undecided
-from exactacq.files.checking.cures import Options, Trial, cured, size_of, trials, words
+from exactacq.files.checking.cures import Options, Trial, cured, near_enough, size_of, trials, words
 from exactacq.files.checking.flaws import Judged, judged
 from exactacq.files.checking.lines import OpenChain, open_chains
 from exactacq.files.checking.sketch import Sketch, places_of
@@ -34,6 +34,8 @@ STEPS = 4
 """Reading, violations, cures, and a start."""
 BEST, BEST_PARTS = 2, 4
 """How many of the trials a start is looked for with, and how many of those of a part of a plan."""
+BY_ARCS = "--flatten LENGTH"
+"""Readers that refuse a curve say how to read it."""
 TOGETHER = {"tolerance", "union", "flatten"}
 """Options that are also tried all together."""
 
@@ -139,7 +141,8 @@ def inspect(
 
     The arguments are those of `load`. *progress* is called with the number of steps done, and of all. Options
     that cure a violation or close a chain are named only after they were tried; none are tried for files of
-    more than 10,000 edges. Raises `FormatError` for a file that cannot be read.
+    more than 10,000 edges. Curves that a reader refuses are read by arcs (``flatten``), as a note says.
+    Raises `FormatError` for a file that cannot be read.
 
     >>> from importlib.resources import files
     >>> found = inspect(files("exactacq") / "files" / "data" / "issue42.dxf")
@@ -153,7 +156,7 @@ def inspect(
     source = NamedSource(name)
     options = source.format.checked(options) if source.format is not None else options
     with rereading():
-        contents = source.contents(start, options)
+        contents, options = _first_read(source, start, options)
         tell(1, STEPS)
         before = judged(contents)
         tell(2, STEPS)
@@ -162,6 +165,23 @@ def inspect(
         found = inquiry.found(name="areas" if source.geo is not None else source.label)
         tell(4, STEPS)
     return found
+
+
+def _first_read(source: NamedSource, start: Any, options: dict[str, Any]) -> tuple[Contents, dict[str, Any]]:
+    """What a file holds, and with which options it is read: curves by arcs where they are refused."""
+    try:
+        return source.contents(start, options), options
+    except FormatError as error:
+        if BY_ARCS not in str(error):
+            raise
+        # However coarse the arcs are, the ends of the curves tell how large the drawing is.
+        size = size_of(source.contents(start, {**options, "flatten": fmpq(1)}))
+        if not 0 < size < LIMIT:
+            raise
+    by_arcs = {**options, "flatten": near_enough(size)}
+    contents = source.contents(start, by_arcs)
+    note = f"read with {words(by_arcs)}: it has curves that are no arcs"
+    return replace(contents, notes=(note, *contents.notes)), by_arcs
 
 
 class _Inquiry:
