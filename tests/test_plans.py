@@ -168,3 +168,22 @@ def test_what_is_hidden_is_left_out(tmp_path: Path) -> None:
     ):
         xa.inspect(empty)
     assert len(xa.inspect(path, layers=["demo"]).loops) == 1 and len(xa.inspect(path, layers="*").loops) == 7
+
+
+@pytest.mark.parametrize("in_block", [False, True])
+def test_walls_of_multiple_lines_are_read(tmp_path: Path, in_block: bool) -> None:
+    """A wall that ends in caps, and one that goes around a room: two loops, and a loop in a loop."""
+    document = ezdxf.new(setup=True)
+    style = document.mline_styles.new("capped")
+    for offset in (0.1, -0.1):
+        style.elements.append(offset)
+    style.dxf.flags = 16 + 256  # caps at both ends
+    space = document.blocks.new("PLAN") if in_block else document.modelspace()
+    space.add_mline([(0, 0), (10, 0), (10, 8), (0, 8)], dxfattribs={"layer": "WALL", "style_name": "capped"})
+    space.add_mline([(20, 0), (30, 0), (30, 8), (20, 8)], close=True, dxfattribs={"layer": "WALL"})
+    if in_block:
+        document.modelspace().add_blockref("PLAN", (0, 0))
+    document.saveas(path := tmp_path / "walls.dxf")
+    found = xa.inspect(path, layers="WALL")
+    assert found.ok and sorted(loop.role for loop in found.loops) == ["hole", "outer", "single"]
+    assert any("expanded 2 MLINEs" in note for note in found.notes)

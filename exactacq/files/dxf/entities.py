@@ -194,7 +194,7 @@ class _Unseen:
 
 
 def _entities(layout: Iterable[Any], drawing: Drawing, unseen: _Unseen) -> Iterator[tuple[Any, str, bool]]:
-    """(entity, layer, whether it is hidden), blocks expanded.
+    """(entity, layer, whether it is hidden), blocks and multiple lines expanded.
 
     Layer "0" in a block is the layer of its reference.
     """
@@ -203,7 +203,7 @@ def _entities(layout: Iterable[Any], drawing: Drawing, unseen: _Unseen) -> Itera
         """Count an entity of a block that ezdxf cannot place."""
         drawing.dropped[f"{entity.dxftype()} in a block"] += 1
 
-    expanded = 0
+    expanded = multiple = 0
     stack: list[tuple[Iterator[Any], str | None, int, bool]] = [(iter(layout), None, 0, False)]
     while stack:
         entities, outer, depth, is_hidden = stack[-1]
@@ -214,7 +214,11 @@ def _entities(layout: Iterable[Any], drawing: Drawing, unseen: _Unseen) -> Itera
         layer = str(entity.dxf.get("layer", "0"))
         layer = outer if outer is not None and layer == "0" else layer
         is_hidden = is_hidden or unseen.hides(entity, layer)
-        if entity.dxftype() != "INSERT":
+        if entity.dxftype() == "MLINE":
+            multiple += 1
+            lines = (part for part in entity.virtual_entities() if part.dxftype() in ("LINE", "ARC"))
+            stack.append((lines, layer, depth, is_hidden))
+        elif entity.dxftype() != "INSERT":
             yield entity, layer, is_hidden
         elif depth >= MAX_DEPTH:
             raise FormatError(f"blocks are nested more than {MAX_DEPTH} deep (one in itself?); explode them")
@@ -225,10 +229,11 @@ def _entities(layout: Iterable[Any], drawing: Drawing, unseen: _Unseen) -> Itera
             copies = entity.multi_insert() if entity.mcount > 1 else [entity]
             content = chain.from_iterable(c.virtual_entities(skipped_entity_callback=skip) for c in copies)
             stack.append((content, layer, depth + 1, is_hidden))
-    if expanded:
-        drawing.notes.append(
-            f"expanded {count(expanded, 'block reference')}; their content is placed in double precision"
-        )
+    for number, what in ((expanded, "block reference"), (multiple, "MLINE")):
+        if number:
+            drawing.notes.append(
+                f"expanded {count(number, what)}; their content is placed in double precision"
+            )
 
 
 class _Reader:
