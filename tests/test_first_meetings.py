@@ -22,6 +22,7 @@ from exactacq.geometry.late import Balls, clearly_between
 from exactacq.kernel.bound_lines import NOTHING
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
+from exactacq.sensing import complex_edges
 from exactacq.sensing.complex_edges import normals
 from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.study.random_scenes import Subject, random_scene
@@ -214,26 +215,62 @@ def test_between_as_angles_tell(k: int) -> None:
         assert clearly_between(start, last, way) == (k < end)
 
 
+class Cells:
+    """The cells of which balls tell what their lines meet first, compared with all exact contacts."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        decisions = rotational_sweep._Decisions
+        self.choose, self.ask, self.sweep = decisions._perhaps_first, decisions._met, complex_edges.swept
+        self.possible: list[int] = []
+        self.goes_back = True
+        self.told = self.all = self.few = 0
+        monkeypatch.setattr(kernel, "EXACT_ONLY", True)
+        # Unlike methods of this class, functions are bound to the decisions.
+        monkeypatch.setattr(decisions, "_perhaps_first", lambda *cell: self.chosen(*cell))  # noqa: PLW0108
+        monkeypatch.setattr(decisions, "_met", lambda *cell: self.compared(*cell))  # noqa: PLW0108
+        monkeypatch.setattr(complex_edges, "swept", self.swept)
+
+    def swept(self, *sector: Any, goes_back: bool = True, **more: Any) -> Any:
+        self.goes_back = goes_back
+        return self.sweep(*sector, goes_back=goes_back, **more)
+
+    def chosen(self, decisions: rotational_sweep._Decisions, cell: int, edges: list[int]) -> list[int]:
+        self.possible = edges
+        few = self.choose(decisions, cell, edges)
+        self.all, self.few = self.all + len(edges), self.few + len(few)
+        return few
+
+    def compared(
+        self, decisions: rotational_sweep._Decisions, middle: fmpq, edges: list[int]
+    ) -> tuple[int, int]:
+        met = self.ask(decisions, middle, edges)
+        behind, ahead = decisions._exact_meet(middle, self.possible)
+        # A sweep that does not go back has no events there.
+        assert met[1] == ahead and (met[0] == behind or not self.goes_back)
+        self.told += 1
+        return met
+
+
 @pytest.mark.parametrize("seed", some(range(64700000, 64700060), 4))
 def test_as_exact_contacts_tell(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """In every cell of the sweeps of random scenes, where floats tell nothing."""
-    told: list[tuple[int, int]] = []
-    ask = rotational_sweep._Decisions._met
-
-    def compared(decisions: rotational_sweep._Decisions, middle: fmpq, edges: list[int]) -> tuple[int, int]:
-        met = ask(decisions, middle, edges)
-        assert met == decisions._exact_meet(middle, edges)
-        told.append(met)
-        return met
-
-    monkeypatch.setattr(kernel, "EXACT_ONLY", True)
-    monkeypatch.setattr(rotational_sweep._Decisions, "_met", compared)
-    scene = random_scene(Subject.SIGHTSEER, seed)
+    cells, scene = Cells(monkeypatch), random_scene(Subject.SIGHTSEER, seed)
     table = EdgeTable(scene.obstacles)
     families = VisibilityComplex(table, Range(scene.radius or fmpq(3)))
     for e in range(len(table.curves)):
         families.extents(e)
-    assert told
+    assert cells.told
+
+
+def test_along_a_row_only_what_has_changed_is_met_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pads with round ends, as on a circuit board: lines along a row meet them one after the other."""
+    cells = Cells(monkeypatch)
+    pads = [xa.Outline([(x, 0), (x + 1, 0, 1), (x + 1, 2), (x, 2, 1)]) for x in range(0, 40, 4)]
+    table = EdgeTable(xa.Scene(pads, start=(-9, 0), radius=50).obstacles)
+    families = VisibilityComplex(table, Range(fmpq(50)))
+    for e in range(4):
+        families.extents(e)
+    assert cells.told and 4 * cells.few < cells.all
 
 
 def spirals(turns: int) -> xa.Scene:

@@ -267,6 +267,8 @@ class _Decisions:
     ) -> None:
         self.table, self.sector, self.own, self.through, self.sweep = table, sector, own, through, sweep
         self._exact_middles: dict[int, fmpq] = {}
+        # The edges that the line met first at which floats left that open last, if balls told.
+        self._nearest: list[int] | None = None
 
     def make(self) -> None:
         """Tell the sweep what it waits for, until it is done."""
@@ -279,7 +281,8 @@ class _Decisions:
             sweep.look(self._middles())
         if sweep.stage == EDGES:
             for cell, edges in sweep.possible.items():
-                sweep.behind[cell], sweep.ahead[cell] = self._met(self._middle(cell), edges)
+                met = self._met(self._middle(cell), self._perhaps_first(cell, edges))
+                sweep.behind[cell], sweep.ahead[cell] = met
             sweep.join([int(self._is_at_center(cell)) for cell in range(len(sweep.middles))])
 
     # -- events --------------------------------------------------------------------------------
@@ -438,9 +441,35 @@ class _Decisions:
 
     # -- edges met -----------------------------------------------------------------------------
 
+    def _perhaps_first(self, cell: int, edges: list[int]) -> list[int]:
+        """Of the edges that a cell's line may meet those that it may meet first.
+
+        An edge without an event between two cells is met in both, in the same order with all other such
+        edges: so what was met first in the cell before hides them, unless it has an event itself. Concave
+        arcs that are touched without an event are touched where the line is blocked already.
+        """
+        nearest = self._nearest if cell - 1 in self.sweep.possible else self._nearest_in_floats(cell - 1)
+        if nearest is None or self.through:
+            return edges
+        changed = set[int]()
+        for number, side, _ in self.sweep.bounds[cell].passed:
+            changed.update((number,) if side else (number, self.table.preceding[number]))
+        if not changed.isdisjoint(nearest):
+            return edges
+        changed.update(nearest)
+        return [e for e in edges if e in changed]
+
+    def _nearest_in_floats(self, cell: int) -> list[int] | None:
+        """What the line of a cell meets first behind and ahead, where floats tell that both are entered."""
+        if cell < 0:
+            return None
+        nearest = [self.sweep.behind[cell], self.sweep.ahead[cell]]
+        return None if NOTHING in nearest else nearest
+
     def _met(self, middle: fmpq, edges: list[int]) -> tuple[int, int]:
         """The first edges that a line meets behind and ahead."""
         first, left = first_meetings(self.table, self.sector, middle, edges, self.own)
+        self._nearest = None if left else [e for *_, e in first.values()]
         if not left and not self.through:
             return entered(first)
         # All these lines pass the centre, where edges *through* it are: balls tell these from it in no case.
