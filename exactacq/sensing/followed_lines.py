@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from math import hypot
 
 from flint import arb
 
@@ -19,12 +20,14 @@ from exactacq.kernel.grazing_lines import GrazingLine, MetEdge
 from exactacq.kernel.line_walks import CROSSED
 from exactacq.kernel.single_lines import SingleImage, Spot
 from exactacq.numbers.real import Real
+from exactacq.recent import Recent
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.line_family import SingleLine, SingleLines
 from exactacq.sensing.line_images import LineImages
 from exactacq.sensing.line_points import Role, Side
 from exactacq.sensing.line_views import LineViews
 from exactacq.visibility.features import Feature, corners_of_segments
+from exactacq.visibility.free_runs import FreeRun, Hit, RunSide
 from exactacq.visibility.free_segment import LineWalk, walk_line
 from exactacq.visibility.line_balls import line
 from exactacq.visibility.line_families import Sector
@@ -32,6 +35,11 @@ from exactacq.visibility.line_names import Namer
 from exactacq.visibility.pinched_lines import walked
 from exactacq.visibility.rotational_sweep import Passed
 from exactacq.visibility.sensor_range import Range
+
+RUNS_KEPT = 1000
+"""Names of lines of which what they meet is kept at most."""
+WIDER = 2
+"""A line that is followed for the second time is so for such a multiple of the reach."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,6 +99,7 @@ class LineFollower:
     ) -> None:
         self.table, self.range, self.views = table, range_, views
         self._namer, self._images = namer, images
+        self._runs = Recent[int, FreeRun](RUNS_KEPT)
 
     def follow(self, at: FeatureLine, near: frozenset[int] | None = None) -> FollowedLine:
         """What a line meets as far as it is free, of the edges *near* its contact, or of all within reach."""
@@ -127,39 +136,75 @@ class LineFollower:
 
     def _exactly(self, at: FeatureLine) -> FollowedLine:
         """A line by exact contacts: what it meets, as far as it is free."""
-        walks = walk_line(self.table, at.sector, at.t, self.range.above)
-        behind, ahead = (list(self._met(walk, at, role)) for walk, role in zip(walks, (-1, 1), strict=True))
-        found = [*reversed(behind), *self._contact(at), *ahead]
-        pins = [pin for _, pin, _ in found]
-        met = [self._image(e, pin[0], place) for e, pin, place in found]
+        behind, ahead = self._sides(at)
+        hits = [*reversed(behind.hits), *self._here(at), *ahead.hits]
+        met = [MetEdge(hit.edge, hit.vertex, hit.place, hit.span, hit.spot) for hit in hits]
         far = self.at_range(at, Role.BEHIND), self.at_range(at, Role.AHEAD)
         ends = held_point(far[0]), held_point(far[1])
-        return self._followed(at, met, ends, (walks[0].blocked, walks[1].blocked), pins.__getitem__)
+        return self._followed(at, met, ends, (behind.blocked, ahead.blocked), lambda k: hits[k].pin)
 
-    def _contact(self, at: FeatureLine) -> Iterator[tuple[int, Pin, int]]:
+    def _sides(self, at: FeatureLine) -> tuple[RunSide, RunSide]:
+        """What a line meets behind its contact and ahead of it, off a run of the same line if that has it."""
+        keys = self.table.line_numbers.keys(self._namer.number(at.feature), [*at.passed])
+        run = next((run for key in keys if (run := self._runs.get(key)) is not None), None)
+        told = None if run is None else self._told(run, at)
+        if told is None:
+            # A line that is followed again may be so from other features too.
+            run = self._run(at, self.range.above * (1 if run is None else WIDER))
+            for key in keys:
+                self._runs.put(key, run)
+            told = self._told(run, at)
+        assert told is not None, "a run tells what is met from where it was followed"
+        return told
+
+    def _told(self, run: FreeRun, at: FeatureLine) -> tuple[RunSide, RunSide] | None:
+        feature = at.feature
+        corner = None if feature.round else self.table.curves[feature.edges[-1]].start
+        here = run.place_of(feature.edges, corner)
+        return None if here is None else run.seen_from(here, _heading(at), self.range.above)
+
+    def _run(self, at: FeatureLine, reach: float) -> FreeRun:
+        """Follow a line by its exact contacts within some reach."""
+        walks = walk_line(self.table, at.sector, at.t, reach)
+        behind, ahead = (
+            RunSide(list(self._met(walk, at, role)), walk.blocked, walk.walled)
+            for walk, role in zip(walks, (-1, 1), strict=True)
+        )
+        here, own = list(self._here(at)), at.feature.edges[-1]
+        for e in walks[0].here:
+            if e not in at.feature.edges:
+                # An arc that ends in the contact, and the edge beside it.
+                vertex = own if self.table.following[e] == own else e
+                here.append(self._hit(e, self._vertex(vertex, e), 0, 0.0))
+        return FreeRun(self.table, _heading(at), behind, here, ahead, reach)
+
+    def _here(self, at: FeatureLine) -> Iterator[Hit]:
+        """The edges of the feature, met in the contact."""
         own = at.feature.edges[-1]
         for e in at.feature.edges:
             is_round = at.feature.round
-            yield e, self.meeting(at, Role.CONTACT, e) if is_round else self._vertex(own, e), 0
+            pin = self.meeting(at, Role.CONTACT, e) if is_round else self._vertex(own, e)
+            yield self._hit(e, pin, 0, 0.0)
 
-    def _met(self, walk: LineWalk, at: FeatureLine, role: int) -> Iterator[tuple[int, Pin, int]]:
-        """What a line meets on one side: edges, where, and the numbers of the places."""
+    def _met(self, walk: LineWalk, at: FeatureLine, role: int) -> Iterator[Hit]:
+        """What a line meets on one side."""
         contact, direction = at.sector.touch(at.t)
+        size = hypot(*direction.xy)
         place, before = 0, Real(0)
         for tau, e in walk.hits:
             if tau.compare(before) != 0:
                 place, before, point = place + role, tau, contact + direction * tau
-            yield e, (point, self.views.rails[e].parameter(point)), place
+            yield self._hit(e, (point, self.views.rails[e].parameter(point)), place, float(tau) * size)
 
-    def _image(self, e: int, point: Point, place: int) -> MetEdge:
+    def _hit(self, e: int, pin: Pin, place: int, along: float) -> Hit:
         """An edge as it is met in an exact point: of corners of segments no feature is known there."""
-        curve, vertex = self.table.curves[e], CROSSED
+        point, curve, vertex = pin[0], self.table.curves[e], CROSSED
         if not isinstance(curve, Segment) and not self.table.full[e]:
             if point == curve.start:
                 vertex = e
             elif point == curve.end:
                 vertex = self.table.following[e]
-        return MetEdge(e, vertex, place, self._images.hull(e, (point,)), held_point(point))
+        return Hit(along, place, e, vertex, pin, self._images.hull(e, (point,)), held_point(point))
 
     def _vertex(self, vertex: int, e: int) -> Pin:
         """An end of an edge."""
@@ -181,3 +226,8 @@ class LineFollower:
         contact, direction = at.sector.touch(at.t)
         reached: Point = contact + direction * (int(role) * self.range.radius / direction.norm_sq().sqrt())
         return reached
+
+
+def _heading(at: FeatureLine) -> tuple[float, float]:
+    """The direction of a line in floats."""
+    return at.sector.touch(at.t)[1].xy

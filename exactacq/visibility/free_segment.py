@@ -78,10 +78,15 @@ def _contacts(start: Point, end: Point, direction: Point, curve: Curve) -> list[
 
 @dataclass(frozen=True, slots=True)
 class LineWalk:
-    """The contacts (signed parameter, edge) of a line within reach, nearest first; the last may block it."""
+    """The contacts (signed parameter, edge) of a line within reach, nearest first; the last may block it.
+
+    It is *walled* if it surely crosses an edge there. The edges *here* are met where it begins.
+    """
 
     hits: list[tuple[Real, int]]
-    blocked: bool
+    here: list[int]
+    blocked: bool = False
+    walled: bool = False
 
 
 def walk_line(table: EdgeTable, sector: Sector, t: Real, reach: float) -> tuple[LineWalk, LineWalk]:
@@ -100,7 +105,7 @@ def walk_line(table: EdgeTable, sector: Sector, t: Real, reach: float) -> tuple[
     behind = _as_far([hit for hit in reversed(hits) if hit[0].sign() < 0], begun, far)
     # Beyond the last contact nothing changes within reach: a parameter just short of that tells of the rest.
     end = rational(reach * (1 - 1e-9) / size)
-    here = {table.owners[e] for tau, e in hits if tau.sign() == 0}
+    here = [e for tau, e in hits if tau.sign() == 0]
     return (
         _until_blocked(table, contact, direction, behind, here, walls, Real(-end)),
         _until_blocked(table, contact, direction, ahead, here, walls, Real(end)),
@@ -136,24 +141,24 @@ def _until_blocked(
     contact: Point,
     direction: Point,
     hits: list[tuple[Real, int]],
-    here: set[int],
+    here: list[int],
     walls: set[int],
     end: Real,
 ) -> LineWalk:
-    """What is met up to what blocks, from a contact with the obstacles *here*; *walls* surely do.
+    """What is met up to what blocks, from a contact with the edges *here*; *walls* surely do.
 
     As nothing blocked so far, the line goes on inside an obstacle only if it meets it where it last met any.
     """
     previous = Real(0)
-    met = here
+    met = {table.owners[e] for e in here}
     for k, (tau, e) in enumerate([*hits, (end, -1)]):
         if (tau - previous).sign() == end.sign():
             middle = contact + direction * ((previous + tau) * HALF)
             if any(table.obstacles[i].locate(middle) is Location.INSIDE for i in met):
-                return LineWalk(hits[:k], blocked=True)
+                return LineWalk(hits[:k], here, blocked=True)
             previous, met = tau, set()
         if e in walls:
-            return LineWalk(hits[: k + 1], blocked=True)
+            return LineWalk(hits[: k + 1], here, blocked=True, walled=True)
         if e >= 0:
             met.add(table.owners[e])
-    return LineWalk(hits, blocked=False)
+    return LineWalk(hits, here)

@@ -1,0 +1,96 @@
+"""What a line meets as far as it is free, kept for all features that it touches.
+
+A line along a row grazes feature after feature, and from each of them it meets much the same. A run is found
+from one of them; another one reads off it what is within its own reach.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from exactacq.geometry.late import Pin
+from exactacq.geometry.points import Point
+from exactacq.kernel.extents import Span
+from exactacq.kernel.images import STRAIGHT
+from exactacq.kernel.single_lines import Spot
+from exactacq.scene.edge_table import EdgeTable
+
+SLACK = 1e-9
+"""What is farther than the reach by such a part of it is met too; whether it blocks is not asked there."""
+
+
+class Hit(NamedTuple):
+    """An edge that a line meets: how far along it, in which place, at which vertex or how, and where."""
+
+    along: float
+    place: int
+    edge: int
+    vertex: int
+    pin: Pin
+    span: Span
+    spot: Spot
+
+
+class RunSide(NamedTuple):
+    """What is met on one side of a place, nearest first; the last may block, where it may be *walled*."""
+
+    hits: list[Hit]
+    blocked: bool
+    walled: bool
+
+
+class FreeRun:
+    """What a line meets: *behind* the place from which it was followed, *here* and *ahead*.
+
+    It is complete up to what blocks it, or else as far as *reach*; *heading* is the line's direction.
+    """
+
+    def __init__(
+        self,
+        table: EdgeTable,
+        heading: tuple[float, float],
+        behind: RunSide,
+        here: list[Hit],
+        ahead: RunSide,
+        reach: float,
+    ) -> None:
+        self._table, self._heading, self._reach = table, heading, reach
+        self._sides = behind, ahead
+        self._hits = [*reversed(behind.hits), *here, *ahead.hits]
+
+    def place_of(self, edges: tuple[int, ...], corner: Point | None) -> Hit | None:
+        """Where a feature is met: its *corner*, or an arc where the line touches it. None if it is not."""
+        there = (hit for hit in self._hits if hit.edge in edges)
+        return next((hit for hit in there if corner is None or hit.pin[0] == corner), None)
+
+    def seen_from(
+        self, here: Hit, heading: tuple[float, float], reach: float
+    ) -> tuple[RunSide, RunSide] | None:
+        """What is met behind a place and ahead of it, as one goes that way; None if it is not all known."""
+        is_onward = heading[0] * self._heading[0] + heading[1] * self._heading[1] > 0
+        found: list[RunSide] = []
+        for is_ahead in (not is_onward, is_onward):
+            sense = 1 if is_ahead else -1
+            if not self._sides[is_ahead].blocked and sense * here.along + reach > self._reach:
+                return None
+            side = self._within(here, sense, reach)
+            role = 1 if found else -1
+            hits = [hit._replace(place=role * abs(hit.place - here.place)) for hit in side.hits]
+            found.append(side._replace(hits=hits))
+        return found[0], found[1]
+
+    def _within(self, here: Hit, sense: int, reach: float) -> RunSide:
+        """What is met on one side within reach, and of the same edges up to where one along the line ends."""
+
+        def away(hit: Hit) -> float:
+            return abs(hit.along - here.along)
+
+        side, far, kinds = self._sides[sense > 0], reach * (1 + SLACK), self._table.kinds
+        within = {hit.edge for hit in self._hits if away(hit) <= far}
+        hits = [hit for hit in self._hits[::sense] if (hit.place - here.place) * sense > 0]
+        again = [hit for hit in hits if hit.edge in within]
+        limit = max(far, *(away(hit) for hit in again if kinds[hit.edge] == STRAIGHT), 0.0)
+        near = [hit for hit in hits if away(hit) <= (limit if hit.edge in within else far)]
+        last = away(near[-1]) if near else 0.0
+        blocked = side.blocked and len(near) == len(hits) and (side.walled or last <= reach * (1 - SLACK))
+        return RunSide(near, blocked, side.walled)
