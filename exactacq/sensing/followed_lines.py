@@ -146,11 +146,11 @@ class LineFollower:
     def _sides(self, at: FeatureLine) -> tuple[RunSide, RunSide]:
         """What a line meets behind its contact and ahead of it, off a run of the same line if that has it."""
         keys = self.table.line_numbers.keys(self._namer.number(at.feature), [*at.passed])
-        run = next((run for key in keys if (run := self._runs.get(key)) is not None), None)
-        told = None if run is None else self._told(run, at)
+        runs = dict.fromkeys(run for key in keys if (run := self._runs.get(key)) is not None)
+        told = next((told for run in runs if (told := self._told(run, at)) is not None), None)
         if told is None:
             # A line that is followed again may be so from other features too.
-            run = self._run(at, self.range.above * (1 if run is None else WIDER))
+            run = self._run(at, self.range.above * (WIDER if runs else 1))
             for key in keys:
                 self._runs.put(key, run)
             told = self._told(run, at)
