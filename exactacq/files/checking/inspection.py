@@ -17,7 +17,7 @@ from exactacq.files.checking.cures import Options, Trial, cured, near_enough, si
 from exactacq.files.checking.flaws import Judged, judged
 from exactacq.files.checking.lines import OpenChain, open_chains
 from exactacq.files.checking.sketch import Sketch, places_of
-from exactacq.files.checking.starts import Beginning, beginning
+from exactacq.files.checking.starts import Beginning, beginning, vision
 from exactacq.files.loops.contents import Contents
 from exactacq.files.rereading import rereading
 from exactacq.files.sources import NamedSource
@@ -226,14 +226,15 @@ class _Inquiry:
         if begun is None:
             return found
         options, beginning = begun
+        radius, gap = vision(beginning.scene)
         return replace(
             found,
             start=beginning.start,
-            radius=beginning.radius,
-            gap=beginning.gap,
+            radius=radius,
+            gap=gap,
             options={**self.options, **options},
             scene=beginning.scene,
-            command=self._command({**self.options, **options}, beginning),
+            command=self._command({**self.options, **options}, beginning, radius),
         )
 
     def _extent(self, sketch: Sketch) -> tuple[tuple[float, float], tuple[float, float]] | None:
@@ -316,7 +317,7 @@ class _Inquiry:
         again = self.options.get("simplify") is not None
         return self._read(options, start) if again else replace(contents, start=start)
 
-    def _command(self, options: Options, begun: Beginning) -> str:
+    def _command(self, options: Options, begun: Beginning, radius: fmpq) -> str:
         """The command line that explores the scene; "" for areas that are in no file."""
         if self.source.geo is not None:
             return ""
@@ -327,7 +328,7 @@ class _Inquiry:
         elif self.start is not None or told.start is None:
             parts.append(words({"start": ",".join(map(plain, begun.start))}))
         if told.radius is None:
-            parts.append(words({"radius": begun.radius}))
+            parts.append(words({"radius": radius}))
         return " ".join(filter(None, parts))
 
 

@@ -51,11 +51,9 @@ Whole = NDArray[np.intp]
 
 @dataclass(frozen=True, slots=True)
 class Beginning:
-    """A start that a scene was made around, and a radius of vision, with the gap that this is chosen by."""
+    """A start that a scene was made around."""
 
     start: Place
-    radius: fmpq
-    gap: float
     scene: Scene
     is_first: bool
     """Whether it was the first choice."""
@@ -71,8 +69,7 @@ def beginning(contents: Contents, again: Callable[[Place], Contents]) -> Beginni
             scene = again(start).scene(advise=False)
         except (FormatError, InvalidScene, Undecided):
             continue
-        gap = widest_gap(scene)
-        return Beginning(start, scene.radius or rounded_up(MORE * gap), gap, scene, choice == 0)
+        return Beginning(start, scene, choice == 0)
     return None
 
 
@@ -128,6 +125,12 @@ def rounded_up(value: float) -> fmpq:
     """
     unit = fmpq(10) ** (floor(log10(value)) - 1)
     return fmpq((rational(value) / unit).ceil()) * unit
+
+
+def vision(scene: Scene) -> tuple[fmpq, float]:
+    """The radius of vision that a scene has or may be given, and the gap that this is chosen by."""
+    gap = widest_gap(scene)
+    return scene.radius or rounded_up(MORE * gap), gap
 
 
 def widest_gap(scene: Scene) -> float:

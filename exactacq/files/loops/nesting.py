@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from exactacq.cached import cached_property
 from exactacq.errors import FormatError
+from exactacq.files.rereading import once
 from exactacq.geometry.box_index import BoxIndex, bounds, box, united
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.intersections import contacts
@@ -53,6 +54,11 @@ class Loops:
         owner = np.repeat(np.arange(len(self.edges)), np.diff(begin))
         flat = [edge for edges in self.edges for edge in edges]
         found: set[tuple[int, int]] = set()
+        # Options that are tried leave most loops as they were.
+        numbers: dict[Shape, int] = once("loops", dict)
+        told: dict[tuple[int, int], bool] = once("whether loops meet", dict)
+        number = [numbers.setdefault(shape, len(numbers)) for shape in self.shapes]
+        asked: set[tuple[int, int]] = set()
         candidates = compared = 0
         for first, second in BoxIndex(array).pairs():
             other = owner[first] != owner[second]
@@ -62,17 +68,22 @@ class Loops:
                     f"more than {MAX_CANDIDATES} pairs of edges overlap; select layers that hold one part"
                 )
             for a, b in zip(first[other].tolist(), second[other].tolist(), strict=True):
-                pair = tuple(sorted((int(owner[a]), int(owner[b]))))
-                if pair in found:
+                i, j = sorted((int(owner[a]), int(owner[b])))
+                if (i, j) in found:
                     continue
-                compared += 1
-                if compared > MAX_COMPARED:
-                    raise FormatError(
-                        f"more than {MAX_COMPARED} pairs of edges nearly meet; "
-                        "select layers that hold one part"
-                    )
-                if contacts(flat[a], flat[b]):
-                    found.add((pair[0], pair[1]))
+                known = told.get((number[i], number[j]))
+                if known is None:
+                    asked.add((i, j))
+                    compared += 1
+                    if compared > MAX_COMPARED:
+                        raise FormatError(
+                            f"more than {MAX_COMPARED} pairs of edges nearly meet; "
+                            "select layers that hold one part"
+                        )
+                    known = bool(contacts(flat[a], flat[b]))
+                if known:
+                    found.add((i, j))
+        told.update({(number[i], number[j]): (i, j) in found for i, j in asked})
         return frozenset(found)
 
     def meet(self, i: int, j: int) -> bool:
