@@ -335,7 +335,7 @@ def test_a_star_whose_edges_are_as_short_as_its_gap_is_not_closed(tmp_path: Path
     (chain,) = found.open_chains
     assert chain.gap == 35 and [words.split()[0] for words in chain.cures] == ["--thicken"]
     assert not any("--tolerance" in text for text in found.notes)
-    with pytest.raises(xa.FormatError, match="; give --thicken LENGTH for walls along the lines, or select"):
+    with pytest.raises(xa.FormatError, match="; give --thicken LENGTH for walls along the lines, or draw"):
         xa.load(path, start=(50, 50))
 
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from itertools import pairwise
-from math import cos, pi, sin
+from math import cos, inf, pi, sin
 from pathlib import Path
 
 import ezdxf
 import pytest
+from ezdxf.document import Drawing
 from ezdxf.layouts import Modelspace
 from shapely import Point as Place
 from shapely import Polygon
@@ -187,3 +188,30 @@ def test_walls_of_multiple_lines_are_read(tmp_path: Path, in_block: bool) -> Non
     found = xa.inspect(path, layers="WALL")
     assert found.ok and sorted(loop.role for loop in found.loops) == ["hole", "outer", "single"]
     assert any("expanded 2 MLINEs" in note for note in found.notes)
+
+
+def solid(document: Drawing) -> None:
+    document.modelspace().add_solid([(0, 0), (4, 0), (0, 3), (4, 3)])
+
+
+def paper(document: Drawing) -> None:
+    document.layout("Layout1").add_lwpolyline([(0, 0), (4, 0), (4, 3)], close=True)
+
+
+def infinite(document: Drawing) -> None:
+    document.modelspace().add_lwpolyline([(0, 0), (inf, 0), (10, 8)])
+
+
+@pytest.mark.parametrize(
+    ("draw", "words"),
+    [
+        (solid, r"left out 1 SOLID\); draw obstacles by lines, arcs"),
+        (paper, r"only what is in the model space is read.*1 entity on the layout 'Layout1'"),
+        (infinite, r"LWPOLYLINE \w+: not a number: 'inf'"),
+    ],
+)
+def test_what_cannot_be_read_is_named(tmp_path: Path, draw: Callable[[Drawing], None], words: str) -> None:
+    draw(document := ezdxf.new())
+    document.saveas(path := tmp_path / "odd.dxf")
+    with pytest.raises(xa.FormatError, match=words):
+        xa.inspect(path)

@@ -21,7 +21,7 @@ from ezdxf import recover
 from ezdxf.enums import InsertUnits
 from flint import fmpq
 
-from exactacq.errors import FormatError
+from exactacq.errors import FormatError, about
 from exactacq.files.counting import count
 from exactacq.files.loops.chains import ZERO, Chain, Corner
 from exactacq.files.loops.drawing import Drawing, LayerChoice
@@ -82,7 +82,7 @@ def read_drawing(path: Path, layers: Iterable[str] | None, flattening: Flattenin
     except Exception as error:  # ezdxf reads lazily: a damaged entity shows only here, in many ways
         raise FormatError(f"a damaged entity ({one_line(error)}); save or export it again") from None
     selected.check(drawing)
-    ways = []
+    ways = [] if order else [*_on_paper(document)]
     if hidden:
         names = ", ".join(one_line(repr(name)) for name in [*hidden][:MOST_NAMED])
         ways.append(f"--layers reads what is hidden too, as on {names}")
@@ -96,6 +96,17 @@ def read_drawing(path: Path, layers: Iterable[str] | None, flattening: Flattenin
         said = f"the file's unit: {drawing.unit}" if drawing.unit else "the file names no unit"
         drawing.notes.append(f"{said}; layers: {drawing.layer_list()}")
     return drawing
+
+
+def _on_paper(document: Any) -> Iterator[str]:
+    """That what a drawing shows is on its layouts for paper."""
+    for layout in document.layouts:
+        if layout.is_modelspace:
+            continue
+        shown = sum(entity.dxftype() != "VIEWPORT" for entity in layout)
+        if shown:
+            what = f"{count(shown, 'entity', 'entities')} on the layout {one_line(repr(layout.name))}"
+            yield f"only what is in the model space is read: move what is on paper there ({what})"
 
 
 def _unit(document: Any) -> str:
@@ -252,7 +263,8 @@ class _Reader:
             "POLYLINE": self._polyline,
             **({} if self.flattening is None else {"ELLIPSE": self._ellipse, "SPLINE": self._spline}),
         }.get(kind)
-        reason = kind if read is None else read(entity)
+        with about(self._label(entity)):
+            reason = kind if read is None else read(entity)
         if reason:
             self.drawing.dropped[reason] += 1
 

@@ -24,6 +24,8 @@ from exactacq.scene.shapes import Loop, Shape
 TOLERANCE = fmpq(1, 10**6)
 """Default tolerance over the drawing's size. Real parts differ at joints by 1e-15 to 1e-7 of their size
 (doubles, or six decimals), and their shortest edges are 1e-5 to 1e-3 of it: 1e-6 lies between."""
+SHAPES = "draw obstacles by lines, arcs, circles or polylines that close"
+"""What to do about a drawing of other things."""
 SCIENTIFIC = 12
 """Numbers of at most so many digits are written with an exponent where that is short."""
 
@@ -52,7 +54,10 @@ def drawing_contents(
     edges = sum(chain.edges for chain in drawing.chains)
     check_edges(edges + len(drawing.circles))
     notes = [*drawing.notes, *([drawing.readable] if drawing.readable else []), *_left_out(drawing.dropped)]
-    other = f"select other layers of {drawing.layer_list()}" if drawing.layers else "export another drawing"
+    other = "export another drawing"
+    if drawing.layers:
+        is_all = drawing.chosen is None
+        other = SHAPES if is_all else f"select other layers of {drawing.layer_list()}"
     if not drawing.chains and not drawing.circles:
         way = drawing.readable or other
         raise FormatError(f"nothing to read{_because(_left_out(drawing.dropped))}; {way}")
