@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from strategies import box
 
 import exactacq as xa
 from exactacq import cli
@@ -21,6 +22,7 @@ from exactacq.play import exploring
 from exactacq.play.scenes import Request
 from exactacq.sensing.event import Ending
 from exactacq.sensing.memory import Memory
+from exactacq.sensing.sensor import Sensor
 
 STRATEGIES: dict[str, tuple[Callable[..., Any], str]] = {
     "sightseer": (xa.sightseer, "squares"),
@@ -67,6 +69,38 @@ def test_the_error_carries_the_run_so_far(name: str, count: int, monkeypatch: py
     assert pickle.loads(pickle.dumps(error)).run == run
     with pytest.raises(ValueError, match="given up"):
         xa.audit(run)
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_of_a_piece_that_is_undecided_midway_nothing_is_known(
+    count: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A way along a wall is sensed in three parts, and a part that fails takes the ones before it back.
+
+    They were kept: a robot that stands at the start knew what it would have seen on the way.
+    """
+    boxes = box(2, 4, 0, 1), box(8, 9, 2, 3), box(2, 3, -3, -2)
+    scene = xa.Scene(list(map(xa.Polygon, boxes)), start=(0, 0), radius=2)
+    fresh, ahead, legs = xa.Robot(scene), Sensor.ahead, []
+
+    def failing(sensor: Sensor, leg: Any, retraced: bool = False) -> Any:
+        legs.append(leg)
+        if len(legs) == count:
+            raise xa.Undecided(WORDS)
+        return ahead(sensor, leg, retraced)
+
+    monkeypatch.setattr(Sensor, "ahead", failing)
+    robot = xa.Robot(scene)
+    with pytest.raises(xa.Undecided):
+        robot.go_to((7, 0))
+    assert robot.position == scene.start and len(legs) == count
+    assert robot.map.known_length() == fresh.map.known_length()
+    assert (robot.seen, robot.in_sight, robot.incomplete) == (fresh.seen, fresh.in_sight, fresh.incomplete)
+    legs.clear()
+    with pytest.raises(xa.Undecided) as caught:
+        xa.explore(scene, lambda robot: robot.go_to((7, 0)))
+    run = caught.value.run
+    assert run.map.seen == run.unvisited == (0,) and run.unseen == (1, 2)
 
 
 @pytest.mark.parametrize("name", STRATEGIES)

@@ -6,14 +6,14 @@ to what was learned, and a map of any of them is made at once: it looks edges up
 
 from __future__ import annotations
 
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
 from flint import fmpq
 
-from exactacq.errors import deciding
+from exactacq.errors import Undecided, deciding
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.interval_union import EMPTY, Cover
 from exactacq.geometry.points import Point
@@ -92,6 +92,14 @@ class History:
             moments.append(self.moments)
             covers.append(cover)
         self.moments += 1
+
+    def cut(self, count: int) -> None:
+        """Forget all but the first *count* moments. Linear in the edges of which something is known."""
+        for moments, covers in self._of.values():
+            kept = bisect_left(moments, count)
+            del moments[kept:], covers[kept:]
+        self._of = {e: entry for e, entry in self._of.items() if entry[0]}
+        self.moments = count
 
     def cover(self, edge: int, count: int) -> Cover | None:
         """What was known of an edge after *count* legs. Cost: a binary search among its changes."""
@@ -197,26 +205,36 @@ class Memory:
         return self._reported([_report(n, 0, 0, False) for n in notices])
 
     def walk(self, piece: Piece) -> list[Report]:
-        """Take in all that a piece of the path shows; the reports in the order in which they come."""
+        """Take in all that a piece of the path shows; the reports in the order in which they come.
+
+        Where a comparison is `Undecided`, nothing of the piece is taken in.
+        """
         ahead, halt = self._taken(piece)
         if ahead is None:
             legs = self._legs_of(piece)
         else:
             legs = [ahead.leg if halt is None else self._halted(ahead, halt)]
         count, reports, retraced = len(self._legs), [], self._is_retraced(piece, legs)
-        for k, leg in enumerate(legs):
-            if ahead is None:
-                took = self._sensor.ahead(leg, retraced)
-            else:
-                took = ahead if halt is None else self._sensor.upto(ahead, leg, retraced)
-            notices, learned = self._sensor.follow(took)
-            self._learn(learned)
-            for n in notices:
-                at_start = k == 0 and leg.order(n.u, leg.first) == 0
-                at_end = k == len(legs) - 1 and leg.order(n.u, leg.last) == 0
-                after = count + 1 if at_end and not at_start else count
-                inside = not (at_start or at_end)
-                reports.append(_report(n, k, after, inside))
+        take_back = self._sensor.savepoint() if len(legs) > 1 else None
+        try:
+            for k, leg in enumerate(legs):
+                if ahead is None:
+                    took = self._sensor.ahead(leg, retraced)
+                else:
+                    took = ahead if halt is None else self._sensor.upto(ahead, leg, retraced)
+                notices, learned = self._sensor.follow(took)
+                self._learn(learned)
+                for n in notices:
+                    at_start = k == 0 and leg.order(n.u, leg.first) == 0
+                    at_end = k == len(legs) - 1 and leg.order(n.u, leg.last) == 0
+                    after = count + 1 if at_end and not at_start else count
+                    inside = not (at_start or at_end)
+                    reports.append(_report(n, k, after, inside))
+        except Undecided:
+            if take_back is not None:
+                take_back()
+                self._history.cut(1 + self._before[-1])
+            raise
         self._legs.append(legs)
         self._before.append(self._before[-1] + len(legs))
         if retraced:

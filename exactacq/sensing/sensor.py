@@ -198,6 +198,19 @@ class Sensor:
         """From where on a leg edges are seen, also those of acquired obstacles."""
         return LegSights(self.complex, leg, self._view, way)
 
+    def savepoint(self) -> Callable[[], None]:
+        """A function that takes back all that is learned from now on. Linear in what is known."""
+        covers, known, here = self.covers.copy(), self._known.copy(), self._here
+        seen, acquired, incomplete = self.seen.copy(), self.acquired.copy(), self.incomplete.copy()
+        in_sight, done = self.in_sight.copy(), self.complex.done.copy()
+
+        def take_back() -> None:
+            self.covers, self._known, self._here = covers, known, here
+            self.seen, self.acquired, self.incomplete = seen, acquired, incomplete
+            self.in_sight, self.complex.done = in_sight, done
+
+        return take_back
+
     def _settle(
         self, notices: list[Notice], learned: dict[int, Cover]
     ) -> tuple[list[Notice], dict[int, Cover]]:
