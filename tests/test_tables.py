@@ -5,13 +5,16 @@ from __future__ import annotations
 import json
 import math
 import sys
+from itertools import pairwise
 from types import ModuleType
 
 import numpy as np
 import pytest
+from flint import fmpq
 
 import exactacq as xa
 from exactacq.geometry.geo import FLATNESS
+from exactacq.sensing.path import Path, Piece
 
 
 @pytest.fixture(scope="module", params=["sightseer", "seed spreader"])
@@ -45,6 +48,16 @@ def test_waypoints_lie_on_the_path(run: xa.Run, spacing: object) -> None:
         assert -math.pi < heading <= math.pi
     x, y = run.path[-1].end.xy
     assert poses[-1, :2] == pytest.approx((x, y))
+
+
+@pytest.mark.parametrize("pieces, unit, parts", [(30, 10, 100), (50, 3, 1000), (50, 7, 3000)])
+def test_the_end_of_a_path_is_one_waypoint(pieces: int, unit: int, parts: int) -> None:
+    """In floats 30 tenths are more than 3: what was beyond a whole number of steps was a place too."""
+    corners = [xa.Point(fmpq(k, unit), 0) for k in range(pieces + 1)]
+    path = Path(Piece("straight", None, xa.Segment(p, q)) for p, q in pairwise(corners))
+    poses = path.waypoints(fmpq(1, unit * parts))
+    assert len(poses) == pieces * parts + 1
+    assert poses[-1].tolist() == [pieces / unit, 0, 0, pytest.approx(pieces / unit)]
 
 
 def test_headings_are_those_of_travel(run: xa.Run) -> None:

@@ -22,7 +22,7 @@ from exactacq.numbers.length import Length
 MOST_WAYPOINTS = 10_000_000
 """Most places at a spacing: an array of 320 MB."""
 ROUNDOFF = 1e-12
-"""Share of a length within which a place counts as a corner, and a rest as nothing."""
+"""Share of a length by which floats may be off: within it a place is at a corner, or at the path's end."""
 
 
 @dataclass(frozen=True)
@@ -121,8 +121,8 @@ class Path(tuple[Piece, ...]):
         if not self:
             return np.empty((0, 4))
         strokes = [piece.curve.stroke() for piece in self]
-        count = ceil(total / step - ROUNDOFF)
-        return np.array([self._pose(strokes, min(k * step, total)) for k in range(count + 1)])
+        count = ceil(total / step * (1 - ROUNDOFF))
+        return np.array([self._pose(strokes, at) for at in (*(k * step for k in range(count)), total)])
 
     def _pose(self, strokes: Sequence[Stroke], at: float) -> tuple[float, float, float, float]:
         """Place, direction and length so far, after about a length."""
