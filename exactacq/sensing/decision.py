@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import NamedTuple
@@ -217,7 +217,11 @@ def _number_of(given: object) -> int:
     return given
 
 
-def _candidates(given: Iterable[object]) -> Iterable[Candidate]:
+def _candidates(given: object) -> Iterator[Candidate]:
+    if not isinstance(given, Iterable):
+        raise FormatError(f"the others are obstacles, or pairs of obstacle and length, not {shown(given)}")
     for one in given:
-        obstacle, length = one if isinstance(one, tuple | list) else (one, None)
-        yield Candidate(_number_of(obstacle), _length(length))
+        pair = one if isinstance(one, tuple | list) else (one, None)
+        if len(pair) != 2:
+            raise FormatError(f"a pair is an obstacle and its length, not {shown(one)}")
+        yield Candidate(_number_of(pair[0]), _length(pair[1]))
