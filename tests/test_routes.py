@@ -116,6 +116,14 @@ class TestRoutes:
         assert route.pieces == () and route.end == Point(0, 0)
         assert robot.follow(route).kind == "arrived" and not route.turn() and len(robot.path) == 0
 
+    def test_stay_at_their_end(self) -> None:
+        """Each call counted as one more piece."""
+        robot = xa.Robot(SQUARES)
+        route = robot.lay([(0, 0), (0, 4)])
+        robot.follow(route)
+        assert not route.turn() and not route.turn() and route.piece == 1
+        assert robot.follow(route).place == Point(0, 4)
+
     def test_are_written_as_other_moves_are(self) -> None:
         def along(robot: xa.Robot) -> None:
             route = robot.lay([(0, 0), (20, 0)])

@@ -57,7 +57,7 @@ class Route:
 
     @property
     def piece(self) -> int:
-        """The number of the piece that the robot is on, or comes to."""
+        """The number of the piece that the robot is on, or comes to; after the last one their count."""
         return self._piece
 
     @property
@@ -76,9 +76,10 @@ class Route:
         >>> robot.follow(route).kind, route.turn(), robot.follow(route).kind, route.turn()
         (<HaltKind.ARRIVED: 'arrived'>, True, <HaltKind.ARRIVED: 'arrived'>, False)
         """
-        if self._piece < len(self.pieces) and self._place != self.pieces[self._piece].end:
-            raise MoveError("the robot is not at the end of this piece of the route")
-        self._piece += 1
+        if self._piece < len(self.pieces):
+            if self._place != self.pieces[self._piece].end:
+                raise MoveError("the robot is not at the end of this piece of the route")
+            self._piece += 1
         return self._piece < len(self.pieces)
 
     def _coming(self) -> Crossing | None:
