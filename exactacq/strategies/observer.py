@@ -485,8 +485,7 @@ class Observer:
         if self._ground is None:
             return
         west, south, east, north = self._ground.terrain.limits
-        (x, y), above, below = (point.x, point.y), (west, south), (east, north)
-        if any(v.compare(a) < 0 or v.compare(b) > 0 for v, a, b in zip((x, y), above, below, strict=True)):
+        if not (west <= point.x <= east and south <= point.y <= north):
             raise MoveError(f"{point} lies beyond the border of the terrain")
 
     def _check_owner(self, route: Route) -> None:

@@ -142,10 +142,8 @@ class Robot(Observer):
                     kind = HaltKind.EVENT
                     break
         self._lap = None
-        is_hit = hit is not None and kind is HaltKind.HIT
-        return self._landed(
-            kind, hit[0] if hit is not None and is_hit else self._node_at(walker.position), sighting
-        )
+        node = hit[0] if hit is not None and kind is HaltKind.HIT else self._node_at(walker.position)
+        return self._landed(kind, node, sighting)
 
     @_move
     def walk(
@@ -314,9 +312,10 @@ class Robot(Observer):
             node: Node = crossing.component.index
         elif walker.position is here:
             node = walker.at
+        elif kind is HaltKind.ARRIVED and route._ends_at is not None and target is route.end:
+            node = route._ends_at
         else:
-            ends = kind is HaltKind.ARRIVED and route._ends_at is not None and target is route.end
-            node = route._ends_at if ends and route._ends_at is not None else self._node_at(walker.position)
+            node = self._node_at(walker.position)
         return self._landed(kind, node, moved=walker.position is not here)
 
     @_move
