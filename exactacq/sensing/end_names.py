@@ -162,7 +162,7 @@ class Seen:
     def pinned(self, end: End, family: ViewFamily, side: int) -> End:
         """An extreme view of a family from this place, its other end the view's own point if it is one."""
         e, point = family.edges[1 - side], end.points[1 - side]
-        for pin in self._pins(e, point, end, family.free_views, side):
+        for pin in self._pins(e, point, end, family.free_views):
             # A full circle's start has two parameters: a family over it keeps the one on its side.
             if not _apart(pin[1], end.places[1 - side]):
                 here = end.points[side], end.places[side]
@@ -170,15 +170,15 @@ class Seen:
                 return End(end.t, (p, q), (u, v), end.tight)
         return end
 
-    def _pins(self, e: int, point: Point, end: End, free_views: FreeViews | None, side: int) -> Iterator[Pin]:
+    def _pins(self, e: int, point: Point, end: End, free_views: FreeViews | None) -> Iterator[Pin]:
         """What a point of an edge that is seen along an extreme view may be."""
-        if free_views is not None and self._is_here(e, point, end.t, free_views, side):
+        if free_views is not None and self._is_here(e, point, end.t, free_views):
             yield self.place, self._rails[e].parameter(self.place)
         for hold in self._holds(e, point, end, free_views):
             if hold in self.held(e):
                 yield self.held(e)[hold]
 
-    def _is_here(self, e: int, point: Point, t: Real, free_views: FreeViews, side: int) -> bool:
+    def _is_here(self, e: int, point: Point, t: Real, free_views: FreeViews) -> bool:
         """Whether this place lies on an edge, and a line from it certainly meets the edge just here.
 
         It does if the point may be here, and cannot be where the line meets the edge's circle again.

@@ -120,7 +120,7 @@ class Targets:
         """The obstacles that some of the edges count for."""
         return set[int]().union(*self._different(edges))
 
-    def counting(self, edges: Iterable[int], obstacles: Collection[int]) -> list[int]:
+    def counting(self, edges: Collection[int], obstacles: Collection[int]) -> list[int]:
         """Those of some edges that count for some of the obstacles."""
         owners, some = self._owners, frozenset(obstacles)
         counting = {of for of in self._different(edges) if not some.isdisjoint(of)}
